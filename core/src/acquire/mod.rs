@@ -1,0 +1,84 @@
+//! Reading the garment: a scan plan goes in, a frame of raw codes by taxel number comes out.
+//!
+//! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
+//! board with DMA brings its own.
+
+mod mux;
+mod plan;
+
+pub use mux::{Adc, Clock, Lines, MuxScan};
+pub use plan::{Depth, Plan};
+
+use crate::format::{Code, Micros};
+use crate::garment::Circuit;
+use core::fmt;
+
+/// One finished scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Scan<'a> {
+    /// Raw codes by taxel number; taxels that the plan leaves out keep their last code.
+    pub codes: &'a [Code],
+    /// When and how it was read.
+    pub report: ScanReport,
+}
+
+/// When and how a frame was read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ScanReport {
+    /// Start of the scan.
+    pub start: Micros,
+    /// Time from the first address to the last sample, microseconds.
+    pub duration_us: u32,
+    /// Frames that the converter produced and nobody fetched in time, since the last report.
+    pub overruns: u32,
+}
+
+/// Why a scan failed. The frame is dropped; nothing else is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanError {
+    /// A select line could not be driven.
+    Line {
+        /// GPIO number
+        pin: u8,
+        /// number of the taxel that was to be selected
+        taxel: u16,
+    },
+    /// The converter did not deliver.
+    Converter {
+        /// GPIO number of the input
+        input: u8,
+        /// number of the taxel that was being read
+        taxel: u16,
+    },
+    /// The garment has no pin of that number on this board.
+    NoPin(u8),
+}
+
+impl fmt::Display for ScanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ScanError::Line { pin, taxel } => {
+                write!(f, "select line on pin {pin} cannot be driven (at taxel {taxel})")
+            }
+            ScanError::Converter { input, taxel } => {
+                write!(f, "converter input on pin {input} gave no sample (at taxel {taxel})")
+            }
+            ScanError::NoPin(pin) => write!(f, "this board has no output pin {pin}"),
+        }
+    }
+}
+
+impl core::error::Error for ScanError {}
+
+/// What reads a garment.
+#[allow(async_fn_in_trait)] // one board, one executor: nobody needs the future to be Send
+pub trait Acquire {
+    /// Reads the blocks of `plan` once.
+    async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError>;
+}
+
+impl<A: Acquire> Acquire for &mut A {
+    async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
+        (**self).scan(circuit, plan).await
+    }
+}

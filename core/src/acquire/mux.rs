@@ -1,0 +1,179 @@
+//! Progressive scan through multiplexers, over any HAL.
+
+use super::{Acquire, Plan, Scan, ScanError, ScanReport};
+use crate::format::{Code, Micros};
+use crate::garment::{Circuit, Site};
+use embedded_hal::delay::DelayNs;
+use embedded_hal::digital::{OutputPin, PinState};
+
+/// A converter with numbered inputs (embedded-hal 1.0 has no trait for one).
+pub trait Adc {
+    /// What can go wrong.
+    type Error;
+    /// One 12-bit sample, 0 ..= 4095, of the input on GPIO `input`.
+    fn read(&mut self, input: u8) -> Result<u16, Self::Error>;
+}
+
+impl<A: Adc> Adc for &mut A {
+    type Error = A::Error;
+    fn read(&mut self, input: u8) -> Result<u16, A::Error> {
+        (**self).read(input)
+    }
+}
+
+/// The board's clock.
+pub trait Clock {
+    /// Time since the board started.
+    fn now(&self) -> Micros;
+}
+
+impl<C: Clock> Clock for &C {
+    fn now(&self) -> Micros {
+        (**self).now()
+    }
+}
+
+/// The board's free output pins, found by GPIO number, because garments name their pins at run time.
+pub struct Lines<P, const PINS: usize> {
+    pins: heapless::Vec<(u8, P), PINS>,
+}
+
+impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
+    /// From pairs of GPIO number and pin; pairs beyond the capacity are left out.
+    pub fn new(pins: impl IntoIterator<Item = (u8, P)>) -> Self {
+        Lines { pins: pins.into_iter().take(PINS).collect() }
+    }
+
+    /// Mask of the GPIO numbers.
+    pub fn mask(&self) -> u64 {
+        self.pins.iter().fold(0, |mask, (number, _)| mask | 1u64.checked_shl(u32::from(*number)).unwrap_or(0))
+    }
+
+    /// Drives a pin; none if there is no pin of that number.
+    pub fn drive(&mut self, number: u8, level: bool) -> Option<Result<(), P::Error>> {
+        let (_, pin) = self.pins.iter_mut().find(|(n, _)| *n == number)?;
+        Some(pin.set_state(PinState::from(level)))
+    }
+}
+
+/// Selects every address in turn, waits for the line to settle, and reads every converter input that has a block there:
+/// by select code, then row, then column. Only lines whose level changes are driven.
+///
+/// Cost per address: the changed lines, the settling time of the garment, one conversion per input.
+pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
+    lines: &'l mut Lines<P, PINS>,
+    delay: D,
+    adc: A,
+    clock: C,
+    codes: [Code; TAXELS],
+    /// Where each bit of the circuit's word is in `lines`, and the levels driven last.
+    slots: heapless::Vec<u8, 32>,
+    wired: heapless::Vec<u8, 32>,
+    driven: Option<u32>,
+}
+
+impl<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'l, P, D, A, C, PINS, TAXELS>
+where
+    P: OutputPin,
+    D: DelayNs,
+    A: Adc,
+    C: Clock,
+{
+    /// Over a board's pins, delay, converter and clock.
+    pub fn new(lines: &'l mut Lines<P, PINS>, delay: D, adc: A, clock: C) -> Self {
+        MuxScan {
+            lines,
+            delay,
+            adc,
+            clock,
+            codes: [Code(0); TAXELS],
+            slots: heapless::Vec::new(),
+            wired: heapless::Vec::new(),
+            driven: None,
+        }
+    }
+
+    /// Finds the pins of another garment's lines.
+    fn rewire(&mut self, circuit: &Circuit) -> Result<(), ScanError> {
+        if self.wired.as_slice() == circuit.lines() && !self.slots.is_empty() {
+            return Ok(());
+        }
+        self.slots.clear();
+        self.wired.clear();
+        self.driven = None;
+        self.codes.fill(Code(0));
+        for pin in circuit.lines() {
+            let slot = self.lines.pins.iter().position(|(n, _)| n == pin).ok_or(ScanError::NoPin(*pin))?;
+            let _ = self.slots.push(slot as u8);
+            let _ = self.wired.push(*pin);
+        }
+        Ok(())
+    }
+
+    fn apply(&mut self, word: u32, taxel: usize) -> Result<(), ScanError> {
+        let mut changed = self.driven.map_or(u32::MAX, |driven| driven ^ word);
+        if self.slots.len() < 32 {
+            changed &= (1 << self.slots.len()) - 1;
+        }
+        self.driven = None; // unknown if a line fails
+        while changed != 0 {
+            let bit = changed.trailing_zeros();
+            changed &= changed - 1;
+            let Some(slot) = self.slots.get(bit as usize) else { break };
+            let Some((number, pin)) = self.lines.pins.get_mut(usize::from(*slot)) else { break };
+            pin.set_state(PinState::from(word >> bit & 1 == 1))
+                .map_err(|_| ScanError::Line { pin: *number, taxel: taxel as u16 })?;
+        }
+        self.driven = Some(word);
+        Ok(())
+    }
+
+    /// All addresses of the blocks that share one select code.
+    fn scan_select(&mut self, circuit: &Circuit, plan: &Plan, sites: &[Site]) -> Result<(), ScanError> {
+        let read = || sites.iter().filter(|s| plan.reads(s.panel, s.block));
+        let rows = read().map(|s| s.rows).max().unwrap_or(0);
+        let columns = read().map(|s| s.columns).max().unwrap_or(0);
+        let Some(select) = sites.first().map(|s| s.select) else { return Ok(()) };
+        for row in 0..rows {
+            for column in 0..columns {
+                let mut here = read().filter(|s| row < s.rows && column < s.columns).peekable();
+                let Some(first) = here.peek() else { continue };
+                self.apply(circuit.word(select, row, column), first.taxel(row, column))?;
+                self.delay.delay_ns(circuit.settle_ns());
+                for site in here {
+                    let taxel = site.taxel(row, column);
+                    let code = self
+                        .adc
+                        .read(site.input)
+                        .map_err(|_| ScanError::Converter { input: site.input, taxel: taxel as u16 })?;
+                    if let Some(slot) = self.codes.get_mut(taxel) {
+                        *slot = Code(plan.depth.keep(code));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<P, D, A, C, const PINS: usize, const TAXELS: usize> Acquire for MuxScan<'_, P, D, A, C, PINS, TAXELS>
+where
+    P: OutputPin,
+    D: DelayNs,
+    A: Adc,
+    C: Clock,
+{
+    async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
+        self.rewire(circuit)?;
+        let start = self.clock.now();
+        let mut rest = circuit.sites();
+        while let Some(first) = rest.first() {
+            let count = rest.iter().take_while(|s| s.select == first.select).count();
+            let (now, later) = rest.split_at_checked(count).unwrap_or((rest, &[]));
+            self.scan_select(circuit, plan, now)?;
+            rest = later;
+        }
+        let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
+        Ok(Scan { codes: &self.codes, report: ScanReport { start, duration_us, overruns: 0 } })
+    }
+}

@@ -1,0 +1,216 @@
+//! What the author of a garment writes.
+
+use crate::format::Name;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Most panels of a garment.
+pub const PANELS: usize = 8;
+/// Most blocks of a garment.
+pub const BLOCKS: usize = 64;
+/// Most lines of one select group (16 one-hot rows).
+pub const LINES: usize = 16;
+/// Most seams between panels.
+pub const SEAMS: usize = 8;
+/// Most rectangles of absent taxels.
+pub const ABSENT: usize = 32;
+
+/// A whole garment: panels of taxels, the blocks that tile them, seams, gaps and wiring.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Garment {
+    /// What people call it.
+    pub name: Name,
+    /// How the multiplexers and the converter are connected.
+    pub wiring: Wiring,
+    /// The panels, in the order in which their taxels are numbered.
+    pub panels: Vec<Panel, PANELS>,
+    /// The blocks; each taxel that is not absent lies in exactly one.
+    pub blocks: Vec<Block, BLOCKS>,
+    /// Panel edges that are sewn together.
+    #[serde(default)]
+    pub seams: Vec<Seam, SEAMS>,
+    /// Places of a panel without a taxel.
+    #[serde(default)]
+    pub absent: Vec<Absent, ABSENT>,
+}
+
+/// One panel: a rectangle of taxels on one link of the robot.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Panel {
+    /// Unique name.
+    pub name: Name,
+    /// The link of the robot's description (URDF) that wears it.
+    pub link: Name,
+    /// The region of the body it covers; several panels may share one.
+    pub region: Name,
+    /// Rows (y).
+    pub rows: u16,
+    /// Columns (x).
+    pub columns: u16,
+    /// Distance of taxel centres along x and along y in micrometres; 0 where it is not known.
+    #[serde(default)]
+    pub pitch_um: [u32; 2],
+}
+
+/// One block: a rectangle of taxels of one panel, read through one converter input while `select` is applied.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// Index of its panel.
+    pub panel: u8,
+    /// Row of the panel where the block's rectangle begins.
+    pub row: u16,
+    /// Column of the panel where the block's rectangle begins.
+    pub column: u16,
+    /// Rows of the block as wired (codes of the row lines).
+    pub rows: u8,
+    /// Columns of the block as wired (codes of the column lines).
+    pub columns: u8,
+    /// GPIO number of the converter input that reads it.
+    pub input: u8,
+    /// Code of the block lines that selects it.
+    pub select: u16,
+    /// How the wired block lies in the panel.
+    #[serde(default)]
+    pub orientation: Orientation,
+}
+
+/// How a block lies: first transposed, then mirrored along the panel's axes.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Orientation {
+    /// Wired rows run along x of the panel, wired columns along y.
+    pub transposed: bool,
+    /// x runs against the wiring.
+    pub mirror_x: bool,
+    /// y runs against the wiring.
+    pub mirror_y: bool,
+}
+
+/// A side of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// column 0, counted by row
+    Left,
+    /// last column, counted by row
+    Right,
+    /// row 0, counted by column
+    Top,
+    /// last row, counted by column
+    Bottom,
+}
+
+/// A stretch of a panel's side, from taxel `start`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edge {
+    /// Index of the panel.
+    pub panel: u8,
+    /// Which side.
+    pub side: Side,
+    /// First taxel of the stretch along that side.
+    #[serde(default)]
+    pub start: u16,
+}
+
+/// Two stretches of the same length that are sewn together; taxel `i` of the one adjoins taxel `i` of the other,
+/// or `length - 1 - i` where `reversed`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seam {
+    /// The one stretch.
+    pub a: Edge,
+    /// The other.
+    pub b: Edge,
+    /// Taxels along the seam.
+    pub length: u16,
+    /// The two run in opposite directions.
+    #[serde(default)]
+    pub reversed: bool,
+}
+
+/// A rectangle of a panel in which there are no taxels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Absent {
+    /// Index of the panel.
+    pub panel: u8,
+    /// First row.
+    pub row: u16,
+    /// First column.
+    pub column: u16,
+    /// Rows.
+    pub rows: u16,
+    /// Columns.
+    pub columns: u16,
+}
+
+/// The select lines and the converter. A single binary address is three groups that follow each other; separate row
+/// and column multiplexers are two groups; one-hot rows or chip enables are a group with [`Coding::OneHot`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wiring {
+    /// Lines that choose the block.
+    #[serde(default)]
+    pub block: Group,
+    /// Lines that choose the row within the block.
+    #[serde(default)]
+    pub row: Group,
+    /// Lines that choose the column within the block.
+    #[serde(default)]
+    pub column: Group,
+    /// Lines that are asserted for the whole scan.
+    #[serde(default)]
+    pub enable: Vec<Line, 4>,
+    /// Time from a change of the select lines to the sample, in nanoseconds.
+    pub settle_ns: u32,
+    /// Pressure lowers the code instead of raising it.
+    #[serde(default)]
+    pub falling: bool,
+}
+
+/// Lines that together carry one code.
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Group {
+    /// How the code stands on the lines.
+    #[serde(default)]
+    pub coding: Coding,
+    /// The lines, least significant first.
+    pub lines: Vec<Line, LINES>,
+}
+
+/// How a code stands on the lines of a group.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coding {
+    /// Line `i` carries bit `i`.
+    #[default]
+    Binary,
+    /// Only the line of the code's number is asserted.
+    OneHot,
+}
+
+/// One output line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// GPIO number.
+    pub pin: u8,
+    /// Asserted is low.
+    #[serde(default)]
+    pub inverted: bool,
+}
+
+impl Group {
+    /// Number of codes that the group can carry.
+    pub fn codes(&self) -> u32 {
+        match self.coding {
+            Coding::Binary => 1 << self.lines.len(),
+            Coding::OneHot => (self.lines.len() as u32).max(1),
+        }
+    }
+}

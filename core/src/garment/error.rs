@@ -1,0 +1,136 @@
+//! What can be wrong with a garment; every error names the place in the author's words.
+
+use super::config::Side;
+use crate::format::Name;
+use core::fmt;
+
+/// Why a garment is refused.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum GarmentError {
+    /// It has no panel.
+    Empty,
+    /// A panel without rows or without columns.
+    EmptyPanel(Name),
+    /// Two panels of one name.
+    DuplicatePanel(Name),
+    /// More taxels than this board or program can hold.
+    TooLarge {
+        /// taxels of the garment
+        taxels: u32,
+        /// what fits
+        capacity: u32,
+    },
+    /// The moments of a contact that fills the panels would not be exact in 64 bits.
+    Inexact {
+        /// the panel, or the first of the panels that are sewn together
+        panel: Name,
+        /// largest value of a taxel
+        full_scale: u16,
+    },
+    /// A block, seam or absent rectangle names a panel that does not exist.
+    NoSuchPanel {
+        /// "block", "seam" or "absent"
+        what: &'static str,
+        /// its index in the garment
+        index: usize,
+        /// the panel it names
+        panel: u8,
+    },
+    /// A block, or an absent rectangle, that leaves its panel or is empty.
+    OutsidePanel {
+        /// "block" or "absent"
+        what: &'static str,
+        /// its index in the garment
+        index: usize,
+        /// the panel
+        panel: Name,
+    },
+    /// A seam stretch that leaves its panel's side, or is empty.
+    OutsideSide {
+        /// index of the seam
+        seam: usize,
+        /// the panel
+        panel: Name,
+        /// the side
+        side: Side,
+    },
+    /// Two blocks cover the same taxel.
+    Overlap(usize, usize),
+    /// A taxel that is not absent lies in no block.
+    Uncovered {
+        /// the panel
+        panel: Name,
+        /// row
+        row: u16,
+        /// column
+        column: u16,
+    },
+    /// Two blocks with the same select code on the same input.
+    SameSelect(usize, usize),
+    /// A code that the group's lines cannot carry.
+    Code {
+        /// index of the block
+        block: usize,
+        /// "block", "row" or "column"
+        group: &'static str,
+        /// highest code that is needed
+        code: u32,
+        /// number of codes that the lines carry
+        codes: u32,
+    },
+    /// A pin used twice.
+    PinTwice(u8),
+    /// A select line on a pin that the board does not bring out as an output.
+    NoOutput(u8),
+    /// An input that is no converter pin of the board.
+    NoAdc {
+        /// index of the block
+        block: usize,
+        /// GPIO number
+        pin: u8,
+    },
+}
+
+impl fmt::Display for GarmentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use GarmentError::*;
+        match self {
+            Empty => write!(f, "panels: the garment has none"),
+            EmptyPanel(p) => write!(f, "panel {p}: rows and columns must be at least 1"),
+            DuplicatePanel(p) => write!(f, "panel {p}: the name is used twice"),
+            TooLarge { taxels, capacity } => {
+                write!(f, "panels: {taxels} taxels, but only {capacity} fit")
+            }
+            Inexact { panel, full_scale } => write!(
+                f,
+                "panel {panel}: too large for exact moments at full scale {full_scale} (and the panels sewn to it)"
+            ),
+            NoSuchPanel { what, index, panel } => {
+                write!(f, "{what} {index}: there is no panel {panel}")
+            }
+            OutsidePanel { what, index, panel } => {
+                write!(f, "{what} {index}: it is empty or leaves panel {panel}")
+            }
+            OutsideSide { seam, panel, side } => {
+                write!(f, "seam {seam}: it is empty or leaves the {side:?} side of panel {panel}")
+            }
+            Overlap(a, b) => write!(f, "blocks {a} and {b}: they cover the same taxel"),
+            Uncovered { panel, row, column } => write!(
+                f,
+                "panel {panel}: row {row}, column {column} lies in no block and is not absent"
+            ),
+            SameSelect(a, b) => write!(f, "blocks {a} and {b}: same select code on the same input"),
+            Code { block, group, code, codes } => write!(
+                f,
+                "block {block}: {group} code {code} does not fit the {codes} codes of the {group} lines"
+            ),
+            PinTwice(pin) => write!(f, "wiring: pin {pin} is used twice"),
+            NoOutput(pin) => write!(f, "wiring: pin {pin} is no free output of this board"),
+            NoAdc { block, pin } => {
+                write!(f, "block {block}: pin {pin} is no converter input of this board")
+            }
+        }
+    }
+}
+
+impl core::error::Error for GarmentError {}

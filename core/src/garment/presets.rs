@@ -1,0 +1,166 @@
+//! Garments that come with the program.
+
+use super::config::{Block, Edge, Garment, Group, Line, Orientation, Panel, Seam, Side, Wiring};
+use crate::format::{Name, name};
+use heapless::Vec;
+
+/// First converter input of the RP2040.
+const GP26: u8 = 26;
+
+impl Garment {
+    /// Names of the garments that come with the program.
+    pub const PRESETS: [&'static str; 3] = ["reference", "mat-64x32", "block-4x16"];
+
+    /// The garment of that name, see [`Garment::PRESETS`].
+    pub fn preset(name: &str) -> Option<Garment> {
+        match name {
+            "reference" => Some(Garment::reference()),
+            "mat-64x32" => Some(Garment::mat()),
+            "block-4x16" => Some(Garment::block()),
+            _ => None,
+        }
+    }
+
+    /// The reference garment: four panels of 32 x 16 (chest, back, left arm, right arm), eight blocks of 4 x 16 stacked
+    /// in each, one converter input per panel; chest and back are sewn together along both flanks.
+    pub fn reference() -> Garment {
+        let panel = |text, link, region, pitch_um| Panel {
+            name: name(text),
+            link: name(link),
+            region: name(region),
+            rows: 32,
+            columns: 16,
+            pitch_um,
+        };
+        let mut garment = Garment {
+            name: name("reference"),
+            wiring: reference_wiring(),
+            panels: Vec::from_array([
+                panel("chest", "torso", "chest", [12_000, 10_000]),
+                panel("back", "torso", "back", [12_000, 10_000]),
+                panel("left arm", "left_upper_arm", "left arm", [12_000, 10_000]),
+                panel("right arm", "right_upper_arm", "right arm", [12_000, 10_000]),
+            ]),
+            blocks: Vec::new(),
+            seams: Vec::from_array([flank(Side::Right, Side::Left), flank(Side::Left, Side::Right)]),
+            absent: Vec::new(),
+        };
+        for panel in 0..4 {
+            for select in 0..8 {
+                let _ = garment.blocks.push(block(panel, u16::from(select) * 4, 0, GP26 + panel, select));
+            }
+        }
+        garment
+    }
+
+    /// One mat of 64 x 32 through four inputs: input k reads rows 16 k to 16 k + 15, two blocks of 4 x 16 beside each
+    /// other.
+    pub fn mat() -> Garment {
+        let mut garment = plain("mat-64x32", 64, 32);
+        for input in 0..4u8 {
+            for select in 0..8u8 {
+                let row = u16::from(input) * 16 + u16::from(select / 2) * 4;
+                let _ =
+                    garment.blocks.push(block(0, row, u16::from(select % 2) * 16, GP26 + input, select));
+            }
+        }
+        garment
+    }
+
+    /// The first thing to solder: one block of 4 x 16, one 16-channel multiplexer for the columns, two row lines, one
+    /// converter input.
+    pub fn block() -> Garment {
+        let mut garment = plain("block-4x16", 4, 16);
+        garment.wiring.block.lines.clear();
+        let _ = garment.blocks.push(block(0, 0, 0, GP26, 0));
+        garment
+    }
+
+    /// One panel of any size for recorded frames. It has no blocks, so it can be perceived but not scanned.
+    pub fn recorded(rows: u16, columns: u16) -> Garment {
+        let mut garment = plain("recorded", rows, columns);
+        if let Some(panel) = garment.panels.first_mut() {
+            panel.pitch_um = [0, 0];
+        }
+        garment
+    }
+}
+
+fn plain(title: &str, rows: u16, columns: u16) -> Garment {
+    let panel = Panel {
+        name: name("mat"),
+        link: name("base"),
+        region: name("mat"),
+        rows,
+        columns,
+        pitch_um: [10_000, 10_000],
+    };
+    Garment {
+        name: name(title),
+        wiring: reference_wiring(),
+        panels: [panel].into_iter().collect(),
+        blocks: Vec::new(),
+        seams: Vec::new(),
+        absent: Vec::new(),
+    }
+}
+
+/// Nine address lines on GP2-GP10: three for the block, two for the row, four for the column.
+fn reference_wiring() -> Wiring {
+    let lines = |pins: core::ops::Range<u8>| Group {
+        lines: pins.map(|pin| Line { pin, inverted: false }).collect(),
+        ..Group::default()
+    };
+    Wiring {
+        block: lines(2..5),
+        row: lines(5..7),
+        column: lines(7..11),
+        enable: Vec::new(),
+        settle_ns: 3_000,
+        falling: false,
+    }
+}
+
+fn block(panel: u8, row: u16, column: u16, input: u8, select: u8) -> Block {
+    Block {
+        panel,
+        row,
+        column,
+        rows: 4,
+        columns: 16,
+        input,
+        select: u16::from(select),
+        orientation: Orientation::default(),
+    }
+}
+
+/// A flank of the torso: one side of the chest (panel 0) sewn to the other side of the back (panel 1).
+fn flank(chest: Side, back: Side) -> Seam {
+    Seam {
+        a: Edge { panel: 0, side: chest, start: 0 },
+        b: Edge { panel: 1, side: back, start: 0 },
+        length: 32,
+        reversed: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Circuit, Layout, Pins};
+    use super::*;
+
+    #[test]
+    fn every_preset_builds_for_the_reference_board() {
+        let pins = Pins { outputs: 0x7fc, inputs: 0xf << 26 };
+        for preset in Garment::PRESETS {
+            let garment = Garment::preset(preset).unwrap();
+            let layout = Layout::build(&garment, 2048, 4095).unwrap();
+            let circuit = Circuit::build(&garment, &layout, pins).unwrap();
+            assert_eq!(garment.name.as_str(), preset);
+            let read: usize =
+                circuit.sites().iter().map(|s| usize::from(s.rows) * usize::from(s.columns)).sum();
+            assert_eq!(read, layout.taxels());
+        }
+        let _: Name = Garment::recorded(3, 5).name;
+    }
+}

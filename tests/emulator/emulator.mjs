@@ -1,0 +1,91 @@
+#!/usr/bin/env node
+// Runs a firmware image on an emulated board. README.md says what each option does.
+
+import { createInterface } from 'node:readline';
+import { parseArgs } from 'node:util';
+import { setImmediate, setTimeout } from 'node:timers/promises';
+import { loadImage } from './elf.mjs';
+import { Garment, readFrames, readWiring } from './garment.mjs';
+import { Link } from './link.mjs';
+import { BoardError, Machine } from './machine.mjs';
+
+const BATCH_NANOS = 500_000; // how often the world outside is looked at
+
+const { values: options } = parseArgs({
+  options: {
+    image: { type: 'string' }, port: { type: 'string' }, wiring: { type: 'string' }, codes: { type: 'string' },
+    idle: { type: 'string', default: '0' }, loop: { type: 'boolean', default: false },
+    hold: { type: 'boolean', default: false }, seconds: { type: 'string', default: 'Infinity' },
+    'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
+    stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
+  },
+});
+
+function say(value) {
+  process.stdout.write(`${JSON.stringify(value)}\n`);
+}
+
+function attachGarment(machine) {
+  if (options.wiring === undefined) {
+    machine.sample = () => Number(options.idle);
+    return undefined;
+  }
+  const wiring = readWiring(options.wiring);
+  const garment = new Garment({
+    wiring, frames: options.codes === undefined ? [] : readFrames(options.codes, wiring.count),
+    idle: Number(options.idle), loop: options.loop, playing: !options.hold,
+    readPin: (pin) => machine.readPin(pin), onPlay: (scan) => say({ play: { scan } }),
+  });
+  machine.sample = (channel) => garment.sample(channel);
+  return garment;
+}
+
+function statistics(machine, garment, link, started) {
+  const wall = (performance.now() - started) / 1000;
+  return {
+    emulated_us: Math.round(machine.micros), wall_ms: Math.round(wall * 1000), cycles: machine.cycles,
+    mcycles_per_s: Number((machine.cycles / wall / 1e6).toFixed(1)), asleep_us: Math.round(machine.asleep / 1000),
+    conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
+    floating: garment?.floating ?? 0, uart: { sent: link.sent, dropped: link.dropped, received: link.received,
+      overruns: machine.uart.overruns }, rtt_bytes: machine.rtt.bytes.length, marks: machine.marks,
+  };
+}
+
+function finished(machine, garment) {
+  return machine.micros >= Number(options.seconds) * 1e6 || (garment?.played ?? 0) > Number(options['until-frames']);
+}
+
+async function main() {
+  const link = new Link((bytes) => machine.uart.receive(bytes));
+  const machine = new Machine(loadImage(options.image), { onByte: (byte) => link.push(byte) });
+  const garment = attachGarment(machine);
+  if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });
+  let quit = false;
+  const commands = { play: () => garment?.play(), stats: () => say(statistics(machine, garment, link, started)),
+    quit: () => { quit = true; } };
+  createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.()).on('close', () => {});
+  const started = performance.now();
+  try {
+    while (!quit && !finished(machine, garment)) {
+      machine.runUntil(machine.clock.nanosCounter + BATCH_NANOS);
+      machine.rtt.drain();
+      link.flush();
+      const ahead = machine.micros / 1000 - (performance.now() - started);
+      if (options.realtime && ahead > 1) await setTimeout(ahead);
+      else await setImmediate();
+    }
+  } finally {
+    machine.rtt.drain();
+    if (options.stats) say({ stats: statistics(machine, garment, link, started) });
+    await link.close();
+  }
+  if (garment !== undefined && garment.floating > 0) throw new BoardError(`${garment.floating} reads of an address line that nothing drives`);
+}
+
+try {
+  await main();
+  process.exit(0);
+} catch (error) {
+  console.error(error instanceof BoardError ? `emulator: ${error.message}` : error);
+  process.exit(1);
+}

@@ -1,0 +1,56 @@
+// The UART as a TCP server: one client at a time. Without a client the bytes are lost, as on a wire that ends nowhere.
+
+import { createServer } from 'node:net';
+
+export class Link {
+  /** `receive(bytes)` takes what the client sends. */
+  constructor(receive) {
+    this.receive = receive;
+    this.out = [];
+    this.client = undefined;
+    this.sent = this.dropped = this.received = 0;
+  }
+
+  /** Listens on the loopback interface and gives the port. */
+  listen(port) {
+    this.server = createServer({ noDelay: true }, (socket) => this.accept(socket));
+    return new Promise((resolve, reject) => {
+      this.server.once('error', reject);
+      this.server.listen(port, '127.0.0.1', () => resolve(this.server.address().port));
+    });
+  }
+
+  accept(socket) {
+    if (this.client !== undefined) {
+      socket.destroy();
+      return;
+    }
+    this.client = socket;
+    socket.on('data', (bytes) => {
+      this.received += bytes.length;
+      this.receive(bytes);
+    });
+    socket.on('error', () => {});
+    socket.on('close', () => { this.client = undefined; });
+  }
+
+  /** Takes a byte from the board. */
+  push(byte) {
+    if (this.client === undefined) this.dropped++;
+    else this.out.push(byte);
+  }
+
+  /** Hands what has gathered to the client. */
+  flush() {
+    if (this.out.length === 0 || this.client === undefined) return;
+    this.sent += this.out.length;
+    this.client.write(Uint8Array.from(this.out));
+    this.out.length = 0;
+  }
+
+  async close() {
+    this.flush();
+    if (this.client !== undefined) await new Promise((resolve) => this.client.end(resolve));
+    this.server?.close();
+  }
+}

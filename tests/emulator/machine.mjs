@@ -1,0 +1,134 @@
+// The board: rp2040js with the models of this folder in place of its own, an image in flash, and a clock.
+
+import { RP2040 } from 'rp2040js';
+import { Adc } from './adc.mjs';
+import { Marks } from './marks.mjs';
+import { Rtt } from './rtt.mjs';
+import { Uart } from './uart.mjs';
+
+const VECTOR_TABLE = 0x10000100;
+const NANOS_PER_CYCLE = 8; // 125 MHz
+const RAM_START = 0x20000000, RAM_END = 0x20042000;
+const SIO_START = 0xd0000000;
+const UART0_IRQ = 20, UART0_DREQ = { tx: 20, rx: 21 };
+const UART0_BASE = 0x40034, ADC_BASE = 0x4004c;
+
+/** Stops a run; the message says what the firmware or the emulator did wrong. */
+export class BoardError extends Error {}
+
+export class Machine {
+  /** `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. */
+  constructor({ flash, symbols }, { allowed = () => false, onByte = () => {} } = {}) {
+    const chip = new RP2040();
+    Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols });
+    this.marks = new Marks();
+    this.asleep = 0;
+    chip.logger = { debug() {}, info() {}, warn: complain, error: complain };
+    function complain(part, text) {
+      if (!allowed(`${part}: ${text}`)) throw new BoardError(`emulator warning from ${part}: ${text}`);
+    }
+    this.sample = () => 0;
+    chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
+    chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
+    for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
+    this.guard();
+    this.tapMemory();
+    this.boot();
+  }
+
+  get uart() {
+    return this.chip.uart[0];
+  }
+
+  get micros() {
+    return this.clock.nanosCounter / 1000;
+  }
+
+  get cycles() {
+    return this.core.cycles;
+  }
+
+  /** What the pin drives: true, false, or undefined when it is no output. */
+  readPin(number) {
+    const pin = this.chip.gpio[number];
+    return pin.outputEnable ? pin.outputValue : undefined;
+  }
+
+  /** There is no boot ROM: its work (stack pointer, vector table, entry) is done here; boot2 is not needed. */
+  boot() {
+    const { chip, core } = this;
+    core.VTOR = VECTOR_TABLE;
+    core.SP = chip.readUint32(VECTOR_TABLE);
+    core.PC = chip.readUint32(VECTOR_TABLE + 4) & ~1;
+    this.rtt = new Rtt(this.symbols, chip.sramView);
+  }
+
+  /** What silicon would answer with a fault or a reset ends the run. */
+  guard() {
+    const { chip } = this;
+    chip.onBreak = (code) => {
+      throw new BoardError(`breakpoint ${code} at ${this.where()}: a panic or a fault`);
+    };
+    for (const [base, peripheral] of Object.entries(chip.peripherals)) {
+      if (base === String(0x40058)) peripheral.onWatchdogTrigger = () => this.reset(peripheral);
+    }
+    for (const channel of chip.dma.channels) {
+      const { transfer } = channel;
+      channel.transferAlarm.callback = () => {
+        if (channel.writeAddr >>> 0 >= SIO_START || channel.readAddr >>> 0 >= SIO_START) {
+          throw new BoardError(`DMA channel ${channel.index} reaches for the core's own ports, which silicon forbids`);
+        }
+        transfer();
+      };
+    }
+  }
+
+  reset(watchdog) {
+    const forced = watchdog.reason === 2;
+    throw new BoardError(`the board reset itself (${forced ? 'a panic' : 'the watchdog was not fed'}) at ${this.where()}`);
+  }
+
+  /** Memory first: most accesses go there, and rp2040js would look for a peripheral before. Also where marks are seen. */
+  tapMemory() {
+    const { chip, core, marks } = this;
+    const ram = chip.sramView;
+    const mark = this.symbols.get('TAXEL_MARK')?.address;
+    core.writeUint32 = (address, value) => {
+      if (address >= RAM_START && address < RAM_END - 3) {
+        ram.setUint32(address - RAM_START, value, true);
+        if (address === mark) marks.enter(value, core.cycles);
+      } else {
+        chip.writeUint32(address, value);
+      }
+    };
+  }
+
+  where() {
+    const pc = this.core.PC;
+    let name = '?';
+    let nearest = 0;
+    for (const [symbol, { address, size }] of this.symbols) {
+      const start = address & ~1;
+      if (start <= pc && start > nearest && pc <= start + size && !symbol.startsWith('$')) [name, nearest] = [symbol, start];
+    }
+    return `0x${pc.toString(16)} (${name}), ${(this.micros / 1000).toFixed(3)} ms`;
+  }
+
+  /** Runs until the board's clock shows `nanos`; a sleeping core is taken to its next event at once. */
+  runUntil(nanos) {
+    const { core, clock } = this;
+    while (clock.nanosCounter < nanos) {
+      if (core.waiting) {
+        const next = clock.nextAlarm === null ? nanos : Math.min(nanos, clock.nextAlarm.nanos);
+        this.asleep += next - clock.nanosCounter;
+        clock.tick(next - clock.nanosCounter);
+        continue;
+      }
+      const before = core.cycles;
+      core.executeInstruction();
+      clock.nanosCounter += (core.cycles - before) * NANOS_PER_CYCLE;
+      const alarm = clock.nextAlarm;
+      if (alarm !== null && alarm.nanos <= clock.nanosCounter) clock.tick(0);
+    }
+  }
+}
