@@ -13,4 +13,6 @@ fn main() {
         println!("cargo:rustc-link-arg-bins=-T{script}");
     }
     println!("cargo:rustc-link-arg-bins=--nmagic");
+    // defmt drops what is below the level that is set at compile time; its default is errors only.
+    println!("cargo:rustc-env=DEFMT_LOG=info");
 }

@@ -4,5 +4,9 @@
 #![deny(missing_docs)]
 
 pub mod acquire;
+pub mod condition;
+pub mod contact;
 pub mod format;
 pub mod garment;
+pub mod intent;
+pub mod shape;

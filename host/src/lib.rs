@@ -1,1 +1,4 @@
+//! The host side of taxel.
 
+pub mod fcm;
+pub mod sim;

@@ -1,15 +1,19 @@
 #!/usr/bin/env node
 // Runs a firmware image on an emulated board. README.md says what each option does.
 
+import { writeFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { parseArgs } from 'node:util';
 import { setImmediate, setTimeout } from 'node:timers/promises';
+import { allowed } from './allow.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
 import { BoardError, Machine } from './machine.mjs';
 
 const BATCH_NANOS = 500_000; // how often the world outside is looked at
+
+const parent = process.ppid; // a harness that outlives its test would run for ever
 
 const { values: options } = parseArgs({
   options: {
@@ -34,7 +38,8 @@ function attachGarment(machine) {
   const garment = new Garment({
     wiring, frames: options.codes === undefined ? [] : readFrames(options.codes, wiring.count),
     idle: Number(options.idle), loop: options.loop, playing: !options.hold,
-    readPin: (pin) => machine.readPin(pin), onPlay: (scan) => say({ play: { scan } }),
+    readPin: (pin) => machine.readPin(pin), now: () => machine.clock.nanosCounter,
+    onPlay: (scan) => say({ play: { scan } }),
   });
   machine.sample = (channel) => garment.sample(channel);
   return garment;
@@ -52,34 +57,47 @@ function statistics(machine, garment, link, started) {
 }
 
 function finished(machine, garment) {
-  return machine.micros >= Number(options.seconds) * 1e6 || (garment?.played ?? 0) > Number(options['until-frames']);
+  const enough = (garment?.played ?? 0) > Number(options['until-frames']);
+  return enough || machine.micros >= Number(options.seconds) * 1e6 || process.ppid !== parent;
+}
+
+/** Runs in short batches; between them the world outside has its turn. */
+async function run(machine, garment, link, started, control) {
+  while (!control.quit && !finished(machine, garment)) {
+    machine.runUntil(machine.clock.nanosCounter + BATCH_NANOS);
+    machine.rtt.drain();
+    link.flush();
+    const ahead = machine.micros / 1000 - (performance.now() - started);
+    if (options.realtime && ahead > 1) await setTimeout(ahead);
+    else await setImmediate();
+  }
+  if (garment?.floating > 0) throw new BoardError(`an address line that nothing drives was read ${garment.floating} times`);
 }
 
 async function main() {
   const link = new Link((bytes) => machine.uart.receive(bytes));
-  const machine = new Machine(loadImage(options.image), { onByte: (byte) => link.push(byte) });
+  const machine = new Machine(loadImage(options.image), { allowed, onByte: (byte) => link.push(byte) });
   const garment = attachGarment(machine);
   if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });
-  let quit = false;
-  const commands = { play: () => garment?.play(), stats: () => say(statistics(machine, garment, link, started)),
-    quit: () => { quit = true; } };
-  createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.()).on('close', () => {});
   const started = performance.now();
+  const control = { quit: false };
+  const commands = {
+    play: () => garment?.play(),
+    stats: () => say({ stats: statistics(machine, garment, link, started) }),
+    quit: () => { control.quit = true; },
+  };
+  createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.());
   try {
-    while (!quit && !finished(machine, garment)) {
-      machine.runUntil(machine.clock.nanosCounter + BATCH_NANOS);
-      machine.rtt.drain();
-      link.flush();
-      const ahead = machine.micros / 1000 - (performance.now() - started);
-      if (options.realtime && ahead > 1) await setTimeout(ahead);
-      else await setImmediate();
-    }
-  } finally {
+    await run(machine, garment, link, started, control);
+  } catch (error) {
     machine.rtt.drain();
+    if (error instanceof BoardError && machine.rtt.text !== '') error.message += `\nlog: ${machine.rtt.text}`;
+    throw error;
+  } finally {
+    if (options.rtt !== undefined) writeFileSync(options.rtt, Uint8Array.from(machine.rtt.bytes));
     if (options.stats) say({ stats: statistics(machine, garment, link, started) });
     await link.close();
   }
-  if (garment !== undefined && garment.floating > 0) throw new BoardError(`${garment.floating} reads of an address line that nothing drives`);
 }
 
 try {

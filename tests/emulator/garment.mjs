@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 
 const UNMAPPED = -1;
 const FIRST_ADC_PIN = 26;
+const SCAN_GAP_NANOS = 1e6;
 
 /** Reads the wiring that the Rust host wrote; see README.md for its format. */
 export function readWiring(path) {
@@ -30,16 +31,17 @@ export function readFrames(path, count) {
 
 export class Garment {
   /**
-   * `readPin(number)` is the level a pin drives, or undefined when it does not drive.
+   * `readPin(number)` is the level a pin drives, or undefined when it does not drive; `now()` is the board's time in ns.
    * `playing`: whether the frames run from the first scan on, or wait for `play()` and show `idle` until then.
    */
-  constructor({ wiring, frames = [], idle = 0, loop = false, playing = true, readPin, onPlay = () => {} }) {
-    Object.assign(this, { frames, idle, loop, readPin, onPlay });
+  constructor({ wiring, frames = [], idle = 0, loop = false, playing = true, readPin, now = () => 0, onPlay = () => {} }) {
+    Object.assign(this, { frames, idle, loop, readPin, now, onPlay });
     this.lines = wiring.lines;
     this.table = tableOf(wiring);
     this.seen = new Int32Array(this.table.length).fill(-1);
     this.scan = 0;
     this.address = -1;
+    this.last = 0;
     this.firstPlayed = playing ? 0 : Infinity;
     this.wanted = false;
     this.floating = 0;
@@ -58,7 +60,8 @@ export class Garment {
   /** The code of the converter's channel under the present levels of the lines. */
   sample(channel) {
     const address = this.readAddress();
-    if (address !== this.address) this.moveTo(address);
+    if (address !== this.address || this.now() - this.last > SCAN_GAP_NANOS) this.moveTo(address);
+    this.last = this.now();
     const taxel = channel < 4 ? this.table[(address << 2) | channel] : UNMAPPED;
     const at = this.scan - this.firstPlayed;
     if (taxel === UNMAPPED || this.frames.length === 0 || at < 0) return this.idle;
@@ -66,12 +69,14 @@ export class Garment {
   }
 
   /**
-   * A scan ends where the lines come back to an address that was already converted in it. Reading one address several
-   * times without leaving it (averaging) stays in the scan.
+   * A scan ends where the lines come back to an address that was already converted in it, or where nothing has been
+   * converted for a while (the next scan may read other blocks). Reading one address several times without leaving it
+   * (averaging) stays in the scan.
    */
   moveTo(address) {
     const entry = address << 2;
-    if (this.seen[entry] === this.scan) {
+    const pause = this.address >= 0 && this.now() - this.last > SCAN_GAP_NANOS;
+    if (pause || this.seen[entry] === this.scan) {
       this.scan++;
       if (this.wanted && this.firstPlayed === Infinity) {
         this.firstPlayed = this.scan;

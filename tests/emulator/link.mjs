@@ -1,6 +1,7 @@
 // The UART as a TCP server: one client at a time. Without a client the bytes are lost, as on a wire that ends nowhere.
 
 import { createServer } from 'node:net';
+import { setTimeout } from 'node:timers/promises';
 
 export class Link {
   /** `receive(bytes)` takes what the client sends. */
@@ -48,9 +49,14 @@ export class Link {
     this.out.length = 0;
   }
 
+  /** Sends what is left; a client that does not take it within a second loses it. */
   async close() {
     this.flush();
-    if (this.client !== undefined) await new Promise((resolve) => this.client.end(resolve));
+    const { client } = this;
+    if (client !== undefined) {
+      await Promise.race([new Promise((resolve) => client.end(resolve)), setTimeout(1000)]);
+      client.destroy();
+    }
     this.server?.close();
   }
 }

@@ -3,6 +3,7 @@
 import { RP2040 } from 'rp2040js';
 import { Adc } from './adc.mjs';
 import { Marks } from './marks.mjs';
+import { Rom } from './rom.mjs';
 import { Rtt } from './rtt.mjs';
 import { Uart } from './uart.mjs';
 
@@ -11,7 +12,8 @@ const NANOS_PER_CYCLE = 8; // 125 MHz
 const RAM_START = 0x20000000, RAM_END = 0x20042000;
 const SIO_START = 0xd0000000;
 const UART0_IRQ = 20, UART0_DREQ = { tx: 20, rx: 21 };
-const UART0_BASE = 0x40034, ADC_BASE = 0x4004c;
+const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058;
+const WATCHDOG_FORCED = 2;
 
 /** Stops a run; the message says what the firmware or the emulator did wrong. */
 export class BoardError extends Error {}
@@ -23,14 +25,15 @@ export class Machine {
     Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols });
     this.marks = new Marks();
     this.asleep = 0;
+    const complain = (part, text) => {
+      if (!allowed(`${part}: ${text}`)) throw new BoardError(`emulator warning from ${part}: ${text}, at ${this.where()}`);
+    };
     chip.logger = { debug() {}, info() {}, warn: complain, error: complain };
-    function complain(part, text) {
-      if (!allowed(`${part}: ${text}`)) throw new BoardError(`emulator warning from ${part}: ${text}`);
-    }
     this.sample = () => 0;
     chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
     chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
     for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
+    this.rom = new Rom(chip);
     this.guard();
     this.tapMemory();
     this.boot();
@@ -54,7 +57,7 @@ export class Machine {
     return pin.outputEnable ? pin.outputValue : undefined;
   }
 
-  /** There is no boot ROM: its work (stack pointer, vector table, entry) is done here; boot2 is not needed. */
+  /** What the boot ROM and boot2 do: stack pointer, vector table, entry. */
   boot() {
     const { chip, core } = this;
     core.VTOR = VECTOR_TABLE;
@@ -67,11 +70,11 @@ export class Machine {
   guard() {
     const { chip } = this;
     chip.onBreak = (code) => {
+      if (this.rom.handles(code)) return;
       throw new BoardError(`breakpoint ${code} at ${this.where()}: a panic or a fault`);
     };
-    for (const [base, peripheral] of Object.entries(chip.peripherals)) {
-      if (base === String(0x40058)) peripheral.onWatchdogTrigger = () => this.reset(peripheral);
-    }
+    const watchdog = chip.peripherals[WATCHDOG_BASE];
+    watchdog.onWatchdogTrigger = () => this.reset(watchdog.reason === WATCHDOG_FORCED);
     for (const channel of chip.dma.channels) {
       const { transfer } = channel;
       channel.transferAlarm.callback = () => {
@@ -83,8 +86,7 @@ export class Machine {
     }
   }
 
-  reset(watchdog) {
-    const forced = watchdog.reason === 2;
+  reset(forced) {
     throw new BoardError(`the board reset itself (${forced ? 'a panic' : 'the watchdog was not fed'}) at ${this.where()}`);
   }
 

@@ -1,1 +1,48 @@
-fn main(){}
+//! `cargo xtask`: what cargo alone does not do. Runs without dependencies, so that it is built in a second.
+
+mod checks;
+mod counts;
+mod cross;
+mod elf;
+mod firmware;
+mod install;
+mod locks;
+mod paths;
+mod process;
+mod report;
+mod uf2;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask COMMAND
+
+  firmware              build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive
+  core-thumb            build the core for the microcontroller
+  emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
+  test [--only NAME] [--may-miss NAME]
+                        every check; a check that cannot run fails the run, unless it is named as one that may be missing
+";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let rest = args.get(1..).unwrap_or(&[]);
+    let done = match args.first().map(String::as_str) {
+        Some("firmware") => firmware::build().map(|built| {
+            print!("{built}");
+            true
+        }),
+        Some("core-thumb") => firmware::build_core().map(|()| true),
+        Some("emulator") => firmware::emulate(rest).map(|()| true),
+        Some("test") => checks::run(rest),
+        _ => Err(USAGE.to_string()),
+    };
+    match done {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -14,6 +14,12 @@
 //! Floats appear only in the conversions of this file, which are for hosts, tests and set-up code; no function of the
 //! per-frame path calls them.
 
+mod invalid;
+mod scaled;
+
+pub use invalid::Invalid;
+pub use scaled::Scaled;
+
 use serde::{Deserialize, Serialize};
 
 /// A short UTF-8 name: of a panel, a link, a region, a concept, a reaction.
@@ -127,9 +133,13 @@ impl Q15 {
         }
         // Shift both so that `part << 15` fits: at most 1 unit in 2^48 is lost, far below half a step.
         let spare = part.leading_zeros();
-        let shift = if spare < 16 { 16 - spare } else { 0 };
+        let shift = 16u32.saturating_sub(spare);
         let (p, w) = (part >> shift, whole >> shift);
-        Q15((((p << 15) + w / 2) / w) as i32)
+        // `w` is never 0; the compiler cannot know.
+        match ((p << 15) + w / 2).checked_div(w) {
+            Some(ratio) => Q15(ratio as i32),
+            None => Q15(0),
+        }
     }
 }
 

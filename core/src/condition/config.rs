@@ -1,0 +1,51 @@
+//! Settings of the stage.
+
+use super::stage::Condition;
+use crate::format::Invalid;
+use serde::{Deserialize, Serialize};
+
+/// How codes become pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ConditionConfig {
+    /// Calibrated values below this many counts are 0; at least 1.
+    pub floor: u16,
+    /// The 3x3 filter.
+    pub filter: Filter,
+    /// A tared baseline follows slow drift where nothing touches.
+    pub track_baseline: bool,
+}
+
+/// A 3x3 filter over a panel.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// None.
+    Off,
+    /// Clamps a taxel to the smallest and the largest of its eight neighbours. It removes impulses and bridges dropouts
+    /// of a single taxel, and keeps fingers of two by two taxels, lines one taxel wide and the corners of every shape:
+    /// a 3x3 median deletes all of those on a block of 4 x 16, which is why this is the default.
+    #[default]
+    Conservative,
+    /// The exact median of nine, the border replicated (as OpenCV and imageproc do).
+    Median,
+}
+
+impl Default for ConditionConfig {
+    fn default() -> Self {
+        ConditionConfig { floor: 24, filter: Filter::default(), track_baseline: true }
+    }
+}
+
+impl ConditionConfig {
+    /// Checks the settings.
+    pub fn build(&self) -> Result<Condition, Invalid> {
+        if self.floor == 0 {
+            return Err(Invalid {
+                parameter: "condition.floor",
+                must: "must be at least 1 count, or all noise is a touch",
+            });
+        }
+        Ok(Condition::new(*self))
+    }
+}

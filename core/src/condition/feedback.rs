@@ -1,0 +1,45 @@
+//! What one frame's contacts tell the next frame.
+
+use crate::garment::Rect;
+use heapless::Vec;
+
+/// Most rectangles of contacts that reach across a seam into another panel.
+pub const CARRIED: usize = 16;
+
+/// The rectangles of the last frame's contacts: there the baseline stands still, and a weak contact is kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Feedback<const CONTACTS: usize> {
+    /// In each contact's home panel.
+    pub home: Vec<Rect, CONTACTS>,
+    /// Its parts beyond a seam.
+    pub beyond: Vec<Rect, CARRIED>,
+}
+
+impl<const CONTACTS: usize> Feedback<CONTACTS> {
+    /// Nothing touches.
+    pub const fn new() -> Self {
+        Feedback { home: Vec::new(), beyond: Vec::new() }
+    }
+
+    /// Whether a taxel lies within one taxel of a contact.
+    pub fn holds(&self, panel: u8, row: u16, column: u16) -> bool {
+        self.touches(panel, row, column, column)
+    }
+
+    /// Whether columns `left ..= right` of a row come within one taxel of a contact.
+    pub fn touches(&self, panel: u8, row: u16, left: u16, right: u16) -> bool {
+        self.home.iter().chain(&self.beyond).any(|rect| {
+            rect.panel == panel
+                && row.saturating_add(1) >= rect.top
+                && row <= rect.bottom.saturating_add(1)
+                && right.saturating_add(1) >= rect.left
+                && left <= rect.right.saturating_add(1)
+        })
+    }
+}
+
+impl<const CONTACTS: usize> Default for Feedback<CONTACTS> {
+    fn default() -> Self {
+        Feedback::new()
+    }
+}

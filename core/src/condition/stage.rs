@@ -1,0 +1,299 @@
+//! The stage.
+
+use super::config::{ConditionConfig, Filter};
+use super::feedback::Feedback;
+use super::filter;
+use super::image::{Image, Rows, row_mut, row_of};
+use super::state::ConditionState;
+use crate::format::Code;
+use crate::garment::{Area, Layout};
+
+/// Makes pressure out of codes; see the [module](super).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Condition {
+    config: ConditionConfig,
+}
+
+impl Condition {
+    pub(super) const fn new(config: ConditionConfig) -> Condition {
+        Condition { config }
+    }
+
+    /// Takes in one frame.
+    ///
+    /// `codes` go by taxel number; what is missing reads as no pressure, what is too much is ignored. Pressure lowers the
+    /// code if `falling`. Panels whose bit in `panels` is not set read as zero and keep their baseline. `feedback`
+    /// is what the previous frame's contacts left ([`Feedback::new`] if there are none). While a tare runs, and for its last
+    /// frame, the image is zero.
+    pub fn process<'a, const TAXELS: usize, const CONTACTS: usize>(
+        &self,
+        state: &'a mut ConditionState<TAXELS>,
+        layout: &Layout,
+        codes: &[Code],
+        falling: bool,
+        panels: u8,
+        feedback: &Feedback<CONTACTS>,
+    ) -> Image<'a> {
+        if !state.tare_frame(layout, codes, panels) {
+            self.calibrate(state, layout, codes, falling, panels);
+            self.filter(state, layout);
+            if self.config.track_baseline {
+                state.follow_drift(layout, codes, panels, feedback);
+            }
+        }
+        let filtered = self.config.filter != Filter::Off;
+        let values = if filtered { &state.filtered } else { &state.calibrated };
+        let rows = if filtered { &state.filtered_rows } else { &state.calibrated_rows };
+        // During a tare the calibrated image holds sums.
+        let values = if rows.is_empty() { &state.filtered } else { values };
+        Image { values: values.get(..layout.taxels()).unwrap_or(values), rows }
+    }
+
+    /// Codes to calibrated values, row by row.
+    fn calibrate<const TAXELS: usize>(
+        &self,
+        state: &mut ConditionState<TAXELS>,
+        layout: &Layout,
+        codes: &[Code],
+        falling: bool,
+        panels: u8,
+    ) {
+        let floor = self.config.floor;
+        // A difference up to here is below the floor whatever the gain: (d g + 2048) >> 12 < floor.
+        let quiet =
+            match (u32::from(floor) << 12).saturating_sub(2049).checked_div(state.greatest_gain.into()) {
+                Some(margin) => margin.min(0xffff) as u16,
+                None => u16::MAX,
+            };
+        let before = core::mem::replace(&mut state.calibrated_rows, Rows::NONE);
+        let difference = |code: &Code, rest: &u16| {
+            if falling { rest.saturating_sub(code.0) } else { code.0.saturating_sub(*rest) }
+        };
+        for (panel, area) in layout.areas().iter().enumerate() {
+            let scanned = panels >> panel & 1 == 1;
+            for row in 0..area.rows {
+                let number = area.first_row.saturating_add(row);
+                let codes = row_of(codes, area, row);
+                let rest = row_of(&state.baseline, area, row);
+                let loud = scanned && codes.iter().zip(rest).any(|(c, b)| difference(c, b) > quiet);
+                if !loud && !before.contains(number) {
+                    continue;
+                }
+                let out = row_mut(&mut state.calibrated, area, row);
+                out.fill(0);
+                if loud {
+                    let gain = row_of(&state.gain, area, row);
+                    for (((out, code), rest), gain) in out.iter_mut().zip(codes).zip(rest).zip(gain) {
+                        let value = calibrated(difference(code, rest), *gain);
+                        *out = if value < floor { 0 } else { value };
+                    }
+                    if out.iter().any(|value| *value != 0) {
+                        state.calibrated_rows.insert(number);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Calibrated to filtered values; rows without anything in reach are cleared if they held something.
+    fn filter<const TAXELS: usize>(&self, state: &mut ConditionState<TAXELS>, layout: &Layout) {
+        let before = core::mem::replace(&mut state.filtered_rows, Rows::NONE);
+        if self.config.filter == Filter::Off {
+            if !before.is_empty() {
+                state.filtered.fill(0);
+            }
+            return;
+        }
+        for area in layout.areas() {
+            for row in 0..area.rows {
+                let number = area.first_row.saturating_add(row);
+                let up = row.saturating_sub(1);
+                let down = row.saturating_add(1).min(area.rows.saturating_sub(1));
+                let out = row_mut(&mut state.filtered, area, row);
+                let within = |row: u16| state.calibrated_rows.contains(area.first_row.saturating_add(row));
+                if within(up) || within(row) || within(down) {
+                    self.filter_row(&state.calibrated, area, [up, row, down], out);
+                    state.filtered_rows.insert(number);
+                } else if before.contains(number) {
+                    out.fill(0);
+                }
+            }
+        }
+    }
+
+    /// Filters one row, given with the rows above and below it (itself at the border).
+    fn filter_row(&self, values: &[u16], area: &Area, [up, row, down]: [u16; 3], out: &mut [u16]) {
+        let [above, here, below] = [up, row, down].map(|row| row_of(values, area, row));
+        match self.config.filter {
+            Filter::Off => {}
+            Filter::Median => filter::median(above, here, below, out),
+            Filter::Conservative => {
+                let neighbour = |number: u16, taxels| (number != row).then_some(taxels);
+                filter::conservative(neighbour(up, above), here, neighbour(down, below), out);
+            }
+        }
+    }
+}
+
+/// `(difference * gain + 2048) >> 12`, at most 65535: the product of two 16-bit numbers leaves room for the rounding.
+fn calibrated(difference: u16, gain: u16) -> u16 {
+    ((u32::from(difference) * u32::from(gain) + 2048) >> 12).min(0xffff) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::{Tare, UNITY};
+    use super::*;
+    use crate::garment::{Absent, Garment, Rect};
+    use std::vec;
+    use std::vec::Vec;
+
+    type State = ConditionState<2048>;
+
+    fn rig(config: ConditionConfig, rest: u16) -> (Condition, Layout, State) {
+        let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
+        let mut state = State::new();
+        state.reset(&layout, Code(rest));
+        (config.build().unwrap(), layout, state)
+    }
+
+    fn plain() -> ConditionConfig {
+        ConditionConfig { filter: Filter::Off, ..ConditionConfig::default() }
+    }
+
+    #[test]
+    fn a_value_is_what_the_module_says() {
+        let (condition, layout, mut state) = rig(ConditionConfig { floor: 1, ..plain() }, 0);
+        let mut noise = 1u32;
+        let mut next = || {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            noise >> 8
+        };
+        for round in 0..200u32 {
+            for taxel in 0..2048 {
+                let mode = next();
+                state.set_gain(taxel, (next() >> (mode % 16)) as u16);
+                state.set_baseline(taxel, Code((next() >> (mode / 16 % 16)) as u16));
+            }
+            // Without tracking, so that the reference needs no memory.
+            let floor = 1 + (next() % 300) as u16;
+            let config = ConditionConfig { floor, track_baseline: false, ..plain() };
+            let condition = if round == 0 { condition.clone() } else { config.build().unwrap() };
+            let floor = condition.config.floor;
+            let falling = round % 2 == 1;
+            let codes: Vec<Code> = (0..2048).map(|_| Code(next() as u16)).collect();
+            let rest: Vec<u16> = state.baseline().unwrap().to_vec();
+            let gain: Vec<u16> = state.gain().to_vec();
+            let image = condition.process(&mut state, &layout, &codes, falling, 0xff, &Feedback::<1>::new());
+            for (taxel, value) in image.values.iter().enumerate() {
+                let (code, rest) = (i64::from(codes[taxel].0), i64::from(rest[taxel]));
+                let difference = if falling { rest - code } else { code - rest }.max(0);
+                let want = ((difference * i64::from(gain[taxel]) + 2048) >> 12).min(65535);
+                assert_eq!(i64::from(*value), if want < i64::from(floor) { 0 } else { want });
+            }
+        }
+    }
+
+    #[test]
+    fn panels_off_short_codes_and_absent_taxels_read_as_zero() {
+        let mut garment = Garment::reference();
+        garment.absent.push(Absent { panel: 0, row: 0, column: 3, rows: 2, columns: 2 }).unwrap();
+        let layout = Layout::build(&garment, 2048, u16::MAX).unwrap();
+        let mut state = State::new();
+        state.reset(&layout, Code(0));
+        let condition = plain().build().unwrap();
+        let none = Feedback::<4>::new();
+        let all = vec![Code(1000); 3000];
+        let sum = |image: Image| image.values.iter().map(|v| u32::from(*v)).sum::<u32>();
+        let mut go =
+            |codes: &[Code], panels| sum(condition.process(&mut state, &layout, codes, false, panels, &none));
+        assert_eq!(go(&all, 0xf), 2044 * 1000);
+        assert_eq!(go(&all, 0b0110), 1024 * 1000);
+        assert_eq!(go(&all[..600], 0xf), 596 * 1000);
+        assert_eq!(go(&[], 0xf), 0);
+        assert_eq!(go(&all, 0), 0);
+    }
+
+    #[test]
+    fn a_tare_takes_the_rounded_mean() {
+        for falling in [false, true] {
+            let (condition, layout, mut state) = rig(plain(), if falling { 4095 } else { 0 });
+            let none = Feedback::<4>::new();
+            state.tare(3);
+            for (frame, code) in [2000u16, 2001, 2004].into_iter().enumerate() {
+                assert_eq!(state.tare_progress(), Tare::Running { left: 3 - frame as u16 });
+                let codes = vec![Code(code); 2048];
+                let image = condition.process(&mut state, &layout, &codes, falling, 0b11, &none);
+                assert!(image.rows.is_empty() && image.values.iter().all(|v| *v == 0));
+                assert_eq!(image.values.len(), 2048);
+            }
+            assert_eq!(state.tare_progress(), Tare::Done);
+            let rest = state.baseline().unwrap();
+            assert_eq!((rest[0], rest[1023]), (2002, 2002));
+            assert_eq!(rest[1024], if falling { 4095 } else { 0 }, "panels that are off keep theirs");
+            let codes = vec![Code(if falling { 1002 } else { 3002 }); 2048];
+            let image = condition.process(&mut state, &layout, &codes, falling, 0b11, &none);
+            assert_eq!((image.values[0], image.values[1024]), (1000, 0));
+            assert_eq!(state.tare_progress(), Tare::Idle);
+        }
+    }
+
+    #[test]
+    fn the_longest_tare_at_full_scale_is_exact() {
+        let layout = Layout::build(&Garment::block(), 64, u16::MAX).unwrap();
+        let mut state = ConditionState::<64>::new();
+        state.reset(&layout, Code(0));
+        let condition = plain().build().unwrap();
+        state.tare(u16::MAX);
+        for _ in 0..u16::MAX {
+            condition.process(&mut state, &layout, &[Code(u16::MAX); 64], false, 1, &Feedback::<1>::new());
+        }
+        assert_eq!(state.baseline().unwrap(), [u16::MAX; 64]);
+    }
+
+    #[test]
+    fn drift_is_followed_but_no_contact_swallowed() {
+        let (condition, layout, mut state) = rig(ConditionConfig::default(), 0);
+        let mut feedback = Feedback::<4>::new();
+        let mut codes = vec![Code(10); 2048];
+        let mut run = |state: &mut State, codes: &[Code], feedback: &Feedback<4>, frames| {
+            for _ in 0..frames {
+                condition.process(state, &layout, codes, false, 0xf, feedback);
+            }
+            state.baseline().unwrap().to_vec()
+        };
+        // Untared, nothing drifts.
+        assert_eq!(run(&mut state, &codes, &feedback, 2000), [0; 2048]);
+        state.tare(1);
+        run(&mut state, &codes, &feedback, 1);
+        // All 128 rows once in 129 frames, one count each, upwards and downwards.
+        codes.fill(Code(13));
+        assert_eq!(run(&mut state, &codes, &feedback, 129), [11; 2048]);
+        codes.fill(Code(7));
+        assert_eq!(run(&mut state, &codes, &feedback, 129 * 10), [7; 2048]);
+        // A held contact on the chest with a weak fringe: a block of 4 x 4 at 1000, around it 20 counts, below the floor.
+        for (row, column) in (9..15).flat_map(|row| (4..10).map(move |column| (row, column))) {
+            let inner = (10..14).contains(&row) && (5..9).contains(&column);
+            codes[row * 16 + column] = Code(if inner { 1007 } else { 27 });
+        }
+        feedback.home.push(Rect { panel: 0, top: 10, bottom: 13, left: 5, right: 8 }).unwrap();
+        assert_eq!(run(&mut state, &codes, &feedback, 129 * 30), [7; 2048]);
+        // Let go of the rectangle: the fringe below the floor is taken for drift, the contact is not.
+        let rest = run(&mut state, &codes, &Feedback::new(), 129 * 30);
+        assert_eq!((rest[10 * 16 + 5], rest[9 * 16 + 4], rest[0]), (7, 27, 7));
+    }
+
+    #[test]
+    fn settings_and_bounds() {
+        let refused = ConditionConfig { floor: 0, ..plain() }.build().unwrap_err();
+        assert_eq!(refused.parameter, "condition.floor");
+        let (.., mut state) = rig(plain(), 0);
+        assert!(state.set_gain(2047, UNITY) && !state.set_gain(2048, UNITY));
+        assert!(state.set_baseline(2047, Code(1)) && !state.set_baseline(2048, Code(1)));
+        state.tare(2);
+        assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
+        // What the table of the module says about memory.
+        assert!(size_of::<State>() <= 8 * 2048 + 280, "{}", size_of::<State>());
+    }
+}

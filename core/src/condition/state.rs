@@ -1,0 +1,128 @@
+//! What the stage remembers: the calibration of every taxel and the last image.
+
+use super::baseline::Baseline;
+use super::image::{Rows, row_mut};
+use crate::format::Code;
+use crate::garment::Layout;
+
+/// A gain of 1.0 in Q4.12.
+pub const UNITY: u16 = 4096;
+
+/// Baseline, gain and image of every taxel.
+#[derive(Debug, Clone)]
+pub struct ConditionState<const TAXELS: usize> {
+    /// Code at rest. While a tare runs: the low halves of the sums.
+    pub(super) baseline: [u16; TAXELS],
+    /// Q4.12; 0 for absent taxels.
+    pub(super) gain: [u16; TAXELS],
+    /// No gain is greater.
+    pub(super) greatest_gain: u16,
+    /// Before the filter. While a tare runs: the high halves of the sums.
+    pub(super) calibrated: [u16; TAXELS],
+    /// After the filter.
+    pub(super) filtered: [u16; TAXELS],
+    /// Rows of `calibrated` that may hold something.
+    pub(super) calibrated_rows: Rows,
+    /// Rows of `filtered` that may hold something.
+    pub(super) filtered_rows: Rows,
+    pub(super) tracking: Baseline,
+}
+
+/// How far a tare is.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Tare {
+    /// None has been asked for, or the last has been reported as done.
+    #[default]
+    Idle,
+    /// The image is zero until so many more frames have been taken in.
+    Running {
+        /// frames still to come
+        left: u16,
+    },
+    /// The last frame completed it: the next one is measured from the new baseline.
+    Done,
+}
+
+impl<const TAXELS: usize> ConditionState<TAXELS> {
+    /// For no garment: every gain is 0. To be followed by [`ConditionState::reset`].
+    pub const fn new() -> Self {
+        ConditionState {
+            baseline: [0; TAXELS],
+            gain: [0; TAXELS],
+            greatest_gain: 0,
+            calibrated: [0; TAXELS],
+            filtered: [0; TAXELS],
+            calibrated_rows: Rows::NONE,
+            filtered_rows: Rows::NONE,
+            tracking: Baseline::new(),
+        }
+    }
+
+    /// Starts afresh on a garment: every baseline is `rest` (0, or the full scale of a garment on which pressure lowers
+    /// the code), every gain 1.0, and 0 where a taxel is absent. A tare under way is forgotten.
+    pub fn reset(&mut self, layout: &Layout, rest: Code) {
+        self.baseline.fill(rest.0);
+        self.gain.fill(0);
+        for (panel, area) in layout.areas().iter().enumerate() {
+            for row in 0..area.rows {
+                for (column, gain) in (0..area.columns).zip(row_mut(&mut self.gain, area, row)) {
+                    *gain = if layout.is_absent(panel as u8, row, column) { 0 } else { UNITY };
+                }
+            }
+        }
+        self.greatest_gain = UNITY;
+        self.calibrated.fill(0);
+        self.filtered.fill(0);
+        self.calibrated_rows = Rows::NONE;
+        self.filtered_rows = Rows::NONE;
+        self.tracking = Baseline::new();
+    }
+
+    /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.
+    pub fn set_gain(&mut self, taxel: usize, gain: u16) -> bool {
+        let Some(held) = self.gain.get_mut(taxel) else { return false };
+        *held = gain;
+        self.greatest_gain = self.greatest_gain.max(gain);
+        true
+    }
+
+    /// Restores the baseline of a taxel, as a tare would have set it; all of it follows drift from then on. `false` if
+    /// there is no such taxel or a tare is under way.
+    pub fn set_baseline(&mut self, taxel: usize, rest: Code) -> bool {
+        if matches!(self.tracking.tare(), Tare::Running { .. }) {
+            return false;
+        }
+        let Some(held) = self.baseline.get_mut(taxel) else { return false };
+        *held = rest.0;
+        self.tracking.mark_tared();
+        true
+    }
+
+    /// Code at rest by taxel number; none while a tare runs.
+    pub fn baseline(&self) -> Option<&[u16]> {
+        (!matches!(self.tracking.tare(), Tare::Running { .. })).then_some(&self.baseline)
+    }
+
+    /// Gains by taxel number, Q4.12.
+    pub fn gain(&self) -> &[u16] {
+        &self.gain
+    }
+
+    /// Takes the mean code of the next `frames` frames (at least 1) as the baseline; a tare under way starts again. The
+    /// panels that the first of those frames works on are tared, the others keep theirs. The old baseline is given up
+    /// at once. It is the caller's part not to tare under load, and to say so where contacts are present.
+    pub fn tare(&mut self, frames: u16) {
+        self.tracking.request(frames.max(1));
+    }
+
+    /// How far the tare is.
+    pub fn tare_progress(&self) -> Tare {
+        self.tracking.tare()
+    }
+}
+
+impl<const TAXELS: usize> Default for ConditionState<TAXELS> {
+    fn default() -> Self {
+        ConditionState::new()
+    }
+}

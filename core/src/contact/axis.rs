@@ -1,0 +1,110 @@
+//! Direction, elongation and breadth of a contact from its central moments.
+
+use super::moments::{Central, Moments};
+use crate::format::{Fixed16, Q15, Scaled, Turn};
+
+/// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
+pub const ASSUMED_PITCH_UM: u32 = 10_000;
+
+/// The principal axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Axis {
+    /// Angle of the major axis from +x towards +y, in (-1/4, 1/4] turn; none where the anisotropy is below
+    /// `clamp(1 / area, 0.02, 0.15)`. In taxel coordinates, whatever the pitch. At most 1.3e-6 rad off.
+    pub azimuth: Option<Turn>,
+    /// `D / J = sqrt((A - B)^2 + 4 C^2) / (A + B)`: 0 for a disc or square, 1 for a line. At most one step off.
+    pub anisotropy: Q15,
+}
+
+/// Numbers of the common scale that leaves 31 bits to the sum `A + B`.
+#[derive(Clone, Copy)]
+struct Normal {
+    a: u64,
+    b: u64,
+    c: i64,
+    /// `value = normal * 2^exponent`
+    exponent: i16,
+}
+
+impl Normal {
+    fn of(a: u64, b: u64, c: i64) -> Normal {
+        let spare = a.wrapping_add(b).leading_zeros() as i16;
+        match spare - 33 {
+            up @ 0.. => Normal { a: a << up, b: b << up, c: c << up, exponent: -up },
+            down => Normal { a: a >> -down, b: b >> -down, c: c >> -down, exponent: -down },
+        }
+    }
+
+    /// `A - B`, `2 C` and `sqrt((A - B)^2 + 4 C^2)`.
+    fn spread(&self) -> (i64, i64, u64) {
+        let (difference, mixed) = (self.a as i64 - self.b as i64, self.c * 2);
+        let (x, y) = (difference.unsigned_abs(), mixed.unsigned_abs());
+        // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
+        (difference, mixed, (x * x + y * y).isqrt())
+    }
+}
+
+/// Azimuth and anisotropy of a contact of `area` taxels.
+pub fn axis(central: &Central, area: u32) -> Axis {
+    let normal = Normal::of(central.a, central.b, central.c);
+    let (difference, mixed, d) = normal.spread();
+    let anisotropy = Q15::ratio(d, normal.a + normal.b);
+    let limit = 32768u32.checked_div(area).unwrap_or(u32::MAX).clamp(655, 4915);
+    let defined = d > 0 && anisotropy.0 >= limit as i32;
+    Axis { azimuth: defined.then(|| half_angle(mixed, difference)), anisotropy }
+}
+
+/// Half the angle of the point (x, y), in (-1/4, 1/4] turn.
+fn half_angle(y: i64, x: i64) -> Turn {
+    let greater = x.unsigned_abs().max(y.unsigned_abs()) | 1;
+    // Up to 30 bits, so that the smaller of the two keeps its digits.
+    let (x, y) = match greater.leading_zeros() as i32 - 34 {
+        up @ 0.. => (x << up, y << up),
+        down => (x >> -down, y >> -down),
+    };
+    let half = idsp::atan2(y as i32, x as i32) >> 1;
+    Turn(if half == -(1 << 30) { 1 << 30 } else { half })
+}
+
+/// Centroid along one axis: `sum / m`, rounded to the nearest 2^-16 taxel. Half a step off at most; saturates.
+pub(super) fn mean(sum: i64, m: u64) -> Fixed16 {
+    let m = m.min(i64::MAX as u64) as i64;
+    if m <= 0 {
+        return Fixed16(0);
+    }
+    Fixed16::saturating(sum.saturating_mul(1 << 16).saturating_add(m / 2).div_euclid(m))
+}
+
+/// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
+/// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
+/// taken to millimetres first, so that a pitch that differs along the axes is honoured. A pitch that is 0 counts as 10 mm.
+/// Rounded to the nearest; within 1e-6 of `w` and half a step.
+pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
+    // Beyond 655 mm the squares would not leave room; no garment is that coarse.
+    let [px, py] = pitch_um.map(|p| {
+        let tenths = u64::from(if p == 0 { ASSUMED_PITCH_UM } else { p }) / 100;
+        tenths.clamp(1, 6553)
+    });
+    let pixel = px * px + py * py;
+    let central = moments.central();
+    let taxels = Normal::of(central.a, central.b, central.c);
+    let c = taxels.c * (px * py) as i64;
+    let normal = Normal::of(taxels.a * px * px, taxels.b * py * py, c);
+    let (difference, _, d) = normal.spread();
+    // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
+    let skew = (px * px) as i64 - (py * py) as i64;
+    let lean = (skew * difference).checked_div(d as i64).unwrap_or(0);
+    let pixel2 = (pixel as i64 - lean).max(0) as u64;
+    // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
+    let minor = (normal.a + normal.b).saturating_sub(d);
+    let m = Scaled::from_u64(moments.m);
+    let exponent = taxels.exponent + normal.exponent;
+    let strip = if moments.m == 0 {
+        Scaled::ZERO
+    } else {
+        Scaled::from_u64(minor * 12).over(m).over(m).shifted(exponent)
+    };
+    // Sixteen fraction bits: 2 w^2 < 2^48 for widths below 1 km.
+    let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
+    Scaled::from_u64(sum).shifted(-9).sqrt().to_fixed(0)
+}

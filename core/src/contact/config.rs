@@ -1,0 +1,53 @@
+//! Settings of the stage.
+
+use super::stage::Contacts;
+use crate::format::Invalid;
+use serde::{Deserialize, Serialize};
+
+/// What is a contact, and how it is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ContactConfig {
+    /// Taxels from this many counts on belong to a component; at least 1.
+    pub low: u16,
+    /// A component begins to be a contact when its peak reaches this many counts; not below `low`. It stays one while its
+    /// peak is at least `low`.
+    pub high: u16,
+    /// Smallest number of taxels.
+    pub min_area: u16,
+    /// A contact is looked for within this many taxels of where it should be (and half the size of its box, and the way that
+    /// it made since); 1 to 1000.
+    pub gate: u16,
+    /// Time constant of the velocity, in ms; 0 takes it from one frame to the next.
+    pub smoothing_ms: u16,
+    /// Speed from which a contact slips, in 1/16 taxel/s. It also has to have moved by half a taxel.
+    pub slip_speed: u16,
+}
+
+impl Default for ContactConfig {
+    /// The velocity of a still finger of 2 x 2 taxels at 1000 counts with a noise of 3 counts stays below 0.3 taxel/s, so 4
+    /// taxels per second are clear of noise and below the stroke of a hand (about 10 taxels per second at 10 mm).
+    fn default() -> Self {
+        ContactConfig { low: 60, high: 120, min_area: 1, gate: 4, smoothing_ms: 40, slip_speed: 64 }
+    }
+}
+
+impl ContactConfig {
+    /// Checks the settings.
+    pub fn build(&self) -> Result<Contacts, Invalid> {
+        let refuse = |parameter, must| Err(Invalid { parameter, must });
+        if self.low == 0 {
+            return refuse("contact.low", "must be at least 1 count");
+        }
+        if self.high < self.low {
+            return refuse("contact.high", "must not be below contact.low");
+        }
+        if self.gate == 0 || self.gate > 1000 {
+            return refuse("contact.gate", "must be 1 to 1000 taxels");
+        }
+        if self.slip_speed == 0 {
+            return refuse("contact.slip_speed", "must be at least 1 (1/16 taxel/s)");
+        }
+        Ok(Contacts::new(*self))
+    }
+}

@@ -1,0 +1,186 @@
+//! Parts of a contact on both sides of a seam.
+//!
+//! Each pair of parts that neighbour taxels of a seam connect is joined once. The frame of a contact is that of its
+//! heaviest part on its home panel, the panel with most of its mass; every other part is carried into it along the joins that really
+//! connect them, shortest path first and then in the order of the joins: so a grip around a flank stays in one
+//! piece, and a ring that closes over two seams is cut at the later one. Parts of the home panel that are connected only over
+//! another panel are carried like all others.
+
+use super::label::{Labels, NONE};
+use crate::condition::{CARRIED, Image};
+use crate::garment::{Joint, Layout, PANELS, Place, Transform};
+use heapless::Vec;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Join {
+    a: u16,
+    b: u16,
+    joint: u8,
+}
+
+/// A part that is not at home, and the way there.
+#[derive(Debug, Clone, Copy)]
+struct Carried {
+    part: u16,
+    map: Transform,
+}
+
+/// The joins of a frame.
+#[derive(Debug, Clone)]
+pub(super) struct Joins {
+    joins: Vec<Join, CARRIED>,
+    /// All parts that are joined; anchors with the identity.
+    carried: Vec<Carried, { 2 * CARRIED }>,
+    /// Joins that did not fit, in this frame: those contacts stay apart.
+    pub overflow: u16,
+}
+
+impl Joins {
+    pub const fn new() -> Self {
+        Joins { joins: Vec::new(), carried: Vec::new(), overflow: 0 }
+    }
+
+    /// Joins the parts of a frame across all seams.
+    pub fn find<const RUNS: usize>(
+        &mut self,
+        labels: &mut Labels<RUNS>,
+        layout: &Layout,
+        image: &Image,
+        low: u16,
+    ) {
+        self.joins.clear();
+        self.carried.clear();
+        self.overflow = 0;
+        for (index, joint) in layout.joints().iter().enumerate() {
+            // Most frames end here: nothing touches on one of the two sides.
+            if labels.panels >> (joint.a % 8) & labels.panels >> (joint.b % 8) & 1 == 1 {
+                self.find_along(index as u8, joint, labels, layout, image, low);
+            }
+        }
+        for index in 0..self.joins.len() {
+            if let Some(join) = self.joins.get(index) {
+                unite(labels, join.a, join.b);
+            }
+        }
+    }
+
+    fn find_along<const RUNS: usize>(
+        &mut self,
+        index: u8,
+        joint: &Joint,
+        labels: &mut Labels<RUNS>,
+        layout: &Layout,
+        image: &Image,
+        low: u16,
+    ) {
+        for (a, b) in joint.neighbours() {
+            let mut part = |panel, (x, y): (i32, i32)| {
+                let place = Place { panel, row: u16::try_from(y).ok()?, column: u16::try_from(x).ok()? };
+                let value = image.values.get(layout.taxel(place)?)?;
+                let area = layout.areas().get(usize::from(panel))?;
+                let (run, _) = labels.run_at(area, place.row, place.column).filter(|_| *value >= low)?;
+                Some(labels.part(run))
+            };
+            let Some(a) = part(joint.a, a) else { continue };
+            let Some(b) = part(joint.b, b) else { continue };
+            let join = Join { a, b, joint: index };
+            if a != b && !self.joins.contains(&join) && self.joins.push(join).is_err() {
+                self.overflow = self.overflow.saturating_add(1);
+            }
+        }
+    }
+
+    /// The panel with most of the mass of contact `contact`, whose parts are joined; places all its parts.
+    pub fn settle<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout, contact: u16) -> u8 {
+        let parts = || labels.parts().filter(|(_, run)| run.group == contact && run.group != NONE);
+        let mut mass = [0u64; PANELS];
+        for (_, run) in parts() {
+            if let Some(sum) = mass.get_mut(usize::from(run.panel)) {
+                *sum = sum.wrapping_add(run.mass.into());
+            }
+        }
+        let heaviest = |best: (u8, u64), (panel, mass): (usize, &u64)| {
+            if *mass > best.1 { (panel as u8, *mass) } else { best }
+        };
+        let (home, _) = mass.iter().enumerate().fold((0, 0), heaviest);
+        let mut anchor = (0, 0);
+        for (part, run) in parts().filter(|(_, run)| run.panel == home) {
+            if run.mass > anchor.1 {
+                anchor = (part, run.mass);
+            }
+        }
+        self.place(anchor.0, Transform::IDENTITY);
+        self.carry(layout);
+        home
+    }
+
+    /// Carries along every join that has one side placed, until none is left.
+    fn carry(&mut self, layout: &Layout) {
+        for _ in 0..=self.joins.len() {
+            // Only what the previous rounds placed counts, so that the shortest path wins.
+            let placed = self.carried.len();
+            for index in 0..self.joins.len() {
+                let Some(join) = self.joins.get(index).copied() else { continue };
+                let Some(joint) = layout.joints().get(usize::from(join.joint)) else { continue };
+                let known = |part| self.carried.iter().take(placed).find(|c| c.part == part).map(|c| c.map);
+                match (known(join.a), known(join.b)) {
+                    (Some(a), None) => self.place(join.b, a.after(&joint.b_to_a)),
+                    (None, Some(b)) => self.place(join.a, b.after(&joint.b_to_a.inverse())),
+                    _ => {}
+                }
+            }
+            if self.carried.len() == placed {
+                return;
+            }
+        }
+    }
+
+    fn place(&mut self, part: u16, map: Transform) {
+        if !self.carried.iter().any(|c| c.part == part) {
+            // Each join brings at most two parts, and the list has room for as many.
+            let _ = self.carried.push(Carried { part, map });
+        }
+    }
+
+    /// The way home of a joined part; none if it is at home.
+    pub fn map(&self, part: u16) -> Option<&Transform> {
+        self.carried.iter().find(|c| c.part == part).map(|c| &c.map)
+    }
+}
+
+/// The part that stands for all that seams join to `part`.
+fn group<const RUNS: usize>(labels: &Labels<RUNS>, mut part: u16) -> u16 {
+    while let Some(run) = labels.runs.get(usize::from(part)) {
+        if run.group >= part {
+            break;
+        }
+        part = run.group;
+    }
+    part
+}
+
+fn unite<const RUNS: usize>(labels: &mut Labels<RUNS>, a: u16, b: u16) {
+    let (first, second) = (group(labels, a).min(group(labels, b)), group(labels, a).max(group(labels, b)));
+    for part in [a, b] {
+        if let Some(run) = labels.runs.get_mut(usize::from(part)) {
+            run.joined = true;
+        }
+    }
+    if let Some(run) = labels.runs.get_mut(usize::from(second)) {
+        run.group = first;
+    }
+}
+
+/// What a contact weighs with everything that seams join to its first part: total, peak, area, held.
+pub(super) fn weigh<const RUNS: usize>(labels: &Labels<RUNS>, part: u16) -> (u32, u16, u16, bool) {
+    let mut sum = (0u32, 0u16, 0u16, false);
+    for (index, run) in labels.parts() {
+        if index == part || (run.joined && group(labels, index) == part) {
+            sum.0 = sum.0.wrapping_add(run.mass);
+            sum.1 = sum.1.max(run.peak);
+            sum.2 = sum.2.saturating_add(run.area);
+            sum.3 |= run.held;
+        }
+    }
+    sum
+}

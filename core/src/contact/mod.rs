@@ -1,0 +1,34 @@
+//! Contacts: what touches, where, how, since when, and where it is going.
+//!
+//! | | |
+//! |---|---|
+//! | input | [`Image`](crate::condition::Image) (counts), time of the frame |
+//! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
+//! | saturation | none in the moments; each field says its own |
+//! | latency | none; slip needs three frames |
+//! | RAM | 540 + 4 C bytes for each of C contacts, 20 per run, and 2 KB |
+//!
+//! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
+//! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
+//! one taxel of where a contact was one frame ago. A contact keeps its id from onset to release.
+//!
+//! The stage makes four passes: runs of each active row and their union ([`label`]); joins across seams
+//! ([`join`]); the choice of contacts; and the measures of the chosen ones only ([`component`]). Then
+//! they are matched to those of the last frame ([`track`]).
+
+mod axis;
+mod component;
+mod config;
+mod join;
+mod label;
+mod matching;
+mod moments;
+mod record;
+mod stage;
+mod track;
+
+pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
+pub use config::ContactConfig;
+pub use moments::{Central, Moments};
+pub use record::{Contact, Phase};
+pub use stage::{ContactState, Contacts, Touches};

@@ -1,0 +1,144 @@
+//! Exact moments of pressure (eq. 1 to 3 of the source, with coordinates from 0).
+
+use crate::garment::Transform;
+
+/// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
+///
+/// All are exact integers; what is derived from them ([`Moments::jm`], [`Moments::central`]) is exact as well wherever
+/// `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`, which `Layout::build` asserts for the full scale that it is given:
+/// give it `u16::MAX`, or keep values within what it was given. Beyond that the results wrap; nothing panics.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Moments {
+    /// sum f: mass
+    pub m: u64,
+    /// sum x f
+    pub sx: i64,
+    /// sum y f
+    pub sy: i64,
+    /// sum x^2 f
+    pub sxx: u64,
+    /// sum y^2 f
+    pub syy: u64,
+    /// sum x y f
+    pub sxy: i64,
+    /// sum f^2
+    pub s2: u64,
+}
+
+/// Second moments about the centroid, times the mass: `A = m sxx - sx^2`, `B = m syy - sy^2`, `C = m sxy - sx sy`.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Central {
+    /// along x
+    pub a: u64,
+    /// along y
+    pub b: u64,
+    /// mixed; `2 |C| <= A + B`
+    pub c: i64,
+}
+
+/// Taxels whose sums fit in 32 bits: 65535 * (1 + 3 + 6 + ... + 528) < 2^29.
+const PIECE: usize = 32;
+
+impl Moments {
+    /// Of a piece of a row whose first taxel is (x, y).
+    pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
+        let mut sum = Moments::default();
+        let mut start = x;
+        for piece in values.chunks(PIECE) {
+            sum.add(&Moments::of_piece(start, y, piece));
+            start = start.wrapping_add(PIECE as u32);
+        }
+        sum
+    }
+
+    /// At most [`PIECE`] taxels. From the last to the first, three running sums hold
+    /// `sum f`, `sum (i + 1) f` and `sum (i + 1)(i + 2) / 2 f`: no multiplication by a coordinate per taxel.
+    fn of_piece(x: u32, y: u32, values: &[u16]) -> Moments {
+        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
+        for value in values.iter().rev() {
+            let f = u32::from(*value);
+            s0 = s0.wrapping_add(f);
+            s1 = s1.wrapping_add(s0);
+            s2 = s2.wrapping_add(s1);
+            squares = squares.wrapping_add(u64::from(f * f));
+        }
+        // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1
+        let (m, first) = (u64::from(s0), u64::from(s1.wrapping_sub(s0)));
+        let second = u64::from(s2) * 2 + m - u64::from(s1) * 3;
+        let (x, y) = (u64::from(x), u64::from(y));
+        let sx = x.wrapping_mul(m).wrapping_add(first);
+        let sy = y.wrapping_mul(m);
+        Moments {
+            m,
+            sx: sx as i64,
+            sy: sy as i64,
+            // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
+            sxx: x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second),
+            syy: y.wrapping_mul(sy),
+            sxy: y.wrapping_mul(sx) as i64,
+            s2: squares,
+        }
+    }
+
+    /// Of a whole image as it stands, row by row.
+    pub fn of_image(values: &[u16], columns: usize) -> Moments {
+        let mut sum = Moments::default();
+        for (y, row) in values.chunks(columns.max(1)).enumerate() {
+            sum.add(&Moments::of_run(0, y as u32, row));
+        }
+        sum
+    }
+
+    /// Adds the moments of other taxels in the same coordinates.
+    pub const fn add(&mut self, other: &Moments) {
+        self.m = self.m.wrapping_add(other.m);
+        self.sx = self.sx.wrapping_add(other.sx);
+        self.sy = self.sy.wrapping_add(other.sy);
+        self.sxx = self.sxx.wrapping_add(other.sxx);
+        self.syy = self.syy.wrapping_add(other.syy);
+        self.sxy = self.sxy.wrapping_add(other.sxy);
+        self.s2 = self.s2.wrapping_add(other.s2);
+    }
+
+    /// The same pressure in the coordinates that `map` leads to; exact.
+    pub fn transform(&self, map: &Transform) -> Moments {
+        let times = |a: i32, b: i32, v: i64| (i64::from(a) * i64::from(b)).wrapping_mul(v);
+        let sum = |terms: [i64; 3]| terms.into_iter().fold(0, i64::wrapping_add);
+        let (m, sxx, syy) = (self.m as i64, self.sxx as i64, self.syy as i64);
+        let Transform { xx, xy, yx, yy, dx, dy } = *map;
+        // The quarter turn or reflection first,
+        let x = sum([times(xx, 1, self.sx), times(xy, 1, self.sy), 0]);
+        let y = sum([times(yx, 1, self.sx), times(yy, 1, self.sy), 0]);
+        let x_x = sum([times(xx, xx, sxx), times(2 * xx, xy, self.sxy), times(xy, xy, syy)]);
+        let y_y = sum([times(yx, yx, sxx), times(2 * yx, yy, self.sxy), times(yy, yy, syy)]);
+        let mixed = times(xx, yy, self.sxy).wrapping_add(times(xy, yx, self.sxy));
+        let x_y = sum([times(xx, yx, sxx), mixed, times(xy, yy, syy)]);
+        // then the shift.
+        Moments {
+            m: self.m,
+            sx: x.wrapping_add(times(dx, 1, m)),
+            sy: y.wrapping_add(times(dy, 1, m)),
+            sxx: sum([x_x, times(2, dx, x), times(dx, dx, m)]) as u64,
+            syy: sum([y_y, times(2, dy, y), times(dy, dy, m)]) as u64,
+            sxy: sum([x_y, times(dx, 1, y).wrapping_add(times(dy, 1, x)), times(dx, dy, m)]),
+            s2: self.s2,
+        }
+    }
+
+    /// `J m = m (sxx + syy) - sx^2 - sy^2`: the moment of inertia about the centroid (eq. 3) times the mass. Every step
+    /// wraps, and the result is exact because it fits.
+    pub const fn jm(&self) -> u64 {
+        let central = self.central();
+        central.a.wrapping_add(central.b)
+    }
+
+    /// Second moments about the centroid.
+    pub const fn central(&self) -> Central {
+        let (m, sx, sy) = (self.m, self.sx as u64, self.sy as u64);
+        Central {
+            a: m.wrapping_mul(self.sxx).wrapping_sub(sx.wrapping_mul(sx)),
+            b: m.wrapping_mul(self.syy).wrapping_sub(sy.wrapping_mul(sy)),
+            c: m.wrapping_mul(self.sxy as u64).wrapping_sub(sx.wrapping_mul(sy)) as i64,
+        }
+    }
+}

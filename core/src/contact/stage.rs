@@ -1,0 +1,124 @@
+//! The stage.
+
+use super::component::Components;
+use super::config::ContactConfig;
+use super::join::Joins;
+use super::label::Labels;
+use super::matching::Matching;
+use super::moments::Moments;
+use super::record::Contact;
+use super::track::Tracks;
+use crate::condition::{Feedback, Image};
+use crate::format::Micros;
+use crate::garment::Layout;
+
+/// Finds and follows contacts; see the [module](super).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Contacts {
+    config: ContactConfig,
+}
+
+/// What the stage remembers, and its work space, for at most CONTACTS contacts and RUNS runs of a row (65534). Half as many runs
+/// as taxels always suffice.
+#[derive(Debug, Clone)]
+pub struct ContactState<const CONTACTS: usize, const RUNS: usize> {
+    labels: Labels<RUNS>,
+    joins: Joins,
+    components: Components<CONTACTS>,
+    matching: Matching<CONTACTS>,
+    tracks: Tracks<CONTACTS>,
+    feedback: Feedback<CONTACTS>,
+}
+
+/// The contacts of a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Touches<'a> {
+    /// Those present, in the order of their onset.
+    pub present: &'a [Contact],
+    /// Their moments, in the same order, in the frame of the home panel.
+    pub moments: &'a [Moments],
+    /// Those that have gone since the last frame.
+    pub released: &'a [Contact],
+    /// Contacts that did not fit into this frame: those with the smallest totals.
+    pub dropped: u16,
+    /// Runs and joins across seams that did not fit: parts of contacts may be missing or apart.
+    pub overflow: u16,
+}
+
+impl<const CONTACTS: usize, const RUNS: usize> ContactState<CONTACTS, RUNS> {
+    /// Nothing touches; the next id is 1.
+    pub const fn new() -> Self {
+        ContactState {
+            labels: Labels::new(),
+            joins: Joins::new(),
+            components: Components::new(),
+            matching: Matching::new(),
+            tracks: Tracks::new(),
+            feedback: Feedback::new(),
+        }
+    }
+
+    /// Forgets all contacts without a release, as for another garment; ids go on.
+    pub fn reset(&mut self) {
+        self.labels.runs.clear();
+        self.tracks.clear();
+        self.feedback = Feedback::new();
+    }
+
+    /// What the next frame's conditioning is to be told.
+    pub fn feedback(&self) -> &Feedback<CONTACTS> {
+        &self.feedback
+    }
+
+    /// Index in [`Touches::present`] of the contact that a taxel belongs to, in the last frame.
+    pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
+        let area = layout.areas().get(usize::from(place.panel))?;
+        self.tracks.index_of(self.labels.contact_at(area, place.row, place.column)?)
+    }
+}
+
+impl<const CONTACTS: usize, const RUNS: usize> Default for ContactState<CONTACTS, RUNS> {
+    fn default() -> Self {
+        ContactState::new()
+    }
+}
+
+impl Contacts {
+    pub(super) const fn new(config: ContactConfig) -> Contacts {
+        Contacts { config }
+    }
+
+    /// The settings.
+    pub const fn config(&self) -> &ContactConfig {
+        &self.config
+    }
+
+    /// Takes in one frame that was scanned at `now`.
+    pub fn process<'a, const CONTACTS: usize, const RUNS: usize>(
+        &self,
+        state: &'a mut ContactState<CONTACTS, RUNS>,
+        layout: &Layout,
+        image: &Image,
+        now: Micros,
+    ) -> Touches<'a> {
+        let low = self.config.low;
+        let ContactState { labels, joins, components, matching, tracks, feedback } = state;
+        labels.scan(layout, image, low, feedback);
+        labels.flatten();
+        joins.find(labels, layout, image, low);
+        components.select(&self.config, labels);
+        components.number(labels);
+        components.measure(labels, joins, layout, image, low);
+        components.feed_back(feedback);
+        matching.assign(&self.config, tracks, &components.list, layout, now);
+        tracks.merge(labels, layout);
+        tracks.update(&self.config, &components.list, layout, now);
+        Touches {
+            present: tracks.contacts(),
+            moments: tracks.moments(),
+            released: tracks.released(),
+            dropped: components.dropped,
+            overflow: labels.overflow.saturating_add(joins.overflow),
+        }
+    }
+}

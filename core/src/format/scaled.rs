@@ -1,0 +1,195 @@
+//! A small unsigned soft float, for the few numbers of a contact that need range as well as precision.
+//!
+//! | operation | relative error, at most |
+//! |---|---|
+//! | [`Scaled::from_u64`] | 2^-32 (0 below 2^32) |
+//! | [`Scaled::times`] | 2^-32 |
+//! | [`Scaled::over`] | 2^-31 |
+//! | [`Scaled::sqrt`] | 2^-31 |
+//!
+//! The exponent saturates; the values of the core stay within 2^-130 ..= 2^130.
+
+use super::{Fixed24, Q15};
+
+/// `mantissa * 2^exponent`, with bit 31 of the mantissa set, or zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Scaled {
+    mantissa: u32,
+    exponent: i16,
+}
+
+const TOP: u32 = 1 << 31;
+
+impl Scaled {
+    /// Zero.
+    pub const ZERO: Scaled = Scaled { mantissa: 0, exponent: 0 };
+    /// The largest value; what a division by zero gives.
+    pub const MAX: Scaled = Scaled { mantissa: u32::MAX, exponent: i16::MAX };
+
+    /// Rounded to the nearest.
+    pub const fn from_u64(value: u64) -> Scaled {
+        Scaled::rounded(value, 0)
+    }
+
+    /// `value * 2^exponent`, rounded to 32 bits.
+    const fn rounded(value: u64, exponent: i16) -> Scaled {
+        if value == 0 {
+            return Scaled::ZERO;
+        }
+        let up = value.leading_zeros();
+        let full = value << up;
+        let exponent = exponent.saturating_add(32 - up as i16);
+        match full.checked_add(1 << 31) {
+            Some(sum) => Scaled { mantissa: (sum >> 32) as u32, exponent },
+            // It rounds up to the next power of two.
+            None => Scaled { mantissa: TOP, exponent: exponent.saturating_add(1) },
+        }
+    }
+
+    /// Product.
+    pub const fn times(self, other: Scaled) -> Scaled {
+        let product = self.mantissa as u64 * other.mantissa as u64;
+        Scaled::rounded(product, self.exponent.saturating_add(other.exponent))
+    }
+
+    /// Quotient; [`Scaled::MAX`] where `other` is zero.
+    pub const fn over(self, other: Scaled) -> Scaled {
+        if other.mantissa == 0 {
+            return Scaled::MAX;
+        }
+        let divisor = other.mantissa as u64;
+        // At most (2^32 - 1) 2^32 + 2^31 - 1: it fits. The quotient has 32 or 33 bits.
+        let quotient = (((self.mantissa as u64) << 32) + divisor / 2) / divisor;
+        Scaled::rounded(quotient, self.exponent.saturating_sub(other.exponent).saturating_sub(32))
+    }
+
+    /// Square root.
+    pub const fn sqrt(self) -> Scaled {
+        // A radicand of 63 or 64 bits above an even exponent: the root has 32 bits.
+        let odd = self.exponent & 1;
+        let radicand = (self.mantissa as u64) << (32 - odd as u32);
+        let exponent = self.exponent.saturating_sub(32 - odd) / 2;
+        let root = radicand.isqrt();
+        let up = (radicand - root * root > root) as u64;
+        Scaled::rounded(root + up, exponent)
+    }
+
+    /// `self * 2^exponent`, exactly.
+    pub const fn shifted(self, exponent: i16) -> Scaled {
+        if self.mantissa == 0 {
+            return self;
+        }
+        Scaled { exponent: self.exponent.saturating_add(exponent), ..self }
+    }
+
+    /// Cut to a multiple of `2^-bits` and returned in that unit; saturates at `u64::MAX`.
+    pub const fn to_wide(self, bits: i16) -> u64 {
+        match self.exponent.saturating_add(bits) {
+            _ if self.mantissa == 0 => 0,
+            up @ 0..=32 => (self.mantissa as u64) << up,
+            down @ -31..0 => self.mantissa as u64 >> -down,
+            up if up > 0 => u64::MAX,
+            _ => 0,
+        }
+    }
+
+    /// Rounded to a multiple of `2^-bits` and returned in that unit; saturates at `u32::MAX`.
+    pub const fn to_fixed(self, bits: i16) -> u32 {
+        if self.mantissa == 0 {
+            return 0;
+        }
+        let up = self.exponent.saturating_add(bits);
+        if up > 0 {
+            return u32::MAX;
+        }
+        let down = up.unsigned_abs() as u32;
+        if down > 32 {
+            return 0;
+        }
+        let wide = (self.mantissa as u64) << 1 >> down;
+        let rounded = (wide + 1) >> 1;
+        if rounded > u32::MAX as u64 { u32::MAX } else { rounded as u32 }
+    }
+
+    /// As Q8.24, rounded to the nearest; saturates just below 256.
+    pub const fn to_fixed24(self) -> Fixed24 {
+        Fixed24(self.to_fixed(24))
+    }
+
+    /// As Q15, rounded to the nearest; saturates at `i32::MAX`.
+    pub const fn to_q15(self) -> Q15 {
+        let raw = self.to_fixed(15);
+        Q15(if raw > i32::MAX as u32 { i32::MAX } else { raw as i32 })
+    }
+
+    /// As a float, exactly (within the range of an `f64`).
+    pub fn to_f64(self) -> f64 {
+        let step = if self.exponent < 0 { 0.5 } else { 2.0 };
+        (0..self.exponent.unsigned_abs()).fold(f64::from(self.mantissa), |value, _| value * step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    /// Wide values of all magnitudes, from a small generator.
+    fn values() -> impl Iterator<Item = u64> {
+        let edges = [1, 2, 3, (1 << 32) - 1, 1 << 32, (1 << 32) + 1, u64::MAX, u64::MAX - 1, 1 << 63];
+        let mut state = 1u64;
+        edges.into_iter().chain((0..3000u32).map(move |i| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state ^ state >> 29).max(1) >> (i % 64)
+        }))
+    }
+
+    fn close(have: Scaled, want: f64, bits: i32) {
+        let error = (have.to_f64() / want - 1.0).abs();
+        // 2^-52 for the reference itself.
+        assert!(error <= 2f64.powi(bits) + 4.0 * 2f64.powi(-52), "{have:?} {want} {error:e}");
+    }
+
+    #[test]
+    fn errors_are_as_documented() {
+        let mut last = 1u64;
+        for value in values().filter(|v| *v > 0) {
+            let (a, b) = (Scaled::from_u64(value), Scaled::from_u64(last));
+            close(a, value as f64, -32);
+            if value < 1 << 32 {
+                assert_eq!(a.to_f64(), value as f64);
+            }
+            close(a.times(b), a.to_f64() * b.to_f64(), -32);
+            close(a.over(b), a.to_f64() / b.to_f64(), -31);
+            close(a.sqrt(), a.to_f64().sqrt(), -31);
+            close(a.over(b).sqrt(), a.over(b).to_f64().sqrt(), -31);
+            last = value;
+        }
+        assert_eq!(Scaled::from_u64(3).over(Scaled::ZERO), Scaled::MAX);
+        assert_eq!(Scaled::from_u64(0), Scaled::ZERO);
+        assert_eq!(Scaled::ZERO.sqrt(), Scaled::ZERO);
+    }
+
+    #[test]
+    fn fixed_point_is_rounded_to_nearest_and_saturates() {
+        let third = Scaled::from_u64(1).over(Scaled::from_u64(3));
+        assert_eq!(third.to_q15(), Q15(10923));
+        assert_eq!(third.to_fixed24(), Fixed24(5_592_405));
+        assert_eq!(Scaled::from_u64(256).to_fixed24(), Fixed24(u32::MAX));
+        assert_eq!(Scaled::from_u64(255).to_fixed24(), Fixed24(255 << 24));
+        assert_eq!(Scaled::from_u64(u64::MAX).to_q15(), Q15(i32::MAX));
+        assert_eq!(Scaled::from_u64(0xffff_ffff).to_fixed(0), u32::MAX);
+        // 2^-25 is half a step of Q8.24 and rounds up, less does not.
+        assert_eq!(Scaled::from_u64(1).over(Scaled::from_u64(1 << 25)).to_fixed24(), Fixed24(1));
+        assert_eq!(Scaled::from_u64(1).over(Scaled::from_u64((1 << 25) + 1)).to_fixed24(), Fixed24(0));
+        assert_eq!(Scaled::from_u64(3).shifted(62).to_wide(1), u64::MAX);
+        assert_eq!(Scaled::from_u64(3).shifted(-1).to_wide(0), 1);
+        assert_eq!(Scaled::from_u64(3).shifted(60).to_wide(2), 3 << 62);
+        assert_eq!(Scaled::from_u64(3).shifted(-40).to_wide(2), 0);
+        for value in values() {
+            let scaled = Scaled::from_u64(value).over(Scaled::from_u64(1 << 40));
+            let error = f64::from(scaled.to_fixed(8)) - (scaled.to_f64() * 256.0).min(u32::MAX.into());
+            assert!(error.abs() <= 0.5);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What the author of a map writes, in decimal steps: the form that travels in a scene.
+
+use super::input::Input;
+use super::transfer::Transfer;
+use crate::format::Name;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Concepts of a map on the board, unless a type says otherwise.
+pub const CONCEPTS: usize = 16;
+/// Edges of a map on the board, unless a type says otherwise.
+pub const EDGES: usize = 64;
+/// The finest decimal step is 10^-4: products of weight and state then fit 32 bits.
+pub const DECIMALS: u8 = 4;
+
+/// What is summed for a concept. Variants are only appended.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rule {
+    /// Its causes only: z_j = sum W\[i\]\[j\] x_i.
+    #[default]
+    Kosko,
+    /// Its causes and itself: z_j = sum W\[i\]\[j\] x_i + x_j.
+    #[serde(alias = "mKosko")]
+    Mkosko,
+    /// As mkosko with 2 x - 1 in the place of every x, so that an activation of 1/2 means "not known".
+    Rescaled,
+}
+
+/// One causal edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edge {
+    /// Index of the cause.
+    pub from: u8,
+    /// Index of the effect.
+    pub to: u8,
+    /// Causality value in decimal steps, -1 ..= 1.
+    pub weight: i16,
+}
+
+/// A threshold that one concept has for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Threshold {
+    /// Index of the concept.
+    pub concept: u8,
+    /// T in decimal steps, -1 ..= 1.
+    pub value: i16,
+}
+
+/// A map as written by its author. A "step" is 10^-`decimals`.
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
+    /// What the map is called.
+    pub name: Name,
+    /// Names of the concepts, all different; their order is the order of every state.
+    pub concepts: Vec<Name, N>,
+    /// The decimal step is 10^-decimals, 0 ..= 4.
+    pub decimals: u8,
+    /// Causal edges, each pair once.
+    pub edges: Vec<Edge, E>,
+    /// What is summed.
+    pub rule: Rule,
+    /// What the sum becomes.
+    pub transfer: Transfer,
+    /// Steepness of the smooth transfer functions in 1/1000, not 0; without effect on the others.
+    pub lambda: u16,
+    /// T of every concept, in steps, -1 ..= 1.
+    pub threshold: i16,
+    /// T of single concepts, in the place of `threshold`.
+    pub thresholds: Vec<Threshold, N>,
+    /// Whether concepts without an incoming edge keep their value (usual) or follow the rule like the others.
+    pub held: bool,
+    /// Which concepts are fed from the touch or the host, and how.
+    pub inputs: Vec<Input, N>,
+}

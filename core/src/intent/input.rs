@@ -1,0 +1,192 @@
+//! Inputs: how a touch, or a value from the host, becomes the activation of a concept.
+//!
+//! A ramp: `at_low` up to `low`, `at_high` from `high` on, and a straight line between. The result is rounded to the
+//! nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source that
+//! describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
+
+use super::error::MapError;
+use super::map::Map;
+use crate::format::{Name, Q15};
+use core::num::NonZeroU32;
+use serde::{Deserialize, Serialize};
+
+/// What is known of one touch when its meaning is asked for.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Touch {
+    /// Total pressure in counts: the peak over the touch so far, because a lash is judged by its peak. It therefore
+    /// never falls while the touch lasts.
+    pub press: u32,
+    /// Equivalent width of the contact across its major axis, in 0.1 mm.
+    pub breadth: u32,
+    /// Friendliness of the region touched, in percent, -100 ..= 100.
+    pub friendliness: i8,
+    /// Time since the onset, in ms; it stops at the release.
+    pub duration_ms: u32,
+    /// Speed of the contact over the surface, in 0.1 mm/s.
+    pub speed: u32,
+}
+
+/// Where an input concept takes its value from. Variants are only appended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// [`Touch::press`], counts.
+    Press,
+    /// [`Touch::breadth`], 0.1 mm: the concept *shape*, narrow to broad.
+    Breadth,
+    /// [`Touch::friendliness`], percent: the concept *location*.
+    Friendliness,
+    /// [`Touch::duration_ms`], ms: the concept *time*.
+    Duration,
+    /// [`Touch::speed`], 0.1 mm/s.
+    Speed,
+    /// A value that the host feeds into this slot, Q15 (1.0 = 32768); 0 until it does.
+    Host(u8),
+}
+
+/// One input of a map. The ramp may fall (`at_high` below `at_low`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// Index of the concept; it must not have an incoming edge.
+    pub concept: u8,
+    /// Where the value comes from.
+    pub source: Source,
+    /// Start of the ramp, in the unit of the source.
+    pub low: i32,
+    /// End of the ramp, above `low`.
+    pub high: i32,
+    /// Activation up to `low`, in decimal steps of the map, -1 ..= 1.
+    pub at_low: i16,
+    /// Activation from `high` on, in decimal steps of the map, -1 ..= 1.
+    pub at_high: i16,
+}
+
+/// An [`Input`] with its ramp in units of the state.
+#[derive(Debug, Clone)]
+pub(crate) struct Encoder {
+    pub concept: u8,
+    pub source: Source,
+    low: i32,
+    high: i32,
+    /// `high - low`
+    span: NonZeroU32,
+    at_low: i32,
+    at_high: i32,
+}
+
+impl Encoder {
+    pub(crate) fn build(input: &Input, concept: &Name, decimals: u8, one: i32) -> Result<Encoder, MapError> {
+        let range = MapError::InputRange { concept: concept.clone(), low: input.low, high: input.high };
+        if input.low >= input.high {
+            return Err(range);
+        }
+        let span = NonZeroU32::new(input.high.abs_diff(input.low)).ok_or(range)?;
+        let step = 10i64.pow(decimals.into());
+        let value = |steps: i16| -> Result<i32, MapError> {
+            if i64::from(steps).abs() > step {
+                return Err(MapError::InputValue { concept: concept.clone(), value: steps, decimals });
+            }
+            // Half away from zero, so that +-0.3 become +-9830 both.
+            let twice = 2 * i64::from(steps) * i64::from(one) + i64::from(steps.signum()) * step;
+            Ok(twice.checked_div(2 * step).unwrap_or(0) as i32)
+        };
+        let (at_low, at_high) = (value(input.at_low)?, value(input.at_high)?);
+        Ok(Encoder {
+            concept: input.concept,
+            source: input.source,
+            low: input.low,
+            high: input.high,
+            span,
+            at_low,
+            at_high,
+        })
+    }
+
+    /// The ramp at `value`. Total.
+    fn ramp(&self, value: i32) -> i32 {
+        let value = value.max(self.low).min(self.high);
+        // Always from the smaller end upwards, in unsigned numbers: halves round upwards on both slopes.
+        let (base, run) = if self.at_high >= self.at_low {
+            (self.at_low, value.abs_diff(self.low))
+        } else {
+            (self.at_high, self.high.abs_diff(value))
+        };
+        // run <= span < 2^32 and rise <= 2^16: the product fits 49 bits.
+        let product =
+            u64::from(run) * u64::from(self.at_high.abs_diff(self.at_low)) + u64::from(self.span.get() / 2);
+        let rise = match u32::try_from(product) {
+            Ok(product) => product / self.span, // the usual case, and four times cheaper on a Cortex-M0+
+            Err(_) => (product / core::num::NonZeroU64::from(self.span)) as u32,
+        };
+        base.saturating_add_unsigned(rise)
+    }
+}
+
+impl<const N: usize> Map<N> {
+    /// The start of an inference: each input concept encoded, every other concept 0. `host` holds the values the host
+    /// feeds, by slot. Total.
+    pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
+        let mut state = [0; N];
+        for input in &self.inputs {
+            let measured =
+                |pick: fn(&Touch) -> u32| touch.map(|t| i32::try_from(pick(t)).unwrap_or(i32::MAX));
+            let value = match input.source {
+                Source::Press => measured(|t| t.press),
+                Source::Breadth => measured(|t| t.breadth),
+                Source::Friendliness => touch.map(|t| t.friendliness.into()),
+                Source::Duration => measured(|t| t.duration_ms),
+                Source::Speed => measured(|t| t.speed),
+                Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
+            };
+            if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {
+                *out = input.ramp(value);
+            }
+        }
+        state
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::name;
+
+    fn encoder(low: i32, high: i32, at_low: i16, at_high: i16, one: i32) -> Encoder {
+        let input = Input { concept: 0, source: Source::Press, low, high, at_low, at_high };
+        Encoder::build(&input, &name("press"), 1, one).unwrap()
+    }
+
+    #[test]
+    fn ramps_are_exact_at_their_ends_and_rounded_to_nearest_between() {
+        for (low, high, a, b) in
+            [(0, 12_000, 0, 10), (200, 600, -10, 10), (-100, 100, 10, -10), (i32::MIN, i32::MAX, -10, 10)]
+        {
+            let e = encoder(low, high, a, b, 32768);
+            let exact = |v: i32| {
+                let at = (f64::from(v) - f64::from(low)) / (f64::from(high) - f64::from(low));
+                32768.0 * (f64::from(a) + at * f64::from(b - a)) / 10.0
+            };
+            assert_eq!((e.ramp(low), e.ramp(high)), (i32::from(a) * 32768 / 10, i32::from(b) * 32768 / 10));
+            assert_eq!((e.ramp(i32::MIN), e.ramp(i32::MAX)), (e.ramp(low), e.ramp(high)));
+            let span = high.abs_diff(low);
+            for k in 0..1000u32 {
+                let v = low.wrapping_add_unsigned((u64::from(span) * u64::from(k) / 1000) as u32);
+                assert!((f64::from(e.ramp(v)) - exact(v)).abs() <= 0.5001, "{low} {high} at {v}");
+            }
+        }
+    }
+
+    #[test]
+    fn halves_round_upwards_on_both_slopes() {
+        let (rising, falling) = (encoder(0, 2, 0, 1, 10), encoder(0, 2, 1, 0, 10));
+        assert_eq!((rising.ramp(1), falling.ramp(1)), (1, 1));
+        assert_eq!(encoder(0, 2, -1, 0, 10).ramp(1), 0);
+    }
+
+    #[test]
+    fn decimal_ends_round_alike_on_both_sides_of_zero() {
+        let e = encoder(0, 1, -3, 3, 32768);
+        assert_eq!((e.ramp(0), e.ramp(1)), (-9830, 9830));
+    }
+}

@@ -1,0 +1,28 @@
+//! Intent: what a touch means, by a fuzzy cognitive map over what was measured of it.
+//!
+//! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer functions, [`infer`] the inference, [`input`] the
+//! encoding of a touch, [`stage`] the decision with its debounce, [`why`] the reason for it, [`tactile`] the map that
+//! ships.
+
+pub mod config;
+pub mod error;
+pub mod infer;
+pub mod input;
+pub mod map;
+pub mod stage;
+pub mod tactile;
+pub mod transfer;
+pub mod why;
+
+pub use config::{CONCEPTS, EDGES, Edge, MapConfig, Rule, Threshold};
+pub use error::MapError;
+pub use infer::{Inference, Outcome};
+pub use input::{Input, Source, Touch};
+pub use map::Map;
+pub use stage::{Intent, IntentConfig, IntentState, Leading, Meaning};
+pub use tactile::{PRESS_PER_NEWTON, tactile};
+pub use transfer::Transfer;
+pub use why::{Part, Why};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,280 @@
+//! The stage: which touch counts, when to infer, and when a leading intention has lasted long enough to be announced.
+//!
+//! | | |
+//! |---|---|
+//! | input | [`Touch`]es of this frame, values of the host, the time |
+//! | output | [`Meaning`], when there is a new one |
+//! | saturation | as [`Map::encode`] and [`Map::infer`] |
+//! | latency | `onset_ms` from the first inference in favour of an intention |
+//! | RAM | [`IntentState`]: 4 N bytes twice and about 80 |
+//! | M0+ cycles | about 300 without a change of inputs; else one inference |
+
+use super::config::{CONCEPTS, EDGES, MapConfig};
+use super::error::MapError;
+use super::infer::{Inference, Outcome};
+use super::input::Touch;
+use super::map::Map;
+use super::why::Why;
+use crate::format::{Micros, Q15};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// What the stage is to do.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
+    /// The map.
+    pub map: MapConfig<N, E>,
+    /// Time that an intention must lead before it is announced, in ms.
+    pub onset_ms: u16,
+    /// Activation from which an intention may lead, in thousandths.
+    pub level: u16,
+    /// Lead over the other two that it needs, in thousandths.
+    pub margin: u16,
+    /// Time after the release for which the touch still counts, in ms.
+    pub hold_ms: u16,
+    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited for.
+    pub period_ms: u16,
+    /// Largest number of steps of an inference.
+    pub steps: u16,
+}
+
+impl<const N: usize, const E: usize> IntentConfig<N, E> {
+    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 50 ms period, 16 steps.
+    pub fn new(map: MapConfig<N, E>) -> Self {
+        IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 50, steps: 16 }
+    }
+}
+
+/// The intention that leads. Variants are only appended.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Leading {
+    /// None of the three clearly.
+    #[default]
+    None,
+    /// The concept *kindness*.
+    Kindness,
+    /// The concept *threat*.
+    Threat,
+    /// The concept *attack*.
+    Attack,
+}
+
+impl Leading {
+    /// The three intentions, in the order in which the stage keeps them.
+    pub const INTENTIONS: [Leading; 3] = [Leading::Kindness, Leading::Threat, Leading::Attack];
+
+    /// The word for it, which is also the name of its concept.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Leading::None => "none",
+            Leading::Kindness => "kindness",
+            Leading::Threat => "threat",
+            Leading::Attack => "attack",
+        }
+    }
+}
+
+/// A new result: after every inference, and when the announced intention changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meaning<const N: usize = CONCEPTS> {
+    /// The announced intention.
+    pub leading: Leading,
+    /// Whether `leading` is new with this result.
+    pub changed: bool,
+    /// Activation of every concept of the map, in its order.
+    pub activations: Vec<Q15, N>,
+    /// Steps of the inference.
+    pub steps: u16,
+    /// How the inference ended.
+    pub outcome: Outcome,
+}
+
+/// What the stage remembers between frames.
+#[derive(Debug, Clone)]
+pub struct IntentState<const N: usize = CONCEPTS> {
+    touch: Option<Touch>,
+    released: Option<Micros>,
+    inputs: [i32; N],
+    inference: Inference<N>,
+    inferred: Option<Micros>,
+    candidate: Leading,
+    since: Micros,
+    leading: Leading,
+}
+
+impl<const N: usize> Default for IntentState<N> {
+    fn default() -> Self {
+        IntentState {
+            touch: None,
+            released: None,
+            inputs: [0; N],
+            inference: Inference { state: [0; N], steps: 0, outcome: Outcome::Fixed },
+            inferred: None,
+            candidate: Leading::None,
+            since: Micros(0),
+            leading: Leading::None,
+        }
+    }
+}
+
+impl<const N: usize> IntentState<N> {
+    /// The announced intention.
+    pub fn leading(&self) -> Leading {
+        self.leading
+    }
+}
+
+/// The checked stage.
+#[derive(Debug, Clone)]
+pub struct Intent<const N: usize = CONCEPTS> {
+    map: Map<N>,
+    /// Indices of kindness, threat and attack.
+    intentions: [Option<usize>; 3],
+    /// In units of the state.
+    level: i32,
+    margin: i32,
+    onset_us: u64,
+    hold_us: u64,
+    period_us: u64,
+    steps: u16,
+}
+
+impl<const N: usize> Intent<N> {
+    /// Checks `config` and prepares it.
+    pub fn build<const C: usize, const E: usize>(config: &IntentConfig<C, E>) -> Result<Self, MapError> {
+        let map = Map::build(&config.map)?;
+        let intentions = Leading::INTENTIONS.map(|leading| map.find(leading.as_str()));
+        if intentions.iter().all(Option::is_none) {
+            return Err(MapError::NoIntention);
+        }
+        if config.steps == 0 {
+            return Err(MapError::NoSteps);
+        }
+        let fraction = |parameter, thousandths: u16| match thousandths {
+            0..=1000 => Ok((i32::from(thousandths) * map.one() + 500) / 1000),
+            _ => Err(MapError::Fraction { parameter, thousandths }),
+        };
+        Ok(Intent {
+            level: fraction("level", config.level)?,
+            margin: fraction("margin", config.margin)?,
+            onset_us: 1000 * u64::from(config.onset_ms),
+            hold_us: 1000 * u64::from(config.hold_ms),
+            period_us: 1000 * u64::from(config.period_ms),
+            steps: config.steps,
+            intentions,
+            map,
+        })
+    }
+
+    /// The map.
+    pub fn map(&self) -> &Map<N> {
+        &self.map
+    }
+
+    /// Takes the touches of one frame. Of several, the one with the greatest press counts; a released one counts on
+    /// for `hold_ms`, also beside weaker ones that still last. `host` holds the values the host feeds, by slot.
+    ///
+    /// The inference starts from the inputs alone, not from its last result: one touch has one meaning, whatever was
+    /// before. It runs only when the inputs have changed. Total.
+    pub fn process(
+        &self,
+        state: &mut IntentState<N>,
+        touches: &[Touch],
+        host: &[Q15],
+        now: Micros,
+    ) -> Option<Meaning<N>> {
+        let edge = self.select(state, touches, now);
+        let inferred = self.refresh(state, host, edge, now);
+        let changed = self.debounce(state, now);
+        if !inferred && !changed {
+            return None;
+        }
+        let mut activations = Vec::new();
+        for value in state.inference.state.iter().take(self.map.len()) {
+            // N values of N. (`collect` would check that with a panic.)
+            let _ = activations.push(self.map.q15(*value));
+        }
+        let Inference { steps, outcome, .. } = state.inference;
+        Some(Meaning { leading: state.leading, changed, activations, steps, outcome })
+    }
+
+    /// What each cause contributed to the announced intention; none while there is none.
+    pub fn why(&self, state: &IntentState<N>) -> Option<Why<N>> {
+        let at = Leading::INTENTIONS.iter().position(|leading| *leading == state.leading)?;
+        self.map.why(&state.inference.state, (*self.intentions.get(at)?)?)
+    }
+
+    /// Chooses the touch that counts; true if a touch begins or ceases to count.
+    ///
+    /// A touch has no id here. Its press is a peak and never falls, so the touch that counted has been released
+    /// exactly when all present ones are weaker.
+    fn select(&self, state: &mut IntentState<N>, touches: &[Touch], now: Micros) -> bool {
+        let before = state.touch.is_some();
+        let strongest = touches.iter().reduce(|best, t| if t.press > best.press { t } else { best }).copied();
+        match (state.touch, strongest) {
+            (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
+                (state.touch, state.released) = (Some(present), None);
+            }
+            (Some(_), present) => {
+                let released = *state.released.get_or_insert(now);
+                if now.since(released) >= self.hold_us {
+                    (state.touch, state.released) = (present, None);
+                }
+            }
+            (None, _) => {}
+        }
+        state.touch.is_some() != before
+    }
+
+    /// Infers if the inputs have changed and the period is over; true if it did.
+    fn refresh(&self, state: &mut IntentState<N>, host: &[Q15], edge: bool, now: Micros) -> bool {
+        let inputs = self.map.encode(state.touch.as_ref(), host);
+        let due = state.inferred.is_none_or(|last| edge || now.since(last) >= self.period_us);
+        if !due || (inputs == state.inputs && state.inferred.is_some()) {
+            return false;
+        }
+        state.inference = self.map.infer(&inputs, self.steps);
+        state.inputs = inputs;
+        state.inferred = Some(now);
+        true
+    }
+
+    /// Announces what has led for `onset_ms`; true if that is new.
+    fn debounce(&self, state: &mut IntentState<N>, now: Micros) -> bool {
+        let candidate = self.candidate(state);
+        if candidate != state.candidate {
+            (state.candidate, state.since) = (candidate, now);
+        }
+        let lasted = now.since(state.since) >= self.onset_us;
+        let changed = lasted && candidate != state.leading;
+        if changed {
+            state.leading = candidate;
+        }
+        changed
+    }
+
+    /// The intention that reaches the level and leads by the margin. The announced one keeps its place with one
+    /// margin less of both, so that a value on the edge does not flicker.
+    fn candidate(&self, state: &IntentState<N>) -> Leading {
+        let value = |at: &Option<usize>| at.and_then(|at| state.inference.state.get(at).copied());
+        for (at, leading) in self.intentions.iter().zip(Leading::INTENTIONS) {
+            let Some(own) = value(at) else { continue };
+            let others = self
+                .intentions
+                .iter()
+                .filter(|other| *other != at)
+                .filter_map(value)
+                .max()
+                .unwrap_or(i32::MIN);
+            let bonus = if leading == state.leading { self.margin } else { 0 };
+            if own + bonus >= self.level
+                && i64::from(own) - i64::from(others) >= i64::from(self.margin - bonus)
+            {
+                return leading;
+            }
+        }
+        Leading::None
+    }
+}

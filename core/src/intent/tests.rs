@@ -1,0 +1,315 @@
+//! The stage as a whole: the shipped map on typical touches, the checks of a configuration, the debounce.
+
+extern crate std;
+
+use super::*;
+use crate::format::{Micros, Q15, name};
+use std::string::ToString;
+use std::vec::Vec as List;
+use std::{format, println};
+
+fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8) -> Touch {
+    Touch {
+        press: (newton * f64::from(PRESS_PER_NEWTON)) as u32,
+        breadth: (mm * 10.0) as u32,
+        friendliness,
+        duration_ms: ms,
+        speed: 0,
+    }
+}
+
+/// kindness, threat, attack of a touch, and the steps of the inference.
+fn judged(map: &Map, touch: &Touch) -> ([f64; 3], u16) {
+    let run = map.infer(&map.encode(Some(touch), &[]), 16);
+    assert_eq!(run.outcome, Outcome::Fixed);
+    (Leading::INTENTIONS.map(|i| map.q15(run.state[map.find(i.as_str()).unwrap()]).to_f64()), run.steps)
+}
+
+/// The smallest lead of `intention` over the other two, and the smallest activation, over a grid of touches.
+fn worst(intention: usize, newtons: &[f64], widths: &[f64], times: &[u32], places: &[i8]) -> (f64, f64) {
+    let map = Map::build(&tactile()).unwrap();
+    let (mut lead, mut level) = (f64::MAX, f64::MAX);
+    for newton in newtons {
+        for mm in widths {
+            for ms in times {
+                for place in places {
+                    let (values, _) = judged(&map, &touch(*newton, *mm, *ms, *place));
+                    let own = values[intention];
+                    let others =
+                        (0..3).filter(|i| *i != intention).map(|i| values[i]).fold(f64::MIN, f64::max);
+                    (lead, level) = (lead.min(own - others), level.min(own));
+                }
+            }
+        }
+    }
+    (lead, level)
+}
+
+const PLACES: [i8; 5] = [-20, 0, 30, 50, 80];
+
+#[test]
+fn typical_touches_have_their_meaning() {
+    let short = [20, 40, 80, 120];
+    for (label, intention, newtons, widths, times) in [
+        ("pat", 0, &[2.0, 5.0, 10.0, 15.0][..], &[54.0, 60.0, 90.0][..], &[100, 200, 400][..]),
+        ("stroke", 0, &[2.0, 4.0, 6.0], &[42.0, 50.0, 80.0], &[1000, 2000]),
+        ("hold", 1, &[40.0, 60.0], &[54.0, 60.0, 90.0], &[500, 1000, 5000]),
+        ("lash", 2, &[10.0, 20.0, 30.0, 60.0], &[8.0, 20.0, 30.0], &short),
+    ] {
+        let (lead, level) = worst(intention, newtons, widths, times, &PLACES);
+        println!("{label:8} leads by {lead:.2} at least, activation {level:.2} at least");
+        assert!(lead > 0.2 && level > 0.6, "{label}: {lead} {level}");
+    }
+}
+
+#[test]
+fn light_touches_are_no_attack() {
+    let map = Map::build(&tactile()).unwrap();
+    let mut most = [0.0f64; 2];
+    for place in PLACES {
+        for newton in [0.5, 1.0, 2.0, 3.0] {
+            for ms in [20, 60, 120] {
+                most[0] = most[0].max(judged(&map, &touch(newton, 10.0, ms, place)).0[2]);
+            }
+            for ms in [100, 500, 3000] {
+                let ([_, threat, attack], _) = judged(&map, &touch(newton, 14.0, ms, place));
+                most[1] = most[1].max(threat).max(attack);
+            }
+        }
+    }
+    println!("a lash at 5 %: attack at most {:.2}; a finger: threat, attack at most {:.2}", most[0], most[1]);
+    assert!(most.iter().all(|value| *value < 0.4), "{most:?}");
+}
+
+#[test]
+fn without_a_touch_every_activation_is_exactly_zero() {
+    let map = Map::<CONCEPTS>::build(&tactile()).unwrap();
+    let run = map.infer(&map.encode(None, &[]), 16);
+    assert_eq!((run.state, run.steps, run.outcome), ([0; CONCEPTS], 1, Outcome::Fixed));
+}
+
+#[test]
+fn the_shipped_map_is_complete() {
+    let map = tactile();
+    assert_eq!((map.concepts.len(), map.edges.len(), map.inputs.len()), (10, 24, 4));
+}
+
+#[test]
+fn the_shipped_map_settles_within_its_longest_path() {
+    let map = Map::build(&tactile()).unwrap();
+    let mut most = 0;
+    for newton in 0..40 {
+        for mm in [5.0, 35.0, 45.0, 80.0] {
+            for ms in [0, 30, 300, 900] {
+                most = most.max(judged(&map, &touch(f64::from(newton), mm, ms, 20)).1);
+            }
+        }
+    }
+    // kindness, threat -> attack -> happiness, anger -> politeness: four levels, one input step, one to see no change.
+    assert!(most <= 6, "{most}");
+}
+
+fn edit(change: impl Fn(&mut MapConfig)) -> std::string::String {
+    let mut config = tactile();
+    change(&mut config);
+    Map::<CONCEPTS>::build(&config).unwrap_err().to_string()
+}
+
+#[test]
+fn a_refused_map_names_what_is_wrong() {
+    assert_eq!(edit(|c| c.edges[0].weight = 200), "W[press][kindness] = 2 is outside [-1, 1]");
+    assert_eq!(edit(|c| c.edges[0].weight = -105), "W[press][kindness] = -1.05 is outside [-1, 1]");
+    assert_eq!(edit(|c| c.edges[0].weight = i16::MIN), "W[press][kindness] = -327.68 is outside [-1, 1]");
+    assert_eq!(edit(|c| c.edges[1].to = 10), "edge 1 names concept 10, and there are 10");
+    assert_eq!(edit(|c| c.edges[1].from = 255), "edge 1 names concept 255, and there are 10");
+    assert_eq!(edit(|c| c.edges[1] = c.edges[0]), "edge press -> kindness is given twice");
+    assert_eq!(edit(|c| c.concepts[3] = name("press")), "concept press is named twice");
+    assert_eq!(edit(|c| c.concepts.clear()), "the map has no concept");
+    assert_eq!(edit(|c| c.lambda = 0), "lambda = 0 makes every concept constant");
+    assert_eq!(edit(|c| c.decimals = 5), "decimals = 5 is outside 0 ..= 4");
+    assert_eq!(edit(|c| c.threshold = 101), "threshold = 1.01 is outside [-1, 1]");
+    let own = |concept, value| Threshold { concept, value };
+    assert_eq!(
+        edit(|c| c.thresholds.push(own(5, -150)).unwrap()),
+        "threshold of threat = -1.5 is outside [-1, 1]"
+    );
+    assert_eq!(
+        edit(|c| c.thresholds.push(own(16, 0)).unwrap()),
+        "a threshold names concept 16, and there are 10"
+    );
+    let twice = edit(|c| c.thresholds.extend([own(5, 0), own(5, 1)]));
+    assert_eq!(twice, "the threshold of threat is given twice");
+    assert_eq!(edit(|c| c.inputs[0].low = 12_000), "input press: low = 12000 is not below high = 12000");
+    assert_eq!(edit(|c| c.inputs[2].at_low = -101), "input location: -1.01 is outside [-1, 1]");
+    assert_eq!(edit(|c| c.inputs[2].concept = 1), "concept shape has two inputs");
+    assert_eq!(edit(|c| c.inputs[2].concept = 4), "concept kindness is an input and has an incoming edge");
+    let small = Map::<8>::build(&tactile()).unwrap_err();
+    assert_eq!(small.to_string(), "10 concepts, and there is room for 8");
+    let mut stage = IntentConfig::new(tactile());
+    stage.level = 1001;
+    assert_eq!(
+        Intent::<CONCEPTS>::build(&stage).unwrap_err().to_string(),
+        "level = 1001 thousandths is above 1"
+    );
+}
+
+#[test]
+fn no_sum_overflows_even_with_every_weight_at_its_limit() {
+    for transfer in [Transfer::Bivalent, Transfer::Trivalent, Transfer::Sigmoid, Transfer::Tanh] {
+        for decimals in 0..=4u8 {
+            let one = 10i16.pow(decimals.into());
+            let mut config = MapConfig::<16, 256> {
+                decimals,
+                transfer,
+                lambda: u16::MAX,
+                held: true,
+                ..Default::default()
+            };
+            (config.rule, config.threshold) = (Rule::Rescaled, one);
+            for at in 0..16u8 {
+                config.concepts.push(name(&format!("{at}"))).unwrap();
+                config.edges.extend((0..16).map(|from| Edge {
+                    from,
+                    to: at,
+                    weight: if at % 2 == 0 { one } else { -one },
+                }));
+            }
+            match Map::<16>::build(&config) {
+                // Overflow checks are on in this profile: an overflow would panic.
+                Ok(map) => {
+                    for start in [[i32::MIN; 16], [i32::MAX; 16], [0; 16]] {
+                        map.infer(&start, 20);
+                    }
+                }
+                Err(error) => assert!(transfer.is_threshold() && decimals == 4, "{error}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_slow_cycle_has_its_exact_period() {
+    // A ring of five concepts passes one activation on.
+    let mut config = MapConfig::<16, 64> { transfer: Transfer::Bivalent, lambda: 1000, ..Default::default() };
+    for at in 0..5u8 {
+        config.concepts.push(name(&format!("c{at}"))).unwrap();
+        config.edges.push(Edge { from: at, to: (at + 1) % 5, weight: 1 }).unwrap();
+    }
+    let map = Map::<5>::build(&config).unwrap();
+    let run = map.infer(&[1, 0, 0, 0, 0], 100);
+    assert_eq!(run.outcome, Outcome::Cycle(5));
+    assert_eq!(map.infer(&[1, 0, 0, 0, 0], 4).outcome, Outcome::Unsettled);
+    assert_eq!(map.infer(&[1; 5], 100).outcome, Outcome::Fixed);
+}
+
+#[test]
+fn thresholds_are_the_level_that_sums_are_measured_from() {
+    let mut config = MapConfig::<16, 64> { decimals: 1, lambda: 1000, held: true, ..Default::default() };
+    config.concepts.extend(["cause", "effect"].map(name));
+    config.edges.push(Edge { from: 0, to: 1, weight: 3 }).unwrap();
+    for (transfer, threshold, expected) in [
+        (Transfer::Bivalent, 3, 0),
+        (Transfer::Bivalent, 2, 10),
+        (Transfer::Trivalent, 3, 0),
+        (Transfer::Trivalent, 4, -10),
+        (Transfer::Sigmoid, 3, 16384),
+        (Transfer::Tanh, 3, 0),
+    ] {
+        (config.transfer, config.threshold) = (transfer, threshold);
+        let map = Map::<2>::build(&config).unwrap();
+        assert_eq!(map.step(&[map.one(), 0])[1], expected, "{transfer:?} {threshold}");
+        // The same for this concept alone, the other way round for all others.
+        config.thresholds.push(Threshold { concept: 1, value: threshold }).unwrap();
+        config.threshold = -threshold;
+        assert_eq!(Map::<2>::build(&config).unwrap().step(&[map.one(), 0])[1], expected);
+        config.thresholds.clear();
+    }
+}
+
+#[test]
+fn the_parts_of_a_reason_add_up() {
+    let map = Map::<CONCEPTS>::build(&tactile()).unwrap();
+    let run = map.infer(&map.encode(Some(&touch(20.0, 20.0, 60, 0)), &[]), 16);
+    let attack = map.find("attack").unwrap();
+    let why = map.why(&run.state, attack).unwrap();
+    let sum: i32 = why.parts.iter().map(|part| part.value.0).sum();
+    assert_eq!((why.parts.len(), why.sum, why.threshold), (6, Q15(sum), Q15(0)));
+    // and they explain the activation: tanh(3.5 sum)
+    assert!((map.q15(run.state[attack]).to_f64() - (3.5 * why.sum.to_f64()).tanh()).abs() < 1e-3);
+    let largest = why.parts.iter().max_by_key(|part| part.value.0).unwrap();
+    assert_eq!(map.concepts()[usize::from(largest.from)], "press");
+    assert_eq!(map.why(&run.state, 0), None);
+    assert_eq!(map.why(&run.state, 99), None);
+}
+
+/// Feeds touches, one list per 5 ms frame, and lists what was announced: (ms, intention).
+fn announced(frames: impl IntoIterator<Item = List<Touch>>) -> List<(u64, Leading)> {
+    let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).unwrap();
+    let mut state = IntentState::default();
+    let mut out = List::new();
+    for (at, touches) in frames.into_iter().enumerate() {
+        let ms = 5 * at as u64;
+        match stage.process(&mut state, &touches, &[], Micros(1000 * ms)) {
+            Some(meaning) if meaning.changed => out.push((ms, meaning.leading)),
+            _ => {}
+        }
+        assert_eq!(stage.why(&state).is_some(), state.leading() != Leading::None);
+    }
+    out
+}
+
+#[test]
+fn a_lash_of_25_ms_is_announced_and_ends_after_the_hold() {
+    let frames = (0..200).map(|at| match at {
+        20..25 => std::vec![touch(25.0, 15.0, 5 * (at - 20), 0)],
+        _ => List::new(),
+    });
+    assert_eq!(announced(frames), [(130, Leading::Attack), (755, Leading::None)]);
+}
+
+#[test]
+fn a_contact_shorter_than_the_evidence_asked_for_still_counts_after_its_release() {
+    let frames = (0..100).map(|at| if at == 20 { std::vec![touch(40.0, 10.0, 5, 0)] } else { List::new() });
+    assert_eq!(announced(frames).first(), Some(&(130, Leading::Attack)));
+}
+
+#[test]
+fn of_several_touches_the_strongest_counts() {
+    let frames = (0..100u32).map(|at| {
+        let hand = touch(6.0, 80.0, 5 * at, 30);
+        let strap = touch(30.0, 15.0, 60, 30);
+        if (40..52).contains(&at) { std::vec![hand, strap] } else { std::vec![hand] }
+    });
+    let heard: List<Leading> = announced(frames).into_iter().map(|(_, leading)| leading).collect();
+    assert_eq!(heard, [Leading::Kindness, Leading::Attack]);
+}
+
+#[test]
+fn a_quiet_stage_says_nothing_after_its_first_word() {
+    let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).unwrap();
+    let mut state = IntentState::default();
+    let first = stage.process(&mut state, &[], &[], Micros(0)).unwrap();
+    assert!(
+        !first.changed && first.activations.iter().all(|v| *v == Q15(0)) && first.activations.len() == 10
+    );
+    assert!((1..1000).all(|ms| stage.process(&mut state, &[], &[], Micros(1000 * ms)).is_none()));
+}
+
+#[test]
+fn a_host_value_feeds_its_concept() {
+    let mut config = tactile();
+    config.inputs[2] =
+        Input { concept: 2, source: Source::Host(1), low: -32768, high: 32768, at_low: -100, at_high: 100 };
+    let map = Map::<CONCEPTS>::build(&config).unwrap();
+    assert_eq!(map.encode(None, &[Q15(5), Q15(-12345)])[2], -12345);
+    assert_eq!(map.encode(None, &[])[2], 0);
+}
+
+#[test]
+fn a_configuration_travels_by_postcard() {
+    let config = IntentConfig::new(tactile());
+    let mut bytes = [0; 512];
+    let used = postcard::to_slice(&config, &mut bytes).unwrap();
+    println!("the shipped stage takes {} bytes", used.len());
+    assert_eq!(postcard::from_bytes::<IntentConfig>(used).unwrap(), config);
+}

@@ -1,0 +1,100 @@
+//! Nearest neighbours among the prototypes of a base.
+
+use super::features::Features;
+use crate::format::{Name, Q15};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Most classes of a base.
+pub const CLASSES: usize = 8;
+
+/// A class of a base of shapes: 0 is unknown, `i` is the base's name `i - 1`.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Class(pub u8);
+
+impl Class {
+    /// Too far from every prototype.
+    pub const UNKNOWN: Class = Class(0);
+    /// Of the built-in base.
+    pub const RECTANGLE: Class = Class(1);
+    /// Of the built-in base.
+    pub const ROUND: Class = Class(2);
+    /// Of the built-in base.
+    pub const FINGER: Class = Class(3);
+}
+
+/// An example of a class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Prototype {
+    /// What it is an example of.
+    pub class: Class,
+    /// Its features, see [`features`](super::features).
+    pub features: Features,
+}
+
+/// A base of shapes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Base<const PROTOTYPES: usize> {
+    /// Names of the classes, from 1.
+    pub names: Vec<Name, CLASSES>,
+    /// Examples; those that go before win a tie.
+    pub prototypes: Vec<Prototype, PROTOTYPES>,
+}
+
+impl<const PROTOTYPES: usize> Base<PROTOTYPES> {
+    /// Name of a class; "unknown" for none of this base.
+    pub fn name(&self, class: Class) -> &str {
+        let index = usize::from(class.0).checked_sub(1);
+        index.and_then(|index| self.names.get(index)).map_or("unknown", Name::as_str)
+    }
+}
+
+/// Most neighbours that vote.
+pub(super) const VOTERS: usize = 9;
+
+/// The class of the majority of the `k` nearest prototypes (of equals, the one with the nearest), and its confidence: its
+/// share of the votes, each weighed by how near it is. Unknown, with the confidence of that, if even the nearest is
+/// farther than `reject`.
+pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reject: u32) -> (Class, Q15) {
+    let nearest = nearest(prototypes, features, k);
+    let Some((least, _)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
+    let limit = reject.saturating_mul(reject);
+    if least > limit {
+        return (Class::UNKNOWN, Q15::ratio((least - limit).into(), least.into()));
+    }
+    let voters = || nearest.iter().take_while(|(_, class)| *class != Class::UNKNOWN);
+    let best = voters().fold((Class::UNKNOWN, 0), |best, (_, class)| {
+        let votes = voters().filter(|(_, other)| other == class).count();
+        if votes > best.1 { (*class, votes) } else { best }
+    });
+    // 1 / (d + 1/16 of the limit): a hit does not outvote everything.
+    let weight = |distance: u32| u64::from(u32::MAX / (distance / 2 + limit / 32).max(1));
+    let all = voters().map(|(distance, _)| weight(*distance)).sum();
+    let own = voters().filter(|(_, class)| *class == best.0).map(|(distance, _)| weight(*distance)).sum();
+    (best.0, Q15::ratio(own, all))
+}
+
+/// The `k` nearest prototypes in the order of their squared distance; of equals the first in the base.
+fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Class); VOTERS] {
+    let mut nearest = [(u32::MAX, Class::UNKNOWN); VOTERS];
+    for prototype in prototypes {
+        let mut carried = (distance(&prototype.features, features), prototype.class);
+        for held in nearest.iter_mut().take(k) {
+            if carried.0 < held.0 {
+                core::mem::swap(held, &mut carried);
+            }
+        }
+    }
+    nearest
+}
+
+/// Squared, saturating.
+fn distance(a: &Features, b: &Features) -> u32 {
+    a.iter().zip(b).fold(0, |sum: u32, (a, b)| {
+        let apart = (i32::from(*a) - i32::from(*b)).unsigned_abs();
+        sum.saturating_add(apart.saturating_mul(apart))
+    })
+}

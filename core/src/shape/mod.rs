@@ -1,0 +1,23 @@
+//! Shape: the normalised moment of inertia, and the nearest of the shapes that are known.
+//!
+//! | | |
+//! |---|---|
+//! | input | exact [`Moments`](crate::contact::Moments) of a [`Contact`](crate::contact::Contact) |
+//! | output | [`Shape`]: forms of the NMI in Q8.24, class, confidence in Q15 |
+//! | saturation | forms just below 256 |
+//! | latency | none; there is no state |
+//! | RAM | 10 bytes per prototype and 180 bytes |
+
+mod base;
+mod config;
+mod features;
+mod knn;
+mod nmi;
+mod stage;
+
+pub use base::BUILT_IN;
+pub use config::ShapeConfig;
+pub use features::{FEATURES, Features, features};
+pub use knn::{Base, CLASSES, Class, Prototype};
+pub use nmi::{Nmi, nmi};
+pub use stage::{Shape, Shapes};

@@ -1,0 +1,55 @@
+//! The normalised moment of inertia (eq. 4 of the source) and its forms that do not follow pressure.
+//!
+//! `NMI = sqrt(J) / m` as published is immune to rotation, scale and translation, but not to pressure: with f -> a f it goes as
+//! a^-1/2, and the width of the converter shifts it the same way. Two factors undo this: the square root of the peak, and that of
+//! the pressure-weighted mean `sum f^2 / sum f`, which suffers less from noise and coarse grids. Sheppard's correction
+//! takes the variance of the pixel itself out of the moment of inertia: J - m / 6.
+//!
+//! Error of every form: half a step of 2^-24, and 4e-9 of the value (asserted against 25 digits).
+
+use crate::contact::Moments;
+use crate::format::{Fixed24, Scaled};
+use serde::{Deserialize, Serialize};
+
+/// The forms; all 0 where there is no pressure, all saturate just below 256.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Nmi {
+    /// sqrt(J) / m, eq. 4
+    pub published: Fixed24,
+    /// NMI sqrt(peak): 0.39894 for a disc and 0.40825 for a square of even pressure
+    pub peak: Fixed24,
+    /// NMI sqrt(sum f^2 / sum f): the same for even pressure
+    pub s2: Fixed24,
+    /// as `peak`, with Sheppard's correction
+    pub peak_sheppard: Fixed24,
+    /// as `s2`, with Sheppard's correction
+    pub s2_sheppard: Fixed24,
+}
+
+/// All forms of a contact or an image whose greatest value is `peak`.
+pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
+    if moments.m == 0 {
+        return Nmi::default();
+    }
+    let m = Scaled::from_u64(moments.m);
+    let (peak, mean) = (Scaled::from_u64(peak.into()), Scaled::from_u64(moments.s2).over(m));
+    let published = Scaled::from_u64(moments.jm()).over(m).sqrt().over(m);
+    let sheppard = sheppard(moments).over(m).sqrt().over(m);
+    let (peak, mean) = (peak.sqrt(), mean.sqrt());
+    Nmi {
+        published: published.to_fixed24(),
+        peak: published.times(peak).to_fixed24(),
+        s2: published.times(mean).to_fixed24(),
+        peak_sheppard: sheppard.times(peak).to_fixed24(),
+        s2_sheppard: sheppard.times(mean).to_fixed24(),
+    }
+}
+
+/// `J m - m^2 / 6` through `6 J m - m^2`, which is exact where it fits; 0 where the pixel is all there is.
+fn sheppard(moments: &Moments) -> Scaled {
+    let (jm, square) = (moments.jm(), moments.m.saturating_mul(moments.m));
+    match jm.checked_mul(6) {
+        Some(six) => Scaled::from_u64(six.saturating_sub(square)).over(Scaled::from_u64(6)),
+        None => Scaled::from_u64(jm.saturating_sub(square / 6)),
+    }
+}

@@ -1,0 +1,52 @@
+//! The stage.
+
+use super::config::ShapeConfig;
+use super::features::features;
+use super::knn::{Base, Class, vote};
+use super::nmi::nmi;
+use crate::contact::{Contact, Moments};
+use crate::format::{Fixed24, Q15};
+use serde::{Deserialize, Serialize};
+
+/// What a contact is shaped like.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shape {
+    /// sqrt(J) / m, eq. 4: follows pressure, see [`Nmi`](super::Nmi)
+    pub nmi: Fixed24,
+    /// NMI sqrt(peak)
+    pub nmi_peak: Fixed24,
+    /// NMI sqrt(sum f^2 / sum f)
+    pub nmi_s2: Fixed24,
+    /// Class in the base of shapes.
+    pub class: Class,
+    /// Of a known class: its share of the neighbours' votes, the nearer ones counting more. Of an unknown one: how far beyond the
+    /// limit it is, from 0 at the limit to 1.
+    pub confidence: Q15,
+}
+
+/// Recognises shapes; see the [module](super).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shapes<const PROTOTYPES: usize> {
+    config: ShapeConfig,
+    base: Base<PROTOTYPES>,
+}
+
+impl<const PROTOTYPES: usize> Shapes<PROTOTYPES> {
+    pub(super) const fn new(config: ShapeConfig, base: Base<PROTOTYPES>) -> Self {
+        Shapes { config, base }
+    }
+
+    /// The base it recognises.
+    pub const fn base(&self) -> &Base<PROTOTYPES> {
+        &self.base
+    }
+
+    /// Recognises one contact, given with its moments.
+    pub fn process(&self, moments: &Moments, contact: &Contact) -> Shape {
+        let nmi = nmi(moments, contact.peak);
+        let features = features(&nmi, contact);
+        let (class, confidence) =
+            vote(&self.base.prototypes, &features, self.config.k.into(), self.config.reject.into());
+        Shape { nmi: nmi.published, nmi_peak: nmi.peak, nmi_s2: nmi.s2, class, confidence }
+    }
+}

@@ -1,0 +1,76 @@
+//! Adafruit Feather RP2040, and boards with the same use of pins such as the Waveshare RP2040-Zero.
+//!
+//! | pin | use |
+//! |---|---|
+//! | GP0, GP1 | UART to the host: transmit, receive |
+//! | GP2 - GP12, GP18 - GP20, GP24, GP25 | select lines (the Feather's headers leave out GP4 and GP5) |
+//! | GP13 | heartbeat LED |
+//! | GP26 - GP29 | converter inputs |
+
+use super::Parts;
+use crate::{
+    adc::Converter,
+    link::{BAUD, RING, Wire},
+    pins::Line,
+};
+use embassy_rp::{
+    adc, bind_interrupts,
+    gpio::{Level, Output, Pull},
+    peripherals::UART0,
+    uart,
+    watchdog::Watchdog,
+};
+use static_cell::ConstStaticCell;
+
+/// Converter inputs.
+pub const INPUTS: usize = 4;
+
+/// Pins for select lines.
+pub const LINES: usize = 16;
+
+bind_interrupts!(struct Interrupts {
+    UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
+});
+
+/// Starts the clocks (125 MHz) and takes the board apart. Must be called once.
+pub fn take() -> Parts {
+    let p = embassy_rp::init(Default::default());
+    Parts {
+        lines: [
+            Line::new(p.PIN_2.into()),
+            Line::new(p.PIN_3.into()),
+            Line::new(p.PIN_4.into()),
+            Line::new(p.PIN_5.into()),
+            Line::new(p.PIN_6.into()),
+            Line::new(p.PIN_7.into()),
+            Line::new(p.PIN_8.into()),
+            Line::new(p.PIN_9.into()),
+            Line::new(p.PIN_10.into()),
+            Line::new(p.PIN_11.into()),
+            Line::new(p.PIN_12.into()),
+            Line::new(p.PIN_18.into()),
+            Line::new(p.PIN_19.into()),
+            Line::new(p.PIN_20.into()),
+            Line::new(p.PIN_24.into()),
+            Line::new(p.PIN_25.into()),
+        ],
+        converter: Converter::new(
+            adc::Adc::new_blocking(p.ADC, adc::Config::default()),
+            [
+                adc::Channel::new_pin(p.PIN_26, Pull::None),
+                adc::Channel::new_pin(p.PIN_27, Pull::None),
+                adc::Channel::new_pin(p.PIN_28, Pull::None),
+                adc::Channel::new_pin(p.PIN_29, Pull::None),
+            ],
+        ),
+        wire: Wire::new({
+            static TX: ConstStaticCell<[u8; RING]> = ConstStaticCell::new([0; RING]);
+            static RX: ConstStaticCell<[u8; RING]> = ConstStaticCell::new([0; RING]);
+            let mut config = uart::Config::default();
+            config.baudrate = BAUD;
+            uart::BufferedUart::new(p.UART0, p.PIN_0, p.PIN_1, Interrupts, TX.take(), RX.take(), config)
+        }),
+        led: Output::new(p.PIN_13, Level::Low),
+        watchdog: Watchdog::new(p.WATCHDOG),
+    }
+}

@@ -1,0 +1,22 @@
+//! Boards: a file each, which says what is soldered where. Nothing else of the firmware knows a pin.
+
+mod feather;
+
+pub use feather::{INPUTS, LINES, take};
+
+use crate::{adc::Converter, link::Wire, pins::Line};
+use embassy_rp::{gpio::Output, watchdog::Watchdog};
+
+/// What a board hands to the firmware.
+pub struct Parts {
+    /// Pins that garments may use as select lines, with their GPIO numbers.
+    pub lines: [(u8, Line); LINES],
+    /// The converter inputs from GPIO 26 on.
+    pub converter: Converter<INPUTS>,
+    /// The link to the host.
+    pub wire: Wire,
+    /// The heartbeat.
+    pub led: Output<'static>,
+    /// The watchdog, not yet started.
+    pub watchdog: Watchdog,
+}

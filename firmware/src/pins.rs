@@ -1,0 +1,37 @@
+//! Select lines: pins that are found by number, because a garment names its pins at run time.
+
+use core::convert::Infallible;
+use embassy_rp::{Peri, gpio};
+use embedded_hal::digital::{ErrorType, OutputPin};
+
+/// A free pin. It stays high-impedance until something drives it, so that a line no garment names disturbs nothing.
+pub struct Line(gpio::Flex<'static>);
+
+impl Line {
+    /// Takes the pin; its number goes with it.
+    pub fn new(pin: Peri<'static, gpio::AnyPin>) -> (u8, Line) {
+        use gpio::Pin;
+        (pin.pin(), Line(gpio::Flex::new(pin)))
+    }
+}
+
+impl ErrorType for Line {
+    type Error = Infallible;
+}
+
+// The level is set before the driver is switched on: the line never shows a level that nobody asked for.
+impl OutputPin for Line {
+    #[inline]
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        self.0.set_low();
+        self.0.set_as_output();
+        Ok(())
+    }
+
+    #[inline]
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        self.0.set_high();
+        self.0.set_as_output();
+        Ok(())
+    }
+}

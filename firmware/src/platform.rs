@@ -1,0 +1,90 @@
+//! The board's clock, settling delay, watchdog and heartbeat.
+
+use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
+use embassy_time::{Duration, Instant};
+use embedded_hal::delay::DelayNs;
+use taxel_core::{acquire::Clock, format::Micros};
+
+/// The board restarts when the loop has not come round for this long.
+const WATCHDOG: Duration = Duration::from_millis(1000);
+
+/// The LED changes this often, as long as the loop runs.
+const HEARTBEAT_US: u64 = 500_000;
+
+/// Time since the board started, from the 1 MHz timer.
+#[derive(Debug, Clone, Copy)]
+pub struct Timer;
+
+impl Clock for Timer {
+    #[inline]
+    fn now(&self) -> Micros {
+        Micros(Instant::now().as_micros())
+    }
+}
+
+/// Waits by counting instructions: the timer's microseconds are too coarse for the settling of a multiplexer, and a wait
+/// that ends up to 1 us early would read the wrong taxel.
+#[derive(Debug, Clone, Copy)]
+pub struct Settle {
+    /// Rounds of the waiting loop per nanosecond, in units of 2^-16.
+    rounds_per_ns: u32,
+}
+
+impl Settle {
+    /// A round is a subtraction and a taken branch: 3 cycles.
+    const CYCLES_PER_ROUND: u32 = 3;
+
+    /// Longest wait whose number of rounds is computed at once, for clocks up to 190 MHz.
+    const PIECE_NS: u32 = 1_000_000;
+
+    /// For the present system clock.
+    pub fn new() -> Settle {
+        let scaled = u64::from(clocks::clk_sys_freq()) << 16;
+        let per_ns = scaled.div_ceil(1_000_000_000 * u64::from(Self::CYCLES_PER_ROUND));
+        Settle { rounds_per_ns: per_ns as u32 }
+    }
+
+    fn wait(&self, ns: u32) {
+        // No division here: this core has none, and one in software takes 2 us. `delay` does one round more than it is
+        // told, which makes up for the rounding.
+        cortex_m::asm::delay((ns * self.rounds_per_ns) >> 16);
+    }
+}
+
+impl DelayNs for Settle {
+    #[inline]
+    fn delay_ns(&mut self, mut ns: u32) {
+        while ns > Self::PIECE_NS {
+            self.wait(Self::PIECE_NS);
+            ns -= Self::PIECE_NS;
+        }
+        if ns > 0 {
+            self.wait(ns);
+        }
+    }
+}
+
+/// Watchdog and heartbeat.
+pub struct Pulse {
+    watchdog: Watchdog,
+    led: Output<'static>,
+    due: Micros,
+}
+
+impl Pulse {
+    /// Starts the watchdog.
+    pub fn start(mut watchdog: Watchdog, led: Output<'static>) -> Pulse {
+        watchdog.pause_on_debug(true);
+        watchdog.start(WATCHDOG);
+        Pulse { watchdog, led, due: Micros(0) }
+    }
+
+    /// The loop has come round.
+    pub fn alive(&mut self, now: Micros) {
+        self.watchdog.feed(WATCHDOG);
+        if now >= self.due {
+            self.led.toggle();
+            self.due = Micros(now.0 + HEARTBEAT_US);
+        }
+    }
+}

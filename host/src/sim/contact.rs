@@ -1,0 +1,115 @@
+//! One touch as a physical contact: a force over time, spread over a footprint that moves.
+
+use super::footprint::Footprint;
+use super::touch::Touch;
+use std::f64::consts::PI;
+
+/// A touch of the script, ready to be evaluated.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// Where its force falls.
+    pub footprint: Footprint,
+    centre: [f64; 2],
+    velocity: [f64; 2],
+    force_n: f64,
+    start_ns: u64,
+    period_ns: u64,
+    last: u64,
+    /// End of the rise, of the hold and of the fall, ns after the onset.
+    phases_ns: [u64; 3],
+}
+
+impl Contact {
+    /// From a checked touch on a panel of that pitch.
+    pub fn build(touch: &Touch, pitch_mm: [f64; 2]) -> Contact {
+        let ns = |seconds: f64| (seconds * 1e9).round() as u64;
+        let rise = ns(touch.rise_s);
+        let hold = rise + ns(touch.hold_s);
+        let once = hold + ns(touch.fall_s);
+        Contact {
+            footprint: Footprint::build(touch.shape, touch.size(), touch.angle_deg, pitch_mm),
+            centre: touch.centre(pitch_mm),
+            velocity: touch.velocity,
+            force_n: touch.force_n,
+            start_ns: ns(touch.start_s),
+            period_ns: touch.period_s.map_or(once, ns).max(once).max(1),
+            last: u64::from(touch.repeat.max(1) - 1),
+            phases_ns: [rise, hold, once],
+        }
+    }
+
+    /// First and last instant at which it may touch, ns.
+    pub fn span_ns(&self) -> (u64, u64) {
+        (self.start_ns, self.start_ns + self.last * self.period_ns + self.phases_ns[2])
+    }
+
+    /// The box that the footprint sweeps: `[x_min, x_max, y_min, y_max]`, taxels of its panel.
+    pub fn sweep(&self) -> [f64; 4] {
+        let way = self.velocity.map(|v| v * self.phases_ns[2] as f64 / 1e9);
+        let reach = self.footprint.reach();
+        let side = |axis: usize, sign: f64| {
+            self.centre[axis] + (sign * way[axis]).max(0.0) * sign + sign * reach[axis]
+        };
+        [side(0, -1.0), side(0, 1.0), side(1, -1.0), side(1, 1.0)]
+    }
+
+    /// Force on the taxel at `x`, `y` of the contact's panel at a time, N.
+    pub fn newtons(&self, x: f32, y: f32, t_ns: u64) -> f32 {
+        let Some(phase_ns) = self.phase(t_ns) else { return 0.0 };
+        let t = phase_ns as f64 / 1e9;
+        let dx = f64::from(x) - self.centre[0] - self.velocity[0] * t;
+        let dy = f64::from(y) - self.centre[1] - self.velocity[1] * t;
+        let share = self.footprint.share(dx as f32, dy as f32);
+        if share == 0.0 { 0.0 } else { share * self.force_n(phase_ns) as f32 }
+    }
+
+    /// Time since the onset of the repetition under way; none while it does not touch.
+    fn phase(&self, t_ns: u64) -> Option<u64> {
+        let since = t_ns.checked_sub(self.start_ns)?;
+        let phase = if since < self.period_ns {
+            since
+        } else {
+            since - (since / self.period_ns).min(self.last) * self.period_ns
+        };
+        (phase < self.phases_ns[2]).then_some(phase)
+    }
+
+    /// Total force at a time after the onset, N.
+    fn force_n(&self, phase_ns: u64) -> f64 {
+        let [rise, hold, once] = self.phases_ns;
+        let part = if phase_ns < rise {
+            phase_ns as f64 / rise as f64
+        } else if phase_ns < hold {
+            return self.force_n;
+        } else if once > hold {
+            (once - phase_ns) as f64 / (once - hold) as f64
+        } else {
+            return 0.0;
+        };
+        self.force_n * (0.5 - 0.5 * (PI * part).cos())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PITCH: [f64; 2] = [12.0, 10.0];
+
+    #[test]
+    fn a_touch_repeats_rises_holds_and_falls() {
+        let touch: Touch = toml::from_str(
+            "panel = \"a\"\nshape = \"box\"\nforce_n = 8\nat = [0, 0]\nstart_s = 0.2\nrise_s = 0.1\nhold_s = 0.1\nfall_s = 0.2\nrepeat = 2\nperiod_s = 0.5",
+        )
+        .unwrap();
+        let contact = Contact::build(&touch, PITCH);
+        let force = |ms: u64| contact.phase(ms * 1_000_000).map(|p| (contact.force_n(p) * 1e6).round() / 1e6);
+        for onset in [200, 700] {
+            let at = |ms: u64| force(onset + ms);
+            assert_eq!([at(0), at(50), at(100), at(199)], [Some(0.0), Some(4.0), Some(8.0), Some(8.0)]);
+            assert_eq!([at(300), at(400), at(499)], [Some(4.0), None, None]);
+        }
+        assert_eq!([force(0), force(199), force(1200), force(99_999)], [None; 4]);
+        assert_eq!(contact.span_ns(), (200_000_000, 1_100_000_000));
+    }
+}

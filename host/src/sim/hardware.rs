@@ -1,0 +1,146 @@
+//! Pins, delay and clock of the simulated board, all over one virtual time. Nothing sleeps.
+
+use embedded_hal::delay::DelayNs;
+use embedded_hal::digital::{ErrorType, OutputPin};
+use std::cell::Cell;
+use std::convert::Infallible;
+use std::rc::Rc;
+use taxel_core::acquire::Clock;
+use taxel_core::format::Micros;
+
+/// Pins that the simulated board may have: GPIO 0 to 63.
+pub const PINS: usize = 64;
+
+/// How long the board's steps take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Timing {
+    /// One conversion, ns. The input is sampled at its start.
+    pub conversion_ns: u32,
+    /// The garment's settling time is spent in whole conversions (rounded down, at least one), as in the reference
+    /// board's chain of DMA and PIO; otherwise it is waited for exactly.
+    pub in_slots: bool,
+}
+
+impl Timing {
+    /// The reference board: 500 kS/s, settling in slots. The reference garment takes 512 (1 + 4) conversions = 5.12 ms,
+    /// 195 frames per second.
+    pub const REFERENCE: Timing = Timing { conversion_ns: 2_000, in_slots: true };
+    /// A loop that waits: 512 (3 us + 4 conversions) = 5.632 ms for the reference garment.
+    pub const LOOP: Timing = Timing { conversion_ns: 2_000, in_slots: false };
+
+    /// Time from a change of the select lines to the first sample, ns.
+    pub fn settling_ns(&self, garment_ns: u32) -> u32 {
+        if !self.in_slots || garment_ns == 0 || self.conversion_ns == 0 {
+            return garment_ns;
+        }
+        (garment_ns / self.conversion_ns).max(1).saturating_mul(self.conversion_ns)
+    }
+}
+
+/// What the parts of the board share.
+#[derive(Debug, Default)]
+pub(super) struct Bus {
+    /// Levels, bit `n` for GPIO `n`.
+    pub levels: Cell<u64>,
+    pub now_ns: Cell<u64>,
+    /// When a level changed last.
+    pub changed_ns: Cell<u64>,
+}
+
+impl Bus {
+    pub fn pass(&self, ns: u64) {
+        self.now_ns.set(self.now_ns.get().saturating_add(ns));
+    }
+}
+
+/// An output of the simulated board.
+#[derive(Debug, Clone)]
+pub struct SimPin {
+    pub(super) bus: Rc<Bus>,
+    pub(super) mask: u64,
+}
+
+impl ErrorType for SimPin {
+    type Error = Infallible;
+}
+
+impl SimPin {
+    fn level(&self, level: u64) {
+        let before = self.bus.levels.get();
+        let now = before & !self.mask | level & self.mask;
+        if now != before {
+            self.bus.levels.set(now);
+            self.bus.changed_ns.set(self.bus.now_ns.get());
+        }
+    }
+}
+
+impl OutputPin for SimPin {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        self.level(0);
+        Ok(())
+    }
+
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        self.level(u64::MAX);
+        Ok(())
+    }
+}
+
+/// Lets virtual time pass.
+#[derive(Debug, Clone)]
+pub struct SimDelay {
+    pub(super) bus: Rc<Bus>,
+    /// The garment's settling time, and the time that it takes on this board.
+    pub(super) settling_ns: (u32, u32),
+}
+
+impl DelayNs for SimDelay {
+    fn delay_ns(&mut self, ns: u32) {
+        let (asked, taken) = self.settling_ns;
+        self.bus.pass(u64::from(if ns == asked { taken } else { ns }));
+    }
+}
+
+/// The board's clock; clones show the same time.
+#[derive(Debug, Clone)]
+pub struct SimClock {
+    pub(super) bus: Rc<Bus>,
+}
+
+impl SimClock {
+    /// Lets the board be idle until that time, us since its start; no effect if it has passed already.
+    pub fn advance_to(&self, us: u64) {
+        let ns = us.saturating_mul(1000);
+        self.bus.now_ns.set(self.bus.now_ns.get().max(ns));
+    }
+
+    /// Time since the board's start, ns.
+    pub fn now_ns(&self) -> u64 {
+        self.bus.now_ns.get()
+    }
+
+    /// Levels of the outputs, bit `n` for GPIO `n`.
+    pub fn levels(&self) -> u64 {
+        self.bus.levels.get()
+    }
+}
+
+impl Clock for SimClock {
+    fn now(&self) -> Micros {
+        Micros(self.now_ns() / 1000)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn timings_are_those_of_the_boards() {
+        assert_eq!(512 * (Timing::REFERENCE.settling_ns(3_000) + 4 * 2_000), 5_120_000);
+        assert_eq!(512 * (Timing::LOOP.settling_ns(3_000) + 4 * 2_000), 5_632_000);
+        assert_eq!(Timing::REFERENCE.settling_ns(0), 0);
+        assert_eq!(Timing::REFERENCE.settling_ns(20_000), 20_000);
+    }
+}

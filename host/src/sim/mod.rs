@@ -1,0 +1,42 @@
+//! The simulated board: scripted touches on a garment, read through simulated pins, multiplexers and a converter.
+//!
+//! A [`Script`] says who touches what, when and how hard. [`World`] turns it into the code that the converter gives for
+//! a taxel at a time, a pure function of both as long as the wiring is ideal. [`SimBoard`] puts pins, a delay, a
+//! converter and a clock of virtual time in front of it, so that the portable scan of the core reads it like a real
+//! board; [`Player`] reads the same codes without pins, for benchmarks and campaigns. Nothing here sleeps.
+//!
+//! | quantity | unit |
+//! |---|---|
+//! | time of the board | ns inside, us at [`SimClock`] |
+//! | position | taxels of a panel, x the column, y the row |
+//! | force of a contact, share of a taxel | N |
+//! | signal of a taxel | counts, [`COUNTS_PER_NEWTON`] per newton on the taxel, linear up to [`FULL_SCALE`] |
+
+mod board;
+mod codes;
+mod contact;
+mod decode;
+mod footprint;
+mod hardware;
+mod noise;
+mod parse;
+mod pressure;
+mod scenes;
+mod script;
+mod signal;
+mod touch;
+mod variants;
+mod wiring;
+
+pub use board::{NoSuchInput, SimAdc, SimBoard};
+pub use codes::{FRAME_PERIOD_US, Player, frame_codes, wiring_json};
+pub use contact::Contact;
+pub use decode::{Address, Decoder};
+pub use footprint::Footprint;
+pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};
+pub use pressure::Pressure;
+pub use scenes::{SceneInfo, garment, list, load};
+pub use script::{Converter, Faults, Idle, Joint, Script, Stuck, WiringEffects};
+pub use signal::{COUNTS_PER_NEWTON, FULL_SCALE, World};
+pub use touch::{Shape, Size, Touch};
+pub use variants::{refit, scale_force, scale_rate, vary};

@@ -1,0 +1,174 @@
+//! Reading and checking a script. Every error is one sentence that names the file and the key.
+
+use super::script::{Joint, Script};
+use super::touch::Touch;
+use anyhow::{Context, Result, bail, ensure};
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+/// Longest time in a script, s.
+const LONGEST_S: f64 = 86_400.0;
+/// Largest footprint, mm.
+const LARGEST_MM: f64 = 1_000.0;
+/// Largest count: far beyond a converter, small enough for an `f32`.
+const MOST_COUNTS: f64 = 1e6;
+
+impl Script {
+    /// Reads a script; `file` names it in errors.
+    pub fn parse(text: &str, file: &str) -> Result<Script> {
+        let mut script: Script =
+            toml::from_str(text).map_err(|e| anyhow::anyhow!(sentence(&e, text, file)))?;
+        if script.name.is_empty() {
+            let stem = Path::new(file).file_stem().and_then(|s| s.to_str());
+            script.name = stem.unwrap_or(file).into();
+        }
+        script.check().with_context(|| format!("in {file}")).map_err(|e| anyhow::anyhow!("{e:#}"))?;
+        Ok(script)
+    }
+
+    /// Checks every number; errors name the key.
+    pub fn check(&self) -> Result<()> {
+        within("duration_s", self.duration_s, 0.0..=LONGEST_S)?;
+        let idle = &self.idle;
+        within("idle.base_code", idle.base_code, 0.0..=MOST_COUNTS)?;
+        within("idle.spread_counts", idle.spread_counts, 0.0..=MOST_COUNTS)?;
+        within("idle.noise_counts", idle.noise_counts, 0.0..=MOST_COUNTS)?;
+        within("idle.drift_counts_per_s", idle.drift_counts_per_s, -MOST_COUNTS..=MOST_COUNTS)?;
+        within("faults.from_s", self.faults.from_s, 0.0..=LONGEST_S)?;
+        within("wiring.source_kohm", self.wiring.source_kohm, 0.0..=1e6)?;
+        within("wiring.line_pf", self.wiring.line_pf, 0.0..=1e6)?;
+        within("wiring.crosstalk", self.wiring.crosstalk, 0.0..=1.0)?;
+        within("converter.noise_counts", self.converter.noise_counts, 0.0..=MOST_COUNTS)?;
+        for (index, touch) in self.touches.iter().enumerate() {
+            check_touch(touch).with_context(|| format!("touch {}", index + 1))?;
+        }
+        for (index, joint) in self.joints.iter().enumerate() {
+            check_joint(joint).with_context(|| format!("joint {}", index + 1))?;
+        }
+        Ok(())
+    }
+}
+
+fn check_touch(touch: &Touch) -> Result<()> {
+    within("force_n", touch.force_n, 0.0..=10_000.0)?;
+    for (key, point) in [("at", touch.at), ("at_mm", touch.at_mm)] {
+        for value in point.into_iter().flatten() {
+            within(key, value, -1e5..=1e5)?;
+        }
+    }
+    ensure!(touch.at.is_some() != touch.at_mm.is_some(), "give either `at` or `at_mm`");
+    for size in touch.size() {
+        within("size_mm", size, 1.0..=LARGEST_MM)?;
+    }
+    within("angle_deg", touch.angle_deg, -360.0..=360.0)?;
+    within("start_s", touch.start_s, 0.0..=LONGEST_S)?;
+    within("rise_s", touch.rise_s, 0.0..=LONGEST_S)?;
+    within("hold_s", touch.hold_s, 0.0..=LONGEST_S)?;
+    within("fall_s", touch.fall_s, 0.0..=LONGEST_S)?;
+    for value in touch.velocity {
+        within("velocity", value, -1e4..=1e4)?;
+    }
+    ensure!(touch.repeat >= 1, "`repeat` must be at least 1");
+    if let Some(period) = touch.period_s {
+        within("period_s", period, 0.0..=LONGEST_S)?;
+        ensure!(
+            period >= touch.once_s(),
+            "`period_s` must be at least the length of one touch, {} s",
+            touch.once_s()
+        );
+    }
+    within("repeat", touch.end_s(), 0.0..=LONGEST_S).context("the last repetition ends too late")?;
+    Ok(())
+}
+
+fn check_joint(joint: &Joint) -> Result<()> {
+    within("from_deg", joint.from_deg, -360.0..=360.0)?;
+    within("to_deg", joint.to_deg, -360.0..=360.0)?;
+    within("start_s", joint.start_s, 0.0..=LONGEST_S)?;
+    within("rise_s", joint.rise_s, 0.0..=LONGEST_S)?;
+    within("hold_s", joint.hold_s, 0.0..=LONGEST_S)?;
+    within("fall_s", joint.fall_s.unwrap_or(0.0), 0.0..=LONGEST_S)
+}
+
+/// Also refuses what is not a number.
+fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
+    if !range.contains(&value) {
+        bail!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());
+    }
+    Ok(())
+}
+
+/// What the TOML reader found, with its line, and the key of that line where the message itself names none.
+pub(super) fn sentence(error: &toml::de::Error, text: &str, file: &str) -> String {
+    let message = error.message().lines().collect::<Vec<_>>().join(", ");
+    let Some(before) = error.span().and_then(|span| text.get(..span.start)) else {
+        return format!("{file}: {message}");
+    };
+    let number = before.matches('\n').count();
+    let line = text.lines().nth(number).unwrap_or("");
+    let named = |key: &str| message.contains(&format!("`{key}`")) || message.starts_with("missing field");
+    let key = line.split_once('=').map(|(key, _)| key.trim()).filter(|key| !named(key));
+    let key = key.map_or(String::new(), |key| format!(", `{key}`"));
+    format!("{file}, line {}{key}: {message}", number + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> String {
+        let message = Script::parse(text, "x.toml").unwrap_err().to_string();
+        assert!(!message.contains('\n'), "{message}");
+        message
+    }
+
+    const TOUCH: &str = "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [8, 16]\nstart_s = 0.2\n";
+
+    #[test]
+    fn a_short_script_gets_the_defaults() {
+        let script = Script::parse(TOUCH, "some/where.toml").unwrap();
+        assert_eq!((script.name.as_str(), script.garment.as_str()), ("where", "reference"));
+        assert_eq!((script.tare_frames, script.seed), (16, 1));
+        assert_eq!(script.idle, Default::default());
+        assert!(script.wiring.is_ideal());
+        let touch = &script.touches[0];
+        assert_eq!(touch.size(), [100.0, 85.0]);
+        assert_eq!((touch.repeat, touch.once_s()), (1, 0.1));
+        let again: Script = toml::from_str(&toml::to_string(&script).unwrap()).unwrap();
+        assert_eq!(again, script);
+    }
+
+    #[test]
+    fn settings_of_the_deployment_are_handed_on_as_they_are() {
+        let script =
+            Script::parse("duration_s = 1\n[scene]\nrate = 3\n[scene.contact]\nlow = 12\n", "x.toml")
+                .unwrap();
+        assert_eq!(script.scene["contact"]["low"].as_integer(), Some(12));
+    }
+
+    #[test]
+    fn errors_name_file_line_and_key() {
+        assert_eq!(error("seed = 2\n"), "x.toml, line 1: missing field `duration_s`");
+        let unknown = error("duration_s = 1\ncolour = 3\n");
+        assert!(
+            unknown.starts_with("x.toml, line 2: unknown field `colour`, expected one of `name`"),
+            "{unknown}"
+        );
+        let wrong = error("duration_s = 1\nseed = \"a\"\n");
+        assert!(wrong.starts_with("x.toml, line 2, `seed`: invalid type: string \"a\""), "{wrong}");
+        let size = error(&format!("{TOUCH}size_mm = \"large\"\n"));
+        assert_eq!(size, "x.toml, line 8, `size_mm`: must be a number or [length, width]");
+        assert!(error("duration_s = = 1").starts_with("x.toml, line 1"));
+    }
+
+    #[test]
+    fn numbers_are_checked() {
+        let of = |line: &str| error(&format!("{TOUCH}{line}\n"));
+        assert_eq!(of("hold_s = -1"), "in x.toml: touch 1: `hold_s` is -1, it must be 0 to 86400");
+        assert_eq!(of("hold_s = nan"), "in x.toml: touch 1: `hold_s` is NaN, it must be 0 to 86400");
+        assert_eq!(of("size_mm = [20, 0]"), "in x.toml: touch 1: `size_mm` is 0, it must be 1 to 1000");
+        assert_eq!(of("at_mm = [1, 2]"), "in x.toml: touch 1: give either `at` or `at_mm`");
+        assert!(of("repeat = 2\nperiod_s = 0.01").contains("`period_s` must be at least"));
+        assert!(of("repeat = 4000000000").contains("the last repetition ends too late"));
+    }
+}

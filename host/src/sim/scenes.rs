@@ -1,0 +1,169 @@
+//! The scenes that come with the program, and scenes and garments from files.
+
+use super::script::Script;
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+use taxel_core::garment::Garment;
+
+/// What a list of scenes shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneInfo {
+    /// Name to load it by.
+    pub name: String,
+    /// What it shows, in a few words.
+    pub title: String,
+    /// Length, s.
+    pub duration: f64,
+}
+
+macro_rules! scenes {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_str!(concat!("../../scenes/", $name, ".toml")))),*]
+    };
+}
+
+/// Names and texts.
+const SCENES: [(&str, &str); 12] = scenes![
+    "pat",
+    "lash",
+    "stroke",
+    "hold",
+    "finger",
+    "box",
+    "ball",
+    "two-hands",
+    "elbow",
+    "press",
+    "five",
+    "idle",
+];
+
+/// The scenes that come with the program.
+pub fn list() -> Vec<SceneInfo> {
+    let parse = |(name, text): &(&str, &str)| {
+        let script = Script::parse(text, &format!("{name}.toml")).ok()?;
+        Some(SceneInfo { name: script.name, title: script.title, duration: script.duration_s })
+    };
+    SCENES.iter().filter_map(parse).collect()
+}
+
+/// A scene that comes with the program, or a scene's TOML file.
+pub fn load(name_or_path: &str) -> Result<Script> {
+    if let Some((name, text)) = SCENES.iter().find(|(name, _)| *name == name_or_path) {
+        return Script::parse(text, &format!("{name}.toml"));
+    }
+    if !is_file(name_or_path) {
+        let names: Vec<_> = SCENES.iter().map(|(name, _)| *name).collect();
+        bail!("there is no scene \"{name_or_path}\"; known are {}, or give a .toml file", names.join(", "));
+    }
+    Script::parse(&read(name_or_path)?, name_or_path)
+}
+
+/// A garment that comes with the program, or a garment's TOML file.
+pub fn garment(name_or_path: &str) -> Result<Garment> {
+    if let Some(garment) = Garment::preset(name_or_path) {
+        return Ok(garment);
+    }
+    if !is_file(name_or_path) {
+        let names = Garment::PRESETS.join(", ");
+        bail!("there is no garment \"{name_or_path}\"; known are {names}, or give a .toml file");
+    }
+    let text = read(name_or_path)?;
+    toml::from_str(&text).map_err(|e| anyhow::anyhow!(super::parse::sentence(&e, &text, name_or_path)))
+}
+
+fn is_file(name: &str) -> bool {
+    name.ends_with(".toml") || Path::new(name).is_file()
+}
+
+fn read(path: &str) -> Result<String> {
+    std::fs::read_to_string(path)
+        .with_context(|| format!("cannot read {path}"))
+        .map_err(|e| anyhow::anyhow!("{e:#}"))
+}
+
+impl Script {
+    /// The garment that the script names.
+    pub fn load_garment(&self) -> Result<Garment> {
+        garment(&self.garment)
+            .with_context(|| format!("in script {}: `garment`", self.name))
+            .map_err(|e| anyhow::anyhow!("{e:#}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FRAME_PERIOD_US, World};
+    use super::*;
+
+    #[test]
+    fn every_scene_loads_and_plays_after_the_tare() {
+        assert_eq!(list().len(), SCENES.len());
+        for (scene, (name, _)) in list().iter().zip(SCENES) {
+            let script = load(name).unwrap();
+            assert_eq!(scene.name, name);
+            assert!(!script.title.is_empty() && !script.description.is_empty(), "{name}");
+            assert!(f64::from(script.tare_frames) * FRAME_PERIOD_US as f64 / 1e6 < 0.15);
+            for touch in &script.touches {
+                assert!(touch.start_s >= 0.15 && touch.end_s() + 0.1 <= script.duration_s, "{name}");
+            }
+            World::build(&script, &script.load_garment().unwrap()).unwrap();
+        }
+    }
+
+    /// Newtons by panel at a time.
+    fn forces(name: &str, seconds: f64) -> [f32; 4] {
+        let script = load(name).unwrap();
+        let world = World::build(&script, &Garment::reference()).unwrap();
+        let t_ns = (seconds * 1e9) as u64;
+        [0, 1, 2, 3].map(|panel| (0..512).map(|taxel| world.newtons(panel * 512 + taxel, t_ns)).sum())
+    }
+
+    #[test]
+    fn scenes_put_their_force_where_they_say() {
+        let close = |found: [f32; 4], told: [f32; 4]| {
+            assert!(
+                found.iter().zip(told).all(|(f, t)| (f - t).abs() <= 0.02 * t),
+                "{found:?} is not {told:?}"
+            );
+        };
+        for peak in [0.3, 0.57, 0.84] {
+            close(forces("pat", peak), [0.0, 8.0, 0.0, 0.0]);
+        }
+        close(forces("pat", 0.45), [0.0; 4]);
+        close(forces("lash", 0.38), [0.0, 40.0, 0.0, 0.0]);
+        for t in [0.35, 0.7, 1.05] {
+            close(forces("stroke", t), [0.0, 0.0, 5.0, 0.0]);
+        }
+        close(forces("hold", 1.0), [0.0, 0.0, 0.0, 40.0]);
+        close(forces("finger", 0.5), [3.0, 0.0, 0.0, 0.0]);
+        close(forces("box", 0.5), [20.0, 0.0, 0.0, 0.0]);
+        close(forces("ball", 0.5), [0.0, 25.0, 0.0, 0.0]);
+        close(forces("two-hands", 1.0), [12.0, 10.0, 0.0, 0.0]);
+        close(forces("elbow", 1.3), [0.0, 0.0, 25.0, 0.0]);
+        close(forces("press", 0.8), [70.0, 0.0, 0.0, 0.0]);
+        for frame in 0..340 {
+            close(forces("five", 0.3 + f64::from(frame) / 195.0), [13.0, 15.0, 7.0, 12.0]);
+        }
+        let angles: Vec<_> = [0.2, 0.75, 1.3, 2.5]
+            .iter()
+            .map(|t| load("elbow").unwrap().posture(*t).map(|(_, angle)| angle.round()).next().unwrap())
+            .collect();
+        assert_eq!(angles, [0.0, 55.0, 110.0, 0.0]);
+    }
+
+    #[test]
+    fn names_that_do_not_exist_are_answered_with_those_that_do() {
+        let error = load("tickle").unwrap_err().to_string();
+        assert!(error.starts_with("there is no scene \"tickle\"; known are pat, lash, "), "{error}");
+        let error = load("no/such.toml").unwrap_err().to_string();
+        assert!(error.starts_with("cannot read no/such.toml: "), "{error}");
+        let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };
+        let error = script.load_garment().unwrap_err().to_string();
+        assert!(
+            error.starts_with(
+                "in script pat: `garment`: there is no garment \"shirt\"; known are reference, "
+            )
+        );
+    }
+}

@@ -1,0 +1,127 @@
+//! One touch of a script: what touches where, how hard, when.
+
+use serde::{Deserialize, Serialize};
+
+/// One touch, possibly repeated: a footprint that appears, moves straight on and vanishes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Touch {
+    /// Name of the panel on which `at` lies; the touch may go on across its seams.
+    pub panel: String,
+    /// What touches.
+    pub shape: Shape,
+    /// Force at its peak, N.
+    pub force_n: f64,
+    /// Centre at the start, `[x, y]` in taxels.
+    pub at: Option<[f64; 2]>,
+    /// Centre at the start, `[x, y]` in mm from the centre of the panel's first taxel.
+    pub at_mm: Option<[f64; 2]>,
+    /// Size of the footprint, mm; the usual size of the shape by default.
+    pub size_mm: Option<Size>,
+    /// Direction of the footprint's length, degrees from +x towards +y.
+    #[serde(default)]
+    pub angle_deg: f64,
+    /// Onset of the first touch, s.
+    pub start_s: f64,
+    /// Time from zero to the peak (half a cosine), s.
+    #[serde(default = "edge_s")]
+    pub rise_s: f64,
+    /// Time at the peak, s.
+    #[serde(default)]
+    pub hold_s: f64,
+    /// Time from the peak to zero (half a cosine), s.
+    #[serde(default = "edge_s")]
+    pub fall_s: f64,
+    /// Velocity of the centre, `[vx, vy]` in taxels per second.
+    #[serde(default)]
+    pub velocity: [f64; 2],
+    /// How often the touch happens; each time it starts at the same place.
+    #[serde(default = "one_u32")]
+    pub repeat: u32,
+    /// Time from one onset to the next, s; the length of the touch by default.
+    pub period_s: Option<f64>,
+}
+
+impl Touch {
+    /// Length of one touch, s.
+    pub fn once_s(&self) -> f64 {
+        self.rise_s + self.hold_s + self.fall_s
+    }
+
+    /// End of the last repetition, s.
+    pub fn end_s(&self) -> f64 {
+        let period = self.period_s.unwrap_or(self.once_s());
+        self.start_s + f64::from(self.repeat.saturating_sub(1)) * period + self.once_s()
+    }
+
+    /// Length and width of the footprint, mm.
+    pub fn size(&self) -> [f64; 2] {
+        match self.size_mm {
+            Some(Size::Round(d)) => [d, d],
+            Some(Size::Both(size)) => size,
+            None => self.shape.usual_mm(),
+        }
+    }
+
+    /// Centre at the start in taxels of a panel of that pitch (mm).
+    pub fn centre(&self, pitch_mm: [f64; 2]) -> [f64; 2] {
+        match (self.at, self.at_mm) {
+            (Some(at), _) => at,
+            (None, Some([x, y])) => [x / pitch_mm[0], y / pitch_mm[1]],
+            (None, None) => [0.0; 2],
+        }
+    }
+}
+
+/// What touches: how the pressure is spread over the footprint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// Flat with rounded corners and soft edges 16 mm wide.
+    Palm,
+    /// Flat rectangle with edges 4 mm wide.
+    Strap,
+    /// Flat rectangle with edges 3 mm wide.
+    Box,
+    /// Elliptic patch, pressure `sqrt(1 - r^2)` (Hertz); usually 16 mm.
+    Finger,
+    /// Elliptic patch, pressure `sqrt(1 - r^2)` (Hertz); usually 80 mm.
+    Ball,
+    /// A cylinder on its side: `sqrt(1 - v^2)` across, flat along; usually 240 x 60 mm.
+    Forearm,
+    /// A fold of the garment against itself: like a forearm; usually 120 x 24 mm.
+    Ridge,
+}
+
+impl Shape {
+    /// Length and width where the script does not say, mm.
+    pub const fn usual_mm(self) -> [f64; 2] {
+        match self {
+            Shape::Palm => [100.0, 85.0],
+            Shape::Strap => [250.0, 20.0],
+            Shape::Box => [60.0, 40.0],
+            Shape::Finger => [16.0, 16.0],
+            Shape::Ball => [80.0, 80.0],
+            Shape::Forearm => [240.0, 60.0],
+            Shape::Ridge => [120.0, 24.0],
+        }
+    }
+}
+
+/// Size of a footprint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "must be a number or [length, width]")]
+pub enum Size {
+    /// The same in both directions, mm.
+    Round(f64),
+    /// Length and width, mm.
+    Both([f64; 2]),
+}
+
+fn edge_s() -> f64 {
+    0.05
+}
+
+fn one_u32() -> u32 {
+    1
+}

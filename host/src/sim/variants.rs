@@ -1,0 +1,179 @@
+//! Seeded variants of a scene: the same touch elsewhere, harder or softer, faster or slower; and controls.
+
+use super::footprint::reach_mm;
+use super::pressure::pitch_mm;
+use super::script::Script;
+use super::touch::Touch;
+use fastrand::Rng;
+use taxel_core::garment::{Area, Layout};
+
+/// A variant: each touch somewhere on its panel such that it stays on it, all panels exchanged by the same number of
+/// steps, all forces times one number and all durations times another, both uniform in 0.5 ..= 1.5. The seed also
+/// becomes the seed of the variant's noise. A script whose garment cannot be loaded keeps its places.
+pub fn vary(script: &Script, seed: u64) -> Script {
+    let mut rng = Rng::with_seed(seed);
+    let factor = |rng: &mut Rng| 0.5 + rng.f64();
+    let mut variant = scale_force(script, factor(&mut rng));
+    variant = scale_rate(&variant, 1.0 / factor(&mut rng));
+    variant.seed = seed;
+    if let Some(layout) = layout_of(script) {
+        let step = rng.usize(..layout.areas().len().max(1));
+        for touch in &mut variant.touches {
+            let home = layout.areas().iter().position(|a| a.name == touch.panel.as_str()).unwrap_or(0);
+            let Some(area) = layout.areas().get((home + step) % layout.areas().len().max(1)) else {
+                continue;
+            };
+            touch.panel = area.name.as_str().into();
+            place(touch, area, [rng.f64(), rng.f64()]);
+        }
+    }
+    variant
+}
+
+/// The same scene with all forces times `factor`: a control at 0.05 should mean nothing.
+pub fn scale_force(script: &Script, factor: f64) -> Script {
+    let mut scaled = script.clone();
+    for touch in &mut scaled.touches {
+        touch.force_n *= factor;
+    }
+    scaled
+}
+
+/// The same scene `factor` times as fast, from its first onset on (above 0): durations and times shrink, speeds grow.
+pub fn scale_rate(script: &Script, factor: f64) -> Script {
+    let mut scaled = script.clone();
+    let starts = script.touches.iter().map(|t| t.start_s).chain(script.joints.iter().map(|j| j.start_s));
+    let first = starts.fold(f64::INFINITY, f64::min).min(script.duration_s);
+    let later = |t: f64| first + (t - first) / factor;
+    scaled.duration_s = later(script.duration_s);
+    for touch in &mut scaled.touches {
+        touch.start_s = later(touch.start_s);
+        for time in [&mut touch.rise_s, &mut touch.hold_s, &mut touch.fall_s] {
+            *time /= factor;
+        }
+        touch.velocity = touch.velocity.map(|v| v * factor);
+        // Rounding must not make the period shorter than the touch.
+        touch.period_s = touch.period_s.map(|period| (period / factor).max(touch.once_s()));
+    }
+    for joint in &mut scaled.joints {
+        joint.start_s = later(joint.start_s);
+        joint.rise_s /= factor;
+        joint.hold_s /= factor;
+        joint.fall_s = joint.fall_s.map(|fall| fall / factor);
+    }
+    scaled
+}
+
+/// The scene on another garment: touches on panels that it lacks go to its panels in turn, at the same relative place.
+pub fn refit(script: &Script, layout: &Layout) -> Script {
+    let mut fitted = script.clone();
+    let Some(old) = layout_of(script) else { return fitted };
+    for touch in &mut fitted.touches {
+        let named = |a: &Area| a.name == touch.panel.as_str();
+        if layout.areas().iter().any(named) {
+            continue;
+        }
+        let Some(home) = old.areas().iter().position(named) else { continue };
+        let (Some(from), Some(to)) =
+            (old.areas().get(home), layout.areas().get(home % layout.areas().len().max(1)))
+        else {
+            continue;
+        };
+        let [x, y] = touch.centre(pitch_mm(from));
+        let part = |at: f64, count: u16| (at + 0.5) / f64::from(count);
+        touch.panel = to.name.as_str().into();
+        touch.at_mm = None;
+        touch.at = Some([
+            part(x, from.columns) * f64::from(to.columns) - 0.5,
+            part(y, from.rows) * f64::from(to.rows) - 0.5,
+        ]);
+    }
+    fitted
+}
+
+fn layout_of(script: &Script) -> Option<Layout> {
+    Layout::build(&script.load_garment().ok()?, usize::from(u16::MAX), super::FULL_SCALE).ok()
+}
+
+/// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room that footprint and way leave, per axis. Where they
+/// leave none, it is centred.
+fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
+    let pitch = pitch_mm(area);
+    let reach = reach_mm(touch.shape, touch.size().map(|s| s / 2.0), touch.angle_deg);
+    let counts = [area.columns, area.rows];
+    let mut at = [0.0; 2];
+    for ((((at, part), count), reach), (pitch, speed)) in
+        at.iter_mut().zip(part).zip(counts).zip(reach).zip(pitch.into_iter().zip(touch.velocity))
+    {
+        let way = speed * touch.once_s();
+        // The panel reaches half a taxel beyond the first and the last centre.
+        let low = reach / pitch - 0.5 - way.min(0.0);
+        let high = f64::from(count) - 0.5 - reach / pitch - way.max(0.0);
+        *at = if low < high { low + part * (high - low) } else { (low + high) / 2.0 };
+    }
+    touch.at_mm = None;
+    touch.at = Some(at);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{World, load};
+    use super::*;
+    use taxel_core::garment::Garment;
+
+    #[test]
+    fn variants_keep_their_force_on_the_panel() {
+        let garment = Garment::reference();
+        let mut panels = std::collections::BTreeSet::new();
+        for name in ["pat", "lash", "stroke", "finger"] {
+            let script = load(name).unwrap();
+            for seed in 0..40 {
+                let variant = vary(&script, seed);
+                variant.check().unwrap();
+                assert_eq!(variant, vary(&script, seed));
+                let touch = &variant.touches[0];
+                assert!((0.5..=1.5).contains(&(touch.force_n / script.touches[0].force_n)));
+                assert!((0.5..=1.5).contains(&(touch.once_s() / script.touches[0].once_s())));
+                let world = World::build(&variant, &garment).unwrap();
+                let panel = garment.panels.iter().position(|p| p.name == touch.panel.as_str()).unwrap();
+                for t in [
+                    touch.start_s + touch.rise_s * 1.001,
+                    touch.start_s + touch.rise_s + touch.hold_s * 0.999,
+                ] {
+                    let newtons: f32 =
+                        (0..512).map(|i| world.newtons(panel * 512 + i, (t * 1e9) as u64)).sum();
+                    assert!(
+                        (f64::from(newtons) / touch.force_n - 1.0).abs() < 0.02,
+                        "{name} {seed}: {newtons}"
+                    );
+                }
+                panels.insert(touch.panel.clone());
+            }
+        }
+        assert_eq!(panels.len(), 4);
+    }
+
+    #[test]
+    fn controls_scale_one_thing() {
+        let pat = load("pat").unwrap();
+        assert!((scale_force(&pat, 0.05).touches[0].force_n - 0.4).abs() < 1e-12);
+        let fast = scale_rate(&pat, 3.0);
+        fast.check().unwrap();
+        assert!((fast.touches[0].once_s() - 0.2 / 3.0).abs() < 1e-12);
+        assert!((fast.touches[0].end_s() - (0.2 + 0.74 / 3.0)).abs() < 1e-9);
+        assert_eq!(fast.touches[0].force_n, 8.0);
+        for factor in [0.1, 0.7, 1.3, 9.0] {
+            for scene in super::super::list() {
+                scale_rate(&load(&scene.name).unwrap(), factor).check().unwrap();
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_moves_to_another_garment() {
+        let layout = Layout::build(&Garment::mat(), 2048, 4095).unwrap();
+        let script = refit(&load("two-hands").unwrap(), &layout);
+        assert!(script.touches.iter().all(|t| t.panel == "mat"));
+        World::build(&script, &Garment::mat()).unwrap();
+    }
+}

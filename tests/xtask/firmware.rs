@@ -1,0 +1,83 @@
+//! The firmware image: built, measured, run.
+
+use crate::cross::Toolchain;
+use crate::{elf, install, paths, process, uf2};
+use std::fmt;
+use std::path::PathBuf;
+use std::process::Command;
+
+const FLASH: u64 = 2048 * 1024 - 32 * 1024;
+const RAM: std::ops::Range<u32> = 0x2000_0000..0x2004_2000;
+
+/// A finished image.
+#[derive(Debug)]
+pub struct Image {
+    /// For debug probes and the emulator.
+    pub elf: PathBuf,
+    uf2: PathBuf,
+    flash: u64,
+    ram: u64,
+}
+
+impl fmt::Display for Image {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kib = |bytes: u64| bytes as f64 / 1024.0;
+        let ram = u64::from(RAM.end - RAM.start);
+        writeln!(f, "ELF    {}", self.elf.display())?;
+        writeln!(f, "UF2    {}", self.uf2.display())?;
+        writeln!(f, "flash  {:.1} of {:.0} KiB", kib(self.flash), kib(FLASH))?;
+        writeln!(
+            f,
+            "RAM    {:.1} of {:.0} KiB, {:.1} left for the stack",
+            kib(self.ram),
+            kib(ram),
+            kib(ram - self.ram)
+        )
+    }
+}
+
+/// Builds the firmware.
+pub fn build() -> Result<Image, String> {
+    let toolchain = Toolchain::find()?;
+    process::run(&mut command(&toolchain))?;
+    measure()
+}
+
+/// The command that builds the firmware.
+pub fn command(toolchain: &Toolchain) -> Command {
+    toolchain.cargo("build", &paths::firmware())
+}
+
+/// Writes the UF2 beside the ELF that was just built, and measures both.
+pub fn measure() -> Result<Image, String> {
+    let elf = paths::cross_target().join(crate::cross::TARGET).join("release/taxel-firmware");
+    let read = |error: std::io::Error| format!("{}: {error}", elf.display());
+    let file = std::fs::read(&elf).map_err(read)?;
+    let segments = elf::segments(&file).ok_or(format!("{} is no ELF file", elf.display()))?;
+    let uf2 = elf.with_extension("uf2");
+    std::fs::write(&uf2, uf2::file(&segments)?).map_err(|error| format!("{}: {error}", uf2.display()))?;
+    let flash = segments.iter().map(|s| s.bytes.len() as u64).sum();
+    let ram = segments.iter().filter(|s| RAM.contains(&s.runs)).map(|s| u64::from(s.memory)).sum();
+    Ok(Image { elf, uf2, flash, ram })
+}
+
+/// The command that builds the core alone.
+pub fn core_command(toolchain: &Toolchain) -> Command {
+    let mut cargo = toolchain.cargo("build", &paths::root());
+    cargo.args(["--package", "taxel-core"]);
+    cargo
+}
+
+/// Builds the core alone.
+pub fn build_core() -> Result<(), String> {
+    process::run(&mut core_command(&Toolchain::find()?))
+}
+
+/// Builds the firmware and runs it in the emulator.
+pub fn emulate(args: &[String]) -> Result<(), String> {
+    install::emulator()?;
+    let image = build()?;
+    let mut node = Command::new("node");
+    node.arg(paths::emulator().join("emulator.mjs")).arg("--image").arg(image.elf).args(args);
+    process::run(&mut node)
+}

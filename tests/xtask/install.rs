@@ -1,0 +1,53 @@
+//! What is missing on the machine is installed where that is allowed, and otherwise named.
+
+use crate::process;
+use std::process::Command;
+
+/// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's source.
+pub const CROSS: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy", "lld"];
+
+/// What the emulator needs.
+pub const NODE: &[&str] = &["nodejs", "npm"];
+
+/// Installs Debian packages, or says what to type.
+pub fn packages(names: &[&str]) -> Result<(), String> {
+    let typed = format!("apt-get install {}", names.join(" "));
+    if !is_root() || !process::exists("apt-get") {
+        return Err(format!("missing; to install: {typed}"));
+    }
+    eprintln!("xtask: {typed}");
+    let mut install = apt(&["install", "--yes", "--no-install-recommends"]);
+    install.args(names);
+    if process::output(&mut install).is_some() {
+        return Ok(());
+    }
+    // The lists may be too old to find the packages.
+    process::output(&mut apt(&["update"]));
+    process::output(&mut install).map(|_| ()).ok_or(format!("{typed} failed"))
+}
+
+fn apt(args: &[&str]) -> Command {
+    let mut command = Command::new("apt-get");
+    command.args(args).env("DEBIAN_FRONTEND", "noninteractive");
+    command
+}
+
+fn is_root() -> bool {
+    process::output(Command::new("id").arg("-u")).as_deref() == Some("0")
+}
+
+/// Node and the emulator's packages.
+pub fn emulator() -> Result<(), String> {
+    if !process::exists("node") || !process::exists("npm") {
+        packages(NODE)?;
+    }
+    let folder = crate::paths::emulator();
+    if folder.join("node_modules/rp2040js").exists() {
+        return Ok(());
+    }
+    let mut npm = Command::new("npm");
+    npm.args(["ci", "--no-audit", "--no-fund"]).current_dir(folder);
+    process::output(&mut npm)
+        .map(|_| ())
+        .ok_or(format!("`{}` in tests/emulator failed", process::shown(&npm)))
+}

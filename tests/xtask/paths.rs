@@ -1,0 +1,34 @@
+//! Where things lie.
+
+use std::path::{Path, PathBuf};
+
+/// The repository.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository").to_path_buf()
+}
+
+/// The firmware's package.
+pub fn firmware() -> PathBuf {
+    root().join("firmware")
+}
+
+/// The emulator harness.
+pub fn emulator() -> PathBuf {
+    root().join("tests/emulator")
+}
+
+/// Cargo's target folder.
+pub fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// The target folder of everything that is built for the microcontroller: its compiler may be another one, and two
+/// compilers in one folder build everything anew in turn.
+pub fn cross_target() -> PathBuf {
+    target().join("firmware")
+}
+
+/// Recorded data: `TAXEL_DATA`, or the folder beside the repository.
+pub fn recorded_data() -> PathBuf {
+    std::env::var_os("TAXEL_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from)
+}
