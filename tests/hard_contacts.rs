@@ -282,7 +282,7 @@ fn translation_is_exact() {
                 rig.set(0, row, column, value);
             }
         }
-        rig.state = Box::default();
+        *rig.state = ContactState::default();
         let contact = rig.only();
         let Some(first) = &first else {
             first = Some(contact);
@@ -543,4 +543,16 @@ fn memory_is_as_documented() {
     let size = size_of::<ContactState<16, 512>>();
     println!("ContactState<16, 512>: {size} bytes");
     assert!(size <= 16 * (4 * 16 + 540) + 20 * 512 + 2048, "{size}");
+}
+
+#[test]
+fn a_contact_travels_whole_and_small() {
+    let mut rig = Rig::new(&Garment::reference());
+    rig.bar(0, 9, 12..16, 3000);
+    rig.bar(1, 9, 0..3, 3000);
+    let contact = rig.only();
+    let bytes = postcard::to_allocvec(&contact).unwrap();
+    assert_eq!(postcard::from_bytes::<Contact>(&bytes).unwrap(), contact);
+    println!("a contact on the wire: {} bytes", bytes.len());
+    assert!(bytes.len() <= 64, "{}", bytes.len());
 }

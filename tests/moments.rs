@@ -153,7 +153,7 @@ fn azimuth_and_anisotropy_hold_at_every_magnitude() {
     }
     println!("azimuth, largest error {worst:.2e} rad; anisotropy {worst_ratio:.2e}");
     assert!(worst <= 1.3e-6);
-    assert!(worst_ratio <= 1.0 / 32768.0);
+    assert!(worst_ratio <= 1.0 / 65536.0 + 1e-8);
 }
 
 /// Fills what `inside` says on a panel of 64 x 64.
@@ -221,7 +221,7 @@ fn breadth_is_within_its_bound() {
         worst = worst.max((f64::from(breadth(&moments, [12_100, 8_700])) - want).abs());
     }
     println!("breadth, largest error {worst:.5} of 0.1 mm");
-    assert!(worst <= 0.5 + 1e-3);
+    assert!(worst <= 0.501);
 }
 
 #[test]

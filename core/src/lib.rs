@@ -1,12 +1,42 @@
 //! `taxel-core`: everything between the converter's codes and the meaning of a touch.
+//!
+//! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan), [`condition`]
+//! (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments, moments, tracks), [`shape`] (NMI, k-NN),
+//! [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
+//! [`scene`] (all their settings), [`pipeline`] (their composition), [`wire`] (messages, frames), [`board`] (a function
+//! of what happened) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod acquire;
-pub mod condition;
-pub mod contact;
 pub mod format;
+
 pub mod garment;
-pub mod intent;
+
+pub mod acquire;
+
+pub mod condition;
+
+pub mod fold;
+
+pub mod contact;
+
 pub mod shape;
+
+pub mod body;
+
+pub mod symbol;
+
+pub mod intent;
+
+pub mod react;
+
+pub mod scene;
+
+pub mod pipeline;
+
+pub mod wire;
+
+pub mod board;
+
+pub mod run;

@@ -36,6 +36,8 @@ pub struct ScanReport {
 /// Why a scan failed. The frame is dropped; nothing else is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScanError {
+    /// A line that is no select line could not be driven.
+    Output(u8),
     /// A select line could not be driven.
     Line {
         /// GPIO number
@@ -57,6 +59,7 @@ pub enum ScanError {
 impl fmt::Display for ScanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            ScanError::Output(pin) => write!(f, "pin {pin} cannot be driven"),
             ScanError::Line { pin, taxel } => {
                 write!(f, "select line on pin {pin} cannot be driven (at taxel {taxel})")
             }
@@ -75,10 +78,17 @@ impl core::error::Error for ScanError {}
 pub trait Acquire {
     /// Reads the blocks of `plan` once.
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError>;
+
+    /// Puts a pin that is no select line to a level.
+    fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError>;
 }
 
 impl<A: Acquire> Acquire for &mut A {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
         (**self).scan(circuit, plan).await
+    }
+
+    fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
+        (**self).drive(pin, level)
     }
 }

@@ -176,4 +176,9 @@ where
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
         Ok(Scan { codes: &self.codes, report: ScanReport { start, duration_us, overruns: 0 } })
     }
+
+    fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
+        let driven = self.lines.drive(pin, level).ok_or(ScanError::NoPin(pin))?;
+        driven.map_err(|_| ScanError::Output(pin))
+    }
 }

@@ -41,10 +41,20 @@ impl Condition {
                 state.follow_drift(layout, codes, panels, feedback);
             }
         }
-        let filtered = self.config.filter != Filter::Off;
-        let values = if filtered { &state.filtered } else { &state.calibrated };
-        let rows = if filtered { &state.filtered_rows } else { &state.calibrated_rows };
-        // During a tare the calibrated image holds sums.
+        self.image(state, layout)
+    }
+
+    /// The last image again.
+    pub fn image<'a, const TAXELS: usize>(
+        &self,
+        state: &'a ConditionState<TAXELS>,
+        layout: &Layout,
+    ) -> Image<'a> {
+        let (values, rows) = match self.config.filter {
+            Filter::Off => (&state.calibrated, &state.calibrated_rows),
+            _ => (&state.filtered, &state.filtered_rows),
+        };
+        // During a tare the calibrated image holds sums; the filtered one is empty then.
         let values = if rows.is_empty() { &state.filtered } else { values };
         Image { values: values.get(..layout.taxels()).unwrap_or(values), rows }
     }
@@ -257,7 +267,7 @@ mod tests {
         let (condition, layout, mut state) = rig(ConditionConfig::default(), 0);
         let mut feedback = Feedback::<4>::new();
         let mut codes = vec![Code(10); 2048];
-        let mut run = |state: &mut State, codes: &[Code], feedback: &Feedback<4>, frames| {
+        let run = |state: &mut State, codes: &[Code], feedback: &Feedback<4>, frames| {
             for _ in 0..frames {
                 condition.process(state, &layout, codes, false, 0xf, feedback);
             }

@@ -12,7 +12,7 @@ pub struct Axis {
     /// Angle of the major axis from +x towards +y, in (-1/4, 1/4] turn; none where the anisotropy is below
     /// `clamp(1 / area, 0.02, 0.15)`. In taxel coordinates, whatever the pitch. At most 1.3e-6 rad off.
     pub azimuth: Option<Turn>,
-    /// `D / J = sqrt((A - B)^2 + 4 C^2) / (A + B)`: 0 for a disc or square, 1 for a line. At most one step off.
+    /// `D / J = sqrt((A - B)^2 + 4 C^2) / (A + B)`: 0 for a disc or square, 1 for a line. Half a step off at most, and 1e-8.
     pub anisotropy: Q15,
 }
 
@@ -78,7 +78,7 @@ pub(super) fn mean(sum: i64, m: u64) -> Fixed16 {
 /// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
 /// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
 /// taken to millimetres first, so that a pitch that differs along the axes is honoured. A pitch that is 0 counts as 10 mm.
-/// Rounded to the nearest; within 1e-6 of `w` and half a step.
+/// Rounded to the nearest: 0.501 steps off at most.
 pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     // Beyond 655 mm the squares would not leave room; no garment is that coarse.
     let [px, py] = pitch_um.map(|p| {
@@ -104,7 +104,7 @@ pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     } else {
         Scaled::from_u64(minor * 12).over(m).over(m).shifted(exponent)
     };
-    // Sixteen fraction bits: 2 w^2 < 2^48 for widths below 1 km.
+    // Eight fraction bits, which a width of one pixel needs.
     let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
     Scaled::from_u64(sum).shifted(-9).sqrt().to_fixed(0)
 }

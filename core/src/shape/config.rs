@@ -17,7 +17,7 @@ pub struct ShapeConfig {
 
 impl Default for ShapeConfig {
     fn default() -> Self {
-        ShapeConfig { k: 1, reject: 250 }
+        ShapeConfig { k: 1, reject: 400 }
     }
 }
 

@@ -1,0 +1,210 @@
+//! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives what to send
+//! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
+
+mod outbox;
+mod pace;
+mod request;
+mod setup;
+
+pub use setup::{BoardInfo, Setup, SetupError};
+
+use crate::acquire::{Plan, Scan, ScanError};
+use crate::condition::Tare;
+use crate::format::{Code, Micros};
+use crate::garment::{Circuit, Garment};
+use crate::pipeline::{PipelineState, Probe, Stage};
+use crate::scene::Scene;
+use crate::wire::{Health, LONGEST_REQUEST, Receiver};
+use heapless::{Deque, String, Vec};
+use outbox::Outbox;
+use pace::Pace;
+
+/// What happened.
+#[derive(Debug)]
+pub enum Input<'a> {
+    /// Bytes came from the host, in any split.
+    Received(&'a [u8]),
+    /// A scan finished, or failed.
+    Scanned(Result<Scan<'a>, ScanError>),
+    /// Work was done, or why not.
+    Done(Work, Result<(), &'static str>),
+    /// Nothing in particular: what is there to do?
+    Tick,
+}
+
+/// What the board asks of its surroundings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Job {
+    /// Scan; answered by [`Input::Scanned`].
+    Scan(Plan),
+    /// Put a pin to a level.
+    Drive(u8, bool),
+    /// Do this; answered by [`Input::Done`].
+    Start(Work),
+}
+
+/// Work beyond scanning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Work {
+    /// Examine lines and taxels.
+    SelfTest,
+    /// Store the settings.
+    Save,
+}
+
+/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in a row.
+pub struct Board<const TAXELS: usize, const RUNS: usize> {
+    info: BoardInfo,
+    setup: Setup,
+    state: PipelineState<TAXELS, RUNS>,
+    inbox: Receiver<LONGEST_REQUEST>,
+    outbox: Outbox<TAXELS>,
+    jobs: Deque<Job, 16>,
+    scans: Pace,
+    scanning: bool,
+    health: Health,
+    scanned: Option<Micros>,
+    frame: u32,
+    taring: bool,
+}
+
+impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+    /// A board that wears `garment` and is used for `scene`.
+    pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
+        let setup = Setup::build(&info, garment, scene, TAXELS)?;
+        let mut board = Board {
+            info,
+            scans: Pace::new(setup.scan_rate()),
+            state: PipelineState::default(),
+            inbox: Receiver::new(),
+            outbox: Outbox::new(),
+            jobs: Deque::new(),
+            scanning: false,
+            health: Health::default(),
+            scanned: None,
+            frame: 0,
+            taring: false,
+            setup,
+        };
+        board.worn();
+        Ok(board)
+    }
+
+    /// The garment has changed: nothing that was known of the old one holds.
+    fn worn(&mut self) {
+        self.state.reset(&self.setup.layout, self.setup.circuit.falling(), self.info.full_scale);
+        self.outbox.forget_image();
+        self.used();
+    }
+
+    /// The scene has changed.
+    fn used(&mut self) {
+        self.state.forget();
+        self.scans = Pace::new(self.setup.scan_rate());
+        self.outbox.pace(&self.setup.scene.stream);
+        self.taring = false;
+        for line in self.setup.pipeline.reactions().outputs() {
+            let _ = self.jobs.push_back(Job::Drive(line.pin, line.inverted));
+        }
+    }
+
+    /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
+    pub fn step(&mut self, now: Micros, input: Input<'_>, probe: &mut impl Probe) -> Option<Job> {
+        match input {
+            Input::Received(bytes) => self.receive(now, bytes),
+            Input::Scanned(Ok(scan)) => self.perceive(now, &scan, probe),
+            Input::Scanned(Err(error)) => {
+                self.scanning = false;
+                self.health.failed = self.health.failed.wrapping_add(1);
+                self.outbox.log(format_args!("scan: {error}"));
+            }
+            Input::Done(work, result) => {
+                self.outbox.answer(request::number_of(work), result.err().map(|why| format_args!("{why}").into()));
+            }
+            Input::Tick => return self.next_job(now),
+        }
+        None
+    }
+
+    fn next_job(&mut self, now: Micros) -> Option<Job> {
+        if let Some(scanned) = self.scanned.take() {
+            self.health.process_us = now.since(scanned).min(u64::from(u32::MAX)) as u32;
+        }
+        self.outbox.tick(now, &self.health);
+        if let Some(job) = self.jobs.pop_front() {
+            return Some(job);
+        }
+        if self.scanning || !self.scans.due(now) {
+            return None;
+        }
+        self.scanning = true;
+        Some(Job::Scan(self.setup.scene.plan))
+    }
+
+    /// Time of the next scan, if it is not due yet: until then there is nothing to do but to move bytes.
+    pub fn wake(&self) -> Micros {
+        self.scans.next()
+    }
+
+    fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
+        self.scanning = false;
+        self.scanned = Some(now);
+        self.frame = self.frame.wrapping_add(1);
+        self.health.scans = self.health.scans.wrapping_add(1);
+        self.health.overruns = self.health.overruns.wrapping_add(scan.report.overruns);
+        self.health.scan_us = scan.report.duration_us;
+        let Setup { pipeline, layout, circuit, .. } = &self.setup;
+        let time = scan.report.start;
+        let percept =
+            pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
+        for change in percept.reactions.changes() {
+            if let Some(line) = pipeline.reactions().output(change.index) {
+                let _ = self.jobs.push_back(Job::Drive(line.pin, change.active != line.inverted));
+            }
+        }
+        self.outbox.note(self.frame, time, &percept, &mut self.health);
+        if self.taring && percept.tare == Tare::Done {
+            self.taring = false;
+            self.outbox.answer(request::TARE, None);
+        }
+        self.outbox.raw(scan.codes, layout.taxels());
+        probe.begin(Stage::Idle);
+    }
+
+    /// What is to be sent next: the rest of the frame under way, else the most urgent message, encoded now.
+    pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
+        let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
+        self.outbox.pending(now, &self.info, &self.setup, image, &mut self.health, probe)
+    }
+
+    /// The first `count` of the pending bytes have been taken by the link.
+    pub fn sent(&mut self, count: usize) {
+        self.outbox.sent(count);
+    }
+
+    /// The wiring of the garment.
+    pub fn circuit(&self) -> &Circuit {
+        &self.setup.circuit
+    }
+
+    /// Garment, scene and what was built of them.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// What the stages remember.
+    pub fn state(&self) -> &PipelineState<TAXELS, RUNS> {
+        &self.state
+    }
+
+    /// Counters.
+    pub fn health(&self) -> &Health {
+        &self.health
+    }
+}
+
+/// A sentence of the board, cut where it gets too long.
+type Sentence = String<120>;
+
+/// Codes to be sent raw, kept until the link has room.
+type Codes<const TAXELS: usize> = Vec<Code, TAXELS>;

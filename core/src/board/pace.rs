@@ -1,0 +1,56 @@
+//! How often something is due.
+
+use crate::format::Micros;
+
+/// A rate, and when it is due next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Pace {
+    /// None: never.
+    period_us: Option<u64>,
+    next: Micros,
+}
+
+impl Pace {
+    /// `hz` times a second; 0: never, `u16::MAX`: always.
+    pub fn new(hz: u16) -> Pace {
+        let period_us = match hz {
+            0 => None,
+            u16::MAX => Some(0),
+            hz => Some(u64::from(1_000_000 / u32::from(hz))),
+        };
+        Pace { period_us, next: Micros(0) }
+    }
+
+    /// Whether it is due; if so the next time is a period later, or after now where that has passed, too.
+    pub fn due(&mut self, now: Micros) -> bool {
+        let Some(period) = self.period_us else { return false };
+        if now < self.next {
+            return false;
+        }
+        let next = Micros(self.next.0.saturating_add(period));
+        self.next = if next < now { Micros(now.0.saturating_add(period)) } else { next };
+        true
+    }
+
+    /// When it is due next.
+    pub fn next(&self) -> Micros {
+        self.next
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates() {
+        let times = |hz: u16, step: u64| {
+            let mut pace = Pace::new(hz);
+            (0..1_000_000 / step).filter(|i| pace.due(Micros(i * step))).count()
+        };
+        assert_eq!(times(0, 5128), 0);
+        assert_eq!(times(u16::MAX, 5128), 195);
+        assert_eq!(times(20, 5128), 20);
+        assert_eq!(times(60, 1000), 60);
+    }
+}

@@ -1,0 +1,130 @@
+//! What the host asks for.
+
+use super::outbox::Refusal;
+use super::{Board, Job, Work};
+use crate::format::{Micros, Q15};
+use crate::garment::Garment;
+use crate::scene::Scene;
+use crate::wire::{Request, decode};
+
+/// Number of `Tare`, whose answer comes when it is done.
+pub(super) const TARE: u8 = 2;
+/// Number of a request that could not be read.
+const UNREADABLE: u8 = 255;
+
+/// Number of the request that asked for this work.
+pub(super) fn number_of(work: Work) -> u8 {
+    match work {
+        Work::SelfTest => Request::SelfTest.number(),
+        Work::Save => Request::Save.number(),
+    }
+}
+
+impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+    pub(super) fn receive(&mut self, now: Micros, bytes: &[u8]) {
+        for byte in bytes {
+            // The receiver is taken apart from the rest of the board while its message is read.
+            let Board { inbox, outbox, health, .. } = self;
+            let Some(frame) = inbox.push(*byte) else { continue };
+            let mut message = [0; crate::wire::LONGEST_REQUEST];
+            let read = frame.and_then(|body| {
+                let slot = message.get_mut(..body.len()).ok_or(crate::wire::WireError::TooLong)?;
+                slot.copy_from_slice(body);
+                decode::<Request>(slot)
+            });
+            match read {
+                Ok(request) => self.obey(now, request),
+                Err(error) => {
+                    health.refused = health.refused.wrapping_add(1);
+                    outbox.answer(UNREADABLE, Some(format_args!("{error}").into()));
+                }
+            }
+        }
+    }
+
+    fn obey(&mut self, now: Micros, request: Request<'_>) {
+        let number = request.number();
+        let result = match request {
+            Request::SetGarment(bytes) => self.set_garment(bytes),
+            Request::SetScene(bytes) => self.set_scene(bytes),
+            Request::Tare { frames } => match self.tare(frames) {
+                Ok(()) => return,
+                refused => refused,
+            },
+            Request::Start => {
+                self.outbox.start();
+                Ok(())
+            }
+            Request::Stop => {
+                self.outbox.stop();
+                Ok(())
+            }
+            Request::Sync { token } => return self.outbox.sync(token, now),
+            Request::Posture(posture) => {
+                self.state.fold.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
+            }
+            Request::Concept { slot, value } => self.set_concept(slot, value),
+            Request::KeyFrame => {
+                self.outbox.forget_image();
+                Ok(())
+            }
+            Request::SelfTest => return self.start(Work::SelfTest),
+            Request::Save => return self.start(Work::Save),
+            Request::SetGain { first, gains } => self.set_gain(first, &gains),
+        };
+        self.outbox.answer(number, result.err());
+    }
+
+    fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let garment: Garment = decode(bytes).map_err(Refusal::of)?;
+        let scene = self.setup.scene.clone();
+        self.setup = super::Setup::build(&self.info, garment, scene, TAXELS).map_err(Refusal::of)?;
+        self.worn();
+        Ok(())
+    }
+
+    fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let scene: Scene = decode(bytes).map_err(Refusal::of)?;
+        self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
+        self.used();
+        Ok(())
+    }
+
+    fn tare(&mut self, frames: u16) -> Result<(), Refusal> {
+        if !(1..=4096).contains(&frames) {
+            return Err(Refusal::of("frames must be 1 to 4096"));
+        }
+        if self.state.is_touched() {
+            return Err(Refusal::of("something touches the garment"));
+        }
+        self.state.condition.tare(frames);
+        self.taring = true;
+        Ok(())
+    }
+
+    fn set_concept(&mut self, slot: u8, value: Q15) -> Result<(), Refusal> {
+        if value < Q15(-32768) || value > Q15::ONE {
+            return Err(Refusal::of("value must be -1 to 1"));
+        }
+        let held = self.state.host.get_mut(usize::from(slot)).ok_or(Refusal::of("there is no such slot"))?;
+        *held = value;
+        Ok(())
+    }
+
+    fn set_gain(&mut self, first: u16, gains: &[u16]) -> Result<(), Refusal> {
+        let end = usize::from(first) + gains.len();
+        if end > self.setup.layout.taxels() {
+            return Err(Refusal::of("the garment has no such taxel"));
+        }
+        for (taxel, gain) in (usize::from(first)..end).zip(gains) {
+            self.state.condition.set_gain(taxel, *gain);
+        }
+        Ok(())
+    }
+
+    fn start(&mut self, work: Work) {
+        if self.jobs.push_back(Job::Start(work)).is_err() {
+            self.outbox.answer(number_of(work), Some(Refusal::of("too much is waiting to be done")));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Garment, scene, and what is built of them; changed as a whole or not at all.
+
+use crate::format::Invalid;
+use crate::garment::{Circuit, Garment, GarmentError, Layout, Pins};
+use crate::pipeline::{Pipeline, SceneError};
+use crate::scene::Scene;
+use core::fmt;
+
+/// What is fixed by the board itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BoardInfo {
+    /// Name and version of the firmware.
+    pub firmware: &'static str,
+    /// Pins that it brings out.
+    pub pins: Pins,
+    /// Largest code of its converter.
+    pub full_scale: u16,
+    /// What its link carries, bytes a second.
+    pub link_bytes_per_s: u32,
+}
+
+/// A checked garment and scene.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The garment as it was sent.
+    pub garment: Garment,
+    /// The scene as it was sent.
+    pub scene: Scene,
+    /// Its geometry.
+    pub layout: Layout,
+    /// Its wiring.
+    pub circuit: Circuit,
+    /// The scene's stages.
+    pub pipeline: Pipeline,
+}
+
+/// Why a garment or scene is refused.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SetupError {
+    /// The garment is wrong.
+    Garment(GarmentError),
+    /// The scene is wrong.
+    Scene(SceneError),
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SetupError::Garment(error) => write!(f, "garment: {error}"),
+            SetupError::Scene(error) => write!(f, "scene: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for SetupError {}
+
+impl From<GarmentError> for SetupError {
+    fn from(error: GarmentError) -> Self {
+        SetupError::Garment(error)
+    }
+}
+
+impl From<SceneError> for SetupError {
+    fn from(error: SceneError) -> Self {
+        SetupError::Scene(error)
+    }
+}
+
+/// Bytes of one contact in a `Contacts` message, at most.
+const CONTACT_BYTES: u32 = 90;
+/// Contacts of a typical scene, for which the rate of updates is checked against the link.
+const TYPICAL_CONTACTS: u32 = 5;
+
+impl Setup {
+    /// Checks everything for a board that holds `capacity` taxels.
+    pub fn build(
+        info: &BoardInfo,
+        garment: Garment,
+        scene: Scene,
+        capacity: usize,
+    ) -> Result<Setup, SetupError> {
+        let layout = Layout::build(&garment, capacity, info.full_scale)?;
+        let circuit = Circuit::build(&garment, &layout, info.pins)?;
+        let pipeline = checked(info, &scene, &layout, &circuit)?;
+        Ok(Setup { garment, scene, layout, circuit, pipeline })
+    }
+
+    /// Takes another scene for the same garment; nothing changes if it is refused.
+    pub fn change_scene(&mut self, info: &BoardInfo, scene: Scene) -> Result<(), SetupError> {
+        self.pipeline = checked(info, &scene, &self.layout, &self.circuit)?;
+        self.scene = scene;
+        Ok(())
+    }
+
+    /// Scans per second, as [`Pace`](super::pace::Pace) wants it: a scene's 0 is "as many as possible".
+    pub(super) fn scan_rate(&self) -> u16 {
+        if self.scene.rate_hz == 0 { u16::MAX } else { self.scene.rate_hz }
+    }
+}
+
+/// The scene's stages, if the scene fits the garment and the board.
+fn checked(
+    info: &BoardInfo,
+    scene: &Scene,
+    layout: &Layout,
+    circuit: &Circuit,
+) -> Result<Pipeline, SceneError> {
+    let rate = u32::from(scene.stream.contacts_hz);
+    let asked = rate.saturating_mul(CONTACT_BYTES).saturating_mul(TYPICAL_CONTACTS);
+    if scene.stream.contacts_hz != u16::MAX && asked > info.link_bytes_per_s {
+        let must = "must be lower: five contacts at this rate exceed the link";
+        return Err(Invalid { parameter: "stream.contacts_hz", must }.into());
+    }
+    for (index, row) in scene.react.iter().enumerate() {
+        let Some(line) = row.output else { continue };
+        let parameter = "react.output.pin";
+        if line.pin >= 64 || info.pins.outputs >> line.pin & 1 == 0 {
+            return Err(Invalid { parameter, must: "must be a free output of this board" }.into());
+        }
+        let others = scene.react.iter().take(index).filter_map(|row| row.output);
+        if circuit.lines().contains(&line.pin) || others.into_iter().any(|other| other.pin == line.pin) {
+            return Err(Invalid { parameter, must: "must not be used twice" }.into());
+        }
+    }
+    Pipeline::build(scene, layout)
+}

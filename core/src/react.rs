@@ -1,0 +1,196 @@
+//! Reactions: what the garment does by itself, without a host.
+//!
+//! | | |
+//! |---|---|
+//! | input | region states, the meaning of the touch |
+//! | output | changes of named reactions, in the frame that shows their cause |
+//! | latency | none |
+//! | RAM | [`ReactState`]: 16 bytes a reaction |
+
+use crate::format::{Invalid, Micros, Name, Q15};
+use crate::garment::{Layout, Line};
+use crate::intent::{Leading, Map, Meaning};
+use crate::symbol::RegionState;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Most reactions of a scene.
+pub const REACTIONS: usize = 8;
+
+/// What a reaction looks at. Variants are only appended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Cause {
+    /// Greatest pressure of a taxel, counts.
+    Pressure,
+    /// Total pressure of the region, counts.
+    Force,
+    /// Number of contacts.
+    Contacts,
+    /// A contact slides: 1.
+    Moving,
+    /// Activation of a concept of the map, Q15 (32768 is 1.0).
+    Concept(Name),
+    /// This intention leads: 1.
+    Leading(Leading),
+}
+
+/// One row of the table of reactions.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReactionConfig {
+    /// What the host is told.
+    pub name: Name,
+    /// What is looked at.
+    pub cause: Cause,
+    /// Only in this region of the body; empty: anywhere. Concepts and intentions have no region.
+    #[serde(default)]
+    pub region: Name,
+    /// It begins when the value reaches this, in the unit of the cause.
+    pub level: i32,
+    /// It can end when the value is below `level - hysteresis`.
+    #[serde(default)]
+    pub hysteresis: i32,
+    /// Shortest time that it lasts, and time for which the value must stay below before it ends, ms.
+    #[serde(default)]
+    pub hold_ms: u32,
+    /// A pin that is asserted while it lasts.
+    #[serde(default)]
+    pub output: Option<Line>,
+}
+
+/// A reaction that began or ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Reaction {
+    /// Row of the scene's table.
+    pub index: u8,
+    /// Its name.
+    pub name: Name,
+    /// It began, else it ended.
+    pub active: bool,
+    /// The value that decided, in the unit of the cause.
+    pub value: i32,
+}
+
+/// Causes resolved against the layout and the map.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Watch {
+    Region(Cause, Option<u8>),
+    Concept(usize),
+    Leading(Leading),
+}
+
+/// The checked stage.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reactions {
+    rows: Vec<(ReactionConfig, Watch), REACTIONS>,
+}
+
+/// What the stage remembers.
+#[derive(Debug, Default, Clone)]
+pub struct ReactState {
+    /// Time at which the value last reached the level, for those that last.
+    active: [Option<Micros>; REACTIONS],
+    activations: Vec<Q15, { crate::intent::CONCEPTS }>,
+    leading: Leading,
+    changes: Vec<Reaction, REACTIONS>,
+}
+
+impl ReactState {
+    /// What began or ended in the last frame.
+    pub fn changes(&self) -> &[Reaction] {
+        &self.changes
+    }
+}
+
+impl Reactions {
+    /// Checks the table against the regions of a garment and the concepts of a map.
+    pub fn build(rows: &[ReactionConfig], layout: &Layout, map: Option<&Map>) -> Result<Reactions, Invalid> {
+        let refuse = |parameter, must| Err(Invalid { parameter, must });
+        let mut reactions = Reactions { rows: Vec::new() };
+        for row in rows {
+            if row.hysteresis < 0 || row.hysteresis > row.level.max(0) {
+                return refuse("react.hysteresis", "must be 0 to level");
+            }
+            let region = match layout.regions().iter().position(|r| *r == row.region) {
+                Some(region) => Some(region as u8),
+                None if row.region.is_empty() => None,
+                None => return refuse("react.region", "must be a region of the garment, or empty"),
+            };
+            let watch = match &row.cause {
+                Cause::Concept(name) => match map.and_then(|map| map.find(name)) {
+                    Some(concept) => Watch::Concept(concept),
+                    None => return refuse("react.cause.concept", "must be a concept of the map"),
+                },
+                Cause::Leading(_) if map.is_none() => {
+                    return refuse("react.cause.leading", "needs a map, and the scene has none");
+                }
+                Cause::Leading(leading) => Watch::Leading(*leading),
+                cause => Watch::Region(cause.clone(), region),
+            };
+            if reactions.rows.push((row.clone(), watch)).is_err() {
+                return refuse("react", "must not have more than 8 rows");
+            }
+        }
+        Ok(reactions)
+    }
+
+    /// Takes one frame: the state of the regions and the meaning, if there is a new one.
+    pub fn process(
+        &self,
+        state: &mut ReactState,
+        regions: &[RegionState],
+        meaning: Option<&Meaning>,
+        now: Micros,
+    ) {
+        let ReactState { active, activations, leading, changes } = state;
+        changes.clear();
+        if let Some(meaning) = meaning {
+            *leading = meaning.leading;
+            activations.clear();
+            // Both have the capacity of the map.
+            let _ = activations.extend_from_slice(&meaning.activations);
+        }
+        for (index, ((row, watch), since)) in self.rows.iter().zip(active.iter_mut()).enumerate() {
+            let value = match watch {
+                Watch::Region(cause, region) => of_regions(cause, *region, regions),
+                Watch::Concept(concept) => activations.get(*concept).map_or(0, |a| a.0),
+                Watch::Leading(wanted) => i32::from(wanted == leading),
+            };
+            let was = since.is_some();
+            if value >= row.level || (was && value >= row.level - row.hysteresis) {
+                *since = Some(now);
+            } else if since.is_some_and(|last| now.since(last) >= 1000 * u64::from(row.hold_ms)) {
+                *since = None;
+            }
+            if since.is_some() != was {
+                let name = row.name.clone();
+                let _ = changes.push(Reaction { index: index as u8, name, active: !was, value });
+            }
+        }
+    }
+
+    /// The pin that a row asserts.
+    pub fn output(&self, index: u8) -> Option<Line> {
+        self.rows.get(usize::from(index))?.0.output
+    }
+
+    /// All pins that rows assert.
+    pub fn outputs(&self) -> impl Iterator<Item = Line> + '_ {
+        self.rows.iter().filter_map(|(row, _)| row.output)
+    }
+}
+
+fn of_regions(cause: &Cause, region: Option<u8>, regions: &[RegionState]) -> i32 {
+    let wanted = regions.iter().filter(|state| region.is_none_or(|r| r == state.region));
+    let value = wanted
+        .map(|state| match cause {
+            Cause::Pressure => u32::from(state.peak),
+            Cause::Force => state.total,
+            Cause::Contacts => u32::from(state.contacts),
+            Cause::Moving => u32::from(state.moving),
+            Cause::Concept(_) | Cause::Leading(_) => 0,
+        })
+        .max();
+    i32::try_from(value.unwrap_or(0)).unwrap_or(i32::MAX)
+}

@@ -1,0 +1,96 @@
+//! The only loop, shared by firmware, host and tests.
+
+use crate::acquire::{Acquire, Clock};
+use crate::board::{Board, Input, Job, Work};
+use crate::format::Micros;
+use crate::pipeline::{Probe, Stage};
+use core::future::Future;
+use core::pin::pin;
+use core::task::{Context, Poll, Waker};
+
+/// A byte link that never waits: rings behind it are pumped by others.
+pub trait Link {
+    /// Takes received bytes, at most as many as `buffer` holds; how many.
+    fn try_read(&mut self, buffer: &mut [u8]) -> usize;
+    /// Gives bytes to send; how many were taken.
+    fn try_write(&mut self, bytes: &[u8]) -> usize;
+}
+
+/// What a board is besides its pins, its converter and its link.
+#[allow(async_fn_in_trait)] // one board, one executor: nobody needs the future to be Send
+pub trait Platform: Clock + Probe {
+    /// The loop has come round: feed the watchdog. `false` ends the loop, which only a host wants.
+    fn alive(&mut self) -> bool;
+    /// Does work that the board asked for, or says why not.
+    fn work(&mut self, work: Work) -> Result<(), &'static str>;
+    /// Nothing to do until `until`, but bytes may come or go: waits a millisecond at most.
+    async fn idle(&mut self, until: Micros);
+}
+
+/// Runs a board for as long as its platform is alive.
+pub async fn run<const TAXELS: usize, const RUNS: usize>(
+    acquire: &mut impl Acquire,
+    link: &mut impl Link,
+    platform: &mut impl Platform,
+    board: &mut Board<TAXELS, RUNS>,
+) {
+    while platform.alive() {
+        pump(link, platform, board);
+        let now = platform.now();
+        match board.step(now, Input::Tick, platform) {
+            Some(Job::Scan(plan)) => {
+                platform.begin(Stage::Scan);
+                let scan = acquire.scan(board.circuit(), &plan).await;
+                platform.begin(Stage::Idle);
+                let now = platform.now();
+                board.step(now, Input::Scanned(scan), platform);
+            }
+            Some(Job::Drive(pin, level)) => {
+                // The pin was checked with the scene; a line that fails shows in the next scan.
+                let _ = acquire.drive(pin, level);
+            }
+            Some(Job::Start(work)) => {
+                let result = platform.work(work);
+                let now = platform.now();
+                board.step(now, Input::Done(work, result), platform);
+            }
+            None => platform.idle(board.wake()).await,
+        }
+    }
+}
+
+/// Moves bytes both ways, as many as are there and fit.
+fn pump<const TAXELS: usize, const RUNS: usize>(
+    link: &mut impl Link,
+    platform: &mut impl Platform,
+    board: &mut Board<TAXELS, RUNS>,
+) {
+    let mut buffer = [0; 64];
+    loop {
+        let count = link.try_read(&mut buffer).min(buffer.len());
+        let Some(received) = buffer.get(..count).filter(|r| !r.is_empty()) else { break };
+        let now = platform.now();
+        board.step(now, Input::Received(received), platform);
+    }
+    loop {
+        let now = platform.now();
+        let bytes = board.pending(now, platform);
+        let wanted = bytes.len();
+        let taken = link.try_write(bytes);
+        board.sent(taken);
+        if wanted == 0 || taken < wanted {
+            break;
+        }
+    }
+}
+
+/// Polls a future until it is ready: for hosts, whose scans are ready at once.
+pub fn block_on<F: Future>(future: F) -> F::Output {
+    let mut future = pin!(future);
+    let mut context = Context::from_waker(Waker::noop());
+    loop {
+        if let Poll::Ready(output) = future.as_mut().poll(&mut context) {
+            return output;
+        }
+    }
+}

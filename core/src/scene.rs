@@ -1,0 +1,156 @@
+//! The scene: what one deployment needs, as one small checked value.
+
+use crate::acquire::Plan;
+use crate::condition::{ConditionConfig, Filter};
+use crate::contact::ContactConfig;
+use crate::fold::JOINTS;
+use crate::format::{Name, name};
+use crate::garment::{Line, PANELS};
+use crate::intent::{IntentConfig, tactile};
+use crate::react::{Cause, REACTIONS, ReactionConfig};
+use crate::shape::ShapeConfig;
+use crate::symbol::SymbolConfig;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// How friendly it is to touch a region.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Friendliness {
+    /// The region of the body.
+    pub region: Name,
+    /// -100 ..= 100 percent.
+    pub percent: i8,
+}
+
+/// What is streamed, and at most how often (0: never; 65535: with every scan).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StreamConfig {
+    /// Conditioned images per second.
+    pub frames_hz: u16,
+    /// Contact updates per second; onsets and releases are told in any case.
+    pub contacts_hz: u16,
+    /// Symbols are told.
+    pub symbols: bool,
+    /// Intentions are told.
+    pub intent: bool,
+    /// Raw codes per second.
+    pub raw_hz: u16,
+    /// Longest time between two key frames, ms, 1 ..= 1000.
+    pub key_ms: u16,
+}
+
+impl Default for StreamConfig {
+    fn default() -> Self {
+        StreamConfig {
+            frames_hz: u16::MAX,
+            contacts_hz: u16::MAX,
+            symbols: true,
+            intent: true,
+            raw_hz: 0,
+            key_ms: 1000,
+        }
+    }
+}
+
+/// What one deployment needs. Authored as a file, sent as one message, echoed in `Hello`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Scene {
+    /// What people call it.
+    pub name: Name,
+    /// What is scanned.
+    pub plan: Plan,
+    /// Scans per second at most; 0: as many as the board can.
+    pub rate_hz: u16,
+    /// Baseline, calibration, filter.
+    pub condition: ConditionConfig,
+    /// Contacts and how they are followed.
+    pub contact: ContactConfig,
+    /// Shapes; none: not recognised.
+    pub shape: Option<ShapeConfig>,
+    /// Limits between words.
+    pub symbol: SymbolConfig,
+    /// The map and how it decides; none: no intention.
+    pub intent: Option<IntentConfig>,
+    /// How friendly it is to touch a region; 0 where none is given.
+    pub friendliness: Vec<Friendliness, PANELS>,
+    /// Joints whose angles the host tells.
+    pub joints: Vec<Name, JOINTS>,
+    /// What the garment does by itself.
+    pub react: Vec<ReactionConfig, REACTIONS>,
+    /// What is streamed.
+    pub stream: StreamConfig,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Scene::shipped()
+    }
+}
+
+impl Scene {
+    /// The scene that ships: everything on, limits for 12 bit and 400 counts per newton.
+    pub fn shipped() -> Scene {
+        let friendly = |region, percent| Friendliness { region: name(region), percent };
+        let reaction = |text, cause, level, hysteresis, pin| ReactionConfig {
+            name: name(text),
+            cause,
+            region: Name::new(),
+            level,
+            hysteresis,
+            hold_ms: 100,
+            output: Some(Line { pin, inverted: false }),
+        };
+        Scene {
+            name: name("shipped"),
+            plan: Plan::default(),
+            rate_hz: 0,
+            // Four and a half standard deviations of a noise of 3 counts; a pat gives 45 counts per taxel.
+            condition: ConditionConfig { floor: 14, filter: Filter::Conservative, track_baseline: true },
+            contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
+            shape: Some(ShapeConfig::default()),
+            symbol: SymbolConfig::default(),
+            intent: Some(IntentConfig::new(tactile())),
+            friendliness: [
+                friendly("chest", 20),
+                friendly("back", 60),
+                friendly("left arm", 40),
+                friendly("right arm", 40),
+            ]
+            .into_iter()
+            .collect(),
+            joints: [name("left_elbow"), name("right_elbow")].into_iter().collect(),
+            react: [
+                reaction("over-pressure", Cause::Pressure, 3_600, 400, 24),
+                reaction("flinch", Cause::Leading(crate::intent::Leading::Attack), 1, 0, 25),
+            ]
+            .into_iter()
+            .collect(),
+            stream: StreamConfig::default(),
+        }
+    }
+
+    /// The shipped scene with every limit of pressure scaled from 4095 to another full scale.
+    pub fn scaled(full_scale: u16) -> Scene {
+        let mut scene = Scene::shipped();
+        let scale = |counts: u32| (counts * u32::from(full_scale)).div_ceil(4095).max(1);
+        let scale16 = |counts: u16| scale(counts.into()).min(u16::MAX.into()) as u16;
+        scene.condition.floor = scale16(scene.condition.floor);
+        scene.contact.low = scale16(scene.contact.low);
+        scene.contact.high = scale16(scene.contact.high);
+        scene.symbol.strength = scene.symbol.strength.map(scale);
+        for row in scene.react.iter_mut().filter(|row| matches!(row.cause, Cause::Pressure | Cause::Force)) {
+            row.level = scale(row.level.unsigned_abs()) as i32;
+            row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
+        }
+        if let Some(intent) = &mut scene.intent {
+            for input in intent.map.inputs.iter_mut().filter(|i| i.source == crate::intent::Source::Press) {
+                input.low = scale(input.low.unsigned_abs()).min(i32::MAX as u32) as i32;
+                input.high = scale(input.high.unsigned_abs()).min(i32::MAX as u32) as i32;
+            }
+        }
+        scene
+    }
+}

@@ -1,0 +1,287 @@
+//! The two enums of the wire.
+
+use crate::body::Placed;
+use crate::fold::Posture;
+use crate::format::{Micros, Q15};
+use crate::garment::PANELS;
+use crate::intent::{CONCEPTS, Leading, Outcome};
+use crate::pipeline::CONTACTS;
+use crate::react::Reaction;
+use crate::symbol::{EVENTS, RegionState, Symbol};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// First bytes of a `Hello`.
+pub const MAGIC: [u8; 4] = *b"TAXL";
+/// Version of the protocol.
+pub const PROTOCOL: u16 = 1;
+/// Longest message of a host: a garment, and its frame around it.
+pub const LONGEST_REQUEST: usize = 3072;
+
+/// What the board tells the host; numbered as in the [module's](super) table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::large_enum_variant)] // made where it is encoded, never stored
+pub enum Report<'a> {
+    /// Who is there.
+    #[serde(borrow)]
+    Hello(Hello<'a>),
+    /// A conditioned image.
+    #[serde(borrow)]
+    Frame(Frame<'a>),
+    /// Contacts.
+    Contacts(ContactList),
+    /// Symbols.
+    Symbols(SymbolList),
+    /// What the touch means.
+    Intent(IntentReport),
+    /// Something the garment did by itself.
+    Reaction(ReactionReport),
+    /// How the board is.
+    Health(Health),
+    /// A sentence for people.
+    #[serde(borrow)]
+    Log(Log<'a>),
+    /// Answer to `Sync`.
+    Sync(SyncReport),
+    /// Answer to a request.
+    #[serde(borrow)]
+    Answer(Answer<'a>),
+    /// Raw codes.
+    #[serde(borrow)]
+    Raw(Raw<'a>),
+}
+
+/// Frozen.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hello<'a> {
+    /// [`MAGIC`]
+    pub magic: [u8; 4],
+    /// [`PROTOCOL`]
+    pub protocol: u16,
+    /// postcard of the [`Garment`](crate::garment::Garment)
+    pub garment: &'a [u8],
+    /// UTF-8
+    pub firmware: &'a [u8],
+    /// postcard of [`Micros`]: the board's time
+    pub clock: &'a [u8],
+    /// postcard of the [`Scene`](crate::scene::Scene)
+    pub scene: &'a [u8],
+    /// UTF-8: id, date, fit error of the calibration in force; empty: counts
+    pub calibration: &'a [u8],
+}
+
+/// A conditioned image.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Frame<'a> {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Frame that it differs from; none: it stands alone.
+    pub base: Option<u32>,
+    /// [`image_sum`](super::image_sum) of the image.
+    pub sum: u32,
+    /// The image, see [`encode_image`](super::encode_image).
+    pub data: &'a [u8],
+}
+
+/// Raw codes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Raw<'a> {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// The codes, coded as an image alone.
+    pub data: &'a [u8],
+}
+
+/// Contacts of a frame.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ContactList {
+    /// Number of the scan that the newest state is of.
+    pub frame: u32,
+    /// Start of that scan.
+    pub time: Micros,
+    /// Contacts that did not fit.
+    pub dropped: u16,
+    /// Present contacts, and all that have gone since the last list.
+    pub contacts: Vec<Placed, LISTED>,
+}
+
+/// Most contacts of a list: all that can be present, and as many that have gone.
+pub const LISTED: usize = 2 * CONTACTS;
+
+/// What was said of contacts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SymbolList {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Onsets, changes of words, releases.
+    pub events: Vec<Symbol, EVENTS>,
+    /// Regions that are touched.
+    pub regions: Vec<RegionState, PANELS>,
+}
+
+/// What the touch means.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct IntentReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// The announced intention.
+    pub leading: Leading,
+    /// How the inference ended.
+    pub outcome: Outcome,
+    /// Its steps.
+    pub steps: u16,
+    /// Activation of each concept of the scene's map.
+    pub concepts: Vec<Q15, CONCEPTS>,
+}
+
+/// Something the garment did by itself.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReactionReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// What.
+    pub reaction: Reaction,
+}
+
+/// How the board is. Counters start with the board.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Health {
+    /// The board's time.
+    pub time: Micros,
+    /// Finished scans.
+    pub scans: u32,
+    /// Scans that failed.
+    pub failed: u32,
+    /// Frames that the converter produced and nobody fetched.
+    pub overruns: u32,
+    /// Images that were due and not sent, because the link had no room.
+    pub thinned_frames: u32,
+    /// Contact updates that were due and not sent.
+    pub thinned_contacts: u32,
+    /// Guaranteed messages that found no place to wait.
+    pub lost: u32,
+    /// Received frames that were refused.
+    pub refused: u32,
+    /// Duration of the last scan, us.
+    pub scan_us: u32,
+    /// Duration of the last perception, us.
+    pub process_us: u32,
+}
+
+/// How grave a sentence is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Level {
+    /// good to know
+    Info,
+    /// something does not work as asked
+    Warn,
+    /// something does not work
+    Error,
+}
+
+/// A sentence for people.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Log<'a> {
+    /// The board's time.
+    pub time: Micros,
+    /// How grave.
+    pub level: Level,
+    /// The sentence.
+    pub text: &'a str,
+}
+
+/// Answer to `Sync`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SyncReport {
+    /// As in the request.
+    pub token: u32,
+    /// The board's time when the request was read.
+    pub received: Micros,
+    /// The board's time when this answer was handed to the link.
+    pub sent: Micros,
+}
+
+/// Answer to a request.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Answer<'a> {
+    /// Number of the request's variant; 255: it could not be read.
+    pub request: u8,
+    /// It was done; else why not.
+    pub refusal: Option<&'a str>,
+}
+
+/// What the host asks of the board. Variants are only appended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[allow(clippy::large_enum_variant)] // read where it is obeyed, never stored
+pub enum Request<'a> {
+    /// postcard of a [`Garment`](crate::garment::Garment)
+    SetGarment(&'a [u8]),
+    /// postcard of a [`Scene`](crate::scene::Scene)
+    SetScene(&'a [u8]),
+    /// Take the mean of the next `frames` frames as the baseline; refused while something touches.
+    Tare {
+        /// 1 ..= 4096
+        frames: u16,
+    },
+    /// Stream.
+    Start,
+    /// Stop streaming.
+    Stop,
+    /// Tell the time.
+    Sync {
+        /// comes back
+        token: u32,
+    },
+    /// How the robot's joints stand.
+    Posture(Posture),
+    /// Value of a concept that the host feeds.
+    Concept {
+        /// slot of the map's input
+        slot: u8,
+        /// -1 ..= 1
+        value: Q15,
+    },
+    /// The next image is to stand alone.
+    KeyFrame,
+    /// Examine lines and taxels.
+    SelfTest,
+    /// Store garment, scene and calibration.
+    Save,
+    /// Gains of taxels from number `first` on, Q4.12 (4096 is 1.0).
+    SetGain {
+        /// number of the first taxel
+        first: u16,
+        /// the gains
+        gains: Vec<u16, 64>,
+    },
+}
+
+impl Request<'_> {
+    /// Number of the variant.
+    pub const fn number(&self) -> u8 {
+        match self {
+            Request::SetGarment(_) => 0,
+            Request::SetScene(_) => 1,
+            Request::Tare { .. } => 2,
+            Request::Start => 3,
+            Request::Stop => 4,
+            Request::Sync { .. } => 5,
+            Request::Posture(_) => 6,
+            Request::Concept { .. } => 7,
+            Request::KeyFrame => 8,
+            Request::SelfTest => 9,
+            Request::Save => 10,
+            Request::SetGain { .. } => 11,
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! The wire: messages between board and host, and the frames that carry them.
+//!
+//! A frame is `COBS(postcard(message) ++ CRC) ++ 0x00`, where CRC is CRC-32/ISO-HDLC of the postcard bytes, little-endian.
+//! A message from the board is `(seq, report)`, one to the board is a [`Request`].
+//! `seq` (u32, wraps) counts the messages handed to the link: a gap is a loss. `frame` (u32) counts scans: a gap
+//! without a gap in `seq` is thinning.
+//!
+//! Variants are only appended, and fields of a shipped variant never change. postcard writes a variant's number and every
+//! unsigned integer as a varint (7 bits a byte, low first), signed ones zigzag, sequences and strings with their length
+//! before them, an option as 0 or 1 and its value.
+//!
+//! | number | report | when |
+//! |--:|---|---|
+//! | 0 | [`Hello`] | at start, each second until `Start`, in answer to `Start` |
+//! | 1 | [`Frame`] | at the scene's rate, when the link has room |
+//! | 2 | [`ContactList`] | at the scene's rate; onsets and releases always |
+//! | 3 | [`SymbolList`] | when something was said; a state per touched region |
+//! | 4 | [`IntentReport`] | with each inference; changes of the leading intention always |
+//! | 5 | [`ReactionReport`] | always |
+//! | 6 | [`Health`] | each second |
+//! | 7 | [`Log`] | when something is wrong |
+//! | 8 | [`SyncReport`] | in answer to `Sync` |
+//! | 9 | [`Answer`] | in answer to every other request |
+//! | 10 | [`Raw`] | at the scene's rate, when the link has room |
+//!
+//! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see [`encode_image`]:
+//! alone where `base` is none, else the difference to the frame of that number, which is the last `Frame` before it.
+//! `Raw` has the same coding, always alone.
+
+mod codec;
+mod image;
+mod message;
+mod receiver;
+
+pub use codec::{WireError, decode, encode, frame_bound, open};
+pub use image::{ImageError, decode_image, encode_image, image_bound, image_sum};
+pub use message::*;
+pub use receiver::Receiver;

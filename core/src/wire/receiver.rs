@@ -1,0 +1,85 @@
+//! Bytes in any split to frames: whatever comes, the next 0x00 starts anew.
+
+use super::codec::{WireError, open};
+
+/// Collects the bytes of a link until a 0x00 and opens the frame before it.
+///
+/// A frame that has a 0x00 on both sides is received, whatever came before the first of them; only garbage that is
+/// directly followed by a frame, without a 0x00 between, takes that frame with it. A sender that starts therefore sends a
+/// 0x00 first: frames of no bytes are nothing.
+///
+/// `N` is the longest frame without its 0x00; [`frame_bound`](super::frame_bound) gives it for a message. A longer one
+/// is dropped up to its 0x00 and reported there as [`WireError::TooLong`], once.
+#[derive(Debug, Clone)]
+pub struct Receiver<const N: usize> {
+    frame: [u8; N],
+    /// Bytes of the frame so far; more than `N` means that it is too long.
+    length: usize,
+}
+
+impl<const N: usize> Receiver<N> {
+    /// A receiver between two frames.
+    pub const fn new() -> Self {
+        Receiver { frame: [0; N], length: 0 }
+    }
+
+    /// Takes one byte; at a 0x00 that ends a frame, returns the bytes of its message (for [`decode`](super::decode)) or
+    /// what is wrong with it.
+    pub fn push(&mut self, byte: u8) -> Option<Result<&[u8], WireError>> {
+        if byte != 0 {
+            match self.frame.get_mut(self.length) {
+                Some(place) => {
+                    *place = byte;
+                    self.length += 1;
+                }
+                None => self.length = N.saturating_add(1),
+            }
+            return None;
+        }
+        match core::mem::take(&mut self.length) {
+            0 => None,
+            length => Some(self.frame.get_mut(..length).ok_or(WireError::TooLong).and_then(|frame| open(frame))),
+        }
+    }
+
+    /// Forgets the bytes of an unfinished frame: after the link was closed.
+    pub const fn reset(&mut self) {
+        self.length = 0;
+    }
+}
+
+impl<const N: usize> Default for Receiver<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What comes out at each 0x00.
+    fn ends<const N: usize>(receiver: &mut Receiver<N>, bytes: &[u8], want: &[WireError]) {
+        let mut want = want.iter();
+        for byte in bytes {
+            if let Some(end) = receiver.push(*byte) {
+                assert_eq!(end.err().as_ref(), want.next());
+            }
+        }
+        assert_eq!(want.next(), None);
+    }
+
+    #[test]
+    fn too_long_is_reported_once_and_a_full_buffer_is_not_too_long() {
+        let mut receiver = Receiver::<6>::new();
+        ends(&mut receiver, &[0, 0, 0], &[]);
+        ends(&mut receiver, &[1, 1, 1, 1, 1, 1, 0], &[WireError::Crc]);
+        ends(&mut receiver, &[1, 1, 1, 1, 1, 1, 1, 0, 0], &[WireError::TooLong]);
+        ends(&mut receiver, &[9; 100], &[]);
+        ends(&mut receiver, &[0, 0, 1, 0], &[WireError::TooLong, WireError::TooShort]);
+        ends(&mut receiver, &[9; 100], &[]);
+        receiver.reset();
+        ends(&mut receiver, &[9, 1, 1, 1, 1, 1, 0], &[WireError::Cobs]);
+        ends(&mut Receiver::<0>::default(), &[0, 5, 5, 0, 0, 5, 0], &[WireError::TooLong; 2]);
+    }
+}

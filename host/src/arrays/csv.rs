@@ -1,0 +1,78 @@
+//! Frames as text.
+
+use super::{Frames, Shape, count, unfit};
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use std::fs::File;
+use std::io::Read;
+
+/// Frames of a file.
+pub fn read(mut file: File) -> Result<Frames> {
+    let mut text = String::new();
+    file.read_to_string(&mut text).context("not a text")?;
+    parse(&text)
+}
+
+/// Frames of a text.
+pub fn parse(text: &str) -> Result<Frames> {
+    let mut table = Table::default();
+    for (line, text) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        match text.trim() {
+            "" => table.end_frame(),
+            comment if comment.starts_with('#') => Ok(()),
+            row => table.push(row),
+        }
+        .with_context(|| format!("line {}", line + 1))?;
+    }
+    table.end_frame().context("at its end")?;
+    table.finish()
+}
+
+/// The frames so far.
+#[derive(Default)]
+struct Table {
+    values: Vec<u16>,
+    /// Columns of the first row.
+    columns: usize,
+    /// Rows of the first frame, once it is complete.
+    rows: Option<usize>,
+    /// Complete frames.
+    frames: usize,
+    /// Rows of the frame under way.
+    row: usize,
+}
+
+impl Table {
+    fn push(&mut self, text: &str) -> Result<()> {
+        let start = self.values.len();
+        for (column, cell) in text.split(',').map(str::trim).enumerate() {
+            let number: Option<f64> = cell.parse().ok();
+            let number = number.ok_or_else(|| anyhow!("column {column}: {cell:?} is not a number"))?;
+            let value = count(number).ok_or_else(|| unfit(self.frames, self.row, column, number))?;
+            self.values.push(value);
+        }
+        let columns = self.values.len() - start;
+        if start == 0 {
+            self.columns = columns;
+        }
+        ensure!(columns == self.columns, "{columns} columns, and the first row has {}", self.columns);
+        self.row += 1;
+        Ok(())
+    }
+
+    /// At a blank line, or at the end; several in a row are one.
+    fn end_frame(&mut self) -> Result<()> {
+        if self.row > 0 {
+            let rows = *self.rows.get_or_insert(self.row);
+            ensure!(rows == self.row, "frame {} has {} rows, and the first {rows}", self.frames, self.row);
+            self.frames += 1;
+            self.row = 0;
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Frames> {
+        let Some(rows) = self.rows else { bail!("there are no values") };
+        let shape = Shape::of(&[self.frames as u64, rows as u64, self.columns as u64])?;
+        Ok(shape.filled(self.values))
+    }
+}

@@ -1,0 +1,134 @@
+//! One NumPy array.
+
+use super::{Frames, Shape, count};
+use anyhow::{Context, Result, bail, ensure};
+use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar};
+use std::fmt::Display;
+use std::io::Read;
+
+/// How every array begins.
+pub const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// Headers of plain arrays have 118 bytes or a little more.
+const LONGEST_HEADER: usize = 1 << 16;
+
+/// Frames of an array whose file or archive entry has `size` bytes.
+pub fn read(mut source: impl Read, size: u64) -> Result<Frames> {
+    let head = head(&mut source)?;
+    let header = parse(&head)?;
+    let shape = Shape::of(header.shape())?;
+    let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected numbers") };
+    let width = kind.num_bytes().unwrap_or(0) as u64;
+    let claimed = (shape.values() as u64).saturating_mul(width);
+    let there = size.saturating_sub(head.len() as u64);
+    check_size(header.shape(), claimed, there)?;
+    // `size` may be a claim as well: memory grows with what is read.
+    let mut body = Vec::new();
+    source.take(claimed + 1).read_to_end(&mut body).context("damaged")?;
+    check_size(header.shape(), claimed, body.len() as u64)?;
+    let file = NpyFile::with_header(header, body.as_slice());
+    match (kind.type_char(), width) {
+        (TypeChar::Uint, 1) => counts::<u8>(file, shape),
+        (TypeChar::Uint, 2) => counts::<u16>(file, shape),
+        (TypeChar::Uint, 4) => counts::<u32>(file, shape),
+        (TypeChar::Uint, 8) => counts::<u64>(file, shape),
+        (TypeChar::Int, 1) => counts::<i8>(file, shape),
+        (TypeChar::Int, 2) => counts::<i16>(file, shape),
+        (TypeChar::Int, 4) => counts::<i32>(file, shape),
+        (TypeChar::Int, 8) => counts::<i64>(file, shape),
+        (TypeChar::Float, 4) => counts::<f32>(file, shape),
+        (TypeChar::Float, 8) => counts::<f64>(file, shape),
+        _ => bail!("holds values of type {kind}, expected integers, f32 or f64"),
+    }
+}
+
+/// Number of dimensions of an array; nothing but its header is read.
+pub fn dimensions(mut source: impl Read) -> Result<usize> {
+    Ok(parse(&head(&mut source)?)?.shape().len())
+}
+
+fn check_size(shape: &[u64], claimed: u64, there: u64) -> Result<()> {
+    ensure!(there >= claimed, "truncated: shape {shape:?} takes {claimed} bytes, there are {there}");
+    ensure!(there == claimed, "shape {shape:?} takes {claimed} bytes, there are more");
+    Ok(())
+}
+
+/// Everything before the values.
+fn head(source: &mut impl Read) -> Result<Vec<u8>> {
+    let mut head = Vec::new();
+    let mut more = |count: usize| -> Result<Vec<u8>> {
+        let start = head.len();
+        head.resize(start + count, 0);
+        source.read_exact(&mut head[start..]).context("truncated in its header")?;
+        Ok(head[start..].to_vec())
+    };
+    let start = more(8)?;
+    ensure!(start.starts_with(MAGIC), "not a NumPy array");
+    let length = more(if start[6] == 1 { 2 } else { 4 })?;
+    let length = length.iter().rev().fold(0, |sum, byte| sum << 8 | usize::from(*byte));
+    ensure!(length <= LONGEST_HEADER, "has a header of {length} bytes, expected at most {LONGEST_HEADER}");
+    more(length)?;
+    Ok(head)
+}
+
+fn parse(head: &[u8]) -> Result<NpyHeader> {
+    ensure!(is_tame(head), "has a header that is not one of a NumPy array");
+    NpyHeader::from_reader(head).context("has a header that is not one of a NumPy array")
+}
+
+/// npyz multiplies the dimensions without a check and follows brackets without a limit; no real header tries it.
+fn is_tame(head: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(head);
+    let brackets = text.matches(['(', '[', '{']).count();
+    let product = || {
+        let (_, after) = text.split_once("shape")?;
+        let (_, list) = after.split_once('(')?;
+        let (list, rest) = list.split_once(')')?;
+        let sizes = list.split(',').map(str::trim).filter(|size| !size.is_empty());
+        let mut sizes = sizes.map(|size| size.parse::<u64>().ok());
+        let product = sizes.try_fold(1u64, |product, size| product.checked_mul(size?.max(1)));
+        product.filter(|_| !rest.contains("shape"))
+    };
+    brackets <= 64 && product().is_some()
+}
+
+/// A number in a file.
+trait Cell: Deserialize + Display + Copy {
+    /// The count that it stands for; none if it is no integer in 0 ..= 65535.
+    fn count(self) -> Option<u16>;
+}
+
+macro_rules! cells {
+    ($($kind:ty: $count:expr),* $(,)?) => {
+        $(impl Cell for $kind {
+            fn count(self) -> Option<u16> {
+                let count: fn($kind) -> Option<u16> = $count;
+                count(self)
+            }
+        })*
+    };
+}
+
+cells! {
+    u8: |v| Some(v.into()),
+    u16: Some,
+    u32: |v| v.try_into().ok(),
+    u64: |v| v.try_into().ok(),
+    i8: |v| v.try_into().ok(),
+    i16: |v| v.try_into().ok(),
+    i32: |v| v.try_into().ok(),
+    i64: |v| v.try_into().ok(),
+    f32: |v| count(v.into()),
+    f64: count,
+}
+
+fn counts<T: Cell>(file: NpyFile<&[u8]>, shape: Shape) -> Result<Frames> {
+    let fortran = file.order() == Order::Fortran;
+    let mut counts = vec![0; shape.values()];
+    for (index, value) in file.data::<T>()?.enumerate() {
+        let value = value.context("damaged")?;
+        let index = if fortran { shape.from_fortran(index) } else { index };
+        counts[index] = value.count().ok_or_else(|| shape.unfit(index, value))?;
+    }
+    Ok(shape.filled(counts))
+}

@@ -1,0 +1,81 @@
+//! An archive of NumPy arrays.
+
+use super::{Frames, npy};
+use anyhow::{Context, Result, anyhow, bail};
+use npyz::npz::{NpzArchive, file_name_from_array_name};
+use std::fs::File;
+use std::io::{BufReader, Read};
+
+/// An open archive.
+pub struct Archive {
+    archive: NpzArchive<BufReader<File>>,
+    /// Of all its arrays, in order.
+    names: Vec<String>,
+}
+
+impl Archive {
+    /// Reads the table of contents.
+    pub fn open(file: File) -> Result<Archive> {
+        let archive = NpzArchive::new(BufReader::new(file)).context("not a NumPy archive")?;
+        let mut names: Vec<String> = archive.array_names().map(String::from).collect();
+        names.sort();
+        Ok(Archive { archive, names })
+    }
+
+    /// The array of that name.
+    pub fn named(&mut self, name: &str) -> Result<Frames> {
+        if !self.names.iter().any(|known| known == name) {
+            bail!("there is no array {name}; known are {}", listed(&self.names));
+        }
+        let frames = self.entry(name, |entry, size| npy::read(entry, size));
+        frames.with_context(|| format!("array {name}"))
+    }
+
+    /// The only array, or the only one that can be frames.
+    pub fn only(&mut self) -> Result<Frames> {
+        let candidates = if self.names.len() == 1 { self.names.clone() } else { self.candidates()? };
+        match candidates.as_slice() {
+            [name] => self.named(name),
+            [] => bail!("holds no array [frames, rows, columns] or [rows, columns]"),
+            several => bail!("holds several arrays, choose one with --array: {}", listed(several)),
+        }
+    }
+
+    /// All arrays that can be frames.
+    pub fn all(&mut self) -> Result<Vec<(String, Frames)>> {
+        let candidates = self.candidates()?;
+        if candidates.is_empty() {
+            bail!("holds no array [frames, rows, columns] or [rows, columns]");
+        }
+        candidates.into_iter().map(|name| self.named(&name).map(|frames| (name, frames))).collect()
+    }
+
+    /// Names of the arrays of two or three dimensions.
+    fn candidates(&mut self) -> Result<Vec<String>> {
+        let mut candidates = Vec::new();
+        for name in self.names.clone() {
+            let dimensions = self.entry(&name, |entry, _| npy::dimensions(entry));
+            if (2..=3).contains(&dimensions.with_context(|| format!("array {name}"))?) {
+                candidates.push(name);
+            }
+        }
+        Ok(candidates)
+    }
+
+    /// What `read` makes of an entry, given its reader and its size.
+    fn entry<T>(&mut self, name: &str, read: impl FnOnce(&mut dyn Read, u64) -> Result<T>) -> Result<T> {
+        let entry = self.archive.zip_archive().by_name(&file_name_from_array_name(name));
+        let mut entry = entry.map_err(|error| anyhow!("damaged: {error}"))?;
+        let size = entry.size();
+        read(&mut entry, size)
+    }
+}
+
+/// Names for a sentence, not too many of them.
+fn listed(names: &[String]) -> String {
+    const MOST: usize = 20;
+    match names.len().checked_sub(MOST) {
+        Some(more @ 1..) => format!("{} and {more} more", names[..MOST].join(", ")),
+        _ => names.join(", "),
+    }
+}
