@@ -5,6 +5,7 @@ use core::task::Poll;
 use embassy_futures::poll_once;
 use embassy_rp::uart::{BufferedUart, BufferedUartRx, BufferedUartTx};
 use embedded_io_async::{Read, Write};
+use taxel_core::run::Link;
 
 /// Bits per second of the link, 8N1: 92,160 bytes a second each way.
 pub const BAUD: u32 = 921_600;
@@ -24,9 +25,10 @@ impl Wire {
         let (tx, rx) = uart.split();
         Wire { tx, rx }
     }
+}
 
-    /// Takes received bytes, at most as many as `buffer` holds.
-    pub fn try_read(&mut self, buffer: &mut [u8]) -> usize {
+impl Link for Wire {
+    fn try_read(&mut self, buffer: &mut [u8]) -> usize {
         // A ring hands out what lies before its end in one piece, hence two rounds.
         let mut taken = 0;
         for _ in 0..2 {
@@ -40,8 +42,7 @@ impl Wire {
         taken
     }
 
-    /// Gives bytes to send; how many were taken is returned.
-    pub fn try_write(&mut self, bytes: &[u8]) -> usize {
+    fn try_write(&mut self, bytes: &[u8]) -> usize {
         let mut given = 0;
         for _ in 0..2 {
             match poll_once(self.tx.write(bytes.get(given..).unwrap_or(&[]))) {

@@ -1,4 +1,4 @@
-//! bring-up
+//! The taxel sensor controller: puts this board's pins, converter, link and clock under the core's loop.
 #![no_std]
 #![no_main]
 #![deny(unsafe_code)]
@@ -14,50 +14,53 @@ mod platform;
 use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
-use taxel_core::acquire::{Acquire, Clock, Lines, MuxScan, Plan};
-use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::acquire::{Lines, MuxScan};
+use taxel_core::board::{Board, BoardInfo, SetupError};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+
+/// Taxels, and runs of touched taxels in a row, that the memory holds.
+const TAXELS: usize = 2048;
+const RUNS: usize = 1024;
+
+/// Largest code of the converter.
+const FULL_SCALE: u16 = 4095;
+
+/// Bits of a byte on the line: one start bit, eight of data, one stop bit.
+const BITS_PER_BYTE: u32 = 10;
+
+type Pool = Lines<pins::Line, { board::LINES }>;
+type Scanner = MuxScan<
+    'static,
+    pins::Line,
+    platform::Settle,
+    adc::Converter<{ board::INPUTS }>,
+    platform::Timer,
+    { board::LINES },
+    TAXELS,
+>;
+
+// What is large lies here and not on the stack.
+static LINES: StaticCell<Pool> = StaticCell::new();
+static SCANNER: StaticCell<Scanner> = StaticCell::new();
+static BOARD: StaticCell<Result<Board<TAXELS, RUNS>, SetupError>> = StaticCell::new();
 
 #[embassy_executor::main]
-async fn main(_s: Spawner) {
-    let parts = board::take();
-    defmt::info!("hello");
-    let board::Parts { lines, converter, mut wire, led, watchdog } = parts;
-    let mut pulse = platform::Pulse::start(watchdog, led);
-    static LINES: StaticCell<Lines<pins::Line, { board::LINES }>> = StaticCell::new();
-    let lines = LINES.init(Lines::new(lines));
-    let p = Pins { outputs: lines.mask(), inputs: 0xf << 26 };
-    static SCAN: StaticCell<
-        MuxScan<
-            'static,
-            pins::Line,
-            platform::Settle,
-            adc::Converter<4>,
-            platform::Timer,
-            { board::LINES },
-            2048,
-        >,
-    > = StaticCell::new();
-    let scan = SCAN.init(MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer));
-    let mut g = Garment::reference();
-    let mut circuits = [0u32, 3000].map(|ns| {
-        g.wiring.settle_ns = ns;
-        let layout = Layout::build(&g, 2048, 4095).ok().unwrap();
-        Circuit::build(&g, &layout, p).ok().unwrap()
-    });
-    wire.try_write(b"hello\n");
-    let mut n = 0;
-    loop {
-        pulse.alive(platform::Timer.now());
-        let c = &mut circuits[(n / 4) % 2];
-        mark::mark(1 + (n as u32 / 4) % 2);
-        let r = scan.scan(c, &Plan::default()).await.ok().unwrap();
-        mark::mark(10);
-        defmt::info!("scan {} us, first {} last {}", r.report.duration_us, r.codes[0].0, r.codes[2047].0);
-        n += 1;
-        let mut b = [0u8; 256];
-        mark::mark(11);
-        let k = wire.try_read(&mut b);
-        wire.try_write(&b[..k]);
-        mark::mark(12);
+async fn main(_spawner: Spawner) {
+    let board::Parts { lines, converter, mut wire, led, watchdog } = board::take();
+    let mut platform = platform::Board::start(watchdog, led);
+    let lines = LINES.init_with(|| Lines::new(lines));
+    let info = BoardInfo {
+        firmware: concat!("taxel ", env!("CARGO_PKG_VERSION")),
+        pins: Pins { outputs: lines.mask(), inputs: adc::mask(board::INPUTS) },
+        full_scale: FULL_SCALE,
+        link_bytes_per_s: link::BAUD / BITS_PER_BYTE,
+    };
+    let scanner =
+        SCANNER.init_with(|| MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer));
+    match BOARD.init_with(|| Board::new(info, Garment::reference(), Scene::shipped())) {
+        Ok(board) => taxel_core::run::run(scanner, &mut wire, &mut platform, board).await,
+        // Nothing feeds the watchdog from here on, so the board starts again and says so again.
+        Err(error) => defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(error)),
     }
 }

@@ -1,15 +1,25 @@
-//! The board's clock, settling delay, watchdog and heartbeat.
+//! The board's clock, settling delay, watchdog, heartbeat and marks.
 
+use crate::mark::mark;
 use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
-use taxel_core::{acquire::Clock, format::Micros};
+use taxel_core::{
+    acquire::Clock,
+    board::Work,
+    format::Micros,
+    pipeline::{Probe, Stage},
+    run::Platform,
+};
 
 /// The board restarts when the loop has not come round for this long.
 const WATCHDOG: Duration = Duration::from_millis(1000);
 
 /// The LED changes this often, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;
+
+/// Longest pause of the loop: bytes of the host wait in their ring meanwhile.
+const LONGEST_PAUSE_US: u64 = 1_000;
 
 /// Time since the board started, from the 1 MHz timer.
 #[derive(Debug, Clone, Copy)]
@@ -64,27 +74,56 @@ impl DelayNs for Settle {
     }
 }
 
-/// Watchdog and heartbeat.
-pub struct Pulse {
+/// All of the board that is neither pin, converter nor link.
+pub struct Board {
     watchdog: Watchdog,
     led: Output<'static>,
-    due: Micros,
+    led_due: Micros,
 }
 
-impl Pulse {
+impl Board {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Output<'static>) -> Pulse {
+    pub fn start(mut watchdog: Watchdog, led: Output<'static>) -> Board {
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        Pulse { watchdog, led, due: Micros(0) }
+        Board { watchdog, led, led_due: Micros(0) }
+    }
+}
+
+impl Clock for Board {
+    #[inline]
+    fn now(&self) -> Micros {
+        Timer.now()
+    }
+}
+
+impl Probe for Board {
+    #[inline]
+    fn begin(&mut self, stage: Stage) {
+        mark(stage as u32);
+    }
+}
+
+impl Platform for Board {
+    fn alive(&mut self) -> bool {
+        self.watchdog.feed(WATCHDOG);
+        let now = self.now();
+        if now >= self.led_due {
+            self.led.toggle();
+            self.led_due = Micros(now.0.saturating_add(HEARTBEAT_US));
+        }
+        true
     }
 
-    /// The loop has come round.
-    pub fn alive(&mut self, now: Micros) {
-        self.watchdog.feed(WATCHDOG);
-        if now >= self.due {
-            self.led.toggle();
-            self.due = Micros(now.0 + HEARTBEAT_US);
+    fn work(&mut self, work: Work) -> Result<(), &'static str> {
+        match work {
+            Work::Save => Err("this firmware stores no settings yet"),
+            Work::SelfTest => Err("this firmware has no self-test yet"),
         }
+    }
+
+    async fn idle(&mut self, until: Micros) {
+        let pause = until.since(self.now()).min(LONGEST_PAUSE_US);
+        embassy_time::Timer::after_micros(pause).await;
     }
 }

@@ -2,6 +2,8 @@
 
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
+use crate::process::{self, ProcessArgs};
+use crate::process::{self, ProcessArgs};
 use crate::scenes::{self, ScenesArgs};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -16,6 +18,12 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Run the board's perception over recorded frames
+    #[command(after_help = PROCESS)]
+    Process(ProcessArgs),
+    /// Perceive recorded frames as the board would
+    #[command(after_help = PROCESS)]
+    Process(ProcessArgs),
     /// Moments, NMI and axis of one recorded image as it stands
     #[command(after_help = FEATURES)]
     Features(FeaturesArgs),
@@ -26,6 +34,14 @@ enum Command {
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
 }
+
+const PROCESS: &str = "Examples:
+  taxel process subject_01.npz --array posture_03 --rate 1 --json
+  taxel process frames.npy --full-scale 1000 --tare 16";
+
+const PROCESS: &str = "Examples:
+  taxel process frames.npy --json
+  taxel process subject_01.npz --array posture_03 --rate 1 --full-scale 1000 --tare 2 --json";
 
 const FEATURES: &str = "Examples:
   taxel features image.npy
@@ -42,6 +58,8 @@ impl Cli {
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
         match self.command {
+            Command::Process(args) => process::run(args),
+            Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),
             Command::Scenes(args) => scenes::run(args),

@@ -4,5 +4,7 @@ pub mod arrays;
 pub mod cli;
 pub mod fcm;
 pub mod features;
+pub mod json;
+pub mod process;
 pub mod scenes;
 pub mod sim;

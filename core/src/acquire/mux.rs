@@ -1,8 +1,8 @@
 //! Progressive scan through multiplexers, over any HAL.
 
-use super::{Acquire, Plan, Scan, ScanError, ScanReport};
+use super::{Acquire, Depth, Plan, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
-use crate::garment::{Circuit, Site};
+use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{OutputPin, PinState};
 
@@ -110,7 +110,7 @@ where
         Ok(())
     }
 
-    fn apply(&mut self, word: u32, taxel: usize) -> Result<(), ScanError> {
+    fn apply(&mut self, word: u32, taxel: i32) -> Result<(), ScanError> {
         let mut changed = self.driven.map_or(u32::MAX, |driven| driven ^ word);
         if self.slots.len() < 32 {
             changed &= (1 << self.slots.len()) - 1;
@@ -128,31 +128,69 @@ where
         Ok(())
     }
 
-    /// All addresses of the blocks that share one select code.
+    /// All addresses of the blocks that share one select code, the first of which is `sites`' first.
     fn scan_select(&mut self, circuit: &Circuit, plan: &Plan, sites: &[Site]) -> Result<(), ScanError> {
-        let read = || sites.iter().filter(|s| plan.reads(s.panel, s.block));
-        let rows = read().map(|s| s.rows).max().unwrap_or(0);
-        let columns = read().map(|s| s.columns).max().unwrap_or(0);
         let Some(select) = sites.first().map(|s| s.select) else { return Ok(()) };
+        let mut cursors = Cursors::new();
+        for site in sites.iter().filter(|s| plan.reads(s.panel, s.block)) {
+            let _ = cursors.push(Cursor::new(site)); // a circuit has at most BLOCKS of them
+        }
+        let rows = cursors.iter().map(|c| c.rows).max().unwrap_or(0);
+        let columns = cursors.iter().map(|c| c.columns).max().unwrap_or(0);
         for row in 0..rows {
+            cursors.iter_mut().for_each(|c| c.enter_row(row));
             for column in 0..columns {
-                let mut here = read().filter(|s| row < s.rows && column < s.columns).peekable();
-                let Some(first) = here.peek() else { continue };
-                self.apply(circuit.word(select, row, column), first.taxel(row, column))?;
+                // Blocks of different sizes: not every address of the largest has a block.
+                let Some(first) = cursors.iter().find(|c| column < c.columns_here) else { continue };
+                self.apply(circuit.word(select, row, column), first.taxel)?;
                 self.delay.delay_ns(circuit.settle_ns());
-                for site in here {
-                    let taxel = site.taxel(row, column);
-                    let code = self
-                        .adc
-                        .read(site.input)
-                        .map_err(|_| ScanError::Converter { input: site.input, taxel: taxel as u16 })?;
-                    if let Some(slot) = self.codes.get_mut(taxel) {
-                        *slot = Code(plan.depth.keep(code));
-                    }
-                }
+                self.read(&mut cursors, column, plan.depth)?;
             }
         }
         Ok(())
+    }
+
+    /// Reads every block that has a taxel at the present address.
+    fn read(&mut self, cursors: &mut Cursors, column: u8, depth: Depth) -> Result<(), ScanError> {
+        for cursor in cursors.iter_mut().filter(|c| column < c.columns_here) {
+            let Cursor { input, taxel, .. } = *cursor;
+            let code = self.adc.read(input).map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?;
+            if let Some(slot) = self.codes.get_mut(taxel as usize) {
+                *slot = Code(depth.keep(code));
+            }
+            cursor.taxel += cursor.column_step;
+        }
+        Ok(())
+    }
+}
+
+/// The blocks under one select code that the plan reads.
+type Cursors = heapless::Vec<Cursor, BLOCKS>;
+
+/// Where a block's next sample goes. What a frame's 2,048 samples need is found once per block, and stepped from there:
+/// the select lines are slow enough.
+struct Cursor {
+    input: u8,
+    rows: u8,
+    columns: u8,
+    /// Columns of the present row; none past the block's last row.
+    columns_here: u8,
+    taxel: i32,
+    next_row: i32,
+    row_step: i32,
+    column_step: i32,
+}
+
+impl Cursor {
+    fn new(site: &Site) -> Cursor {
+        let Site { input, rows, columns, origin, row_step, column_step, .. } = *site;
+        Cursor { input, rows, columns, columns_here: 0, taxel: origin, next_row: origin, row_step, column_step }
+    }
+
+    fn enter_row(&mut self, row: u8) {
+        self.columns_here = if row < self.rows { self.columns } else { 0 };
+        self.taxel = self.next_row;
+        self.next_row += self.row_step;
     }
 }
 

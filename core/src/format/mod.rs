@@ -15,9 +15,13 @@
 //! per-frame path calls them.
 
 mod invalid;
+mod inverse;
+mod root;
 mod scaled;
 
 pub use invalid::Invalid;
+pub use inverse::Inverse;
+pub use root::root;
 pub use scaled::Scaled;
 
 use serde::{Deserialize, Serialize};

@@ -38,7 +38,9 @@ impl<const N: usize> Receiver<N> {
         }
         match core::mem::take(&mut self.length) {
             0 => None,
-            length => Some(self.frame.get_mut(..length).ok_or(WireError::TooLong).and_then(|frame| open(frame))),
+            length => {
+                Some(self.frame.get_mut(..length).ok_or(WireError::TooLong).and_then(|frame| open(frame)))
+            }
         }
     }
 

@@ -3,7 +3,8 @@
 //! | pin | use |
 //! |---|---|
 //! | GP0, GP1 | UART to the host: transmit, receive |
-//! | GP2 - GP12, GP18 - GP20, GP24, GP25 | select lines (the Feather's headers leave out GP4 and GP5) |
+//! | GP2, GP3, GP6 - GP12 | select lines (the Feather brings out no GP4 and GP5) |
+//! | GP18 - GP20, GP24, GP25 | further select lines, or outputs of reactions |
 //! | GP13 | heartbeat LED |
 //! | GP26 - GP29 | converter inputs |
 
@@ -25,8 +26,8 @@ use static_cell::ConstStaticCell;
 /// Converter inputs.
 pub const INPUTS: usize = 4;
 
-/// Pins for select lines.
-pub const LINES: usize = 16;
+/// Pins for select lines and reactions.
+pub const LINES: usize = 14;
 
 bind_interrupts!(struct Interrupts {
     UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
@@ -39,8 +40,6 @@ pub fn take() -> Parts {
         lines: [
             Line::new(p.PIN_2.into()),
             Line::new(p.PIN_3.into()),
-            Line::new(p.PIN_4.into()),
-            Line::new(p.PIN_5.into()),
             Line::new(p.PIN_6.into()),
             Line::new(p.PIN_7.into()),
             Line::new(p.PIN_8.into()),

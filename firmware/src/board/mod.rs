@@ -9,7 +9,7 @@ use embassy_rp::{gpio::Output, watchdog::Watchdog};
 
 /// What a board hands to the firmware.
 pub struct Parts {
-    /// Pins that garments may use as select lines, with their GPIO numbers.
+    /// Pins that garments may use as select lines and scenes for reactions, with their GPIO numbers.
     pub lines: [(u8, Line); LINES],
     /// The converter inputs from GPIO 26 on.
     pub converter: Converter<INPUTS>,

@@ -1,0 +1,116 @@
+//! Division without a divider: the Cortex-M0+ has none, and 64 bits by software take 750 cycles.
+
+/// The inverse of a divisor, by Newton's iteration; worth its price (about 200 cycles) from the first quotient on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Inverse {
+    /// The divisor, shifted so that bit 31 is set; 0 for no divisor.
+    normal: u32,
+    shift: u32,
+    inverse: u32,
+}
+
+/// High half of a product.
+const fn high(a: u32, b: u32) -> u32 {
+    ((a as u64 * b as u64) >> 32) as u32
+}
+
+/// About `2^63 / normal` for a `normal` with bit 31 set: not more than 4 too small, and never too large.
+pub(super) const fn inverse_of(normal: u32) -> u32 {
+    let t = normal >> 16;
+    // 48/17 - 32/17 t is at most 1/17 off; two rounds in 16 bits leave 2^-14, with x in Q15.
+    let mut x = 92_521 - ((t * 61_681) >> 16);
+    x = (x * ((t * x).wrapping_neg() >> 16)) >> 15;
+    x = (x * ((t * x).wrapping_neg() >> 16)) >> 15;
+    // Two rounds in 32 bits; x (2 - d x) approaches 1 / d from below.
+    let mut x = if x > 0xffff { u32::MAX } else { x << 16 };
+    let mut round = 0;
+    while round < 2 {
+        let rest = high(normal, x).wrapping_neg().wrapping_sub(1);
+        let wide = (x as u64 * rest as u64) >> 31;
+        x = if wide > u32::MAX as u64 { u32::MAX } else { wide as u32 };
+        round += 1;
+    }
+    x
+}
+
+impl Inverse {
+    /// Of a divisor; 0 makes every quotient `u32::MAX`.
+    pub const fn of(divisor: u32) -> Inverse {
+        if divisor == 0 {
+            return Inverse { normal: 0, shift: 0, inverse: 0 };
+        }
+        let shift = divisor.leading_zeros();
+        let normal = divisor << shift;
+        Inverse { normal, shift, inverse: inverse_of(normal) }
+    }
+
+    /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
+    pub const fn quotient(&self, value: u64) -> u32 {
+        let divisor = (self.normal >> self.shift) as u64;
+        if value >> 32 >= divisor {
+            return u32::MAX;
+        }
+        // The quotient is below 2^32: the shifted value does not lose bits.
+        let value = value << self.shift;
+        let mut quotient = (((value >> 32) * self.inverse as u64) >> 31) as u32;
+        let mut rest = value - quotient as u64 * self.normal as u64;
+        // Too small by a few at most: 8 for the inverse, 2 for the low half of the value.
+        while rest >= self.normal as u64 {
+            rest -= self.normal as u64;
+            quotient += 1;
+        }
+        quotient
+    }
+
+    /// `value / divisor` rounded to the nearest (halves upwards), saturating at the ends of an `i32`.
+    pub const fn nearest(&self, value: i64) -> i32 {
+        let half = (self.normal >> self.shift >> 1) as u64;
+        let size = value.unsigned_abs();
+        if value >= 0 {
+            let quotient = self.quotient(size.saturating_add(half));
+            if quotient > i32::MAX as u32 { i32::MAX } else { quotient as i32 }
+        } else {
+            // floor((half - size) / d) = -ceil((size - half) / d)
+            let up = ((self.normal >> self.shift) as u64).saturating_sub(1);
+            let quotient = self.quotient(size.saturating_sub(half).saturating_add(up));
+            if quotient > i32::MAX as u32 { i32::MIN } else { -(quotient as i32) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotients_are_exact() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state ^ (state >> 29)
+        };
+        let edges = [1, 2, 3, 0x7fff_ffff, 0x8000_0000, 0x8000_0001, 0xffff_ffff, 0xffff_0000, 0x1_0000];
+        for round in 0..300_000 {
+            let divisor = match edges.get(round % 64) {
+                Some(edge) => *edge,
+                None => ((next() >> 32) as u32 >> (round % 31)).max(1),
+            };
+            let inverse = Inverse::of(divisor);
+            let ideal = (1u128 << 63) / u128::from(inverse.normal);
+            let short = ideal as i128 - i128::from(inverse.inverse);
+            assert!((0..=4).contains(&short), "{divisor:#x} {short}");
+            let quotient = next() as u32 >> (round % 29);
+            for rest in [0, divisor - 1, next() as u32 % divisor] {
+                let value = u64::from(divisor) * u64::from(quotient) + u64::from(rest);
+                assert_eq!(inverse.quotient(value), quotient, "{value} / {divisor}");
+            }
+            let value = next() as i64 >> (round % 63);
+            let want = (i128::from(value) + i128::from(divisor / 2)).div_euclid(divisor.into());
+            let want = want.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+            assert_eq!(inverse.nearest(value), want, "{value} / {divisor}");
+        }
+        assert_eq!(Inverse::of(7).quotient(u64::MAX), u32::MAX);
+        assert_eq!((Inverse::of(0).quotient(5), Inverse::of(0).quotient(0)), (u32::MAX, u32::MAX));
+        assert_eq!((Inverse::of(0).nearest(5), Inverse::of(1).nearest(i64::MIN)), (i32::MAX, i32::MIN));
+    }
+}

@@ -1,0 +1,194 @@
+//! `taxel process`: the board's pipeline over recorded frames, one JSON object a frame.
+
+use crate::arrays::{self, Frames};
+use crate::json;
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use serde_json::{Value, json};
+use std::io::{BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use taxel_core::body::Placed;
+use taxel_core::condition::Tare;
+use taxel_core::format::{Code, Micros, Name, Q15};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::intent::Leading;
+use taxel_core::pipeline::{Percept, Pipeline, PipelineState};
+use taxel_core::scene::Scene;
+
+/// Taxels of the largest recording; half as many runs always suffice.
+const TAXELS: usize = 16_384;
+type State = PipelineState<TAXELS, { TAXELS / 2 }>;
+
+/// What `taxel process` takes.
+#[derive(Debug, Clone, Args)]
+pub struct ProcessArgs {
+    /// Recorded frames: .npy, .npz ([n, rows, columns] or [rows, columns]) or .csv
+    pub file: PathBuf,
+    /// Array of an .npz; without it all that hold frames, one after the other
+    #[arg(long, value_name = "NAME")]
+    pub array: Option<String>,
+    /// Garment whose taxels the frames hold: a preset or a TOML file [default: one panel of the array's size]
+    #[arg(long, value_name = "L")]
+    pub layout: Option<String>,
+    /// Frames per second: frame k is taken at k / rate
+    #[arg(long, value_name = "HZ", default_value_t = 195.0)]
+    pub rate: f64,
+    /// Largest value of a taxel; the limits of the shipped scene are scaled to it
+    #[arg(long, value_name = "N", default_value_t = 4095)]
+    pub full_scale: u16,
+    /// Take the mean of the first N frames as the baseline
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub tare: u16,
+    /// One JSON object a frame
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: ProcessArgs) -> Result<()> {
+    if !(args.rate.is_finite() && args.rate > 0.0 && args.rate <= 1e6) {
+        bail!("--rate {}: it must be above 0 and at most 1000000 Hz", args.rate);
+    }
+    if args.full_scale == 0 {
+        bail!("--full-scale 0: it must be 1 to 65535");
+    }
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let recordings = recordings(&args.file, args.array.as_deref())?;
+    let several = recordings.len() > 1 || args.array.is_some();
+    for (name, frames) in &recordings {
+        process(&args, if several { name } else { "" }, frames, &mut out)?;
+    }
+    Ok(out.flush()?)
+}
+
+/// The arrays that are asked for, with their names.
+pub fn recordings(file: &Path, array: Option<&str>) -> Result<Vec<(String, Frames)>> {
+    match array {
+        Some(name) => Ok(vec![(name.to_string(), arrays::read(file, array)?)]),
+        None => arrays::read_all(file),
+    }
+}
+
+fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write) -> Result<()> {
+    let top = frames.values.iter().copied().max().unwrap_or(0).max(args.full_scale);
+    let garment = match &args.layout {
+        Some(layout) => crate::sim::garment(layout)?,
+        None => Garment::recorded(frames.rows, frames.columns),
+    };
+    let place = || format!("{}{}", args.file.display(), array_of(name));
+    let mut replay = Replay::new(&garment, &Scene::scaled(args.full_scale), top).with_context(place)?;
+    let taxels = usize::from(frames.rows) * usize::from(frames.columns);
+    if taxels != replay.layout.taxels() {
+        bail!(
+            "{}: frames of {} x {} do not hold the {} taxels of the layout {}",
+            place(),
+            frames.rows,
+            frames.columns,
+            replay.layout.taxels(),
+            garment.name
+        );
+    }
+    if args.tare > 0 {
+        replay.state.condition.tare(args.tare);
+    }
+    let progress = std::io::stderr().is_terminal();
+    for (number, frame) in frames.iter().enumerate() {
+        let time = Micros((number as f64 * 1e6 / args.rate).round() as u64);
+        let mut object = replay.frame(frame, time);
+        object["frame"] = json!(number);
+        if !name.is_empty() {
+            object["array"] = json!(name);
+        }
+        if args.json {
+            writeln!(out, "{object}")?;
+        } else {
+            writeln!(out, "{}", line(&object))?;
+        }
+        if progress && number % 100 == 99 {
+            eprint!("\r{}{}: {} of {} frames", args.file.display(), array_of(name), number + 1, frames.count);
+        }
+    }
+    if progress {
+        eprintln!("\r{}{}: {} frames", args.file.display(), array_of(name), frames.count);
+    }
+    Ok(())
+}
+
+fn array_of(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(", array {name}") }
+}
+
+/// A frame as a line for people.
+fn line(object: &Value) -> String {
+    let contacts = object["contacts"].as_array().map_or(&[][..], Vec::as_slice);
+    let each = contacts.iter().map(|c| {
+        let (x, y) = (c["x"].as_f64().unwrap_or(0.0), c["y"].as_f64().unwrap_or(0.0));
+        format!(
+            "#{} {} total {} peak {} area {} at ({x:.2}, {y:.2})",
+            c["id"],
+            c["shape"].as_str().unwrap_or("?"),
+            c["total"],
+            c["peak"],
+            c["area"]
+        )
+    });
+    let leading = object["intent"]["leading"].as_str().unwrap_or("none");
+    let all = each.collect::<Vec<_>>().join("; ");
+    format!("frame {}: {leading}; {}", object["frame"], if all.is_empty() { "nothing touches" } else { &all })
+}
+
+/// A garment and a scene on the host: frames of values in, JSON objects out.
+pub struct Replay {
+    layout: Layout,
+    falling: bool,
+    pipeline: Pipeline,
+    state: Box<State>,
+    names: Vec<Name>,
+    leading: Leading,
+    concepts: Vec<Q15>,
+}
+
+impl Replay {
+    /// For a garment whose taxels have values up to `full_scale`.
+    pub fn new(garment: &Garment, scene: &Scene, full_scale: u16) -> Result<Replay> {
+        let layout = Layout::build(garment, TAXELS, full_scale)?;
+        let pipeline = Pipeline::build(scene, &layout)?;
+        let mut state = Box::new(State::default());
+        let falling = garment.wiring.falling;
+        state.reset(&layout, falling, full_scale);
+        let names = pipeline.intent().map_or_else(Vec::new, |intent| intent.map().concepts().to_vec());
+        let concepts = vec![Q15(0); names.len()];
+        Ok(Replay { layout, falling, pipeline, state, names, leading: Leading::None, concepts })
+    }
+
+    /// Perceives one frame: an object with time, contacts and intent.
+    pub fn frame(&mut self, values: &[u16], time: Micros) -> Value {
+        let codes: Vec<Code> = values.iter().map(|value| Code(*value)).collect();
+        let Replay { layout, falling, pipeline, state, names, leading, concepts } = self;
+        let percept = pipeline.process(state, layout, &codes, *falling, time, &mut ());
+        if let Some(meaning) = &percept.meaning {
+            *leading = meaning.leading;
+            *concepts = meaning.activations.to_vec();
+        }
+        let mut object = perceived(&percept, layout);
+        object["time"] = json!(time.0 as f64 / 1e6);
+        object["intent"] = json::intent(*leading, names, concepts);
+        object
+    }
+}
+
+/// What was perceived in a frame, but for its meaning.
+fn perceived(percept: &Percept<'_>, layout: &Layout) -> Value {
+    let list = |placed: &[Placed]| placed.iter().map(|p| json::contact(p, layout)).collect::<Vec<_>>();
+    let mut object = json!({ "contacts": list(percept.present) });
+    if !percept.released.is_empty() {
+        object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
+    }
+    if percept.dropped > 0 {
+        object["dropped"] = json!(percept.dropped);
+    }
+    if let Tare::Running { .. } = percept.tare {
+        object["tare"] = json!(true);
+    }
+    object
+}

@@ -1,0 +1,264 @@
+//! The program from outside: its answers on the reference images, and one sentence with exit status 2 for bad input.
+
+use npyz::WriterBuilder;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::SystemTime;
+
+/// The program beside this test, built where it is missing or older than its sources.
+fn taxel() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let test = std::env::current_exe().unwrap();
+        let folder = test.parent().and_then(Path::parent).unwrap();
+        let program = folder.join("taxel").with_extension(std::env::consts::EXE_EXTENSION);
+        if changed(&program).is_none_or(|built| built < newest_source()) {
+            build(folder);
+        }
+        program
+    })
+}
+
+fn changed(path: &Path) -> Option<SystemTime> {
+    path.metadata().ok()?.modified().ok()
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+fn newest_source() -> SystemTime {
+    fn newest(path: &Path) -> Option<SystemTime> {
+        let Ok(entries) = path.read_dir() else { return changed(path) };
+        entries.filter_map(|entry| newest(&entry.ok()?.path())).max()
+    }
+    let folders = ["core/src", "host/src", "host/scenes"].map(|folder| newest(&root().join(folder)));
+    folders.into_iter().flatten().max().unwrap()
+}
+
+/// Into the folder that is named after the profile.
+fn build(folder: &Path) {
+    let profile = folder.file_name().unwrap().to_str().unwrap();
+    let profile = if profile == "debug" { "dev" } else { profile };
+    let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root()).args(["build", "--quiet", "--package", "taxel", "--profile", profile]);
+    let status = command.arg("--target-dir").arg(folder.parent().unwrap()).status().unwrap();
+    assert!(status.success(), "the program cannot be built");
+}
+
+/// A file of this test in the build folder.
+fn file(name: &str, bytes: &[u8]) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path.to_str().unwrap().into()
+}
+
+fn npy<T: npyz::AutoSerialize + Copy>(shape: &[u64], values: &[T]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer =
+        npyz::WriteOptions::new().default_dtype().shape(shape).writer(&mut bytes).begin_nd().unwrap();
+    writer.extend(values.iter().copied()).unwrap();
+    writer.finish().unwrap();
+    bytes
+}
+
+/// An archive of two images named `a` and `b`.
+fn two_images() -> Vec<u8> {
+    let mut cursor = std::io::Cursor::new(Vec::new());
+    let mut writer = npyz::npz::NpzWriter::new(&mut cursor);
+    for name in ["a", "b"] {
+        let array = writer.array(name, Default::default()).unwrap();
+        let mut array = array.default_dtype().shape(&[2, 3]).begin_nd().unwrap();
+        array.extend([1u16, 2, 3, 4, 5, 6]).unwrap();
+        array.finish().unwrap();
+    }
+    drop(writer);
+    cursor.into_inner()
+}
+
+fn run(args: &[&str]) -> Output {
+    Command::new(taxel()).args(args).stdin(Stdio::null()).output().unwrap()
+}
+
+fn answer(args: &[&str]) -> String {
+    let output = run(args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(args: &[&str]) -> Value {
+    serde_json::from_str(&answer(args)).unwrap()
+}
+
+/// Bad input: exit status 2, nothing on stdout, one line on stderr that names each of `words`.
+fn refused(args: &[&str], words: &[&str]) {
+    let output = run(args);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
+    assert!(output.stdout.is_empty(), "{args:?}");
+    assert!(error.starts_with("error: ") && error.lines().count() == 1, "{args:?}: {error}");
+    for word in words {
+        assert!(error.contains(word), "{args:?}: {word} is not in: {error}");
+    }
+}
+
+#[test]
+fn bad_arrays_are_refused_by_name() {
+    let whole = npy(&[2, 3], &[1u16, 2, 3, 4, 5, 6]);
+    let cut = file("cut.npy", &whole[..whole.len() - 3]);
+    let flat = file("flat.npy", &npy(&[6], &[1u16; 6]));
+    let nan = file("nan.npy", &npy(&[2, 2, 2], &[0.0, 1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0, 7.0]));
+    let half = file("half.csv", b"1,2\n3,4.5\n");
+    let text = file("text.npy", b"not an array");
+    let missing = text.replace("text.npy", "missing.npy");
+    for command in ["features", "process"] {
+        refused(&[command, &cut], &["cut.npy", "truncated", "12 bytes", "9"]);
+        refused(&[command, &flat], &["flat.npy", "[6]", "[frames, rows, columns]"]);
+        refused(&[command, &nan], &["nan.npy", "frame 1, row 0, column 1", "NaN"]);
+        refused(&[command, &half], &["half.csv", "line 2", "row 1, column 1", "4.5"]);
+        refused(&[command, &text, "--json"], &["text.npy", "not a NumPy array"]);
+        refused(&[command, &missing], &["missing.npy", "cannot be read"]);
+    }
+}
+
+#[test]
+fn what_is_not_in_a_file_is_refused_by_name() {
+    let two = file("two.npz", &two_images());
+    refused(&["features", &two, "--array", "c"], &["two.npz", "no array c", "a, b"]);
+    refused(&["process", &two, "--array", "c"], &["two.npz", "no array c", "a, b"]);
+    refused(&["features", &two], &["two.npz", "--array", "a, b"]);
+    refused(&["features", &two, "--array", "a", "--frame", "1"], &["two.npz", "no frame 1", "the last is 0"]);
+    assert_eq!(json(&["features", &two, "--array", "b", "--json"])["m"], 21);
+}
+
+#[test]
+fn bad_maps_are_refused_by_name() {
+    let map = |name: &str, text: &str| file(name, text.as_bytes());
+    let heavy = map("heavy.json", r#"{"names": ["a", "b"], "W": [[0, 2], [0, 0]], "x0": [1, 0]}"#);
+    refused(&["fcm", &heavy, "--json"], &["heavy.json", "W[a][b] = 2", "[-1, 1]"]);
+    let nan = map("nan.json", r#"{"names": ["a"], "W": [[NaN]], "x0": [1]}"#);
+    refused(&["fcm", &nan], &["nan.json", "NaN"]);
+    let short = map("short.json", r#"{"names": ["a", "b"], "W": [[0, 1], [0, 0]]}"#);
+    refused(&["fcm", &short], &["short.json", "x0 is missing"]);
+    refused(&["fcm", "/no/such/map.json"], &["/no/such/map.json", "cannot be read"]);
+}
+
+/// An argument that cannot be read has the same status; clap adds how to get help.
+#[test]
+fn bad_arguments_have_the_same_status() {
+    for args in
+        [&["features"][..], &["features", "x.npy", "--frame", "-1"], &["nothing"], &["fcm", "x", "--no"]]
+    {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: "), "{args:?}");
+    }
+}
+
+fn float(value: &Value) -> f64 {
+    value.as_str().map_or_else(|| value.as_f64().unwrap(), |text| text.parse().unwrap())
+}
+
+fn close(have: &Value, want: f64, bound: f64, what: &str) {
+    let have = have.as_f64().unwrap();
+    assert!((have - want).abs() <= bound, "{what}: {have}, expected {want}");
+}
+
+/// Integers exactly, the rest within the bounds that the core documents.
+fn check_features(have: &Value, case: &Value) {
+    let (exact, reference) = (&case["exact"], &case["f64"]);
+    for key in ["m", "sx", "sy", "sxx", "syy", "sxy", "Jm"] {
+        assert_eq!(have[key], exact[key], "{key}");
+    }
+    for key in ["area", "peak"] {
+        assert_eq!(have[key].as_f64(), reference[key].as_f64(), "{key}");
+    }
+    let nmi = float(&exact["nmi"]);
+    for (key, want) in [
+        ("nmi", nmi),
+        ("nmi_peak", nmi * float(&reference["peak"]).sqrt()),
+        ("nmi_s2", float(&reference["nmi_s2"])),
+    ] {
+        close(&have[key], want, 2f64.powi(-25) + 4.001e-9 * want, key);
+    }
+    close(&have["x"], float(&reference["cx"]), 1e-12, "x");
+    close(&have["y"], float(&reference["cy"]), 1e-12, "y");
+    // ecc^2 = 1 - minor / major, D / J = (major - minor) / (major + minor)
+    let square = float(&exact["ecc"]).powi(2);
+    close(&have["anisotropy"], square / (2.0 - square), 1.0 / 65536.0 + 1e-8, "anisotropy");
+    if !have["azimuth"].is_null() {
+        let turn = have["azimuth"].as_f64().unwrap() - float(&exact["theta"]);
+        let turn = turn.rem_euclid(std::f64::consts::PI);
+        assert!(turn.min(std::f64::consts::PI - turn) <= 1.3e-6, "azimuth");
+    }
+}
+
+/// Where the pixels of a case are: in the reference itself (given to the program as a file), else in the recordings, which
+/// have every second image of each set.
+fn image_arguments(index: usize, case: &Value) -> Option<Vec<String>> {
+    if let Some(image) = case["img"].as_array() {
+        let image: Vec<u16> = image.iter().map(|v| v.as_u64().unwrap() as u16).collect();
+        let shape = [&case["shape"][0], &case["shape"][1]].map(|v| v.as_u64().unwrap());
+        return Some(vec![file(&format!("reference-{index}.npy"), &npy(&shape, &image))]);
+    }
+    let path = root().join("../shared/reference/shapes.npz");
+    let array = format!("{}_img", case["set"].as_str().unwrap());
+    let frame = (case["index"].as_u64().unwrap() / 2).to_string();
+    let path = path.exists().then(|| path.to_str().unwrap().to_string())?;
+    Some(vec![path, "--array".into(), array, "--frame".into(), frame])
+}
+
+#[test]
+fn features_are_those_of_the_reference() {
+    let cases: Vec<Value> = serde_json::from_str(include_str!("reference/moments.json")).unwrap();
+    let mut compared = 0;
+    for (index, case) in cases.iter().enumerate() {
+        let Some(arguments) = image_arguments(index, case) else {
+            println!("not run: {} {}, its image is in ../shared/reference only", case["set"], case["index"]);
+            continue;
+        };
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        check_features(&json(&[&["features"], &arguments[..], &["--json"]].concat()), case);
+        compared += 1;
+    }
+    println!("{compared} of {} reference images", cases.len());
+    assert!(compared >= 8);
+}
+
+#[test]
+fn scenes_are_listed() {
+    let scenes = json(&["scenes", "--json"]);
+    let names: Vec<&str> = scenes.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"pat") && names.contains(&"lash"));
+    let table = answer(&["scenes"]);
+    assert_eq!(table.lines().count(), names.len());
+    assert!(names.iter().zip(table.lines()).all(|(name, line)| line.starts_with(name)));
+}
+
+#[test]
+fn every_subcommand_has_a_help_with_an_example() {
+    assert!(answer(&["--help"]).contains("Example"));
+    for command in ["process", "features", "fcm", "scenes"] {
+        let help = answer(&[command, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("taxel {command}")), "{help}");
+    }
+}
+
+/// The reader of a pipe may leave before all is said.
+#[test]
+fn a_broken_pipe_is_quiet() {
+    let text = r#"{"names": ["a", "b"], "W": [[0, 1], [0.5, 0]], "x0": [1, 0]}"#;
+    let map = file("long.json", text.as_bytes());
+    let mut command = Command::new(taxel());
+    command.args(["fcm", &map, "--steps", "100000", "--json"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success());
+}
