@@ -280,7 +280,7 @@ impl Pipeline {
     fn touch(&self, layout: &Layout, placed: &Placed) -> Touch {
         Touch {
             press: placed.contact.peak_total,
-            breadth: placed.contact.breadth,
+            breadth: placed.contact.peak_breadth,
             friendliness: self.friendliness.get(usize::from(placed.region)).copied().unwrap_or(0),
             duration_ms: placed.contact.duration_ms,
             speed: placed.speed(layout),

@@ -91,7 +91,7 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// The scene that ships: everything on, limits for 12 bit and 400 counts per newton.
+    /// The scene that ships: everything on, limits for 12 bit and 1000 counts per newton.
     pub fn shipped() -> Scene {
         let friendly = |region, percent| Friendliness { region: name(region), percent };
         let reaction = |text, cause, level, hysteresis, pin| ReactionConfig {
@@ -107,7 +107,7 @@ impl Scene {
             name: name("shipped"),
             plan: Plan::default(),
             rate_hz: 0,
-            // Four and a half standard deviations of a noise of 3 counts; a pat gives 45 counts per taxel.
+            // Four and a half standard deviations of a noise of 3 counts; a pat gives 110 counts per taxel.
             condition: ConditionConfig { floor: 14, filter: Filter::Conservative, track_baseline: true },
             contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
             shape: Some(ShapeConfig::default()),

@@ -30,9 +30,9 @@ pub struct SymbolConfig {
 }
 
 impl Default for SymbolConfig {
-    /// At 400 counts per newton: light from 1 N, firm from 5 N, hard from 20 N.
+    /// At 1000 counts per newton: light from 1 N, firm from 5 N, hard from 20 N.
     fn default() -> Self {
-        SymbolConfig { strength: [400, 2_000, 8_000], extent: [9, 40], span_ms: [150, 800] }
+        SymbolConfig { strength: [1_000, 5_000, 20_000], extent: [9, 40], span_ms: [150, 800] }
     }
 }
 

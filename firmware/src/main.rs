@@ -15,7 +15,7 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, MuxScan};
-use taxel_core::board::{Board, BoardInfo, SetupError};
+use taxel_core::board::{Board, BoardInfo, Setup};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
 
@@ -40,10 +40,9 @@ type Scanner = MuxScan<
     TAXELS,
 >;
 
-// What is large lies here and not on the stack.
+// What is large is static and not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<Scanner> = StaticCell::new();
-static BOARD: StaticCell<Result<Board<TAXELS, RUNS>, SetupError>> = StaticCell::new();
 
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
@@ -58,9 +57,13 @@ async fn main(_spawner: Spawner) {
     };
     let scanner =
         SCANNER.init_with(|| MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer));
-    match BOARD.init_with(|| Board::new(info, Garment::reference(), Scene::shipped())) {
-        Ok(board) => taxel_core::run::run(scanner, &mut wire, &mut platform, board).await,
-        // Nothing feeds the watchdog from here on, so the board starts again and says so again.
-        Err(error) => defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(error)),
-    }
+    let mut board: Board<TAXELS, RUNS> =
+        match Setup::build(&info, Garment::reference(), Scene::shipped(), TAXELS) {
+            Ok(setup) => Board::with(info, setup),
+            Err(error) => {
+                // Nothing feeds the watchdog from here on, so the board starts again and says so again.
+                return defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
+            }
+        };
+    taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;
 }

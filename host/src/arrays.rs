@@ -139,7 +139,7 @@ impl Shape {
     }
 
     /// Where the value `index` of an array in Fortran order belongs in frame and row order.
-    fn from_fortran(self, index: usize) -> usize {
+    fn place_of_fortran(self, index: usize) -> usize {
         let (rest, frame) = (index / self.frames, index % self.frames);
         let (column, row) = (rest / usize::from(self.rows), rest % usize::from(self.rows));
         frame * self.area() + row * usize::from(self.columns) + column

@@ -3,7 +3,6 @@
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
 use crate::process::{self, ProcessArgs};
-use crate::process::{self, ProcessArgs};
 use crate::scenes::{self, ScenesArgs};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -18,9 +17,6 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run the board's perception over recorded frames
-    #[command(after_help = PROCESS)]
-    Process(ProcessArgs),
     /// Perceive recorded frames as the board would
     #[command(after_help = PROCESS)]
     Process(ProcessArgs),
@@ -39,10 +35,6 @@ const PROCESS: &str = "Examples:
   taxel process subject_01.npz --array posture_03 --rate 1 --json
   taxel process frames.npy --full-scale 1000 --tare 16";
 
-const PROCESS: &str = "Examples:
-  taxel process frames.npy --json
-  taxel process subject_01.npz --array posture_03 --rate 1 --full-scale 1000 --tare 2 --json";
-
 const FEATURES: &str = "Examples:
   taxel features image.npy
   taxel features subject_01.npz --array posture_03 --frame 20 --json";
@@ -58,7 +50,6 @@ impl Cli {
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
         match self.command {
-            Command::Process(args) => process::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),

@@ -47,6 +47,7 @@ pub fn contact(placed: &Placed, layout: &Layout) -> Value {
         "slip": contact.slip,
         "duration": f64::from(contact.duration_ms) / 1000.0,
         "peak_total": contact.peak_total,
+        "peak_breadth_mm": f64::from(contact.peak_breadth) / 10.0,
     });
     if let (Some(object), Some([x, y])) = (object.as_object_mut(), pitch_mm(layout, contact)) {
         object.insert("x_mm".into(), json!(contact.x.to_f64() * x));

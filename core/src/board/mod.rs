@@ -71,7 +71,12 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// A board that wears `garment` and is used for `scene`.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
-        let setup = Setup::build(&info, garment, scene, TAXELS)?;
+        Ok(Board::with(info, Setup::build(&info, garment, scene, TAXELS)?))
+    }
+
+    /// A board with a setup built before. It is made where the caller wants it: a microcontroller's stack holds no second.
+    #[inline(never)]
+    pub fn with(info: BoardInfo, setup: Setup) -> Self {
         let mut board = Board {
             info,
             scans: Pace::new(setup.scan_rate()),
@@ -87,7 +92,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             setup,
         };
         board.worn();
-        Ok(board)
+        board
     }
 
     /// The garment has changed: nothing that was known of the old one holds.

@@ -21,18 +21,29 @@ impl Gradient {
 
 /// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; values past the end of the slice are 0.
 pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
-    let last = (area.rows.saturating_sub(1), area.columns.saturating_sub(1));
-    let (y, x) = (row.min(last.0), usize::from(column.min(last.1)));
-    let (west, east) = (x.saturating_sub(1), (x + 1).min(usize::from(last.1)));
-    let three = |row: u16| {
-        let row = row_of(values, area, row.min(last.0));
-        let at = |x: usize| row.get(x).map_or(0, |v| i32::from(*v));
-        [at(west), at(x), at(east)]
-    };
-    let [nw, n, ne] = three(y.saturating_sub(1));
-    let [w, _, e] = three(y);
-    let [sw, s, se] = three(y.saturating_add(1));
-    Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
+    Neighbourhood::of(values, area, row).gradient(column)
+}
+
+/// A row of a panel with the one above and the one below it, itself at the border.
+pub(crate) struct Neighbourhood<'a>([&'a [u16]; 3]);
+
+impl<'a> Neighbourhood<'a> {
+    pub fn of(values: &'a [u16], area: &Area, row: u16) -> Self {
+        let last = area.rows.saturating_sub(1);
+        let y = row.min(last);
+        Neighbourhood([y.saturating_sub(1), y, (y + 1).min(last)].map(|row| row_of(values, area, row)))
+    }
+
+    pub fn gradient(&self, column: u16) -> Gradient {
+        let x = usize::from(column).min(self.0[1].len().saturating_sub(1));
+        let three = |row: &[u16]| {
+            let at = |x: usize| row.get(x).map(|v| i32::from(*v));
+            let middle = at(x).unwrap_or(0);
+            [at(x.wrapping_sub(1)).unwrap_or(middle), middle, at(x + 1).unwrap_or(middle)]
+        };
+        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(three);
+        Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
+    }
 }
 
 #[cfg(test)]

@@ -4,45 +4,56 @@
 /// not count: were the border replicated, a taxel there would be its own neighbour and an impulse would survive.
 pub(super) fn conservative(above: Option<&[u16]>, here: &[u16], below: Option<&[u16]>, out: &mut [u16]) {
     // A row that is missing lends from the other: a neighbour that counts twice changes neither end of the range.
-    let vertical = above.or(below).zip(below.or(above));
-    let (over, under) = vertical.unwrap_or((here, here));
-    let mut columns = over.iter().zip(here).zip(under).map(|((a, h), b)| {
-        let ends = if vertical.is_some() { Range::of(*a).and(Range::of(*b)) } else { Range::NONE };
-        (ends, *h)
-    });
-    let mut left = Range::NONE;
-    let Some(mut middle) = columns.next() else { return };
-    for out in out {
-        let right = columns.next();
-        let beside = right.map_or(Range::NONE, |(ends, h)| ends.and(Range::of(h)));
-        let (ends, value) = middle;
-        *out = left.and(ends).and(beside).clamp(value);
-        left = ends.and(Range::of(value));
-        let Some(next) = right else { return };
-        middle = next;
+    match above.or(below).zip(below.or(above)) {
+        Some((above, below)) => {
+            let columns = above.iter().zip(here).zip(below);
+            smooth(columns.map(|((a, h), b)| (Range::of(*a).and(Range::of(*b)), u32::from(*h))), out);
+        }
+        None => smooth(here.iter().map(|h| (Range::NONE, u32::from(*h))), out),
     }
 }
 
-/// The smallest and the largest of some taxels.
+/// One row, column by column: the range of the taxels above and below, and the taxel.
+fn smooth(mut columns: impl Iterator<Item = (Range, u32)>, out: &mut [u16]) {
+    let Some((mut ends, mut value)) = columns.next() else { return };
+    let mut left = Range::NONE;
+    let mut out = out.iter_mut();
+    // The columns go first, so that the last taxel is left for them to leave.
+    for ((next_ends, next), out) in columns.zip(out.by_ref()) {
+        *out = left.and(ends).and(next_ends).and_value(next).clamp(value);
+        left = ends.and_value(value);
+        (ends, value) = (next_ends, next);
+    }
+    if let Some(out) = out.next() {
+        *out = left.and(ends).clamp(value);
+    }
+}
+
+/// The smallest and the largest of some taxels; whole words, which need no masking.
 #[derive(Clone, Copy)]
 struct Range {
-    low: u16,
-    high: u16,
+    low: u32,
+    high: u32,
 }
 
 impl Range {
-    const NONE: Range = Range { low: u16::MAX, high: 0 };
+    const NONE: Range = Range { low: u32::MAX, high: 0 };
 
     fn of(value: u16) -> Range {
-        Range { low: value, high: value }
+        Range { low: value.into(), high: value.into() }
     }
 
     fn and(self, other: Range) -> Range {
         Range { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    fn clamp(self, value: u16) -> u16 {
-        if self.low > self.high { value } else { value.max(self.low).min(self.high) }
+    fn and_value(self, value: u32) -> Range {
+        Range { low: self.low.min(value), high: self.high.max(value) }
+    }
+
+    fn clamp(self, value: u32) -> u16 {
+        let clamped = if self.low > self.high { value } else { value.max(self.low).min(self.high) };
+        clamped as u16
     }
 }
 
@@ -51,30 +62,31 @@ impl Range {
 /// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
 /// median middle and the smallest high one (Smith 1996; 113 cycles per taxel on a Cortex-M0+ instead of 350).
 pub(super) fn median(above: &[u16], here: &[u16], below: &[u16], out: &mut [u16]) {
-    let mut columns = above.iter().zip(here).zip(below).map(|((a, h), b)| sorted(*a, *h, *b));
+    let mut columns =
+        above.iter().zip(here).zip(below).map(|((a, h), b)| sorted((*a).into(), (*h).into(), (*b).into()));
     let Some(mut middle) = columns.next() else { return };
     let mut left = middle;
     for out in out {
         let right = columns.next().unwrap_or(middle);
         *out = match left.2 | middle.2 | right.2 {
             0 => 0,
-            _ => median_of_columns(left, middle, right),
+            _ => median_of_columns(left, middle, right) as u16,
         };
         left = middle;
         middle = right;
     }
 }
 
-type Sorted = (u16, u16, u16);
+type Sorted = (u32, u32, u32);
 
-fn median_of_columns(a: Sorted, b: Sorted, c: Sorted) -> u16 {
+fn median_of_columns(a: Sorted, b: Sorted, c: Sorted) -> u32 {
     let low = a.0.max(b.0).max(c.0);
     let middle = sorted(a.1, b.1, c.1).1;
     let high = a.2.min(b.2).min(c.2);
     sorted(low, middle, high).1
 }
 
-fn sorted(a: u16, b: u16, c: u16) -> Sorted {
+fn sorted(a: u32, b: u32, c: u32) -> Sorted {
     let (a, b) = (a.min(b), a.max(b));
     let (b, c) = (b.min(c), b.max(c));
     (a.min(b), a.max(b), c)

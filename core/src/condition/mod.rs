@@ -24,6 +24,7 @@ mod stage;
 mod state;
 
 pub use config::{ConditionConfig, Filter};
+pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
 pub use feedback::{CARRIED, Feedback};
 pub use image::{Image, Rows};

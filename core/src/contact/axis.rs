@@ -1,7 +1,7 @@
 //! Direction, elongation and breadth of a contact from its central moments.
 
 use super::moments::{Central, Moments};
-use crate::format::{Fixed16, Q15, Scaled, Turn};
+use crate::format::{Inverse, Q15, Scaled, Turn, root};
 
 /// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
 pub const ASSUMED_PITCH_UM: u32 = 10_000;
@@ -40,7 +40,7 @@ impl Normal {
         let (difference, mixed) = (self.a as i64 - self.b as i64, self.c * 2);
         let (x, y) = (difference.unsigned_abs(), mixed.unsigned_abs());
         // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
-        (difference, mixed, (x * x + y * y).isqrt())
+        (difference, mixed, root(x * x + y * y).into())
     }
 }
 
@@ -66,15 +66,6 @@ fn half_angle(y: i64, x: i64) -> Turn {
     Turn(if half == -(1 << 30) { 1 << 30 } else { half })
 }
 
-/// Centroid along one axis: `sum / m`, rounded to the nearest 2^-16 taxel. Half a step off at most; saturates.
-pub(super) fn mean(sum: i64, m: u64) -> Fixed16 {
-    let m = m.min(i64::MAX as u64) as i64;
-    if m <= 0 {
-        return Fixed16(0);
-    }
-    Fixed16::saturating(sum.saturating_mul(1 << 16).saturating_add(m / 2).div_euclid(m))
-}
-
 /// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
 /// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
 /// taken to millimetres first, so that a pitch that differs along the axes is honoured. A pitch that is 0 counts as 10 mm.
@@ -93,16 +84,16 @@ pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     let (difference, _, d) = normal.spread();
     // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
     let skew = (px * px) as i64 - (py * py) as i64;
-    let lean = (skew * difference).checked_div(d as i64).unwrap_or(0);
+    let lean = if d == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
     let pixel2 = (pixel as i64 - lean).max(0) as u64;
     // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
     let minor = (normal.a + normal.b).saturating_sub(d);
-    let m = Scaled::from_u64(moments.m);
     let exponent = taxels.exponent + normal.exponent;
     let strip = if moments.m == 0 {
         Scaled::ZERO
     } else {
-        Scaled::from_u64(minor * 12).over(m).over(m).shifted(exponent)
+        let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));
+        Scaled::from_u64(minor * 12).times(inverse).times(inverse).shifted(exponent)
     };
     // Eight fraction bits, which a width of one pixel needs.
     let sum = strip.to_wide(8).saturating_add(pixel2 << 8);

@@ -1,12 +1,11 @@
 //! Which components are contacts, and what is measured on each of them.
 
-use super::axis::mean;
 use super::config::ContactConfig;
 use super::join::{Joins, weigh};
 use super::label::{Labels, NONE, Run};
 use super::moments::Moments;
-use crate::condition::{CARRIED, Feedback, Image, sobel};
-use crate::format::Fixed16;
+use crate::condition::{CARRIED, Feedback, Image, Neighbourhood};
+use crate::format::{Fixed16, Inverse};
 use crate::garment::{Area, Layout, Place, Rect};
 use heapless::Vec;
 
@@ -133,8 +132,10 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             }
         }
         for component in &mut self.list {
-            component.x = mean(component.moments.sx, component.moments.m);
-            component.y = mean(component.moments.sy, component.moments.m);
+            // The mass is the total, which fits in 32 bits; rounded once, to the nearest 2^-16 taxel.
+            let mass = Inverse::of(component.total);
+            component.x = Fixed16(mass.nearest(component.moments.sx.saturating_mul(1 << 16)));
+            component.y = Fixed16(mass.nearest(component.moments.sy.saturating_mul(1 << 16)));
         }
     }
 
@@ -195,14 +196,19 @@ impl Component {
     fn add_contour(&mut self, run: &Run, row: u16, area: &Area, image: &Image, low: u16) {
         let above = row.checked_sub(1).map_or(&[][..], |row| piece(run, image.row(area, row)));
         let below = piece(run, image.row(area, row.saturating_add(1)));
-        let inside = |value: Option<&u16>| value.is_some_and(|value| *value >= low);
-        let (mut above, mut below) = (above.iter(), below.iter());
-        for column in run.left..=run.right {
-            let enclosed = inside(above.next()) & inside(below.next());
-            if !enclosed || column == run.left || column == run.right {
-                self.perimeter = self.perimeter.saturating_add(1);
-                let slope = sobel(image.values, area, row, column).magnitude() >> 3;
-                self.slope = self.slope.saturating_add(slope);
+        let neighbourhood = Neighbourhood::of(image.values, area, row);
+        let mut count = |column: u16| {
+            self.perimeter = self.perimeter.saturating_add(1);
+            let slope = neighbourhood.gradient(column).magnitude() >> 3;
+            self.slope = self.slope.saturating_add(slope);
+        };
+        if above.is_empty() || below.is_empty() {
+            (run.left..=run.right).for_each(count);
+            return;
+        }
+        for ((column, above), below) in (run.left..).zip(above).zip(below) {
+            if *above < low || *below < low || column == run.left || column == run.right {
+                count(column);
             }
         }
     }

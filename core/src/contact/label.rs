@@ -80,34 +80,27 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     /// Appends the runs of a row.
     fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16) {
-        let mut open: Option<Run> = None;
-        for (column, value) in (0u16..).zip(values) {
-            let value = *value;
-            if value < low {
-                if let Some(run) = open.take() {
-                    self.push(run);
-                }
-                continue;
+        let mut taxels = (0u16..).zip(values);
+        while let Some((left, first)) = taxels.find(|(_, value)| **value >= low) {
+            let (mut mass, mut peak, mut right) = (u32::from(*first), *first, left);
+            for (column, value) in taxels.by_ref().take_while(|(_, value)| **value >= low) {
+                mass = mass.wrapping_add((*value).into());
+                peak = peak.max(*value);
+                right = column;
             }
-            let run = open.get_or_insert(Run {
-                mass: 0,
+            self.push(Run {
+                mass,
                 row,
-                left: column,
-                right: column,
+                left,
+                right,
                 parent: 0,
                 group: 0,
                 area: 0,
-                peak: 0,
+                peak,
                 panel,
                 held: false,
                 joined: false,
             });
-            run.mass = run.mass.wrapping_add(value.into());
-            run.peak = run.peak.max(value);
-            run.right = column;
-        }
-        if let Some(run) = open {
-            self.push(run);
         }
     }
 

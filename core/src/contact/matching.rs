@@ -84,7 +84,8 @@ fn least_of(row: &[u32]) -> (u32, u16) {
 
 /// Microseconds as seconds in Q16, at most 16.
 fn seconds(us: u64) -> i64 {
-    (us.min(16_000_000) * 65536 / 1_000_000) as i64
+    // 2^32 * 65536 / 10^6
+    ((us.min(16_000_000) * 281_474_977) >> 32) as i64
 }
 
 /// A point of a panel in 1/16 taxel: fine enough to compare distances, and 32 bits do.
@@ -102,8 +103,8 @@ impl Point {
     }
 
     fn through(self, way: &Transform) -> (i32, i32) {
-        let (x, y) = way.apply(self.x.into(), self.y.into(), 16);
-        (x as i32, y as i32)
+        // As `Transform::apply`, in 32 bits: coordinates are below 2^20, and so are shifts.
+        (way.xx * self.x + way.xy * self.y + way.dx * 16, way.yx * self.x + way.yy * self.y + way.dy * 16)
     }
 }
 

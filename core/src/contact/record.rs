@@ -67,4 +67,6 @@ pub struct Contact {
     pub duration_ms: u32,
     /// Greatest total since onset.
     pub peak_total: u32,
+    /// Breadth in the frame of the greatest total: what touches, not what is left of it while it comes or goes.
+    pub peak_breadth: u32,
 }

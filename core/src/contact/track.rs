@@ -10,7 +10,7 @@ use super::label::{Labels, NONE};
 use super::matching::{Point, nearest_way};
 use super::moments::Moments;
 use super::record::{Contact, Phase};
-use crate::format::{Fixed16, Micros, Q15};
+use crate::format::{Fixed16, Inverse, Micros, Q15};
 use crate::garment::{Layout, Place, Rect, Transform};
 use heapless::Vec;
 
@@ -99,13 +99,13 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     /// Brings all contacts up to date.
     pub fn update(&mut self, config: &ContactConfig, components: &[Component], layout: &Layout, now: Micros) {
-        let elapsed = now.since(self.last);
+        let pace = Pace::of(config, now.since(self.last));
         self.last = now;
         self.released.clear();
         for (contact, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
-                    follow(contact, trail, component, config, layout, elapsed);
+                    follow(contact, trail, component, config, layout, &pace);
                     contact.duration_ms = now.millis_since(contact.onset);
                 }
                 None => {
@@ -154,6 +154,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             azimuth: None,
             anisotropy: Q15(0),
             breadth: 0,
+            peak_breadth: 0,
             dx: Fixed16(0),
             dy: Fixed16(0),
             vx: Fixed16(0),
@@ -198,17 +199,19 @@ fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     (contact.x, contact.y) = (component.x, component.y);
     (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
     contact.breadth = breadth(&component.moments, pitch);
-    contact.peak_total = contact.peak_total.max(component.total);
+    if component.total >= contact.peak_total {
+        (contact.peak_total, contact.peak_breadth) = (component.total, contact.breadth);
+    }
 }
 
-/// What it tells together with the last one, `elapsed` microseconds ago.
+/// What it tells together with the last one.
 fn follow(
     contact: &mut Contact,
     trail: &mut Trail,
     component: &Component,
     config: &ContactConfig,
     layout: &Layout,
-    elapsed: u64,
+    pace: &Pace,
 ) {
     let from = Point::of(contact.panel, contact.x, contact.y);
     let to = Point::of(component.bounds.panel, component.x, component.y);
@@ -221,25 +224,38 @@ fn follow(
     describe(contact, component, layout);
     contact.phase = Phase::Held;
     (contact.dx, contact.dy) = (Fixed16::saturating(dx + step_x), Fixed16::saturating(dy + step_y));
-    let tau = u64::from(config.smoothing_ms) * 1000;
-    contact.vx = smoothed(vx, step_x, tau, elapsed);
-    contact.vy = smoothed(vy, step_y, tau, elapsed);
+    contact.vx = pace.velocity(vx, step_x);
+    contact.vy = pace.velocity(vy, step_y);
     let fast = length_squared(contact.vx, contact.vy, 12) >= u64::from(config.slip_speed).pow(2);
     trail.fast = if fast { trail.fast.saturating_add(1) } else { 0 };
     let away = length_squared(contact.dx, contact.dy, 8) >= length_squared(SLIP_WAY, Fixed16(0), 8);
     contact.slip = trail.fast >= SLIP_FRAMES && away;
 }
 
-/// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over the real time
-/// between the frames; unchanged where no time went by.
-fn smoothed(v: i64, step: i64, tau: u64, elapsed: u64) -> Fixed16 {
-    if elapsed == 0 {
-        return Fixed16::saturating(v);
+/// How a step becomes a velocity in this frame.
+struct Pace {
+    /// Time constant, us; below 2^26.
+    tau: i64,
+    /// Of `tau` and the time since the last frame; none where no time went by.
+    inverse: Option<Inverse>,
+}
+
+impl Pace {
+    fn of(config: &ContactConfig, elapsed: u64) -> Pace {
+        let tau = u32::from(config.smoothing_ms) * 1000;
+        let inverse = (elapsed > 0).then(|| Inverse::of(tau + elapsed.min(1 << 31) as u32));
+        Pace { tau: tau.into(), inverse }
     }
-    // 32 + 26 bits and 34 + 20 bits: no overflow.
-    let sum = v * tau as i64 + step * 1_000_000;
-    let over = (tau + elapsed.min(1 << 40)) as i64;
-    Fixed16::saturating(sum.checked_div(over).unwrap_or(v))
+
+    /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over the real time
+    /// between the frames.
+    fn velocity(&self, v: i64, step: i64) -> Fixed16 {
+        match self.inverse {
+            // 32 + 26 bits and 34 + 20 bits: no overflow.
+            Some(inverse) => Fixed16(inverse.nearest(v * self.tau + step * 1_000_000)),
+            None => Fixed16::saturating(v),
+        }
+    }
 }
 
 fn length_squared(x: Fixed16, y: Fixed16, shift: u32) -> u64 {

@@ -58,8 +58,7 @@ impl Micros {
 
     /// Time from `earlier` to `self` in milliseconds, rounded down, at most `u32::MAX`.
     pub const fn millis_since(self, earlier: Micros) -> u32 {
-        let ms = self.since(earlier) / 1000;
-        if ms > u32::MAX as u64 { u32::MAX } else { ms as u32 }
+        Inverse::of(1000).quotient(self.since(earlier))
     }
 }
 
@@ -135,15 +134,10 @@ impl Q15 {
         if part >= whole {
             return Q15::ONE;
         }
-        // Shift both so that `part << 15` fits: at most 1 unit in 2^48 is lost, far below half a step.
-        let spare = part.leading_zeros();
-        let shift = 16u32.saturating_sub(spare);
-        let (p, w) = (part >> shift, whole >> shift);
-        // `w` is never 0; the compiler cannot know.
-        match ((p << 15) + w / 2).checked_div(w) {
-            Some(ratio) => Q15(ratio as i32),
-            None => Q15(0),
-        }
+        // Shift both so that `whole` fits in 32 bits: at most one unit in 2^31 is lost, far below half a step.
+        let shift = 32u32.saturating_sub(whole.leading_zeros());
+        let (part, whole) = (part >> shift, (whole >> shift) as u32);
+        Q15(Inverse::of(whole).quotient((part << 15) + whole as u64 / 2) as i32)
     }
 }
 

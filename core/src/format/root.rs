@@ -60,7 +60,8 @@ mod tests {
                 assert_eq!(u64::from(root(value)), value.isqrt(), "{value}");
             }
         }
-        for value in (0..70_000).chain((0..64).map(|bit| u64::MAX >> bit)).chain((0..64).map(|bit| 1 << bit)) {
+        for value in (0..70_000).chain((0..64).map(|bit| u64::MAX >> bit)).chain((0..64).map(|bit| 1 << bit))
+        {
             assert_eq!(u64::from(root(value)), value.isqrt(), "{value}");
         }
     }

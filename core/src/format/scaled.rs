@@ -9,7 +9,7 @@
 //!
 //! The exponent saturates; the values of the core stay within 2^-130 ..= 2^130.
 
-use super::{Fixed24, Q15};
+use super::{Fixed24, Inverse, Q15, root};
 
 /// `mantissa * 2^exponent`, with bit 31 of the mantissa set, or zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,10 +57,11 @@ impl Scaled {
         if other.mantissa == 0 {
             return Scaled::MAX;
         }
-        let divisor = other.mantissa as u64;
-        // At most (2^32 - 1) 2^32 + 2^31 - 1: it fits. The quotient has 32 or 33 bits.
-        let quotient = (((self.mantissa as u64) << 32) + divisor / 2) / divisor;
-        Scaled::rounded(quotient, self.exponent.saturating_sub(other.exponent).saturating_sub(32))
+        // The larger mantissa gives up a bit, so that the quotient has 32 in any case.
+        let up = if self.mantissa < other.mantissa { 32 } else { 31 };
+        let quotient = Inverse::of(other.mantissa).quotient((self.mantissa as u64) << up);
+        let exponent = self.exponent.saturating_sub(other.exponent).saturating_sub(up);
+        Scaled::rounded(quotient as u64, exponent)
     }
 
     /// Square root.
@@ -69,7 +70,7 @@ impl Scaled {
         let odd = self.exponent & 1;
         let radicand = (self.mantissa as u64) << (32 - odd as u32);
         let exponent = self.exponent.saturating_sub(32 - odd) / 2;
-        let root = radicand.isqrt();
+        let root = root(radicand) as u64;
         let up = (radicand - root * root > root) as u64;
         Scaled::rounded(root + up, exponent)
     }

@@ -12,7 +12,7 @@ use crate::format::name;
 
 /// Counts of total pressure per newton with the reference garment's usual gain. A scene for another garment writes its
 /// own limit into the input `press`.
-pub const PRESS_PER_NEWTON: i32 = 400;
+pub const PRESS_PER_NEWTON: i32 = 1000;
 /// Force at which press is 1, in newtons.
 pub const FULL_PRESS_NEWTON: i32 = 30;
 /// Width up to which a contact is narrow (shape 0), in 0.1 mm: straps, sticks, fingers, the edge of a hand.

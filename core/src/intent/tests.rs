@@ -139,7 +139,7 @@ fn a_refused_map_names_what_is_wrong() {
     );
     let twice = edit(|c| c.thresholds.extend([own(5, 0), own(5, 1)]));
     assert_eq!(twice, "the threshold of threat is given twice");
-    assert_eq!(edit(|c| c.inputs[0].low = 12_000), "input press: low = 12000 is not below high = 12000");
+    assert_eq!(edit(|c| c.inputs[0].low = 30_000), "input press: low = 30000 is not below high = 30000");
     assert_eq!(edit(|c| c.inputs[2].at_low = -101), "input location: -1.01 is outside [-1, 1]");
     assert_eq!(edit(|c| c.inputs[2].concept = 1), "concept shape has two inputs");
     assert_eq!(edit(|c| c.inputs[2].concept = 4), "concept kindness is an input and has an incoming edge");

@@ -91,10 +91,10 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Cl
     nearest
 }
 
-/// Squared, saturating.
+/// Squared; each feature counts for at most 32767 apart, so that four squares fit.
 fn distance(a: &Features, b: &Features) -> u32 {
     a.iter().zip(b).fold(0, |sum: u32, (a, b)| {
-        let apart = (i32::from(*a) - i32::from(*b)).unsigned_abs();
-        sum.saturating_add(apart.saturating_mul(apart))
+        let apart = (i32::from(*a) - i32::from(*b)).unsigned_abs().min(32767);
+        sum.wrapping_add(apart.wrapping_mul(apart))
     })
 }

@@ -31,11 +31,12 @@ pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
     if moments.m == 0 {
         return Nmi::default();
     }
-    let m = Scaled::from_u64(moments.m);
-    let (peak, mean) = (Scaled::from_u64(peak.into()), Scaled::from_u64(moments.s2).over(m));
-    let published = Scaled::from_u64(moments.jm()).over(m).sqrt().over(m);
-    let sheppard = sheppard(moments).over(m).sqrt().over(m);
-    let (peak, mean) = (peak.sqrt(), mean.sqrt());
+    // One division: the rest is multiplications by the inverse of the mass, and roots.
+    let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));
+    let published = Scaled::from_u64(moments.jm()).times(inverse).sqrt().times(inverse);
+    let sheppard = sheppard(moments).times(inverse).sqrt().times(inverse);
+    let peak = Scaled::from_u64(peak.into()).sqrt();
+    let mean = Scaled::from_u64(moments.s2).times(inverse).sqrt();
     Nmi {
         published: published.to_fixed24(),
         peak: published.times(peak).to_fixed24(),
@@ -45,11 +46,13 @@ pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
     }
 }
 
+const SIXTH: Scaled = Scaled::from_u64(1).over(Scaled::from_u64(6));
+
 /// `J m - m^2 / 6` through `6 J m - m^2`, which is exact where it fits; 0 where the pixel is all there is.
 fn sheppard(moments: &Moments) -> Scaled {
     let (jm, square) = (moments.jm(), moments.m.saturating_mul(moments.m));
     match jm.checked_mul(6) {
-        Some(six) => Scaled::from_u64(six.saturating_sub(square)).over(Scaled::from_u64(6)),
+        Some(six) => Scaled::from_u64(six.saturating_sub(square)).times(SIXTH),
         None => Scaled::from_u64(jm.saturating_sub(square / 6)),
     }
 }

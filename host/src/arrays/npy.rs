@@ -127,7 +127,7 @@ fn counts<T: Cell>(file: NpyFile<&[u8]>, shape: Shape) -> Result<Frames> {
     let mut counts = vec![0; shape.values()];
     for (index, value) in file.data::<T>()?.enumerate() {
         let value = value.context("damaged")?;
-        let index = if fortran { shape.from_fortran(index) } else { index };
+        let index = if fortran { shape.place_of_fortran(index) } else { index };
         counts[index] = value.count().ok_or_else(|| shape.unfit(index, value))?;
     }
     Ok(shape.filled(counts))

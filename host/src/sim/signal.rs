@@ -10,8 +10,8 @@ use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
 
 /// Signal of one newton on one taxel, counts; linear until the code is full. The force limits of the intention map are
-/// in the same scale: 30 N in all are 12,000 counts in all.
-pub const COUNTS_PER_NEWTON: f32 = 400.0;
+/// in the same scale: 30 N in all are 30,000 counts in all.
+pub const COUNTS_PER_NEWTON: f32 = 1000.0;
 
 /// Highest code of the 12-bit converter.
 pub const FULL_SCALE: u16 = 4095;

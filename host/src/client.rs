@@ -1,0 +1,296 @@
+//! The host's end of the wire: bytes in any split go in, events come out, and what is known of the garment stays here.
+//!
+//! ```
+//! use taxel::client::{Client, Event};
+//!
+//! let mut client = Client::new();
+//! client.start(16).unwrap();
+//! let to_the_board = client.take_requests();
+//! assert!(!to_the_board.is_empty());
+//! for byte in b"\x00garbage\x00" {
+//!     if let Some(Event::Refused(why)) = client.push(*byte) {
+//!         println!("{why}"); // and the next frame is read as if nothing had been
+//!     }
+//! }
+//! assert_eq!(client.counts().refused(), 1);
+//! ```
+
+mod counts;
+mod event;
+mod picture;
+mod worn;
+
+pub use counts::Counts;
+pub use event::{Event, ImageNews};
+pub use worn::Worn;
+
+use picture::Picture;
+use taxel_core::body::Placed;
+use taxel_core::contact::Phase;
+use taxel_core::format::{Name, Q15};
+use taxel_core::intent::Leading;
+use taxel_core::symbol::RegionState;
+use taxel_core::wire::{
+    ContactList, Frame, Health, Hello, IntentReport, LONGEST_REQUEST, Raw, Receiver, Report, Request,
+    WireError, decode, decode_image, encode,
+};
+
+/// Longest frame from a board.
+const LONGEST_REPORT: usize = 8192;
+
+/// What one board tells, put together.
+#[derive(Debug, Clone)]
+pub struct Client {
+    receiver: Box<Receiver<LONGEST_REPORT>>,
+    message: Vec<u8>,
+    requests: Vec<u8>,
+    counts: Counts,
+    streaming: bool,
+    worn: Option<Worn>,
+    picture: Picture,
+    raw: Vec<u16>,
+    contacts: Vec<Placed>,
+    released: Vec<u32>,
+    /// The releases belong to a frame that has been told.
+    told: bool,
+    regions: Vec<RegionState>,
+    intention: Option<IntentReport>,
+    health: Option<Health>,
+}
+
+impl Default for Client {
+    fn default() -> Self {
+        Client::new()
+    }
+}
+
+impl Client {
+    /// A client that knows nothing yet.
+    pub fn new() -> Client {
+        Client {
+            receiver: Box::new(Receiver::new()),
+            message: Vec::new(),
+            // Ends whatever the board may have received before.
+            requests: vec![0],
+            counts: Counts::default(),
+            streaming: false,
+            worn: None,
+            picture: Picture::default(),
+            raw: Vec::new(),
+            contacts: Vec::new(),
+            released: Vec::new(),
+            told: false,
+            regions: Vec::new(),
+            intention: None,
+            health: None,
+        }
+    }
+
+    /// Asks for everything, also from a board that starts anew later; and for a tare over `tare` frames, unless 0.
+    pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
+        self.streaming = true;
+        self.request(&Request::Start)?;
+        if tare > 0 { self.request(&Request::Tare { frames: tare }) } else { Ok(()) }
+    }
+
+    /// Queues a request. An error: it is too long.
+    pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
+        let (mut body, mut frame) = ([0; LONGEST_REQUEST], [0; LONGEST_REQUEST + 1]);
+        let length = encode(request, &mut body, &mut frame)?;
+        self.requests.extend_from_slice(&frame[..length]);
+        Ok(())
+    }
+
+    /// The bytes that are to be sent to the board.
+    pub fn take_requests(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.requests)
+    }
+
+    /// Takes one byte. When it ends a message, the state is that of the message, and this says what it was.
+    pub fn push(&mut self, byte: u8) -> Option<Event> {
+        self.counts.bytes += 1;
+        let ended = self.receiver.push(byte)?;
+        let mut message = std::mem::take(&mut self.message);
+        let copied = ended.map(|bytes| {
+            message.clear();
+            message.extend_from_slice(bytes);
+        });
+        let event = match copied.and_then(|()| self.read(&message)) {
+            Ok(event) => event,
+            Err(error) => {
+                self.counts.refuse(error);
+                Event::Refused(error)
+            }
+        };
+        self.message = message;
+        Some(event)
+    }
+
+    /// Takes the message of an intact frame.
+    fn read(&mut self, message: &[u8]) -> Result<Event, WireError> {
+        let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
+        if self.counts.sequence(seq) {
+            self.forget();
+            if self.streaming {
+                self.request(&Request::Start)?;
+            }
+        }
+        let report: Report<'_> = decode(rest)?;
+        self.counts.messages += 1;
+        Ok(self.take(report))
+    }
+
+    /// The board has started anew: what it said before holds no more.
+    fn forget(&mut self) {
+        self.picture = Picture::default();
+        self.contacts.clear();
+        self.regions.clear();
+        self.intention = None;
+    }
+
+    fn take(&mut self, report: Report<'_>) -> Event {
+        match report {
+            Report::Hello(hello) => self.take_hello(&hello),
+            Report::Frame(frame) => self.take_frame(&frame),
+            Report::Contacts(list) => self.take_contacts(list),
+            Report::Symbols(list) => {
+                self.regions = list.regions.to_vec();
+                Event::Symbols(Box::new(list))
+            }
+            Report::Intent(report) => {
+                self.intention = Some(report.clone());
+                Event::Intent(report)
+            }
+            Report::Reaction(report) => Event::Reaction(report),
+            Report::Health(health) => {
+                self.health = Some(health);
+                Event::Health(health)
+            }
+            Report::Log(log) => Event::Log { time: log.time, level: log.level, text: log.text.into() },
+            Report::Sync(report) => Event::Sync(report),
+            Report::Answer(answer) => {
+                Event::Answer { request: answer.request, refusal: answer.refusal.map(String::from) }
+            }
+            Report::Raw(raw) => self.take_raw(&raw),
+        }
+    }
+
+    fn take_hello(&mut self, hello: &Hello<'_>) -> Event {
+        match Worn::read(hello) {
+            Ok(worn) => {
+                if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
+                    self.forget();
+                }
+                self.worn = Some(worn);
+                Event::Hello
+            }
+            Err(why) => Event::Unusable(why),
+        }
+    }
+
+    fn take_frame(&mut self, frame: &Frame<'_>) -> Event {
+        let every = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.frames_hz == u16::MAX);
+        self.counts.frame(frame.frame, every);
+        if self.told {
+            self.released.clear();
+        }
+        self.told = true;
+        let taxels = self.layout().map_or(0, |layout| layout.taxels());
+        let news = self.picture.take(frame, taxels);
+        if self.picture.wants_key() {
+            // A request of two bytes fits.
+            let _ = self.request(&Request::KeyFrame);
+        }
+        if news != ImageNews::Whole {
+            self.counts.undecoded += 1;
+        }
+        Event::Frame { frame: frame.frame, time: frame.time, alone: frame.base.is_none(), image: news }
+    }
+
+    fn take_contacts(&mut self, list: ContactList) -> Event {
+        if std::mem::take(&mut self.told) {
+            self.released.clear();
+        }
+        let (gone, here): (Vec<_>, Vec<_>) =
+            list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
+        self.released.extend(gone.iter().map(|p| p.contact.id));
+        self.contacts = here;
+        Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }
+    }
+
+    fn take_raw(&mut self, raw: &Raw<'_>) -> Event {
+        self.raw.resize(self.layout().map_or(0, |layout| layout.taxels()), 0);
+        let whole = decode_image(raw.data, None, &mut self.raw).is_ok();
+        if !whole {
+            self.raw.clear();
+            self.counts.undecoded += 1;
+        }
+        Event::Raw { frame: raw.frame, time: raw.time, whole }
+    }
+}
+
+/// What is known.
+impl Client {
+    /// What was counted on the line.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Garment, scene and firmware; none before the first `Hello`.
+    pub fn worn(&self) -> Option<&Worn> {
+        self.worn.as_ref()
+    }
+
+    /// The garment's geometry; none before the first `Hello`.
+    pub fn layout(&self) -> Option<&taxel_core::garment::Layout> {
+        self.worn.as_ref().map(|worn| &worn.layout)
+    }
+
+    /// The last conditioned image by taxel number, with its frame's number; none before the first that stands alone.
+    pub fn image(&self) -> Option<(u32, &[u16])> {
+        self.picture.image()
+    }
+
+    /// The last raw codes by taxel number; empty where none were sent.
+    pub fn raw(&self) -> &[u16] {
+        &self.raw
+    }
+
+    /// Contacts that are there, as told last.
+    pub fn contacts(&self) -> &[Placed] {
+        &self.contacts
+    }
+
+    /// Ids of the contacts that have gone with the last frame.
+    pub fn released(&self) -> &[u32] {
+        &self.released
+    }
+
+    /// Regions that are touched, as told last.
+    pub fn regions(&self) -> &[RegionState] {
+        &self.regions
+    }
+
+    /// Names of the concepts of the scene's map.
+    pub fn concepts(&self) -> &[Name] {
+        let intent = self.worn.as_ref().and_then(|worn| worn.scene.intent.as_ref());
+        intent.map_or(&[], |intent| intent.map.concepts.as_slice())
+    }
+
+    /// The announced intention.
+    pub fn leading(&self) -> Leading {
+        self.intention.as_ref().map_or(Leading::None, |report| report.leading)
+    }
+
+    /// Activation of each of the concepts; 0 before the first inference.
+    pub fn activations(&self) -> Vec<Q15> {
+        let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
+        all.resize(self.concepts().len(), Q15(0));
+        all
+    }
+
+    /// The board's counters, as told last.
+    pub fn health(&self) -> Option<&Health> {
+        self.health.as_ref()
+    }
+}

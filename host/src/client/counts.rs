@@ -1,0 +1,93 @@
+//! What is counted on the line.
+
+use taxel_core::wire::WireError;
+
+/// Counters of one connection, all since it began.
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
+pub struct Counts {
+    /// Bytes received.
+    pub bytes: u64,
+    /// Messages read.
+    pub messages: u64,
+    /// Frames (images) received.
+    pub frames: u64,
+    /// Messages that the board sent and that did not come: gaps of `seq`.
+    pub lost: u64,
+    /// Images that the board left out: gaps of `frame` that no loss explains, in a scene that sends every one.
+    pub thinned: u64,
+    /// Images and raw codes that could not be decoded.
+    pub undecoded: u64,
+    /// Times that the board started anew.
+    pub restarts: u64,
+    kinds: Vec<(WireError, u64)>,
+    next: Option<u32>,
+    last_frame: Option<u32>,
+    lost_since_frame: u64,
+}
+
+impl Counts {
+    /// What was received and is no message, by kind.
+    pub fn refused_by_kind(&self) -> &[(WireError, u64)] {
+        &self.kinds
+    }
+
+    /// What was received and is no message.
+    pub fn refused(&self) -> u64 {
+        self.kinds.iter().map(|(_, count)| count).sum()
+    }
+
+    pub(super) fn refuse(&mut self, error: WireError) {
+        match self.kinds.iter_mut().find(|(kind, _)| *kind == error) {
+            Some((_, count)) => *count += 1,
+            None => self.kinds.push((error, 1)),
+        }
+    }
+
+    /// Takes a message's number; whether the board has started anew.
+    pub(super) fn sequence(&mut self, seq: u32) -> bool {
+        let gap = self.next.map_or(0, |next| seq.wrapping_sub(next));
+        self.next = Some(seq.wrapping_add(1));
+        // Half of all numbers lie behind.
+        if gap > u32::MAX / 2 {
+            self.restarts += 1;
+            self.last_frame = None;
+            self.lost_since_frame = 0;
+            return true;
+        }
+        self.lost += u64::from(gap);
+        self.lost_since_frame += u64::from(gap);
+        false
+    }
+
+    /// Takes an image's number; `every` scan's image is to be sent.
+    pub(super) fn frame(&mut self, frame: u32, every: bool) {
+        self.frames += 1;
+        let skipped = self.last_frame.map_or(0, |last| frame.wrapping_sub(last).saturating_sub(1));
+        if every {
+            self.thinned += u64::from(skipped).saturating_sub(self.lost_since_frame);
+        }
+        self.last_frame = Some(frame);
+        self.lost_since_frame = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_are_losses_thinning_or_a_new_start() {
+        let mut counts = Counts::default();
+        for (seq, frame) in [(7, 3), (8, 4), (9, 6), (12, 8), (13, 9)] {
+            assert!(!counts.sequence(seq));
+            counts.frame(frame, true);
+        }
+        assert_eq!((counts.lost, counts.thinned), (2, 1));
+        assert!(counts.sequence(0));
+        counts.frame(1, true);
+        assert_eq!((counts.lost, counts.thinned, counts.restarts), (2, 1, 1));
+        let mut counts = Counts::default();
+        assert!(!counts.sequence(u32::MAX) && !counts.sequence(0) && !counts.sequence(1));
+        assert_eq!(counts.lost, 0);
+    }
+}

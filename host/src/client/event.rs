@@ -1,0 +1,84 @@
+//! What came over the wire.
+
+use taxel_core::body::Placed;
+use taxel_core::format::Micros;
+use taxel_core::wire::{Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, WireError};
+
+/// Something that came; what lasts is then found in the [`Client`](super::Client).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// Garment and scene are known, or known anew.
+    Hello,
+    /// A `Hello` that this program cannot use, and why.
+    Unusable(String),
+    /// A conditioned image.
+    Frame {
+        /// Number of the scan.
+        frame: u32,
+        /// Start of the scan.
+        time: Micros,
+        /// It stands alone.
+        alone: bool,
+        /// Whether it could be decoded.
+        image: ImageNews,
+    },
+    /// Contacts; those that are there are in the client.
+    Contacts {
+        /// Number of the scan.
+        frame: u32,
+        /// Start of the scan.
+        time: Micros,
+        /// Contacts that did not fit.
+        dropped: u16,
+        /// Those that have gone.
+        released: Vec<Placed>,
+    },
+    /// What was said of contacts.
+    Symbols(Box<SymbolList>),
+    /// What the touch means.
+    Intent(IntentReport),
+    /// Something the garment did by itself.
+    Reaction(ReactionReport),
+    /// Counters of the board.
+    Health(Health),
+    /// A sentence of the board.
+    Log {
+        /// The board's time.
+        time: Micros,
+        /// How grave.
+        level: Level,
+        /// The sentence.
+        text: String,
+    },
+    /// Answer to `Sync`.
+    Sync(SyncReport),
+    /// Answer to another request.
+    Answer {
+        /// Number of the request's variant; 255: it could not be read.
+        request: u8,
+        /// It was done; else why not.
+        refusal: Option<String>,
+    },
+    /// Raw codes.
+    Raw {
+        /// Number of the scan.
+        frame: u32,
+        /// Start of the scan.
+        time: Micros,
+        /// They could be decoded.
+        whole: bool,
+    },
+    /// Bytes that are no message.
+    Refused(WireError),
+}
+
+/// Whether an image could be decoded; where not, the next that stands alone is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImageNews {
+    /// Decoded, and the checksum of the board's own image is right.
+    Whole,
+    /// It differs from an image that did not come.
+    NoBase,
+    /// The code or the checksum is wrong.
+    Wrong,
+}

@@ -1,0 +1,51 @@
+//! What a board says of itself.
+
+use taxel_core::format::Micros;
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Hello, MAGIC, PROTOCOL, decode};
+
+/// Garment, scene and firmware of a board.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Worn {
+    /// Name and version of the firmware.
+    pub firmware: String,
+    /// The garment.
+    pub garment: Garment,
+    /// Its geometry.
+    pub layout: Layout,
+    /// What it is used for.
+    pub scene: Scene,
+    /// Id, date and fit error of the calibration in force; empty: pressure is in counts.
+    pub calibration: String,
+    /// The board's time when it said so.
+    pub clock: Micros,
+}
+
+impl Worn {
+    /// Reads a `Hello`, or says why not.
+    pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
+        if hello.magic != MAGIC {
+            return Err("the Hello of something that is no taxel board".into());
+        }
+        if hello.protocol != PROTOCOL {
+            return Err(format!(
+                "the board speaks protocol {}, this program {PROTOCOL}: update the older of the two",
+                hello.protocol
+            ));
+        }
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
+        // Exactness depends on the board's full scale, which it has checked itself.
+        let layout = Layout::build(&garment, usize::from(u16::MAX), 1)
+            .map_err(|e| format!("garment {} in Hello: {e}", garment.name))?;
+        Ok(Worn {
+            firmware: text(hello.firmware),
+            layout,
+            scene: decode(hello.scene).map_err(|e| format!("scene in Hello: {e}"))?,
+            calibration: text(hello.calibration),
+            clock: decode(hello.clock).map_err(|e| format!("clock in Hello: {e}"))?,
+            garment,
+        })
+    }
+}

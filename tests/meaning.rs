@@ -1,0 +1,107 @@
+//! What simulated touches mean: 500 seeded variants of a pat and of a lash, and controls with the map's reason.
+
+use std::collections::BTreeSet;
+use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::Layout;
+use taxel_core::intent::Leading;
+use taxel_core::pipeline::{Pipeline, PipelineState};
+use taxel_core::scene::Scene;
+
+const TAXELS: usize = 2048;
+const VARIANTS: u64 = 500;
+/// The right answer in at least so many of them.
+const RIGHT: usize = 490;
+
+/// What the garment made of a script: every intention that led, in order, and the map's reason for the last one.
+struct Course {
+    led: Vec<Leading>,
+    reason: String,
+}
+
+fn perceive(script: &Script) -> Course {
+    let garment = script.load_garment().expect("a built-in scene has a garment");
+    let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
+    let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
+    let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
+    state.reset(&layout, false, 4095);
+    state.condition.tare(script.tare_frames as u16);
+    let mut player = Player::new(script, &garment).expect("the script is checked");
+    let mut codes = vec![0u16; TAXELS];
+    let mut course = Course { led: Vec::new(), reason: "nothing leads".into() };
+    let frames = (script.duration_s * 1e6 / FRAME_PERIOD_US as f64) as u64 + 200;
+    for frame in 0..frames {
+        let start = frame * FRAME_PERIOD_US;
+        player.frame(start, &mut codes);
+        let codes: Vec<Code> = codes.iter().map(|code| Code(*code)).collect();
+        let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(start), &mut ());
+        let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) else { continue };
+        course.led.push(meaning.leading);
+        if let Some(why) = pipeline.intent().and_then(|intent| intent.why(state.intent())) {
+            let names = pipeline.intent().expect("it is on").map().concepts();
+            let parts = why.parts.iter().map(|part| {
+                format!("{} {:+.2}", names[usize::from(part.from)], part.value.to_f64())
+            });
+            course.reason =
+                format!("{} because {}", meaning.leading.as_str(), parts.collect::<Vec<_>>().join(", "));
+        }
+    }
+    course
+}
+
+/// How many variants are right: nothing else than `wanted` leads, and it does lead.
+fn right(scene: &str, wanted: Leading) -> usize {
+    let script = sim::load(scene).expect("built in");
+    let mut wrong = Vec::new();
+    for seed in 0..VARIANTS {
+        let course = perceive(&sim::vary(&script, seed));
+        let led: BTreeSet<_> = course.led.iter().map(|leading| leading.as_str()).collect();
+        let fine = led.contains(wanted.as_str()) && led.iter().all(|l| *l == "none" || *l == wanted.as_str());
+        if !fine {
+            wrong.push(format!("  seed {seed}: {led:?}; {}", course.reason));
+        }
+    }
+    println!("{scene}: {} of {VARIANTS} lead to {}", VARIANTS as usize - wrong.len(), wanted.as_str());
+    wrong.iter().take(12).for_each(|line| println!("{line}"));
+    VARIANTS as usize - wrong.len()
+}
+
+#[test]
+fn a_pat_is_kindness() {
+    assert!(right("pat", Leading::Kindness) >= RIGHT);
+}
+
+#[test]
+fn a_lash_is_an_attack() {
+    assert!(right("lash", Leading::Attack) >= RIGHT);
+}
+
+#[test]
+fn controls() {
+    let pat = sim::load("pat").expect("built in");
+    let lash = sim::load("lash").expect("built in");
+    let hold = sim::load("hold").expect("built in");
+    let idle = sim::load("idle").expect("built in");
+    let force = |script: &Script| script.touches.iter().map(|t| t.force_n).fold(0.0, f64::max);
+    let strong = sim::scale_force(&hold, force(&lash) / force(&hold));
+    let cases = [
+        ("the pat", perceive(&pat)),
+        ("the lash", perceive(&lash)),
+        ("the lash at 5 % of its force", perceive(&sim::scale_force(&lash, 0.05))),
+        ("a hold at the lash's peak force", perceive(&strong)),
+        ("an idle garment", perceive(&idle)),
+        ("a pat at three times the rate", perceive(&sim::scale_rate(&pat, 3.0))),
+    ];
+    for (name, course) in &cases {
+        let led: Vec<_> = course.led.iter().map(|leading| leading.as_str()).collect();
+        println!("{name}: {}; {}", if led.is_empty() { "none".into() } else { led.join(", ") }, course.reason);
+    }
+    let led = |index: usize, leading| cases[index].1.led.contains(&leading);
+    assert!(led(0, Leading::Kindness) && led(1, Leading::Attack));
+    assert!(!led(2, Leading::Attack), "a lash without force is no attack");
+    // Its slow rise passes through forces at which a palm is kind.
+    let end = cases[3].1.led.iter().rev().find(|leading| **leading != Leading::None);
+    assert!(!led(3, Leading::Attack) && end == Some(&Leading::Threat), "a strong hold is no blow, but a threat");
+    assert!(cases[4].1.led.is_empty(), "nothing touches an idle garment");
+    assert!(!led(5, Leading::Attack), "quick pats are no blows");
+}
