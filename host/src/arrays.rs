@@ -116,6 +116,8 @@ impl Shape {
         let (frames, rows, columns) = match *dimensions {
             [rows, columns] => (1, rows, columns),
             [frames, rows, columns] => (frames, rows, columns),
+            // Recordings of equal length, one after the other.
+            [recordings, frames, rows, columns] => (recordings.saturating_mul(frames), rows, columns),
             _ => bail!("shape {dimensions:?}: expected [frames, rows, columns] or [rows, columns]"),
         };
         if dimensions.contains(&0) {

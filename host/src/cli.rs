@@ -2,6 +2,7 @@
 
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
+use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
 use crate::scenes::{self, ScenesArgs};
 use anyhow::Result;
@@ -9,14 +10,18 @@ use clap::{Parser, Subcommand};
 
 /// See, record and understand the touch on a robot's tactile garment
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true, after_help = "Example:\n  taxel scenes")]
+#[command(version, after_help = "Examples:\n  taxel\n  taxel live --source sim:lash\n  taxel scenes")]
 pub struct Cli {
+    /// What to do; without it, `live`
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// See what a board tells, or a simulated one; what the program does by itself
+    #[command(after_help = LIVE)]
+    Live(LiveArgs),
     /// Perceive recorded frames as the board would
     #[command(after_help = PROCESS)]
     Process(ProcessArgs),
@@ -30,6 +35,12 @@ enum Command {
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
 }
+
+const LIVE: &str = "Examples:
+  taxel live
+  taxel live --source sim:lash --frames 200 --json
+  taxel live --source serial:/dev/ttyACM0 --save touch.taxel
+  taxel live --source file:touch.taxel";
 
 const PROCESS: &str = "Examples:
   taxel process subject_01.npz --array posture_03 --rate 1 --json
@@ -49,7 +60,9 @@ const SCENES: &str = "Examples:
 impl Cli {
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
-        match self.command {
+        let live = || Cli::parse_from(["taxel", "live"]).command;
+        match self.command.or_else(live).expect("live is a command") {
+            Command::Live(args) => live::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),

@@ -2,9 +2,12 @@
 
 pub mod arrays;
 pub mod cli;
+pub mod client;
 pub mod fcm;
 pub mod features;
 pub mod json;
+pub mod live;
 pub mod process;
 pub mod scenes;
 pub mod sim;
+pub mod source;

@@ -52,7 +52,8 @@ function statistics(machine, garment, link, started) {
     mcycles_per_s: Number((machine.cycles / wall / 1e6).toFixed(1)), asleep_us: Math.round(machine.asleep / 1000),
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, uart: { sent: link.sent, dropped: link.dropped, received: link.received,
-      overruns: machine.uart.overruns }, rtt_bytes: machine.rtt.bytes.length, marks: machine.marks,
+      overruns: machine.uart.overruns }, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
+    marks: machine.marks,
   };
 }
 
@@ -71,6 +72,7 @@ async function run(machine, garment, link, started, control) {
     if (options.realtime && ahead > 1) await setTimeout(ahead);
     else await setImmediate();
   }
+  if (machine.stack.overflown) throw new BoardError('the stack has reached the program\'s data');
   if (garment?.floating > 0) throw new BoardError(`an address line that nothing drives was read ${garment.floating} times`);
 }
 

@@ -5,6 +5,7 @@ import { Adc } from './adc.mjs';
 import { Marks } from './marks.mjs';
 import { Rom } from './rom.mjs';
 import { Rtt } from './rtt.mjs';
+import { Stack } from './stack.mjs';
 import { Uart } from './uart.mjs';
 
 const VECTOR_TABLE = 0x10000100;
@@ -64,6 +65,7 @@ export class Machine {
     core.SP = chip.readUint32(VECTOR_TABLE);
     core.PC = chip.readUint32(VECTOR_TABLE + 4) & ~1;
     this.rtt = new Rtt(this.symbols, chip.sramView);
+    this.stack = new Stack(this.symbols, chip.sramView, core.SP);
   }
 
   /** What silicon would answer with a fault or a reset ends the run. */

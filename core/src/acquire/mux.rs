@@ -70,6 +70,8 @@ pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     slots: heapless::Vec<u8, 32>,
     wired: heapless::Vec<u8, 32>,
     driven: Option<u32>,
+    /// By column, how its word differs from that of column 0; the same for every block and row.
+    columns: [u32; COLUMNS],
 }
 
 impl<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'l, P, D, A, C, PINS, TAXELS>
@@ -90,6 +92,7 @@ where
             slots: heapless::Vec::new(),
             wired: heapless::Vec::new(),
             driven: None,
+            columns: [0; COLUMNS],
         }
     }
 
@@ -110,39 +113,34 @@ where
         Ok(())
     }
 
-    fn apply(&mut self, word: u32, taxel: i32) -> Result<(), ScanError> {
-        let mut changed = self.driven.map_or(u32::MAX, |driven| driven ^ word);
-        if self.slots.len() < 32 {
-            changed &= (1 << self.slots.len()) - 1;
-        }
-        self.driven = None; // unknown if a line fails
+    /// Drives the lines whose levels differ from those of `word`; the number of a pin that fails.
+    fn apply(&mut self, word: u32) -> Result<(), u8> {
+        // With nothing known of the levels, at the start or after a failure: all lines, of which there are fewer.
+        let mut changed = self.driven.take().map_or(u32::MAX, |driven| driven ^ word);
         while changed != 0 {
             let bit = changed.trailing_zeros();
             changed &= changed - 1;
             let Some(slot) = self.slots.get(bit as usize) else { break };
             let Some((number, pin)) = self.lines.pins.get_mut(usize::from(*slot)) else { break };
-            pin.set_state(PinState::from(word >> bit & 1 == 1))
-                .map_err(|_| ScanError::Line { pin: *number, taxel: taxel as u16 })?;
+            pin.set_state(PinState::from(word >> bit & 1 == 1)).map_err(|_| *number)?;
         }
         self.driven = Some(word);
         Ok(())
     }
 
-    /// All addresses of the blocks that share one select code, the first of which is `sites`' first.
+    /// All addresses of the blocks that share one select code.
     fn scan_select(&mut self, circuit: &Circuit, plan: &Plan, sites: &[Site]) -> Result<(), ScanError> {
-        let Some(select) = sites.first().map(|s| s.select) else { return Ok(()) };
         let mut cursors = Cursors::new();
         for site in sites.iter().filter(|s| plan.reads(s.panel, s.block)) {
             let _ = cursors.push(Cursor::new(site)); // a circuit has at most BLOCKS of them
         }
-        let rows = cursors.iter().map(|c| c.rows).max().unwrap_or(0);
-        let columns = cursors.iter().map(|c| c.columns).max().unwrap_or(0);
-        for row in 0..rows {
+        let select = sites.first().map_or(0, |s| s.select);
+        for row in 0..cursors.iter().map(|c| c.rows).max().unwrap_or(0) {
             cursors.iter_mut().for_each(|c| c.enter_row(row));
-            for column in 0..columns {
-                // Blocks of different sizes: not every address of the largest has a block.
-                let Some(first) = cursors.iter().find(|c| column < c.columns_here) else { continue };
-                self.apply(circuit.word(select, row, column), first.taxel)?;
+            let columns = cursors.iter().map(|c| c.columns_here).max().unwrap_or(0);
+            let word = circuit.word(select, row, 0);
+            for (column, change) in (0..columns).zip(self.columns) {
+                self.apply(word ^ change).map_err(|pin| lost(pin, &cursors, column))?;
                 self.delay.delay_ns(circuit.settle_ns());
                 self.read(&mut cursors, column, plan.depth)?;
             }
@@ -162,6 +160,13 @@ where
         }
         Ok(())
     }
+}
+
+/// A select line failed: names the first taxel that it was to select.
+#[cold]
+fn lost(pin: u8, cursors: &Cursors, column: u8) -> ScanError {
+    let first = cursors.iter().find(|c| column < c.columns_here);
+    ScanError::Line { pin, taxel: first.map_or(0, |c| c.taxel) as u16 }
 }
 
 /// The blocks under one select code that the plan reads.
@@ -203,6 +208,9 @@ where
 {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
         self.rewire(circuit)?;
+        for (column, change) in (0..=u8::MAX).zip(&mut self.columns) {
+            *change = circuit.word(0, 0, 0) ^ circuit.word(0, 0, column);
+        }
         let start = self.clock.now();
         let mut rest = circuit.sites();
         while let Some(first) = rest.first() {

@@ -14,7 +14,7 @@ use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
 use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
-use crate::wire::{Health, LONGEST_REQUEST, Receiver};
+use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
 use heapless::{Deque, String, Vec};
 use outbox::Outbox;
 use pace::Pace;
@@ -57,15 +57,17 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     info: BoardInfo,
     setup: Setup,
     state: PipelineState<TAXELS, RUNS>,
-    inbox: Receiver<LONGEST_REQUEST>,
+    inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
     outbox: Outbox<TAXELS>,
-    jobs: Deque<Job, 16>,
+    jobs: Jobs,
     scans: Pace,
     scanning: bool,
     health: Health,
     scanned: Option<Micros>,
     frame: u32,
     taring: bool,
+    /// The garment has a baseline of its own.
+    tared: bool,
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
@@ -74,31 +76,38 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         Ok(Board::with(info, Setup::build(&info, garment, scene, TAXELS)?))
     }
 
-    /// A board with a setup built before. It is made where the caller wants it: a microcontroller's stack holds no second.
+    /// A board with a setup built before. It is made where the caller keeps it: the stack of a microcontroller holds its
+    /// parts, one after the other, but not the whole.
     #[inline(never)]
     pub fn with(info: BoardInfo, setup: Setup) -> Self {
-        let mut board = Board {
+        let mut state = PipelineState::default();
+        state.reset(&setup.layout, setup.circuit.falling(), info.full_scale);
+        let mut outbox = Outbox::new();
+        outbox.pace(&setup.scene.stream);
+        let mut jobs = Deque::new();
+        put_to_rest(&setup, &mut jobs);
+        Board {
             info,
             scans: Pace::new(setup.scan_rate()),
-            state: PipelineState::default(),
+            state,
             inbox: Receiver::new(),
-            outbox: Outbox::new(),
-            jobs: Deque::new(),
+            outbox,
+            jobs,
             scanning: false,
             health: Health::default(),
             scanned: None,
             frame: 0,
             taring: false,
+            tared: false,
             setup,
-        };
-        board.worn();
-        board
+        }
     }
 
     /// The garment has changed: nothing that was known of the old one holds.
     fn worn(&mut self) {
         self.state.reset(&self.setup.layout, self.setup.circuit.falling(), self.info.full_scale);
         self.outbox.forget_image();
+        self.tared = false;
         self.used();
     }
 
@@ -108,9 +117,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
         self.taring = false;
-        for line in self.setup.pipeline.reactions().outputs() {
-            let _ = self.jobs.push_back(Job::Drive(line.pin, line.inverted));
-        }
+        put_to_rest(&self.setup, &mut self.jobs);
     }
 
     /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
@@ -169,7 +176,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
         self.outbox.note(self.frame, time, &percept, &mut self.health);
         if self.taring && percept.tare == Tare::Done {
-            self.taring = false;
+            (self.taring, self.tared) = (false, true);
             self.outbox.answer(request::TARE, None);
         }
         self.outbox.raw(scan.codes, layout.taxels());
@@ -207,6 +214,16 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         &self.health
     }
 }
+
+/// Drives the outputs of all reactions to where they are when nothing happens.
+fn put_to_rest(setup: &Setup, jobs: &mut Jobs) {
+    for line in setup.pipeline.reactions().outputs() {
+        let _ = jobs.push_back(Job::Drive(line.pin, line.inverted));
+    }
+}
+
+/// What is to be done between two scans.
+type Jobs = Deque<Job, 16>;
 
 /// A sentence of the board, cut where it gets too long.
 type Sentence = String<120>;

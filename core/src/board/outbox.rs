@@ -13,10 +13,12 @@ use core::fmt::{self, Write};
 use heapless::{Deque, Vec};
 use serde::Serialize;
 
-/// Longest body of a message: a saturated image of the reference garment, or a full list of contacts.
-const BODY: usize = 6144;
-/// Its frame: one byte more in 254, CRC, terminator.
-const FRAME: usize = BODY + BODY / 254 + 8;
+/// Room for an image: any of 2,048 taxels.
+const IMAGE: usize = image_bound(2048, 16);
+/// Longest body of a message: an image and what stands before it. A full list of contacts is shorter.
+const BODY: usize = IMAGE + 64;
+/// Its frame.
+const FRAME: usize = frame_bound(BODY);
 
 /// Why something is refused, as a sentence.
 #[derive(Debug, Clone)]
@@ -85,7 +87,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             body: [0; BODY],
             wire: [0; FRAME],
             from: 0,
-            to: 0,
+            // One 0x00 first: whatever a booting board or an opening line put on the wire ends there.
+            to: 1,
             streaming: false,
             hello: Some(Micros(0)),
             synced: Deque::new(),
@@ -195,11 +198,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         self.note_contacts(frame, time, percept, health);
         self.note_symbols(frame, time, percept, health);
-        if self.frame_pace.due(time) {
-            health.thinned_frames += u32::from(self.image.due.is_some());
+        // What waits is encoded from the newest image and codes, so it bears their number.
+        let due = self.frame_pace.due(time);
+        health.thinned_frames += u32::from(due && self.image.due.is_some());
+        if due || self.image.due.is_some() {
             self.image.due = Some((frame, time));
         }
-        if self.raw_pace.due(time) {
+        if self.raw_pace.due(time) || self.raw.is_some() {
             self.raw = Some((frame, time));
         }
     }
@@ -279,7 +284,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.from = self.from.saturating_add(count).min(self.to);
     }
 
-    /// Encodes the most urgent message, if there is one.
+    /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
+    #[inline(never)]
     fn next(&mut self, now: Micros, info: &BoardInfo, setup: &Setup, image: &[u16], health: &mut Health) {
         if let Some((token, received)) = self.synced.pop_front() {
             self.put(&Report::Sync(SyncReport { token, received, sent: now }), health);
@@ -336,7 +342,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let Outbox { seq, body, wire, to, image: Image { base, key, last, .. }, key_us, .. } = self;
         let fresh = time.since(*key) >= *key_us;
         let against = base.filter(|_| !fresh);
-        let mut data = [0; BODY - 64];
+        let mut data = [0; IMAGE];
         let reference = last.get(..image.len()).filter(|_| against.is_some());
         let Some(length) = encode_image(image, reference, &mut data) else {
             health.thinned_frames += 1;
@@ -358,14 +364,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn put_raw(&mut self, frame: u32, time: Micros, health: &mut Health) {
         let Outbox { seq, body, wire, to, codes, .. } = self;
-        let mut data = [0; BODY - 64];
+        let mut data = [0; IMAGE];
         let mut plain = [0; TAXELS];
         for (value, code) in plain.iter_mut().zip(codes.iter()) {
             *value = code.0;
         }
         let plain = plain.get(..codes.len()).unwrap_or(&[]);
-        let length = encode_image(plain, None, &mut data).unwrap_or(0);
-        let data = data.get(..length).unwrap_or(&[]);
+        let Some(data) = encode_image(plain, None, &mut data).and_then(|length| data.get(..length)) else {
+            health.lost = health.lost.wrapping_add(1);
+            return;
+        };
         put(seq, body, wire, to, &Report::Raw(Raw { frame, time, data }), health);
     }
 }

@@ -76,30 +76,27 @@ impl Condition {
                 None => u16::MAX,
             };
         let before = core::mem::replace(&mut state.calibrated_rows, Rows::NONE);
-        let difference = |code: &Code, rest: &u16| {
-            if falling { rest.saturating_sub(code.0) } else { code.0.saturating_sub(*rest) }
-        };
         for (panel, area) in layout.areas().iter().enumerate() {
             let scanned = panels >> panel & 1 == 1;
             for row in 0..area.rows {
-                let number = area.first_row.saturating_add(row);
                 let codes = row_of(codes, area, row);
                 let rest = row_of(&state.baseline, area, row);
-                let loud = scanned && codes.iter().zip(rest).any(|(c, b)| difference(c, b) > quiet);
+                let loud =
+                    scanned && if falling { loud(rest, codes, quiet) } else { loud(codes, rest, quiet) };
+                let number = area.first_row.saturating_add(row);
                 if !loud && !before.contains(number) {
                     continue;
                 }
                 let out = row_mut(&mut state.calibrated, area, row);
                 out.fill(0);
-                if loud {
-                    let gain = row_of(&state.gain, area, row);
-                    for (((out, code), rest), gain) in out.iter_mut().zip(codes).zip(rest).zip(gain) {
-                        let value = calibrated(difference(code, rest), *gain);
-                        *out = if value < floor { 0 } else { value };
-                    }
-                    if out.iter().any(|value| *value != 0) {
-                        state.calibrated_rows.insert(number);
-                    }
+                let gain = row_of(&state.gain, area, row);
+                let any = match (loud, falling) {
+                    (false, _) => false,
+                    (true, false) => calibrate(codes, rest, gain, floor, out),
+                    (true, true) => calibrate(rest, codes, gain, floor, out),
+                };
+                if any {
+                    state.calibrated_rows.insert(number);
                 }
             }
         }
@@ -114,19 +111,25 @@ impl Condition {
             }
             return;
         }
+        if before.is_empty() && state.calibrated_rows.is_empty() {
+            return;
+        }
         for area in layout.areas() {
+            let active = |row: u16| {
+                row < area.rows && state.calibrated_rows.contains(area.first_row.saturating_add(row))
+            };
+            let (mut above, mut here) = (false, active(0));
             for row in 0..area.rows {
+                let below = active(row + 1);
                 let number = area.first_row.saturating_add(row);
-                let up = row.saturating_sub(1);
-                let down = row.saturating_add(1).min(area.rows.saturating_sub(1));
-                let out = row_mut(&mut state.filtered, area, row);
-                let within = |row: u16| state.calibrated_rows.contains(area.first_row.saturating_add(row));
-                if within(up) || within(row) || within(down) {
-                    self.filter_row(&state.calibrated, area, [up, row, down], out);
+                if above || here || below {
+                    let rows = [row.saturating_sub(1), row, (row + 1).min(area.rows - 1)];
+                    self.filter_row(&state.calibrated, area, rows, row_mut(&mut state.filtered, area, row));
                     state.filtered_rows.insert(number);
                 } else if before.contains(number) {
-                    out.fill(0);
+                    row_mut(&mut state.filtered, area, row).fill(0);
                 }
+                (above, here) = (here, below);
             }
         }
     }
@@ -145,9 +148,48 @@ impl Condition {
     }
 }
 
-/// `(difference * gain + 2048) >> 12`, at most 65535: the product of two 16-bit numbers leaves room for the rounding.
-fn calibrated(difference: u16, gain: u16) -> u16 {
-    ((u32::from(difference) * u32::from(gain) + 2048) >> 12).min(0xffff) as u16
+/// A row as `u16`: codes, or the baseline; pressure is what the one has more than the other.
+trait Counts: Copy {
+    fn counts(self) -> u16;
+}
+
+impl Counts for u16 {
+    fn counts(self) -> u16 {
+        self
+    }
+}
+
+impl Counts for Code {
+    fn counts(self) -> u16 {
+        self.0
+    }
+}
+
+/// Whether a difference exceeds `quiet`: all that is done for a row that nothing touches.
+fn loud<A: Counts, B: Counts>(more: &[A], less: &[B], quiet: u16) -> bool {
+    let quiet = i32::from(quiet);
+    more.iter().zip(less).any(|(a, b)| i32::from(a.counts()) - i32::from(b.counts()) > quiet)
+}
+
+/// One row: `(difference * gain + 2048) >> 12`, at most 65535 (the product of two 16-bit numbers leaves room for the
+/// rounding), and 0 below the floor. Whether anything is left.
+fn calibrate<A: Counts, B: Counts>(
+    more: &[A],
+    less: &[B],
+    gain: &[u16],
+    floor: u16,
+    out: &mut [u16],
+) -> bool {
+    let mut any = 0;
+    for (((out, a), b), gain) in out.iter_mut().zip(more).zip(less).zip(gain) {
+        let difference = a.counts().saturating_sub(b.counts());
+        let value = (u32::from(difference) * u32::from(*gain) + 2048) >> 12;
+        if value >= floor.into() {
+            *out = value.min(0xffff) as u16;
+            any |= value;
+        }
+    }
+    any != 0
 }
 
 #[cfg(test)]

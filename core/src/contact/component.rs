@@ -131,6 +131,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 self.widen_beyond(index, run, row);
             }
         }
+        for (contact, moments) in joins.carried_moments() {
+            if let Some(component) = self.list.get_mut(usize::from(contact)) {
+                component.moments.add(&moments);
+            }
+        }
         for component in &mut self.list {
             // The mass is the total, which fits in 32 bits; rounded once, to the nearest 2^-16 taxel.
             let mass = Inverse::of(component.total);
@@ -178,12 +183,12 @@ fn piece<'a>(run: &Run, row: &'a [u16]) -> &'a [u16] {
 }
 
 impl Component {
-    fn add_moments(&mut self, run: &Run, row: u16, area: &Area, image: &Image, joins: &Joins) {
+    fn add_moments(&mut self, run: &Run, row: u16, area: &Area, image: &Image, joins: &mut Joins) {
         let values = piece(run, image.row(area, row));
         let here = Moments::of_run(run.left.into(), row.into(), values);
-        match joins.map(run.parent).filter(|_| self.joined) {
-            Some(map) => self.moments.add(&here.transform(map)),
-            None => self.moments.add(&here),
+        // Of parts that are carried the sums are, once all their runs are in.
+        if !self.joined || !joins.collect(run.parent, &here) {
+            self.moments.add(&here);
         }
         if self.peak_at.is_none()
             && let Some((column, _)) = (run.left..).zip(values).find(|(_, value)| **value == self.peak)
@@ -203,13 +208,19 @@ impl Component {
             self.slope = self.slope.saturating_add(slope);
         };
         if above.is_empty() || below.is_empty() {
-            (run.left..=run.right).for_each(count);
-            return;
+            return (run.left..=run.right).for_each(count);
         }
-        for ((column, above), below) in (run.left..).zip(above).zip(below) {
-            if *above < low || *below < low || column == run.left || column == run.right {
-                count(column);
+        count(run.left);
+        // Between the ends only what is above and below matters.
+        let inner = 1..usize::from(run.right - run.left).max(1);
+        let vertical = above.get(inner.clone()).unwrap_or(&[]).iter().zip(below.get(inner).unwrap_or(&[]));
+        for (index, (above, below)) in vertical.enumerate() {
+            if *above < low || *below < low {
+                count(run.left + 1 + index as u16);
             }
+        }
+        if run.right > run.left {
+            count(run.right);
         }
     }
 }

@@ -7,6 +7,7 @@
 //! another panel are carried like all others.
 
 use super::label::{Labels, NONE};
+use super::moments::Moments;
 use crate::condition::{CARRIED, Image};
 use crate::garment::{Joint, Layout, PANELS, Place, Transform};
 use heapless::Vec;
@@ -22,7 +23,10 @@ struct Join {
 #[derive(Debug, Clone, Copy)]
 struct Carried {
     part: u16,
+    contact: u16,
     map: Transform,
+    /// What has been collected of it, in its own coordinates.
+    moments: Moments,
 }
 
 /// The joins of a frame.
@@ -52,8 +56,8 @@ impl Joins {
         self.carried.clear();
         self.overflow = 0;
         for (index, joint) in layout.joints().iter().enumerate() {
-            // Most frames end here: nothing touches on one of the two sides.
-            if labels.panels >> (joint.a % 8) & labels.panels >> (joint.b % 8) & 1 == 1 {
+            // Most frames end here: nothing touches the border on one of the two sides.
+            if labels.border >> (joint.a % 8) & labels.border >> (joint.b % 8) & 1 == 1 {
                 self.find_along(index as u8, joint, labels, layout, image, low);
             }
         }
@@ -117,13 +121,13 @@ impl Joins {
                 anchor = (part, run.mass);
             }
         }
-        self.place(anchor.0, Transform::IDENTITY);
-        self.carry(layout);
+        self.place(anchor.0, contact, Transform::IDENTITY);
+        self.carry(layout, contact);
         home
     }
 
     /// Carries along every join that has one side placed, until none is left.
-    fn carry(&mut self, layout: &Layout) {
+    fn carry(&mut self, layout: &Layout, contact: u16) {
         for _ in 0..=self.joins.len() {
             // Only what the previous rounds placed counts, so that the shortest path wins.
             let placed = self.carried.len();
@@ -132,8 +136,8 @@ impl Joins {
                 let Some(joint) = layout.joints().get(usize::from(join.joint)) else { continue };
                 let known = |part| self.carried.iter().take(placed).find(|c| c.part == part).map(|c| c.map);
                 match (known(join.a), known(join.b)) {
-                    (Some(a), None) => self.place(join.b, a.after(&joint.b_to_a)),
-                    (None, Some(b)) => self.place(join.a, b.after(&joint.b_to_a.inverse())),
+                    (Some(a), None) => self.place(join.b, contact, a.after(&joint.b_to_a)),
+                    (None, Some(b)) => self.place(join.a, contact, b.after(&joint.b_to_a.inverse())),
                     _ => {}
                 }
             }
@@ -143,16 +147,22 @@ impl Joins {
         }
     }
 
-    fn place(&mut self, part: u16, map: Transform) {
+    fn place(&mut self, part: u16, contact: u16, map: Transform) {
         if !self.carried.iter().any(|c| c.part == part) {
             // Each join brings at most two parts, and the list has room for as many.
-            let _ = self.carried.push(Carried { part, map });
+            let _ = self.carried.push(Carried { part, contact, map, moments: Moments::default() });
         }
     }
 
-    /// The way home of a joined part; none if it is at home.
-    pub fn map(&self, part: u16) -> Option<&Transform> {
-        self.carried.iter().find(|c| c.part == part).map(|c| &c.map)
+    /// Takes in the moments of a run of a joined part; `false` if it is none.
+    pub fn collect(&mut self, part: u16, moments: &Moments) -> bool {
+        let carried = self.carried.iter_mut().find(|c| c.part == part);
+        carried.map(|c| c.moments.add(moments)).is_some()
+    }
+
+    /// What has been collected, in the frames of the contacts' home panels.
+    pub fn carried_moments(&self) -> impl Iterator<Item = (u16, Moments)> {
+        self.carried.iter().map(|c| (c.contact, c.moments.transform(&c.map)))
     }
 }
 

@@ -30,6 +30,27 @@ pub(super) struct Run {
     pub joined: bool,
 }
 
+impl Run {
+    const EMPTY: Run = Run {
+        mass: 0,
+        row: 0,
+        left: 0,
+        right: 0,
+        parent: 0,
+        group: 0,
+        area: 0,
+        peak: 0,
+        panel: 0,
+        held: false,
+        joined: false,
+    };
+}
+
+/// A place as one word, in the order of the runs.
+const fn key(row: u16, column: u16) -> u32 {
+    (row as u32) << 16 | column as u32
+}
+
 /// No contact.
 pub(super) const NONE: u16 = u16::MAX;
 
@@ -37,8 +58,8 @@ pub(super) const NONE: u16 = u16::MAX;
 #[derive(Debug, Clone)]
 pub(super) struct Labels<const RUNS: usize> {
     pub runs: Vec<Run, RUNS>,
-    /// Panels that have a run.
-    pub panels: u8,
+    /// Panels that have a run at their border.
+    pub border: u8,
     /// Runs that did not fit, in this frame.
     pub overflow: u16,
 }
@@ -46,7 +67,7 @@ pub(super) struct Labels<const RUNS: usize> {
 impl<const RUNS: usize> Labels<RUNS> {
     pub const fn new() -> Self {
         const { assert!(RUNS < NONE as usize, "a run is numbered with 16 bits") };
-        Labels { runs: Vec::new(), panels: 0, overflow: 0 }
+        Labels { runs: Vec::new(), border: 0, overflow: 0 }
     }
 
     /// Finds the parts of an image: connected runs within one panel.
@@ -58,7 +79,7 @@ impl<const RUNS: usize> Labels<RUNS> {
         last: &Feedback<CONTACTS>,
     ) {
         self.runs.clear();
-        self.panels = 0;
+        self.border = 0;
         self.overflow = 0;
         for (panel, area) in layout.areas().iter().enumerate() {
             let mut above = 0..0;
@@ -70,8 +91,7 @@ impl<const RUNS: usize> Labels<RUNS> {
                     above = 0..0;
                     continue;
                 }
-                self.panels |= 1 << (panel % 8);
-                self.mark_held(start, row, last);
+                self.mark(start, row, area, last);
                 self.connect(above, here.clone());
                 above = here;
             }
@@ -80,27 +100,21 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     /// Appends the runs of a row.
     fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16) {
-        let mut taxels = (0u16..).zip(values);
-        while let Some((left, first)) = taxels.find(|(_, value)| **value >= low) {
-            let (mut mass, mut peak, mut right) = (u32::from(*first), *first, left);
-            for (column, value) in taxels.by_ref().take_while(|(_, value)| **value >= low) {
-                mass = mass.wrapping_add((*value).into());
-                peak = peak.max(*value);
-                right = column;
+        let (mut rest, mut column) = (values, 0);
+        while let Some(skipped) = rest.iter().position(|value| *value >= low) {
+            rest = rest.get(skipped..).unwrap_or(&[]);
+            let (mut length, mut mass, mut peak) = (0, 0u32, 0u32);
+            for value in rest.iter().take_while(|value| **value >= low) {
+                let value = u32::from(*value);
+                mass = mass.wrapping_add(value);
+                peak = peak.max(value);
+                length += 1;
             }
-            self.push(Run {
-                mass,
-                row,
-                left,
-                right,
-                parent: 0,
-                group: 0,
-                area: 0,
-                peak,
-                panel,
-                held: false,
-                joined: false,
-            });
+            let left = column + skipped;
+            column = left + length;
+            rest = rest.get(length..).unwrap_or(&[]);
+            let (left, right) = (left as u16, (column - 1) as u16);
+            self.push(Run { left, right, mass, peak: peak as u16, row, panel, ..Run::EMPTY });
         }
     }
 
@@ -113,9 +127,19 @@ impl<const RUNS: usize> Labels<RUNS> {
         }
     }
 
-    fn mark_held<const CONTACTS: usize>(&mut self, start: usize, row: u16, last: &Feedback<CONTACTS>) {
+    /// Marks what the new runs of a row touch: the panel's border, contacts of the previous frame.
+    fn mark<const CONTACTS: usize>(
+        &mut self,
+        start: usize,
+        row: u16,
+        area: &Area,
+        last: &Feedback<CONTACTS>,
+    ) {
+        let edge = row == 0 || row + 1 >= area.rows;
         for run in self.runs.iter_mut().skip(start) {
             run.held = last.touches(run.panel, row, run.left, run.right);
+            let border = edge || run.left == 0 || run.right + 1 >= area.columns;
+            self.border |= u8::from(border) << (run.panel % 8);
         }
     }
 
@@ -186,7 +210,7 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// The run that holds a taxel.
     pub fn run_at(&self, area: &Area, row: u16, column: u16) -> Option<(u16, &Run)> {
         let row = area.first_row.saturating_add(row);
-        let after = self.runs.partition_point(|run| (run.row, run.left) <= (row, column));
+        let after = self.runs.partition_point(|run| key(run.row, run.left) <= key(row, column));
         let index = after.checked_sub(1)?;
         let run = self.runs.get(index)?;
         (run.row == row && column <= run.right).then_some((index as u16, run))

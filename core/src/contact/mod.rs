@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip needs three frames |
-//! | RAM | 540 + 4 C bytes for each of C contacts, 20 per run, and 2 KB |
+//! | RAM | 540 + 4 C bytes for each of C contacts, 20 per run, and 4 KB |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within

@@ -54,14 +54,20 @@ impl Moments {
     /// At most [`PIECE`] taxels. From the last to the first, three running sums hold
     /// `sum f`, `sum (i + 1) f` and `sum (i + 1)(i + 2) / 2 f`: no multiplication by a coordinate per taxel.
     fn of_piece(x: u32, y: u32, values: &[u16]) -> Moments {
-        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
+        let (mut s0, mut s1, mut s2) = (0u32, 0u32, 0u32);
         for value in values.iter().rev() {
-            let f = u32::from(*value);
-            s0 = s0.wrapping_add(f);
+            s0 = s0.wrapping_add((*value).into());
             s1 = s1.wrapping_add(s0);
             s2 = s2.wrapping_add(s1);
-            squares = squares.wrapping_add(u64::from(f * f));
         }
+        // A loop of its own, and the squares by halves: the registers of a Cortex-M0+ do for that.
+        let (mut low, mut high) = (0u32, 0u32);
+        for value in values {
+            let square = u32::from(*value) * u32::from(*value);
+            low = low.wrapping_add(square & 0xffff);
+            high = high.wrapping_add(square >> 16);
+        }
+        let squares = (u64::from(high) << 16).wrapping_add(low.into());
         // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1
         let (m, first) = (u64::from(s0), u64::from(s1.wrapping_sub(s0)));
         let second = u64::from(s2) * 2 + m - u64::from(s1) * 3;

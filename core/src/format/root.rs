@@ -1,5 +1,7 @@
 //! The integer square root without a divider.
 
+use super::inverse::wide;
+
 /// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where there is no divider:
 /// Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one exact correction.
 pub const fn root(value: u64) -> u32 {
@@ -8,15 +10,18 @@ pub const fn root(value: u64) -> u32 {
     }
     let shift = value.leading_zeros() & !1;
     let normal = value << shift;
-    let mut root = normal_root(normal) as u64;
+    let mut root = normal_root(normal);
     // A unit or two off at most.
-    while root * root > normal {
+    let mut square = wide(root, root);
+    while square > normal {
         root -= 1;
+        square = wide(root, root);
     }
-    while normal - root * root > 2 * root {
+    while normal - square > 2 * root as u64 {
+        square += 2 * root as u64 + 1;
         root += 1;
     }
-    (root >> (shift / 2)) as u32
+    root >> (shift / 2)
 }
 
 /// `sqrt(normal)` for a `normal` with bit 63 or 62 set, one or two off.
@@ -34,13 +39,18 @@ const fn normal_root(normal: u64) -> u32 {
         round += 1;
     }
     // sqrt(normal) = 2^32 N y; then twice r + (normal - r^2) / (2 r), where 1 / (2 r) = y / 2^33: 2^-25, and the unit.
-    let wide = ((normal >> 32) * y as u64) >> 15;
-    let root = if wide > u32::MAX as u64 { u32::MAX as u64 } else { wide };
-    let rest = normal.wrapping_sub(root * root) as i64;
-    let root = root as i64 + (((rest >> 10) * y as i64) >> 38);
-    let rest = normal.wrapping_sub((root as u64).wrapping_mul(root as u64)) as i64;
-    let root = root + ((rest * y as i64) >> 48);
-    if root > u32::MAX as i64 { u32::MAX } else { root as u32 }
+    let top = (normal >> 32) as u32;
+    let sum = (((top >> 16) * y) as u64 + (((top & 0xffff) * y) >> 16) as u64) << 1;
+    let root = if sum > u32::MAX as u64 { u32::MAX } else { sum as u32 };
+    let rest = normal.wrapping_sub(wide(root, root)) as i64;
+    let root = root.saturating_add_signed(scaled((rest >> 22) as i32, y) >> 10);
+    let rest = normal.wrapping_sub(wide(root, root)) as i64;
+    root.saturating_add_signed(scaled((rest >> 12) as i32, y) >> 20)
+}
+
+/// `value * y / 2^16`, for a y of 16 bits.
+const fn scaled(value: i32, y: u32) -> i32 {
+    (value >> 16) * y as i32 + (((value & 0xffff) as u32 * y) >> 16) as i32
 }
 
 #[cfg(test)]

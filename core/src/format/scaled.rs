@@ -9,6 +9,7 @@
 //!
 //! The exponent saturates; the values of the core stay within 2^-130 ..= 2^130.
 
+use super::inverse::wide;
 use super::{Fixed24, Inverse, Q15, root};
 
 /// `mantissa * 2^exponent`, with bit 31 of the mantissa set, or zero.
@@ -28,28 +29,25 @@ impl Scaled {
 
     /// Rounded to the nearest.
     pub const fn from_u64(value: u64) -> Scaled {
-        Scaled::rounded(value, 0)
-    }
-
-    /// `value * 2^exponent`, rounded to 32 bits.
-    const fn rounded(value: u64, exponent: i16) -> Scaled {
         if value == 0 {
             return Scaled::ZERO;
         }
         let up = value.leading_zeros();
         let full = value << up;
-        let exponent = exponent.saturating_add(32 - up as i16);
-        match full.checked_add(1 << 31) {
-            Some(sum) => Scaled { mantissa: (sum >> 32) as u32, exponent },
-            // It rounds up to the next power of two.
-            None => Scaled { mantissa: TOP, exponent: exponent.saturating_add(1) },
-        }
+        Scaled::carried((full >> 32) as u32, (full >> 31) as u32 & 1, 32 - up as i16)
     }
 
     /// Product.
     pub const fn times(self, other: Scaled) -> Scaled {
-        let product = self.mantissa as u64 * other.mantissa as u64;
-        Scaled::rounded(product, self.exponent.saturating_add(other.exponent))
+        if self.mantissa == 0 || other.mantissa == 0 {
+            return Scaled::ZERO;
+        }
+        // Bit 63 or 62 is set.
+        let product = wide(self.mantissa, other.mantissa);
+        let up = (product >> 63 == 0) as i16;
+        let exponent = self.exponent.saturating_add(other.exponent).saturating_add(32 - up);
+        let product = product << up;
+        Scaled::carried((product >> 32) as u32, (product >> 31) as u32 & 1, exponent)
     }
 
     /// Quotient; [`Scaled::MAX`] where `other` is zero.
@@ -57,22 +55,32 @@ impl Scaled {
         if other.mantissa == 0 {
             return Scaled::MAX;
         }
+        if self.mantissa == 0 {
+            return Scaled::ZERO;
+        }
         // The larger mantissa gives up a bit, so that the quotient has 32 in any case.
         let up = if self.mantissa < other.mantissa { 32 } else { 31 };
-        let quotient = Inverse::of(other.mantissa).quotient((self.mantissa as u64) << up);
-        let exponent = self.exponent.saturating_sub(other.exponent).saturating_sub(up);
-        Scaled::rounded(quotient as u64, exponent)
+        let mantissa = Inverse::of_normal(other.mantissa).quotient((self.mantissa as u64) << up);
+        Scaled { mantissa, exponent: self.exponent.saturating_sub(other.exponent).saturating_sub(up) }
     }
 
     /// Square root.
     pub const fn sqrt(self) -> Scaled {
+        if self.mantissa == 0 {
+            return Scaled::ZERO;
+        }
         // A radicand of 63 or 64 bits above an even exponent: the root has 32 bits.
         let odd = self.exponent & 1;
         let radicand = (self.mantissa as u64) << (32 - odd as u32);
-        let exponent = self.exponent.saturating_sub(32 - odd) / 2;
-        let root = root(radicand) as u64;
-        let up = (radicand - root * root > root) as u64;
-        Scaled::rounded(root + up, exponent)
+        Scaled { mantissa: root(radicand), exponent: self.exponent.saturating_sub(32 - odd) / 2 }
+    }
+
+    /// With a unit more, which may carry into the next power of two.
+    const fn carried(mantissa: u32, unit: u32, exponent: i16) -> Scaled {
+        match mantissa.checked_add(unit) {
+            Some(mantissa) => Scaled { mantissa, exponent },
+            None => Scaled { mantissa: TOP, exponent: exponent.saturating_add(1) },
+        }
     }
 
     /// `self * 2^exponent`, exactly.

@@ -33,6 +33,6 @@ mod message;
 mod receiver;
 
 pub use codec::{WireError, decode, encode, frame_bound, open};
-pub use image::{ImageError, decode_image, encode_image, image_bound, image_sum};
+pub use image::{ImageError, ImageFault, decode_image, encode_image, image_bound, image_sum};
 pub use message::*;
 pub use receiver::Receiver;

@@ -124,6 +124,7 @@ cells! {
 
 fn counts<T: Cell>(file: NpyFile<&[u8]>, shape: Shape) -> Result<Frames> {
     let fortran = file.order() == Order::Fortran;
+    ensure!(!fortran || file.shape().len() < 4, "has four dimensions in Fortran order, expected C order");
     let mut counts = vec![0; shape.values()];
     for (index, value) in file.data::<T>()?.enumerate() {
         let value = value.context("damaged")?;

@@ -50,12 +50,12 @@ impl Archive {
         candidates.into_iter().map(|name| self.named(&name).map(|frames| (name, frames))).collect()
     }
 
-    /// Names of the arrays of two or three dimensions.
+    /// Names of the arrays of two to four dimensions.
     fn candidates(&mut self) -> Result<Vec<String>> {
         let mut candidates = Vec::new();
         for name in self.names.clone() {
             let dimensions = self.entry(&name, |entry, _| npy::dimensions(entry));
-            if (2..=3).contains(&dimensions.with_context(|| format!("array {name}"))?) {
+            if (2..=4).contains(&dimensions.with_context(|| format!("array {name}"))?) {
                 candidates.push(name);
             }
         }

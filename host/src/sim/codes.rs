@@ -165,7 +165,7 @@ mod tests {
     fn the_emulator_gets_every_taxel_once() {
         let mut one_hot = Garment::block();
         one_hot.wiring.row.coding = taxel_core::garment::Coding::OneHot;
-        one_hot.wiring.row.lines = (12..16).map(|pin| Pin { pin, inverted: pin == 13 }).collect();
+        one_hot.wiring.row.lines = (16..20).map(|pin| Pin { pin, inverted: pin == 17 }).collect();
         one_hot.wiring.enable.push(Pin { pin: 20, inverted: true }).unwrap();
         for garment in [Garment::reference(), Garment::mat(), one_hot] {
             let value = wiring(&garment);
@@ -201,28 +201,5 @@ mod tests {
         let script = Script::parse("duration_s = 1", "a.toml").unwrap();
         let error = Player::new(&script, &Garment::recorded(4, 4)).unwrap_err();
         assert_eq!(error.to_string(), "garment recorded: it has no blocks, so it cannot be scanned");
-    }
-
-    #[test]
-    #[ignore = "a measurement: cargo test --release -p taxel sim::codes -- --ignored --nocapture"]
-    fn time_per_taxel() {
-        for name in ["idle", "pat", "five"] {
-            let script = super::super::load(name).unwrap();
-            let mut player = Player::new(&script, &Garment::reference()).unwrap();
-            let mut codes = vec![0; player.taxels()];
-            let start = std::time::Instant::now();
-            for frame in 0..2000 {
-                player.frame(frame % 200 * FRAME_PERIOD_US, &mut codes);
-            }
-            let ns = start.elapsed().as_nanos() as f64 / 2000.0 / codes.len() as f64;
-            println!("{name}: {ns:.1} ns per taxel");
-        }
-        let start = std::time::Instant::now();
-        let (script, mut codes) = (super::super::load("pat").unwrap(), vec![0; 2048]);
-        for seed in 0..500 {
-            let mut player = Player::new(&super::super::vary(&script, seed), &Garment::reference()).unwrap();
-            (0..200).for_each(|frame| player.frame(frame * FRAME_PERIOD_US, &mut codes));
-        }
-        println!("500 variants of 200 frames: {:.2} s", start.elapsed().as_secs_f64());
     }
 }

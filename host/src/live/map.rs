@@ -1,0 +1,181 @@
+//! Panels as maps of pressure, two pixels in a character cell.
+
+use super::ramp::{Rgb, color, mix, pressure};
+use crate::client::Client;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+use taxel_core::garment::{Area, Layout};
+
+const WHITE: Rgb = [255; 3];
+/// A place of a panel without a taxel.
+const ABSENT: Rgb = [0; 3];
+
+/// Pixels per taxel, or taxels per pixel where there is no room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Zoom {
+    Up(u16),
+    Down(u16),
+}
+
+impl Zoom {
+    /// The largest that fits a panel into so many pixels.
+    fn fit(area: &Area, width: u16, height: u16) -> Zoom {
+        let (columns, rows) = (area.columns.max(1), area.rows.max(1));
+        match (width / columns).min(height / rows) {
+            0 => Zoom::Down(columns.div_ceil(width.max(1)).max(rows.div_ceil(height.max(1)))),
+            up => Zoom::Up(up),
+        }
+    }
+
+    /// Pixels for so many taxels.
+    fn pixels(self, taxels: u16) -> u16 {
+        match self {
+            Zoom::Up(up) => taxels.saturating_mul(up),
+            Zoom::Down(down) => taxels.div_ceil(down),
+        }
+    }
+
+    /// First and last taxel under a pixel.
+    fn taxels(self, pixel: u16, count: u16) -> (u16, u16) {
+        let (first, last) = match self {
+            Zoom::Up(up) => (pixel / up, pixel / up),
+            Zoom::Down(down) => (pixel * down, pixel * down + down - 1),
+        };
+        (first, last.min(count.saturating_sub(1)))
+    }
+
+    /// The pixel of a position in taxels.
+    fn place(self, at: f64) -> f64 {
+        match self {
+            Zoom::Up(up) => (at + 0.5) * f64::from(up),
+            Zoom::Down(down) => (at + 0.5) / f64::from(down),
+        }
+    }
+}
+
+/// Draws all panels into `space`, as large as they fit.
+pub fn draw(client: &Client, top: u16, space: Rect, buffer: &mut Buffer) {
+    let Some(layout) = client.layout() else { return };
+    let count = layout.areas().len() as u16;
+    let cell = |across: u16| {
+        let down = count.div_ceil(across);
+        (space.width / across, space.height / down)
+    };
+    let size = |across: &u16| {
+        let (width, height) = cell(*across);
+        let pixels = (width.saturating_sub(1), height.saturating_sub(1) * 2);
+        let fits = |area: &Area| match Zoom::fit(area, pixels.0, pixels.1) {
+            Zoom::Up(up) => i32::from(up),
+            Zoom::Down(down) => -i32::from(down),
+        };
+        layout.areas().iter().map(fits).min().unwrap_or(0)
+    };
+    let Some(across) = (1..=count).rev().max_by_key(size) else { return };
+    let (width, height) = cell(across);
+    if width < 2 || height < 2 {
+        return;
+    }
+    for (index, area) in layout.areas().iter().enumerate() {
+        let (column, row) = (index as u16 % across, index as u16 / across);
+        let place = Rect::new(space.x + column * width, space.y + row * height, width - 1, height);
+        Panel { client, layout, area, index: index as u8, top }.draw(place, buffer);
+    }
+}
+
+struct Panel<'a> {
+    client: &'a Client,
+    layout: &'a Layout,
+    area: &'a Area,
+    index: u8,
+    top: u16,
+}
+
+impl Panel<'_> {
+    /// The name, and below it the map.
+    fn draw(&self, place: Rect, buffer: &mut Buffer) {
+        let bold = Style::new().add_modifier(Modifier::BOLD);
+        buffer.set_stringn(place.x, place.y, &self.area.name, usize::from(place.width), bold);
+        let zoom = Zoom::fit(self.area, place.width, (place.height - 1) * 2);
+        let (width, height) = (zoom.pixels(self.area.columns), zoom.pixels(self.area.rows));
+        for y in 0..height.div_ceil(2) {
+            for x in 0..width {
+                let Some(cell) = buffer.cell_mut((place.x + x, place.y + 1 + y)) else { continue };
+                cell.set_char('▀').set_fg(color(self.color(zoom, x, 2 * y)));
+                cell.set_bg(if 2 * y + 1 < height {
+                    color(self.color(zoom, x, 2 * y + 1))
+                } else {
+                    Color::Reset
+                });
+            }
+        }
+        let below = Rect { y: place.y + 1, height: place.height - 1, ..place };
+        self.markers(zoom, below, buffer);
+    }
+
+    /// The greatest value under a pixel; none where there is no taxel.
+    fn value(&self, zoom: Zoom, x: u16, y: u16) -> Option<u16> {
+        let (top, bottom) = zoom.taxels(y, self.area.rows);
+        let (left, right) = zoom.taxels(x, self.area.columns);
+        let image = self.client.image().map_or(&[][..], |(_, image)| image);
+        let at = |row: u16, column: u16| {
+            let number = usize::from(self.area.base) + usize::from(row) * usize::from(self.area.columns);
+            let value = image.get(number + usize::from(column)).copied().unwrap_or(0);
+            (!self.layout.is_absent(self.index, row, column)).then_some(value)
+        };
+        (top..=bottom).flat_map(|row| (left..=right).filter_map(move |column| at(row, column))).max()
+    }
+
+    /// Whether a pixel belongs to a contact.
+    fn inside(&self, zoom: Zoom, x: Option<u16>, y: Option<u16>) -> bool {
+        let low = self.client.worn().map_or(1, |worn| worn.scene.contact.low.max(1));
+        let (Some(x), Some(y)) = (x, y) else { return false };
+        let on_map = x < zoom.pixels(self.area.columns) && y < zoom.pixels(self.area.rows);
+        on_map && self.value(zoom, x, y).is_some_and(|value| value >= low)
+    }
+
+    /// Pressure, lighter along the contour of a contact.
+    fn color(&self, zoom: Zoom, x: u16, y: u16) -> Rgb {
+        let Some(value) = self.value(zoom, x, y) else { return ABSENT };
+        let plain = pressure(value, self.top);
+        if self.client.contacts().is_empty() || !self.inside(zoom, Some(x), Some(y)) {
+            return plain;
+        }
+        let (x, y) = (Some(x), Some(y));
+        let next = |at: Option<u16>| at.map(|at| at + 1);
+        let before = |at: Option<u16>| at.and_then(|at| at.checked_sub(1));
+        let around = [(before(x), y), (next(x), y), (x, before(y)), (x, next(y))];
+        let edge = around.into_iter().any(|(x, y)| !self.inside(zoom, x, y));
+        if edge { mix(plain, WHITE, 0.55) } else { plain }
+    }
+
+    /// The id of each contact at its centroid.
+    fn markers(&self, zoom: Zoom, place: Rect, buffer: &mut Buffer) {
+        for placed in self.client.contacts().iter().filter(|p| p.contact.panel == self.index) {
+            let id = placed.contact.id.to_string();
+            let x = zoom.place(placed.contact.x.to_f64()) - id.len() as f64 / 2.0;
+            let y = zoom.place(placed.contact.y.to_f64()) / 2.0;
+            let within =
+                |at: f64, start: u16, room: u16| start + (at.max(0.0) as u16).min(room.saturating_sub(1));
+            let (x, y) = (within(x, place.x, place.width), within(y, place.y, place.height));
+            let style = Style::new().fg(Color::White).bg(Color::Black).add_modifier(Modifier::BOLD);
+            buffer.set_stringn(x, y, id, usize::from(place.right().saturating_sub(x)), style);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_is_drawn_as_large_as_it_fits() {
+        let layout = Layout::build(&taxel_core::garment::Garment::recorded(32, 16), 512, 4095).unwrap();
+        let fit = |width, height| Zoom::fit(&layout.areas()[0], width, height);
+        assert_eq!([fit(16, 32), fit(47, 200), fit(15, 32)], [Zoom::Up(1), Zoom::Up(2), Zoom::Down(2)]);
+        assert_eq!([fit(100, 7), fit(0, 0)], [Zoom::Down(5), Zoom::Down(32)]);
+        assert_eq!(Zoom::Down(5).pixels(32), 7);
+        assert_eq!(Zoom::Down(5).taxels(6, 32), (30, 31));
+        assert_eq!(Zoom::Up(3).taxels(5, 16), (1, 1));
+    }
+}

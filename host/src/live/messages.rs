@@ -1,0 +1,197 @@
+//! Messages as JSON, one a line, each with its `type`.
+//!
+//! A line of type `frame` holds what `taxel process` prints for a frame: the contacts that are there, those that have
+//! gone (`released`), the intention; and what was lost and thinned so far. Nothing in a line depends on the host's time.
+
+use super::Show;
+use crate::client::{Client, Event, ImageNews};
+use crate::json;
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::io::Write;
+use taxel_core::body::Placed;
+use taxel_core::format::Micros;
+
+/// Prints messages as JSON.
+pub struct Messages<W> {
+    pixels: bool,
+    out: W,
+}
+
+impl<W: Write> Messages<W> {
+    /// With the pressure of every taxel, or without.
+    pub fn new(pixels: bool, out: W) -> Messages<W> {
+        Messages { pixels, out }
+    }
+}
+
+impl<W: Write> Show for Messages<W> {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let mut line = message(client, event);
+        if let (true, Event::Frame { image: ImageNews::Whole, .. }) = (self.pixels, event) {
+            line["panels"] = pixels(client);
+        }
+        Ok(writeln!(self.out, "{line}")?)
+    }
+
+    fn idle(&mut self, _: &mut Client) -> Result<bool> {
+        self.out.flush()?;
+        Ok(true)
+    }
+
+    fn end(&mut self, _: &Client) -> Result<()> {
+        Ok(self.out.flush()?)
+    }
+}
+
+/// One event as a JSON object.
+pub fn message(client: &Client, event: &Event) -> Value {
+    match event {
+        Event::Hello => hello(client),
+        Event::Unusable(why) => json!({ "type": "unusable", "why": why }),
+        Event::Frame { frame, time, alone, image } => {
+            let counts = client.counts();
+            let whole = *image == ImageNews::Whole;
+            let mut line = at("frame", *frame, *time);
+            merge(
+                &mut line,
+                json!({ "contacts": contacts(client, client.contacts()), "intent": intent(client) }),
+            );
+            if !client.released().is_empty() {
+                line["released"] = json!(client.released());
+            }
+            let line_of =
+                json!({ "key": alone, "decoded": whole, "lost": counts.lost, "thinned": counts.thinned });
+            merge(&mut line, line_of);
+            line
+        }
+        Event::Contacts { frame, time, dropped, released } => {
+            let mut line = at("contacts", *frame, *time);
+            let gone = contacts(client, released);
+            let here = contacts(client, client.contacts());
+            merge(&mut line, json!({ "contacts": here, "released": gone, "dropped": dropped }));
+            line
+        }
+        Event::Intent(report) => {
+            let mut line = at("intent", report.frame, report.time);
+            merge(
+                &mut line,
+                json!({ "intent": intent(client), "outcome": word(&report.outcome), "steps": report.steps }),
+            );
+            line
+        }
+        Event::Reaction(report) => {
+            let mut line = at("reaction", report.frame, report.time);
+            merge(&mut line, serde_json::to_value(&report.reaction).unwrap_or_default());
+            line
+        }
+        Event::Raw { frame, time, whole } => {
+            let mut line = at("raw", *frame, *time);
+            line["decoded"] = json!(whole);
+            line
+        }
+        event => small(client, event),
+    }
+}
+
+/// The rarer ones.
+fn small(client: &Client, event: &Event) -> Value {
+    match event {
+        Event::Symbols(list) => {
+            let mut line = at("symbols", list.frame, list.time);
+            let each = |value: Value, region: u8| named(client, value, region);
+            let value = |value: serde_json::Result<Value>| value.unwrap_or_default();
+            let events: Vec<_> =
+                list.events.iter().map(|e| each(value(serde_json::to_value(e)), e.region)).collect();
+            let regions: Vec<_> =
+                list.regions.iter().map(|r| each(value(serde_json::to_value(r)), r.region)).collect();
+            merge(&mut line, json!({ "events": events, "regions": regions }));
+            line
+        }
+        Event::Health(health) => {
+            let mut line = json!({ "type": "health" });
+            merge(&mut line, serde_json::to_value(health).unwrap_or_default());
+            rename_time(&mut line);
+            line
+        }
+        Event::Log { time, level, text } => {
+            json!({ "type": "log", "time_us": time.0, "level": word(level), "text": text })
+        }
+        Event::Sync(report) => {
+            json!({ "type": "sync", "token": report.token, "received_us": report.received.0, "sent_us": report.sent.0 })
+        }
+        Event::Answer { request, refusal } => {
+            json!({ "type": "answer", "request": super::narrate::request_name(*request), "refusal": refusal })
+        }
+        Event::Refused(error) => json!({ "type": "refused", "why": error.to_string() }),
+        _ => Value::Null,
+    }
+}
+
+fn at(kind: &str, frame: u32, time: Micros) -> Value {
+    json!({ "type": kind, "frame": frame, "time_us": time.0 })
+}
+
+fn merge(line: &mut Value, more: Value) {
+    if let (Value::Object(line), Value::Object(more)) = (line, more) {
+        line.extend(more);
+    }
+}
+
+/// The board's `time` is in microseconds, and says so here.
+fn rename_time(line: &mut Value) {
+    if let Some(time) = line.as_object_mut().and_then(|line| line.remove("time")) {
+        line["time_us"] = time;
+    }
+}
+
+/// The region's name in the place of its number; shapes likewise.
+fn named(client: &Client, mut value: Value, region: u8) -> Value {
+    value["region"] = json!(super::narrate::region_name(client, region));
+    if let Some(class) = value.pointer_mut("/words/class") {
+        let known = class.as_u64().and_then(|c| u8::try_from(c).ok()).unwrap_or(0);
+        *class = json!(super::narrate::shape_name(taxel_core::shape::Class(known)));
+    }
+    value
+}
+
+fn word(value: &impl std::fmt::Debug) -> String {
+    format!("{value:?}").split([' ', '(', '{']).next().unwrap_or_default().to_lowercase()
+}
+
+fn contacts(client: &Client, list: &[Placed]) -> Value {
+    let Some(layout) = client.layout() else { return json!([]) };
+    list.iter().map(|placed| json::contact(placed, layout)).collect()
+}
+
+fn intent(client: &Client) -> Value {
+    json::intent(client.leading(), client.concepts(), &client.activations())
+}
+
+fn hello(client: &Client) -> Value {
+    let Some(worn) = client.worn() else { return Value::Null };
+    let panel = |a: &taxel_core::garment::Area| json!({ "name": a.name, "link": a.link, "rows": a.rows, "columns": a.columns, "pitch_um": a.pitch_um });
+    json!({
+        "type": "hello",
+        "time_us": worn.clock.0,
+        "firmware": worn.firmware,
+        "garment": worn.garment.name,
+        "scene": worn.scene.name,
+        "calibration": worn.calibration,
+        "taxels": worn.layout.taxels(),
+        "regions": worn.layout.regions(),
+        "panels": worn.layout.areas().iter().map(panel).collect::<Vec<_>>(),
+    })
+}
+
+/// The image, panel by panel, row by row.
+fn pixels(client: &Client) -> Value {
+    let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return json!([]) };
+    let panel = |area: &taxel_core::garment::Area| {
+        let start = usize::from(area.base);
+        let length = usize::from(area.rows) * usize::from(area.columns);
+        let values = image.get(start..start + length).unwrap_or(&[]);
+        json!({ "name": area.name, "rows": values.chunks(usize::from(area.columns)).collect::<Vec<_>>() })
+    };
+    layout.areas().iter().map(panel).collect()
+}

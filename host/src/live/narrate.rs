@@ -1,0 +1,145 @@
+//! What came, in sentences: for the plain lines and for the log of the picture.
+
+use crate::client::{Client, Event, Worn};
+use taxel_core::contact::Phase;
+use taxel_core::format::{Micros, Name};
+use taxel_core::intent::Leading;
+use taxel_core::shape::{BUILT_IN, Base, Class};
+use taxel_core::symbol::{Extent, Strength, Symbol};
+
+/// Tells what came.
+#[derive(Debug, Clone)]
+pub(super) struct Narrator {
+    pub counts_per_newton: Option<f32>,
+    leading: Leading,
+    /// Garbage has been told, and nothing else has come since.
+    garbage: bool,
+}
+
+impl Narrator {
+    pub fn new(counts_per_newton: Option<f32>) -> Narrator {
+        Narrator { counts_per_newton, leading: Leading::None, garbage: false }
+    }
+
+    /// What is worth a line in an event.
+    pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<String> {
+        let garbage = matches!(event, Event::Refused(_));
+        if std::mem::replace(&mut self.garbage, garbage) && garbage {
+            return Vec::new();
+        }
+        if let Event::Intent(report) = event {
+            let before = std::mem::replace(&mut self.leading, report.leading);
+            if before == report.leading {
+                return Vec::new();
+            }
+            return vec![format!("{} intention: {}", seconds(report.time), report.leading.as_str())];
+        }
+        sentences(client, event, self.counts_per_newton)
+    }
+}
+
+pub(super) fn seconds(time: Micros) -> String {
+    format!("{:8.3} s", time.0 as f64 / 1e6)
+}
+
+/// The sentences that need no memory.
+fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<String> {
+    match event {
+        Event::Hello => client.worn().map(hello).into_iter().collect(),
+        Event::Unusable(why) => vec![format!("refused: {why}")],
+        Event::Symbols(list) => {
+            let line =
+                |symbol: &Symbol| format!("{} {}", seconds(list.time), said(client, symbol, per_newton));
+            list.events.iter().filter(|e| e.phase != Phase::Held).map(line).collect()
+        }
+        Event::Reaction(report) => {
+            let verb = if report.reaction.active { "begins" } else { "ends" };
+            vec![format!(
+                "{} reaction {} {verb} ({})",
+                seconds(report.time),
+                report.reaction.name,
+                report.reaction.value
+            )]
+        }
+        Event::Log { time, level, text } => {
+            vec![format!("{} {}: {text}", seconds(*time), format!("{level:?}").to_lowercase())]
+        }
+        Event::Answer { request, refusal: Some(why) } => {
+            vec![format!("refused: {}: {why}", request_name(*request))]
+        }
+        Event::Answer { request: 2, refusal: None } => vec!["tare: done".into()],
+        Event::Refused(error) => vec![format!("refused: {error}")],
+        _ => Vec::new(),
+    }
+}
+
+fn hello(worn: &Worn) -> String {
+    let (taxels, panels) = (worn.layout.taxels(), worn.layout.areas().len());
+    format!(
+        "hello: {}, garment {} ({taxels} taxels, {panels} panels), scene {}",
+        worn.firmware, worn.garment.name, worn.scene.name
+    )
+}
+
+/// An onset or a release in words.
+fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> String {
+    let region = region_name(client, symbol.region);
+    if symbol.phase != Phase::Released {
+        return format!("contact {} on the {region} begins", symbol.contact);
+    }
+    let strength = match symbol.words.strength {
+        Strength::Faint => "faint",
+        Strength::Light => "light",
+        Strength::Firm => "firm",
+        Strength::Hard => "hard",
+    };
+    let extent = match symbol.words.extent {
+        Extent::Point => "point",
+        Extent::Patch => "patch",
+        Extent::Wide => "wide",
+    };
+    let moving = if symbol.words.moving { ", sliding" } else { "" };
+    format!(
+        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, at most {}",
+        symbol.contact,
+        shape_name(symbol.words.class),
+        symbol.duration_ms,
+        force(symbol.peak_total, counts_per_newton)
+    )
+}
+
+/// A total in newtons, where that is known, else in counts.
+pub(super) fn force(total: u32, counts_per_newton: Option<f32>) -> String {
+    match counts_per_newton {
+        Some(counts) => format!("{:.1} N", total as f32 / counts),
+        None => format!("{total} counts"),
+    }
+}
+
+pub(super) fn region_name(client: &Client, region: u8) -> &str {
+    let regions = client.layout().map_or(&[][..], |layout| layout.regions());
+    regions.get(usize::from(region)).map_or("?", Name::as_str)
+}
+
+pub(super) fn shape_name(class: Class) -> String {
+    Base::<BUILT_IN>::built_in().name(class).into()
+}
+
+/// The name of a request by its number.
+pub(super) fn request_name(number: u8) -> &'static str {
+    const NAMES: [&str; 12] = [
+        "set-garment",
+        "set-scene",
+        "tare",
+        "start",
+        "stop",
+        "sync",
+        "posture",
+        "concept",
+        "key-frame",
+        "self-test",
+        "save",
+        "set-gain",
+    ];
+    NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
+}

@@ -1,0 +1,116 @@
+//! The panes beside the maps: contacts, intention.
+
+use super::narrate::{force, region_name, shape_name};
+use super::ramp::{Rgb, color};
+use crate::client::Client;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use taxel_core::body::Placed;
+use taxel_core::format::Q15;
+use taxel_core::intent::Leading;
+
+// Colours of Okabe and Ito, which the colour-blind can tell apart.
+const GREEN: Rgb = [0, 158, 115];
+const ORANGE: Rgb = [230, 159, 0];
+const RED: Rgb = [213, 94, 0];
+const BLUE: Rgb = [86, 180, 233];
+const GREY: Rgb = [128, 128, 128];
+
+/// The colour of an intention.
+pub fn colour_of(leading: Leading) -> Rgb {
+    match leading {
+        Leading::None => GREY,
+        Leading::Kindness => GREEN,
+        Leading::Threat => ORANGE,
+        Leading::Attack => RED,
+    }
+}
+
+/// A heading, and below it at most as many lines as fit.
+pub fn list(title: &str, lines: &[String], space: Rect, buffer: &mut Buffer) {
+    let bold = Style::new().add_modifier(Modifier::BOLD);
+    let width = usize::from(space.width);
+    for (row, y) in (space.y..space.bottom()).enumerate() {
+        match row.checked_sub(1) {
+            None => drop(buffer.set_stringn(space.x, y, title, width, bold)),
+            Some(row) => {
+                let Some(line) = lines.get(row) else { break };
+                buffer.set_stringn(space.x, y, line, width, Style::new());
+            }
+        }
+    }
+}
+
+/// The heading of [`contact`].
+pub const CONTACTS: &str = " id region     shape        force area  axis    mm/s";
+
+/// A contact as a line.
+pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>) -> String {
+    let contact = &placed.contact;
+    let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
+    let speed = client.layout().map_or(0, |layout| placed.speed(layout)) / 10;
+    let region = region_name(client, placed.region);
+    let shape = shape_name(placed.shape.class);
+    let force = match counts_per_newton {
+        Some(_) => force(contact.total, counts_per_newton),
+        None => contact.total.to_string(),
+    };
+    let slip = if contact.slip { " slip" } else { "" };
+    format!(
+        "{:>3} {region:<10.10} {shape:<9.9} {force:>8} {:>4}  {axis} {speed:>7}{slip}",
+        contact.id, contact.area
+    )
+}
+
+/// The leading intention, and a bar for every concept: intentions first, then what follows from them, then the inputs.
+pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
+    if space.height == 0 {
+        return;
+    }
+    let leading = client.leading();
+    let bold = Style::new().add_modifier(Modifier::BOLD);
+    let (x, _) = buffer.set_stringn(space.x, space.y, "intention ", usize::from(space.width), bold);
+    let room = usize::from(space.right().saturating_sub(x));
+    buffer.set_stringn(x, space.y, leading.as_str(), room, bold.fg(color(colour_of(leading))));
+    let activations = client.activations();
+    for (row, concept) in order(client).into_iter().enumerate().take(usize::from(space.height) - 1) {
+        let (Some(name), Some(value)) = (client.concepts().get(concept), activations.get(concept)) else {
+            continue;
+        };
+        let known = Leading::INTENTIONS.into_iter().find(|l| l.as_str() == name.as_str());
+        let colour = known.map_or(BLUE, colour_of);
+        bar(name, *value, colour, Rect { y: space.y + 1 + row as u16, height: 1, ..space }, buffer);
+    }
+}
+
+/// Concepts in the order in which they are shown.
+fn order(client: &Client) -> Vec<usize> {
+    let map = client.worn().and_then(|worn| worn.scene.intent.as_ref()).map(|intent| &intent.map);
+    let is_input =
+        |i: usize| map.is_some_and(|m| m.inputs.iter().any(|input| usize::from(input.concept) == i));
+    let names = client.concepts();
+    let is_intention = |i: usize| {
+        let name = names.get(i).map_or("", |name| name.as_str());
+        Leading::INTENTIONS.iter().any(|l| l.as_str() == name)
+    };
+    let mut order: Vec<usize> = (0..names.len()).collect();
+    order.sort_by_key(|i| if is_intention(*i) { 0 } else { 1 + u8::from(is_input(*i)) });
+    order
+}
+
+/// `name ████▌   0.45`
+fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
+    const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
+    buffer.set_stringn(space.x, space.y, format!("{name:<11.11}"), usize::from(space.width), Style::new());
+    let room = space.width.saturating_sub(18).min(24);
+    let value = value.to_f64();
+    let eighths = (value.abs().min(1.0) * f64::from(room) * 8.0).round() as usize;
+    let filled = "█".repeat(eighths / 8) + EIGHTHS[eighths % 8];
+    let start = space.x + 11;
+    let style = Style::new().fg(color(colour));
+    buffer.set_stringn(start, space.y, filled, usize::from(space.width.saturating_sub(11)), style);
+    let end = start + room + 1;
+    let left = usize::from(space.right().saturating_sub(end));
+    buffer.set_stringn(end, space.y, format!("{value:5.2}"), left, Style::new());
+}

@@ -1,0 +1,59 @@
+//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind.
+
+use ratatui::style::Color;
+
+/// Ten samples of viridis.
+const VIRIDIS: [[u8; 3]; 10] = [
+    [0x44, 0x01, 0x54],
+    [0x48, 0x28, 0x78],
+    [0x3e, 0x49, 0x89],
+    [0x31, 0x68, 0x8e],
+    [0x26, 0x82, 0x8e],
+    [0x1f, 0x9e, 0x89],
+    [0x35, 0xb7, 0x79],
+    [0x6e, 0xce, 0x58],
+    [0xb5, 0xde, 0x2b],
+    [0xfd, 0xe7, 0x25],
+];
+
+/// A colour as its parts.
+pub type Rgb = [u8; 3];
+
+/// The colour of a pressure on a scale that ends at `top` counts. The scale is that of the root, so that a light touch
+/// beside a hard one is seen.
+pub fn pressure(value: u16, top: u16) -> Rgb {
+    ramp((f32::from(value) / f32::from(top.max(1))).min(1.0).sqrt())
+}
+
+/// The colour at a part, 0 ..= 1, of the ramp.
+pub fn ramp(part: f32) -> Rgb {
+    let place = part.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f32;
+    let index = (place as usize).min(VIRIDIS.len() - 2);
+    mix(VIRIDIS[index], VIRIDIS[index + 1], place - index as f32)
+}
+
+/// From `a` (0) to `b` (1).
+pub fn mix(a: Rgb, b: Rgb, part: f32) -> Rgb {
+    let between = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * part).round() as u8;
+    [between(a[0], b[0]), between(a[1], b[1]), between(a[2], b[2])]
+}
+
+/// As the terminal's.
+pub fn color([r, g, b]: Rgb) -> Color {
+    Color::Rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ramp_rises_in_lightness() {
+        let light = |[r, g, b]: Rgb| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
+        let all: Vec<_> = (0..=400).map(|v| light(pressure(v, 400))).collect();
+        assert!(all.windows(2).all(|pair| pair[0] <= pair[1]));
+        assert_eq!(pressure(0, 400), VIRIDIS[0]);
+        assert_eq!(pressure(4095, 400), VIRIDIS[9]);
+        assert_eq!(pressure(1, 0), VIRIDIS[9]);
+    }
+}

@@ -1,0 +1,141 @@
+//! One taxel over time: for bringing up a block, a multiplexer, a line.
+
+use super::Show;
+use crate::client::{Client, Event};
+use anyhow::{Result, anyhow};
+use serde_json::json;
+use std::io::Write;
+use std::str::FromStr;
+use taxel_core::format::Micros;
+use taxel_core::garment::Place;
+use taxel_core::wire::Request;
+
+/// `PANEL,ROW,COL`: the panel by name or number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TaxelPlace {
+    panel: String,
+    row: u16,
+    column: u16,
+}
+
+impl FromStr for TaxelPlace {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<TaxelPlace, String> {
+        let parts: Vec<_> = text.split(',').map(str::trim).collect();
+        let number = |text: &str| text.parse::<u16>().map_err(|_| format!("\"{text}\" is no row or column"));
+        match parts[..] {
+            [panel, row, column] if !panel.is_empty() => {
+                Ok(TaxelPlace { panel: panel.into(), row: number(row)?, column: number(column)? })
+            }
+            _ => Err("it takes a panel, a row and a column: back,0,15".into()),
+        }
+    }
+}
+
+impl TaxelPlace {
+    /// The taxel's number on a client's garment.
+    fn taxel(&self, client: &Client) -> Result<usize> {
+        let layout = client.layout().ok_or_else(|| anyhow!("the garment is not known"))?;
+        let names = layout.areas().iter().position(|area| area.name == self.panel.as_str());
+        let panel = names.or_else(|| self.panel.parse().ok()).unwrap_or(usize::MAX);
+        let area = layout.areas().get(panel).ok_or_else(|| {
+            let known: Vec<_> = layout.areas().iter().map(|area| area.name.as_str()).collect();
+            anyhow!("--taxel: the garment has no panel {}; known are {}", self.panel, known.join(", "))
+        })?;
+        layout.taxel(Place { panel: panel as u8, row: self.row, column: self.column }).ok_or_else(|| {
+            let (rows, columns) = (area.rows, area.columns);
+            anyhow!("--taxel: panel {} has {rows} rows and {columns} columns, from 0", area.name)
+        })
+    }
+}
+
+/// Prints a taxel: time, raw code where the board sends it, pressure.
+pub struct TaxelLines<W> {
+    place: TaxelPlace,
+    json: bool,
+    out: W,
+    taxel: usize,
+    /// Raw codes have been asked for.
+    asked: bool,
+    /// Raw codes come.
+    raw: bool,
+    /// Frame, time and value of an image whose codes have not come.
+    value: Option<(u32, Micros, u16)>,
+}
+
+impl<W: Write> TaxelLines<W> {
+    /// Of the taxel at that place.
+    pub fn new(place: TaxelPlace, json: bool, out: W) -> TaxelLines<W> {
+        TaxelLines { place, json, out, taxel: 0, asked: false, raw: false, value: None }
+    }
+
+    fn line(&mut self, frame: u32, time: Micros, code: Option<u16>, value: Option<u16>) -> Result<()> {
+        if self.json {
+            let TaxelPlace { panel, row, column } = &self.place;
+            let line = json!({
+                "type": "taxel", "panel": panel, "row": row, "column": column, "frame": frame, "time_us": time.0,
+                "code": code, "value": value,
+            });
+            return Ok(writeln!(self.out, "{line}")?);
+        }
+        let word = |number: Option<u16>| number.map_or("-".into(), |n: u16| n.to_string());
+        let seconds = time.0 as f64 / 1e6;
+        Ok(writeln!(self.out, "{seconds:.6} s  code {}  pressure {}", word(code), word(value))?)
+    }
+
+    /// An image whose codes did not come in time.
+    fn late(&mut self) -> Result<()> {
+        match self.value.take() {
+            Some((frame, time, value)) => self.line(frame, time, None, Some(value)),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<W: Write> Show for TaxelLines<W> {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => {
+                self.taxel = self.place.taxel(client)?;
+                self.raw = client.worn().is_some_and(|worn| worn.scene.stream.raw_hz > 0);
+            }
+            Event::Frame { frame, time, .. } => {
+                self.late()?;
+                let Some(value) = client.image().and_then(|(_, image)| image.get(self.taxel)) else {
+                    return Ok(());
+                };
+                self.value = Some((*frame, *time, *value));
+                if !self.raw {
+                    self.late()?;
+                }
+            }
+            Event::Raw { frame, time, whole: true } => {
+                self.raw = true;
+                let value = self.value.take_if(|(of, ..)| of == frame).map(|(.., value)| value);
+                self.late()?;
+                self.line(*frame, *time, client.raw().get(self.taxel).copied(), value)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        self.out.flush()?;
+        if let Some(worn) = client.worn().filter(|_| !self.asked) {
+            self.asked = true;
+            if !self.raw {
+                let mut scene = worn.scene.clone();
+                scene.stream.raw_hz = u16::MAX;
+                client.request(&Request::SetScene(&postcard::to_allocvec(&scene)?))?;
+            }
+        }
+        Ok(true)
+    }
+
+    fn end(&mut self, _: &Client) -> Result<()> {
+        self.late()?;
+        Ok(self.out.flush()?)
+    }
+}

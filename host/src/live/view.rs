@@ -1,0 +1,181 @@
+//! The picture: what is known of a garment, drawn into a buffer of characters.
+
+use super::narrate::{Narrator, region_name};
+use super::ramp::{color, ramp};
+use super::rate::Rate;
+use super::{map, panes};
+use crate::client::{Client, Event};
+use crate::source::Source;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// Lines of the log that are kept.
+const LOG: usize = 100;
+/// Width of the panes beside the maps.
+const SIDE: u16 = 56;
+/// The smallest width at which they are beside and not below.
+const WIDE: u16 = 104;
+/// End of the scale at the start, counts.
+const TOP: u16 = 400;
+
+/// What the picture remembers besides the client.
+#[derive(Debug, Clone)]
+pub struct View {
+    label: String,
+    narrator: Narrator,
+    log: VecDeque<String>,
+    rate: Rate,
+    top: u16,
+    /// Half of the last round trip to the board.
+    pub latency: Option<Duration>,
+    /// What is shown instead of what comes.
+    paused: Option<Box<Client>>,
+}
+
+impl View {
+    /// Of what comes from a source.
+    pub fn new(source: &Source) -> View {
+        View {
+            label: source.label.clone(),
+            narrator: Narrator::new(source.counts_per_newton),
+            log: VecDeque::new(),
+            rate: Rate::default(),
+            top: TOP,
+            latency: None,
+            paused: None,
+        }
+    }
+
+    /// Takes an event.
+    pub fn event(&mut self, client: &Client, event: &Event) {
+        if let Event::Frame { time, .. } = event {
+            self.rate.add(*time);
+        }
+        for line in self.narrator.tell(client, event) {
+            self.say(line);
+        }
+    }
+
+    /// Adds a line to the log.
+    pub fn say(&mut self, line: String) {
+        self.log.push_front(line);
+        self.log.truncate(LOG);
+    }
+
+    /// Stands still, or goes on.
+    pub fn pause(&mut self, client: &Client) {
+        self.paused = if self.paused.is_some() { None } else { Some(Box::new(client.clone())) };
+    }
+
+    /// Doubles the end of the scale, or halves it.
+    pub fn zoom(&mut self, up: bool) {
+        self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(25, 51_200);
+    }
+
+    /// Draws everything.
+    pub fn draw(&self, client: &Client, buffer: &mut Buffer) {
+        let client = self.paused.as_deref().unwrap_or(client);
+        let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1), Constraint::Length(1)]);
+        let [header, body, footer] = rows.areas(buffer.area);
+        self.header(client, header, buffer);
+        self.footer(footer, buffer);
+        let body = Rect {
+            y: body.y + u16::from(body.height > 12),
+            height: body.height - u16::from(body.height > 12),
+            ..body
+        };
+        if body.width >= WIDE {
+            let [maps, side] =
+                Layout::horizontal([Constraint::Fill(1), Constraint::Length(SIDE)]).areas(body);
+            map::draw(client, self.top, maps, buffer);
+            self.side(client, side, buffer);
+        } else if body.height >= 24 {
+            let parts = Layout::vertical([Constraint::Fill(1), Constraint::Length(12)]);
+            let [maps, below] = parts.areas(body);
+            map::draw(client, self.top, maps, buffer);
+            let [left, right] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas(below);
+            self.contacts(client, left, buffer);
+            panes::intention(client, right, buffer);
+        } else {
+            let [maps, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(body);
+            map::draw(client, self.top, maps, buffer);
+            let touched: Vec<_> = client.contacts().iter().map(|p| region_name(client, p.region)).collect();
+            let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
+            buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
+        }
+    }
+
+    fn header(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        let width = usize::from(space.width);
+        let bold = Style::new().add_modifier(Modifier::BOLD);
+        let what = client.worn().map_or("waiting for a Hello".into(), |worn| {
+            let taxels = worn.layout.taxels();
+            format!(
+                "garment {} ({taxels} taxels)  scene {}  {}",
+                worn.garment.name, worn.scene.name, worn.firmware
+            )
+        });
+        buffer.set_stringn(space.x, space.y, format!("taxel  {}  {what}", self.label), width, bold);
+        let counts = client.counts();
+        let frame = client.image().map_or(0, |(frame, _)| frame);
+        let time = self.rate.last().map_or(0.0, |time| time.0 as f64 / 1e6);
+        let mut line = format!(
+            "{:.1} frames/s  frame {frame}  {time:.2} s  lost {}  thinned {}  refused {}",
+            self.rate.hz(),
+            counts.lost,
+            counts.thinned,
+            counts.refused()
+        );
+        if let Some(latency) = self.latency {
+            line += &format!("  latency {:.1} ms", latency.as_secs_f64() * 1e3);
+        }
+        if let Some(health) = client.health() {
+            line += &format!("  scan {:.2} ms  perceive {:.2} ms", ms(health.scan_us), ms(health.process_us));
+        }
+        if space.height > 1 {
+            buffer.set_stringn(space.x, space.y + 1, line, width, Style::new());
+        }
+    }
+
+    fn side(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        let concepts = client.concepts().len() as u16 + 1;
+        let contacts = client.contacts().len().max(3) as u16 + 1;
+        let rows = [contacts.min(space.height / 3), concepts.min(space.height / 2)].map(Constraint::Length);
+        let [upper, middle, lower] =
+            Layout::vertical([rows[0], rows[1], Constraint::Fill(1)]).spacing(1).areas(space);
+        self.contacts(client, upper, buffer);
+        panes::intention(client, middle, buffer);
+        let log: Vec<String> = self.log.iter().cloned().collect();
+        panes::list("events, the newest first", &log, lower, buffer);
+    }
+
+    fn contacts(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        let newtons = self.narrator.counts_per_newton;
+        let lines: Vec<_> = client.contacts().iter().map(|p| panes::contact(client, p, newtons)).collect();
+        panes::list(panes::CONTACTS, &lines, space, buffer);
+    }
+
+    /// Keys and the scale.
+    fn footer(&self, space: Rect, buffer: &mut Buffer) {
+        let mut keys = String::from("q quit  space pause  t tare  +/- scale   0 ");
+        if self.paused.is_some() {
+            keys = format!("PAUSED  {keys}");
+        }
+        let (mut x, y) = buffer.set_stringn(space.x, space.y, keys, usize::from(space.width), Style::new());
+        for step in 0..16u8 {
+            if let Some(cell) = buffer.cell_mut((x, y)).filter(|_| x < space.right()) {
+                cell.set_char(' ').set_bg(color(ramp(f32::from(step) / 15.0)));
+                x += 1;
+            }
+        }
+        let left = usize::from(space.right().saturating_sub(x));
+        buffer.set_stringn(x, y, format!(" {} counts", self.top), left, Style::new());
+    }
+}
+
+fn ms(us: u32) -> f64 {
+    f64::from(us) / 1000.0
+}

@@ -1,0 +1,188 @@
+//! The firmware image in the RP2040 emulator, with a scene on its pins.
+
+use super::tcp::Tcp;
+use super::{Port, Source, SourceOptions};
+use crate::sim::{self, COUNTS_PER_NEWTON, FRAME_PERIOD_US, FULL_SCALE, frame_codes, wiring_json};
+use anyhow::{Context, Result, anyhow, bail};
+use serde_json::Value;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::SystemTime;
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+
+/// The program of the harness.
+const PROGRAM: &str = "emulator.mjs";
+/// Where the image lies in cargo's target folder.
+const IMAGE: &str = "firmware/thumbv6m-none-eabi/release/taxel-firmware";
+/// Code of a pin where no taxel is wired.
+const IDLE: &str = "90";
+
+/// Starts the emulator and connects to its UART.
+pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
+    let harness = harness()?;
+    let image = image(&harness)?;
+    let script = sim::load(scene)?;
+    let garment = script.load_garment()?;
+    if garment != Garment::reference() {
+        bail!(
+            "emulator:{scene}: the image starts with the garment reference, the scene wants {}",
+            garment.name
+        );
+    }
+    let asked = options.seconds.map_or(0, |s| (s * 1e6) as u64 / FRAME_PERIOD_US);
+    let length = (script.duration_s * 1e6) as u64 / FRAME_PERIOD_US;
+    let frames = length.max(options.frames.unwrap_or(0)).max(asked) + 1;
+    let seeded = sim::Script { seed: options.seed.unwrap_or(script.seed), ..script.clone() };
+    let folder = Folder::new()?;
+    let codes = frame_codes(
+        &seeded,
+        &garment,
+        FRAME_PERIOD_US,
+        if options.repeat { length } else { frames } as usize,
+    )?;
+    std::fs::write(
+        folder.0.join("codes.bin"),
+        codes.iter().flat_map(|c| c.to_le_bytes()).collect::<Vec<_>>(),
+    )?;
+    std::fs::write(folder.0.join("wiring.json"), wiring(&garment)?.to_string())?;
+    let mut node = Command::new("node");
+    node.arg(harness.join(PROGRAM)).arg("--image").arg(image).args(["--port", "0", "--idle", IDLE]);
+    node.arg("--wiring").arg(folder.0.join("wiring.json")).arg("--codes").arg(folder.0.join("codes.bin"));
+    if options.repeat {
+        node.arg("--loop");
+    } else if options.frames.is_none() {
+        node.arg("--until-frames").arg(frames.to_string());
+    }
+    if options.realtime {
+        node.arg("--realtime");
+    }
+    let port = Emulator::start(node, folder)?;
+    let tare = script.tare_frames.min(4096) as u16;
+    let label = format!("emulator:{scene}");
+    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), ..Source::new(label, port) })
+}
+
+fn wiring(garment: &Garment) -> Result<Value> {
+    let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)?;
+    let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
+    wiring_json(garment, &layout, &circuit)
+}
+
+/// The folder of the harness: told by `TAXEL_EMULATOR`, or found upwards from here.
+fn harness() -> Result<PathBuf> {
+    let folder = match std::env::var_os("TAXEL_EMULATOR").map(PathBuf::from) {
+        Some(told) => {
+            let folder =
+                if told.is_file() { told.parent().map(Path::to_path_buf) } else { Some(told.clone()) };
+            folder
+                .filter(|folder| folder.join(PROGRAM).is_file())
+                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} holds no {PROGRAM}", told.display()))?
+        }
+        None => std::env::current_dir()?
+            .ancestors()
+            .map(|above| above.join("tests/emulator"))
+            .find(|folder| folder.join(PROGRAM).is_file())
+            .ok_or_else(|| {
+                anyhow!("there is no tests/emulator/{PROGRAM} here or above; TAXEL_EMULATOR may say where")
+            })?,
+    };
+    if !folder.join("node_modules").is_dir() {
+        bail!("the emulator is not installed: run `npm ci` in {}", folder.display());
+    }
+    Ok(folder)
+}
+
+/// The newest image that was built: told by `TAXEL_FIRMWARE`, or where `cargo xtask firmware` leaves it.
+fn image(harness: &Path) -> Result<PathBuf> {
+    if let Some(told) = std::env::var_os("TAXEL_FIRMWARE").map(PathBuf::from) {
+        return if told.is_file() { Ok(told) } else { bail!("TAXEL_FIRMWARE={} is no file", told.display()) };
+    }
+    let told = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let repository = harness.ancestors().nth(2).map(|root| root.join("target"));
+    let built = |path: &PathBuf| path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+    told.into_iter()
+        .chain(repository)
+        .map(|target| target.join(IMAGE))
+        .filter(|path| path.is_file())
+        .max_by_key(built)
+        .ok_or_else(|| anyhow!("there is no firmware image: build it with `cargo xtask firmware`"))
+}
+
+/// A folder that goes with its owner.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> io::Result<Folder> {
+        let stamp = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |d| d.as_nanos());
+        let path = std::env::temp_dir().join(format!("taxel-emulator-{}-{stamp}", std::process::id()));
+        std::fs::create_dir_all(&path)?;
+        Ok(Folder(path))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A running emulator and the connection to its UART.
+struct Emulator {
+    child: Child,
+    tcp: Tcp,
+    _folder: Folder,
+}
+
+impl Emulator {
+    fn start(mut node: Command, folder: Folder) -> Result<Emulator> {
+        let spawned = node.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+        let mut child =
+            spawned.map_err(|error| anyhow!("node, which runs the emulator, cannot be started: {error}"))?;
+        match connect(&mut child) {
+            Ok(tcp) => Ok(Emulator { child, tcp, _folder: folder }),
+            Err(error) => {
+                stop(&mut child);
+                Err(error)
+            }
+        }
+    }
+}
+
+/// The harness tells its port in its first line.
+fn connect(child: &mut Child) -> Result<Tcp> {
+    let mut out = BufReader::new(child.stdout.take().context("the emulator has no output")?);
+    let mut line = String::new();
+    out.read_line(&mut line)?;
+    let told: Value =
+        serde_json::from_str(&line).map_err(|_| anyhow!("the emulator ended before it began"))?;
+    let port =
+        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator told no port but {}", line.trim()))?;
+    // What it says later is read, so that it never waits for a reader.
+    std::thread::spawn(move || io::copy(&mut out, &mut io::sink()));
+    Tcp::open(&format!("127.0.0.1:{port}"))
+}
+
+fn stop(child: &mut Child) {
+    let asked = child.stdin.take().map(|mut input| input.write_all(b"quit\n"));
+    if asked.is_none() || child.try_wait().is_ok_and(|status| status.is_none()) {
+        let _ = child.kill();
+    }
+    let _ = child.wait();
+}
+
+impl Port for Emulator {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        self.tcp.read(buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.tcp.write(bytes)
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        stop(&mut self.child);
+    }
+}

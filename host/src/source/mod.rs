@@ -1,0 +1,76 @@
+//! Where bytes come from and requests go: a simulated board, a serial port, TCP, the emulator, a file.
+
+mod auto;
+mod emulator;
+mod file;
+mod pipe;
+mod scene;
+mod serial;
+mod sim;
+mod spec;
+mod tcp;
+
+pub use scene::scene_of;
+pub use spec::SourceSpec;
+
+use anyhow::Result;
+use std::io;
+
+/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it.
+pub trait Port: Send {
+    /// Bytes that have come, after a short wait if there are none (then 0); none: no more will come.
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
+    /// Sends all bytes.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
+}
+
+/// What a source is to do beyond giving bytes.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct SourceOptions {
+    /// Seed of a simulation in place of its script's.
+    pub seed: Option<u64>,
+    /// A simulation is not faster than time.
+    pub realtime: bool,
+    /// A simulation begins again when its script is over.
+    pub repeat: bool,
+    /// Images that somebody waits for: a simulation lasts that long.
+    pub frames: Option<u64>,
+    /// Seconds of the board that somebody waits for.
+    pub seconds: Option<f64>,
+    /// A simulation sends raw codes with every frame.
+    pub raw: bool,
+}
+
+/// An open source.
+pub struct Source {
+    /// What it is, in a few words.
+    pub label: String,
+    /// Its bytes.
+    pub port: Box<dyn Port>,
+    /// Frames over which it should be tared at the start; 0: as it is.
+    pub tare: u16,
+    /// Counts per newton on a taxel, where that is known.
+    pub counts_per_newton: Option<f32>,
+}
+
+impl Source {
+    fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
+        Source { label: label.into(), port: Box::new(port), tare: 0, counts_per_newton: None }
+    }
+}
+
+/// Opens a source. Errors are one sentence.
+pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
+    match spec {
+        SourceSpec::Auto => auto::open(options),
+        SourceSpec::Sim(scene) => sim::open(scene, options),
+        SourceSpec::Serial { path, baud } => {
+            Ok(Source::new(format!("serial:{path}@{baud}"), serial::Serial::open(path, *baud)?))
+        }
+        SourceSpec::Tcp(address) => Ok(Source::new(format!("tcp:{address}"), tcp::Tcp::open(address)?)),
+        SourceSpec::Emulator(scene) => emulator::open(scene, options),
+        SourceSpec::File(path) => {
+            Ok(Source::new(format!("file:{}", path.display()), file::Saved::open(path)?))
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The scene of a simulation: the one that ships, with what a script says otherwise.
+
+use crate::sim::Script;
+use anyhow::{Result, anyhow};
+use serde_json::Value;
+use taxel_core::scene::Scene;
+
+/// The shipped scene with the settings of a script's `[scene]` in their places.
+pub fn scene_of(script: &Script) -> Result<Scene> {
+    let wrong = |error: &dyn std::fmt::Display| anyhow!("scene {}: [scene]: {error}", script.name);
+    // JSON in between: TOML has no 64-bit masks.
+    let mut merged = serde_json::to_value(Scene::shipped()).map_err(|e| wrong(&e))?;
+    merge(&mut merged, serde_json::to_value(&script.scene).map_err(|e| wrong(&e))?);
+    if let Value::Object(sections) = &merged {
+        // One by one, so that an error can say where.
+        for (key, value) in sections {
+            let alone = Value::Object([(key.clone(), value.clone())].into_iter().collect());
+            serde_json::from_value::<Scene>(alone).map_err(|e| wrong(&format!("{key}: {e}")))?;
+        }
+    }
+    serde_json::from_value(merged).map_err(|e| wrong(&e))
+}
+
+/// Tables are merged, everything else is replaced.
+fn merge(base: &mut Value, over: Value) {
+    match (base, over) {
+        (Value::Object(base), Value::Object(over)) => {
+            for (key, value) in over {
+                merge(base.entry(key).or_insert(Value::Null), value);
+            }
+        }
+        (base, over) => *base = over,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(scene: &str) -> Result<Scene> {
+        scene_of(&Script::parse(&format!("duration_s = 1\n[scene]\n{scene}"), "a.toml").unwrap())
+    }
+
+    #[test]
+    fn what_a_script_says_replaces_what_ships() {
+        assert_eq!(of("").unwrap(), Scene::shipped());
+        let scene = of("rate_hz = 50\nstream = { contacts_hz = 20 }\nreact = []").unwrap();
+        assert_eq!((scene.rate_hz, scene.stream.contacts_hz, scene.stream.key_ms), (50, 20, 1000));
+        assert!(scene.react.is_empty());
+        let error = of("contact = { lo = 3 }").unwrap_err().to_string();
+        assert!(error.starts_with("scene a: [scene]: contact: unknown field `lo`"), "{error}");
+        let error = of("speed = 3").unwrap_err().to_string();
+        assert!(error.starts_with("scene a: [scene]: speed: unknown field `speed`"), "{error}");
+    }
+}

@@ -1,0 +1,54 @@
+//! A serial port.
+
+use super::Port;
+use anyhow::{Result, anyhow};
+use serialport::SerialPort;
+use std::io::{self, ErrorKind, Read, Write};
+use std::time::Duration;
+
+/// How long a read waits.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// An open serial port.
+pub struct Serial {
+    port: Box<dyn SerialPort>,
+    /// Bytes that were read before, while listening.
+    heard: Vec<u8>,
+}
+
+impl Serial {
+    /// Opens a port, 8N1.
+    pub fn open(path: &str, baud: u32) -> Result<Serial> {
+        let port = serialport::new(path, baud)
+            .timeout(PATIENCE)
+            .open()
+            .map_err(|error| anyhow!("serial port {path} at {baud} Bd cannot be opened: {error}"))?;
+        Ok(Serial { port, heard: Vec::new() })
+    }
+
+    /// Gives bytes back, to be read again.
+    pub fn unread(&mut self, bytes: Vec<u8>) {
+        self.heard.splice(0..0, bytes);
+    }
+}
+
+impl Port for Serial {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        if !self.heard.is_empty() {
+            let count = self.heard.len().min(buffer.len());
+            for (slot, byte) in buffer.iter_mut().zip(self.heard.drain(..count)) {
+                *slot = byte;
+            }
+            return Ok(Some(count));
+        }
+        match self.port.read(buffer) {
+            Ok(count) => Ok(Some(count)),
+            Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(Some(0)),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.port.write_all(bytes)
+    }
+}

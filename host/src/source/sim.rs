@@ -1,0 +1,185 @@
+//! The simulated board as a source: the core's own loop in a thread, on virtual time.
+
+use super::pipe::{BoardEnd, pipe};
+use super::{Source, SourceOptions, scene_of};
+use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, PINS, Script, SimBoard, SimClock};
+use anyhow::{Context, Result, anyhow};
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
+use taxel_core::acquire::{Clock, MuxScan};
+use taxel_core::board::{Board, BoardInfo, Work};
+use taxel_core::format::Micros;
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::run::{Link, Platform, block_on, run};
+
+const TAXELS: usize = 2048;
+const RUNS: usize = 1024;
+/// The board lies in boxes, but is made on the stack.
+const STACK: usize = 8 << 20;
+/// What a USB link carries, bytes per second.
+const LINK: u32 = 1_000_000;
+/// How far behind real time a simulation may be before it gives up to catch up.
+const LAG: Duration = Duration::from_millis(250);
+
+/// What is played, for how long.
+struct Play {
+    script: Script,
+    garment: Garment,
+    seed: u64,
+    realtime: bool,
+    repeat: bool,
+    end_us: u64,
+}
+
+/// Opens a simulated board that plays a scene.
+pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
+    let script = sim::load(scene)?;
+    let garment = script.load_garment()?;
+    let tare = script.tare_frames.min(4096) as u16;
+    let label = format!("sim:{scene}");
+    let play = Play {
+        seed: options.seed.unwrap_or(script.seed),
+        realtime: options.realtime,
+        repeat: options.repeat,
+        end_us: end_us(script.duration_s, options),
+        garment,
+        script,
+    };
+    let mut board_scene = scene_of(&play.script)?;
+    if options.raw {
+        board_scene.stream.raw_hz = u16::MAX;
+    }
+    let (host, board_end) = pipe();
+    let (told, ready) = mpsc::channel();
+    thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
+        let made = Board::<TAXELS, RUNS>::new(info(&play.garment), play.garment.clone(), board_scene);
+        let made = made.map_err(anyhow::Error::from).map(Box::new);
+        // What is built here for the check is built again for each round.
+        let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
+        match made {
+            Ok(mut board) => {
+                let _ = told.send(Ok(()));
+                if board_end.begin() {
+                    play.all(&mut board, board_end);
+                }
+            }
+            Err(error) => drop(told.send(Err(error))),
+        }
+    })?;
+    ready.recv().unwrap_or_else(|_| Err(anyhow!("its thread ended"))).with_context(|| label.clone())?;
+    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), ..Source::new(label, host) })
+}
+
+/// The script's end, or later where somebody waits for more.
+fn end_us(duration_s: f64, options: &SourceOptions) -> u64 {
+    let seconds = duration_s.max(options.seconds.unwrap_or(0.0));
+    // Whoever counts frames ends by himself; this is for scenes that send none.
+    let frames = options.frames.map_or(0, |frames| 10_000_000 + frames.saturating_mul(100_000));
+    ((seconds * 1e6) as u64).max(frames)
+}
+
+fn info(garment: &Garment) -> BoardInfo {
+    let inputs =
+        garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
+    BoardInfo {
+        firmware: concat!("taxel-sim ", env!("CARGO_PKG_VERSION")),
+        pins: Pins { outputs: !inputs, inputs },
+        full_scale: FULL_SCALE,
+        link_bytes_per_s: LINK,
+    }
+}
+
+impl Play {
+    /// One round of the script, or round after round, each on the board's time after the last.
+    fn all(&self, board: &mut Board<TAXELS, RUNS>, link: BoardEnd) {
+        let mut offset_us = 0;
+        let mut origin = Instant::now();
+        // The board is the same in every round: what it was built from has been checked.
+        while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
+            let SimBoard { mut lines, delay, adc, clock } = simulated;
+            let clock = Shifted { clock, offset_us };
+            let mut platform = Virtual {
+                clock: clock.clone(),
+                end: Micros(offset_us + self.end_us),
+                link: &link,
+                origin: self.realtime.then_some(&mut origin),
+            };
+            let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock.clone());
+            let mut ends = &link;
+            block_on(run(&mut scan, &mut ends, &mut platform, board));
+            offset_us = clock.now().0;
+            if link.is_alone() || !self.repeat {
+                break;
+            }
+        }
+        // What the last frame said.
+        loop {
+            let count = (&link).try_write(board.pending(Micros(offset_us), &mut ()));
+            board.sent(count);
+            if count == 0 {
+                return;
+            }
+        }
+    }
+}
+
+/// The simulated clock, so much later.
+#[derive(Debug, Clone)]
+struct Shifted {
+    clock: SimClock,
+    offset_us: u64,
+}
+
+impl Clock for Shifted {
+    fn now(&self) -> Micros {
+        Micros(self.clock.now().0 + self.offset_us)
+    }
+}
+
+/// What the simulated board is besides its pins.
+struct Virtual<'a> {
+    clock: Shifted,
+    end: Micros,
+    link: &'a BoardEnd,
+    /// When the board's time was 0, where it is not to run ahead.
+    origin: Option<&'a mut Instant>,
+}
+
+impl Clock for Virtual<'_> {
+    fn now(&self) -> Micros {
+        self.clock.now()
+    }
+}
+
+impl Probe for Virtual<'_> {
+    fn begin(&mut self, _: Stage) {}
+}
+
+impl Platform for Virtual<'_> {
+    fn alive(&mut self) -> bool {
+        let now = self.now();
+        if let Some(origin) = self.origin.as_deref_mut() {
+            let (due, passed) = (Duration::from_micros(now.0), origin.elapsed());
+            if due > passed {
+                self.link.sleep(due - passed);
+            } else if passed - due > LAG {
+                *origin += passed - due;
+            }
+        }
+        now < self.end && !self.link.is_alone()
+    }
+
+    fn work(&mut self, work: Work) -> Result<(), &'static str> {
+        Err(match work {
+            Work::SelfTest => "a simulated board has no lines to examine",
+            Work::Save => "a simulated board forgets",
+        })
+    }
+
+    async fn idle(&mut self, until: Micros) {
+        let next = until.0.min(self.now().0 + 1000);
+        self.clock.clock.advance_to(next.saturating_sub(self.clock.offset_us));
+    }
+}

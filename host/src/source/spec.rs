@@ -1,0 +1,115 @@
+//! The words for a source on the command line.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Speed of a serial port where none is given, Bd.
+const BAUD: u32 = 921_600;
+/// The scene that is played where none is given.
+const SCENE: &str = "pat";
+
+/// Where the bytes come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SourceSpec {
+    /// A board on a port with a known USB id, else a simulation.
+    Auto,
+    /// A simulated board that plays this scene.
+    Sim(String),
+    /// A serial port.
+    Serial {
+        /// The device.
+        path: String,
+        /// Bits per second.
+        baud: u32,
+    },
+    /// `HOST:PORT`
+    Tcp(String),
+    /// The firmware image in the emulator, on which this scene is played.
+    Emulator(String),
+    /// Bytes that were saved.
+    File(PathBuf),
+}
+
+impl SourceSpec {
+    /// The simulation that is played where nothing is asked for.
+    pub fn simulation() -> SourceSpec {
+        SourceSpec::Sim(SCENE.into())
+    }
+}
+
+impl FromStr for SourceSpec {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<SourceSpec, String> {
+        let (kind, rest) = text.split_once(':').map_or((text, None), |(kind, rest)| (kind, Some(rest)));
+        match (kind, rest) {
+            ("auto", None) => Ok(SourceSpec::Auto),
+            ("sim", None) => Ok(SourceSpec::simulation()),
+            ("sim", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Sim(scene.into())),
+            ("emulator", None) => Ok(SourceSpec::Emulator(SCENE.into())),
+            ("emulator", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Emulator(scene.into())),
+            ("serial", Some(port)) if !port.is_empty() => serial(port),
+            ("tcp", Some(address)) => tcp(address),
+            ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
+            _ => Err("known are auto, sim[:SCENE], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:SCENE], \
+                      file:FILE"
+                .into()),
+        }
+    }
+}
+
+fn serial(port: &str) -> Result<SourceSpec, String> {
+    let Some((path, baud)) = port.rsplit_once('@') else {
+        return Ok(SourceSpec::Serial { path: port.into(), baud: BAUD });
+    };
+    match baud.parse() {
+        Ok(baud) if baud > 0 && !path.is_empty() => Ok(SourceSpec::Serial { path: path.into(), baud }),
+        _ => Err(format!("serial:PATH@BAUD needs a whole number of bits per second, not \"{baud}\"")),
+    }
+}
+
+fn tcp(address: &str) -> Result<SourceSpec, String> {
+    match address.rsplit_once(':') {
+        Some((host, port)) if !host.is_empty() && port.parse::<u16>().is_ok() => {
+            Ok(SourceSpec::Tcp(address.into()))
+        }
+        _ => Err("tcp:HOST:PORT needs a host and a port number of 0 to 65535".into()),
+    }
+}
+
+impl fmt::Display for SourceSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SourceSpec::Auto => f.write_str("auto"),
+            SourceSpec::Sim(scene) => write!(f, "sim:{scene}"),
+            SourceSpec::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
+            SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
+            SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
+            SourceSpec::File(path) => write!(f, "file:{}", path.display()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_read_and_written() {
+        for text in
+            ["auto", "sim:pat", "serial:/dev/ttyACM0@115200", "tcp:[::1]:80", "file:a b", "sim:x/y.toml"]
+        {
+            assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
+        }
+        let read = |text: &str| text.parse::<SourceSpec>();
+        assert_eq!(read("sim").unwrap(), SourceSpec::simulation());
+        assert_eq!(read("emulator").unwrap(), SourceSpec::Emulator("pat".into()));
+        assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");
+        for wrong in
+            ["", "auto:", "sim:", "serial:", "serial:a@b", "tcp:a", "tcp:a:99999", "tcp::1", "file", "usb"]
+        {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}

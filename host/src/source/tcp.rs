@@ -1,0 +1,53 @@
+//! A board behind TCP.
+
+use super::Port;
+use anyhow::{Result, anyhow};
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::Duration;
+
+/// How long a read waits.
+const PATIENCE: Duration = Duration::from_millis(10);
+/// How long a connection may take.
+const CONNECT: Duration = Duration::from_secs(5);
+
+/// An open connection.
+pub struct Tcp(TcpStream);
+
+impl Tcp {
+    /// Connects to `HOST:PORT`.
+    pub fn open(address: &str) -> Result<Tcp> {
+        let wrong = |error: io::Error| anyhow!("tcp:{address} cannot be reached: {error}");
+        let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
+        for target in address.to_socket_addrs().map_err(wrong)? {
+            match TcpStream::connect_timeout(&target, CONNECT) {
+                Ok(stream) => {
+                    stream
+                        .set_nodelay(true)
+                        .and_then(|()| stream.set_read_timeout(Some(PATIENCE)))
+                        .map_err(wrong)?;
+                    return Ok(Tcp(stream));
+                }
+                Err(error) => last = error,
+            }
+        }
+        Err(wrong(last))
+    }
+}
+
+impl Port for Tcp {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        use ErrorKind::{ConnectionReset, Interrupted, TimedOut, WouldBlock};
+        match self.0.read(buffer) {
+            Ok(0) => Ok(None),
+            Ok(count) => Ok(Some(count)),
+            Err(error) if matches!(error.kind(), TimedOut | WouldBlock | Interrupted) => Ok(Some(0)),
+            Err(error) if error.kind() == ConnectionReset => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.write_all(bytes)
+    }
+}

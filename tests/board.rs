@@ -1,0 +1,333 @@
+//! The board as a list of inputs: requests, refusals, what goes first, what is thinned, and what never is.
+
+use std::collections::BTreeMap;
+use taxel_core::acquire::{Scan, ScanError, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input, Job, Work};
+use taxel_core::contact::Phase;
+use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::format::{Code, Micros, Q15, name};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::react::{Cause, ReactionConfig};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{self, Receiver, Report, Request, decode_image, image_sum};
+
+const TAXELS: usize = 64;
+type Small = Board<TAXELS, 32>;
+
+/// A board in one hand and a host in the other.
+struct Bench {
+    board: Box<Small>,
+    now: u64,
+    codes: [Code; TAXELS],
+    receiver: Box<Receiver<8192>>,
+    next_seq: Option<u32>,
+}
+
+fn info() -> BoardInfo {
+    let pins = Pins { outputs: 0x0300_1fcc, inputs: 0xf << 26 };
+    BoardInfo { firmware: "test 1.0", pins, full_scale: 4095, link_bytes_per_s: 92_160 }
+}
+
+impl Bench {
+    fn new(scene: Scene) -> Bench {
+        let board = Small::new(info(), Garment::block(), scene).expect("garment and scene fit");
+        Bench {
+            board: Box::new(board),
+            now: 0,
+            codes: [Code(0); TAXELS],
+            receiver: Box::new(Receiver::new()),
+            next_seq: None,
+        }
+    }
+
+    fn ask(&mut self, request: &Request<'_>) {
+        let (mut body, mut frame) = ([0; 4096], [0; 4200]);
+        let length = wire::encode(request, &mut body, &mut frame).expect("it fits");
+        // In uneven pieces, as a UART delivers them.
+        for piece in frame[..length].chunks(7) {
+            assert_eq!(self.board.step(Micros(self.now), Input::Received(piece), &mut ()), None);
+        }
+    }
+
+    /// One scan of the present codes, 5 ms later.
+    fn scan(&mut self) {
+        self.now += 5_000;
+        let report = ScanReport { start: Micros(self.now), duration_us: 4_000, overruns: 0 };
+        let scan = Scan { codes: &self.codes, report };
+        self.board.step(Micros(self.now), Input::Scanned(Ok(scan)), &mut ());
+    }
+
+    fn tick(&mut self) -> Option<Job> {
+        self.board.step(Micros(self.now), Input::Tick, &mut ())
+    }
+
+    /// Takes up to `budget` bytes off the board and calls `told` for every message; seq must not jump.
+    fn drain(&mut self, mut budget: usize, mut told: impl FnMut(&Report<'_>)) {
+        while budget > 0 {
+            let bytes = self.board.pending(Micros(self.now), &mut ()).to_vec();
+            let taken = bytes.len().min(budget);
+            if taken == 0 {
+                break;
+            }
+            budget -= taken;
+            self.board.sent(taken);
+            for byte in &bytes[..taken] {
+                let Some(frame) = self.receiver.push(*byte) else { continue };
+                let (seq, report): (u32, Report) =
+                    wire::decode(frame.expect("the board's frames are good")).expect("and its messages");
+                assert_eq!(self.next_seq.replace(seq + 1).unwrap_or(seq), seq);
+                told(&report);
+            }
+        }
+    }
+
+    /// What a request is answered with: none is yes.
+    fn answer(&mut self, request: &Request<'_>) -> Option<String> {
+        self.ask(request);
+        let mut answer = None;
+        self.drain(usize::MAX, |report| {
+            if let Report::Answer(told) = report {
+                assert_eq!(told.request, request.number());
+                answer = Some(told.refusal.map(str::to_string));
+            }
+        });
+        answer.expect("every request is answered")
+    }
+
+    fn press(&mut self, taxels: &[usize], code: u16) {
+        for taxel in taxels {
+            self.codes[*taxel] = Code(code);
+        }
+    }
+}
+
+const FINGER: [usize; 4] = [17, 18, 33, 34];
+
+#[test]
+fn says_hello_until_started_and_in_answer_to_start() {
+    let mut bench = Bench::new(Scene::shipped());
+    let mut hellos = 0;
+    for _ in 0..600 {
+        bench.tick();
+        bench.scan();
+        bench.drain(usize::MAX, |report| {
+            let Report::Hello(hello) = report else { panic!("{report:?} before Start") };
+            assert_eq!((hello.magic, hello.protocol, hello.firmware), (*b"TAXL", 1, &b"test 1.0"[..]));
+            assert_eq!(wire::decode::<Garment>(hello.garment).unwrap(), Garment::block());
+            assert_eq!(wire::decode::<Scene>(hello.scene).unwrap(), Scene::shipped());
+            hellos += 1;
+        });
+    }
+    assert_eq!(hellos, 3, "one at the start and one a second for 3 s, the third second not over");
+    bench.ask(&Request::Start);
+    let mut first = Vec::new();
+    bench.drain(usize::MAX, |report| first.push(format!("{report:?}")));
+    assert!(first[0].starts_with("Hello") && first[1].starts_with("Answer"), "{first:?}");
+}
+
+#[test]
+fn every_wrong_request_is_refused_with_its_reason() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.drain(usize::MAX, |_| ());
+    let mut twice = Garment::block();
+    twice.wiring.row.lines[0].pin = twice.wiring.column.lines[0].pin;
+    let twice = postcard::to_allocvec(&twice).unwrap();
+    assert_eq!(bench.answer(&Request::SetGarment(&twice)).unwrap(), "garment: wiring: pin 9 is used twice");
+    let large = postcard::to_allocvec(&Garment::mat()).unwrap();
+    let why = bench.answer(&Request::SetGarment(&large)).unwrap();
+    assert_eq!(why, "garment: panels: 2048 taxels, but only 64 fit");
+    let mut scene = Scene::shipped();
+    scene.contact.high = 1;
+    let scene = postcard::to_allocvec(&scene).unwrap();
+    let why = bench.answer(&Request::SetScene(&scene)).unwrap();
+    assert_eq!(why, "scene: contact.high must not be below contact.low");
+    assert!(bench.answer(&Request::SetScene(&scene[..9])).is_some());
+    assert!(bench.answer(&Request::Tare { frames: 0 }).is_some());
+    assert!(bench.answer(&Request::Concept { slot: 8, value: Q15(0) }).is_some());
+    assert!(bench.answer(&Request::Concept { slot: 0, value: Q15(32769) }).is_some());
+    assert_eq!(bench.answer(&Request::Concept { slot: 0, value: Q15(-32768) }), None);
+    let bent = |joint| Posture { joints: [JointAngle { joint, centidegrees: 4500 }].into_iter().collect() };
+    assert_eq!(bench.answer(&Request::Posture(bent(1))), None);
+    let why = bench.answer(&Request::Posture(bent(2))).unwrap();
+    assert_eq!(why, "posture.joint must be a joint of the scene");
+    let gains = [4096; 3].into_iter().collect();
+    assert!(bench.answer(&Request::SetGain { first: 62, gains }).is_some());
+    // The first tare is under no touch that the board could know of: without a baseline everything is pressure.
+    bench.press(&FINGER, 100);
+    bench.ask(&Request::Tare { frames: 1 });
+    bench.scan();
+    bench.press(&FINGER, 900);
+    bench.scan();
+    bench.drain(usize::MAX, |_| ());
+    let why = bench.answer(&Request::Tare { frames: 4 }).unwrap();
+    assert_eq!(why, "something touches the garment");
+}
+
+#[test]
+fn a_scene_that_exceeds_the_link_or_a_pin_is_refused_by_name() {
+    let refused = |edit: &dyn Fn(&mut Scene)| {
+        let mut scene = Scene::shipped();
+        edit(&mut scene);
+        Small::new(info(), Garment::block(), scene).err().expect("it is refused").to_string()
+    };
+    let why = refused(&|scene| scene.stream.contacts_hz = 1000);
+    assert_eq!(why, "scene: stream.contacts_hz must be lower: five contacts at this rate exceed the link");
+    let why = refused(&|scene| scene.react[1].output = scene.react[0].output);
+    assert_eq!(why, "scene: react.output.pin must not be used twice");
+    let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 9);
+    assert_eq!(why, "scene: react.output.pin must not be used twice");
+    let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 26);
+    assert_eq!(why, "scene: react.output.pin must be a free output of this board");
+    let why = refused(&|scene| scene.react[0].cause = Cause::Concept(name("joy")));
+    assert_eq!(why, "scene: react.cause.concept must be a concept of the map");
+}
+
+#[test]
+fn frames_decode_to_the_image_of_the_board_alone_or_from_their_base() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Start);
+    bench.drain(usize::MAX, |_| ());
+    let (mut image, mut last, mut alone, mut differing) = ([0u16; TAXELS], None, 0, 0);
+    for step in 0..500u16 {
+        bench.press(&FINGER, if step % 100 < 50 { 600 + step } else { 0 });
+        bench.scan();
+        let mut copy = (image, last);
+        bench.drain(usize::MAX, |report| {
+            let Report::Frame(frame) = report else { return };
+            let base = copy.0;
+            match frame.base {
+                Some(number) => {
+                    assert_eq!(Some(number), copy.1);
+                    differing += 1;
+                }
+                None => alone += 1,
+            }
+            decode_image(frame.data, frame.base.map(|_| &base[..]), &mut copy.0).unwrap();
+            assert_eq!(image_sum(&copy.0), frame.sum);
+            copy.1 = Some(frame.frame);
+        });
+        (image, last) = copy;
+        assert_eq!(last, Some(u32::from(step) + 1));
+        assert_eq!(image[17], if step % 100 < 50 { 600 + step } else { 0 });
+    }
+    assert!((3..=4).contains(&alone) && differing > 490, "{alone} key frames in 2.5 s, {differing} others");
+}
+
+#[test]
+fn a_slow_link_thins_updates_and_images_but_no_onset_and_no_release() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Start);
+    bench.drain(usize::MAX, |_| ());
+    let mut seen: BTreeMap<u32, Vec<Phase>> = BTreeMap::new();
+    for step in 0..2_000 {
+        bench.press(&FINGER, if step % 20 < 9 { 800 } else { 0 });
+        bench.scan();
+        bench.tick();
+        // 20 bytes in 5 ms: 4 kB/s.
+        bench.drain(20, |report| {
+            if let Report::Contacts(list) = report {
+                for placed in &list.contacts {
+                    let phases = seen.entry(placed.contact.id).or_default();
+                    if phases.last() != Some(&placed.contact.phase) {
+                        phases.push(placed.contact.phase);
+                    }
+                }
+            }
+        });
+    }
+    let health = *bench.board.health();
+    assert!(health.thinned_frames > 500 && health.thinned_contacts > 100, "{health:?}");
+    assert_eq!(health.lost, 0);
+    seen.pop_last();
+    assert!(seen.len() > 90, "{}", seen.len());
+    for (id, phases) in &seen {
+        assert_eq!(phases.first(), Some(&Phase::Onset), "contact {id}");
+        assert_eq!(phases.last(), Some(&Phase::Released), "contact {id}");
+    }
+}
+
+#[test]
+fn over_pressure_reacts_in_its_frame_and_drives_the_pin() {
+    let mut scene = Scene::shipped();
+    scene.react = [ReactionConfig {
+        name: name("ouch"),
+        cause: Cause::Pressure,
+        region: name("mat"),
+        level: 3000,
+        hysteresis: 500,
+        hold_ms: 20,
+        output: Some(taxel_core::garment::Line { pin: 24, inverted: true }),
+    }]
+    .into_iter()
+    .collect();
+    let mut bench = Bench::new(scene);
+    bench.ask(&Request::Start);
+    assert_eq!(bench.tick(), Some(Job::Drive(24, true)), "at rest, inverted");
+    let mut course = Vec::new();
+    for code in [0, 2999, 3000, 2600, 2400, 0, 0, 0, 0, 0, 0] {
+        bench.press(&FINGER, code);
+        bench.scan();
+        bench.drain(usize::MAX, |report| {
+            if let Report::Reaction(told) = report {
+                course.push((code, told.reaction.active, told.reaction.value));
+            }
+        });
+        while let Some(Job::Drive(pin, level)) = bench.tick() {
+            course.push((pin.into(), level, -1));
+        }
+    }
+    // Active from the frame of 3000 on; 2600 keeps it; 20 ms (four frames) after that it ends.
+    assert_eq!(course, [(3000, true, 3000), (24, false, -1), (0, false, 0), (24, true, -1)]);
+}
+
+#[test]
+fn a_tare_is_answered_when_it_is_done() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.drain(usize::MAX, |_| ());
+    bench.codes = [Code(500); TAXELS];
+    bench.ask(&Request::Tare { frames: 4 });
+    let mut answers = Vec::new();
+    for scan in 0..6 {
+        bench.drain(usize::MAX, |report| {
+            if let Report::Answer(answer) = report {
+                answers.push((scan, answer.request, answer.refusal.is_none()));
+            }
+        });
+        bench.scan();
+    }
+    assert_eq!(answers, [(4, 2, true)]);
+    assert!(!bench.board.state().is_touched());
+}
+
+#[test]
+fn garbage_is_counted_and_loses_no_request() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.drain(usize::MAX, |_| ());
+    let noise: Vec<u8> = (0..5000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    for round in 0..50 {
+        bench.board.step(Micros(0), Input::Received(&noise[round..]), &mut ());
+        bench.board.step(Micros(0), Input::Received(&[0]), &mut ());
+        bench.drain(usize::MAX, |_| ());
+        assert_eq!(bench.answer(&Request::KeyFrame), None);
+    }
+    assert!(bench.board.health().refused >= 50);
+}
+
+#[test]
+fn jobs_that_fail_are_told() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Save);
+    let jobs: Vec<_> = std::iter::from_fn(|| bench.tick()).take_while(|job| !matches!(job, Job::Scan(_))).collect();
+    assert_eq!(jobs.last(), Some(&Job::Start(Work::Save)));
+    bench.board.step(Micros(0), Input::Done(Work::Save, Err("no flash")), &mut ());
+    let error = ScanError::Converter { input: 26, taxel: 5 };
+    bench.board.step(Micros(0), Input::Scanned(Err(error)), &mut ());
+    let mut told = Vec::new();
+    bench.drain(usize::MAX, |report| match report {
+        Report::Answer(answer) => told.push(format!("{} {}", answer.request, answer.refusal.unwrap_or("yes"))),
+        Report::Log(log) => told.push(log.text.to_string()),
+        _ => {}
+    });
+    assert_eq!(told, ["10 no flash", "scan: converter input on pin 26 gave no sample (at taxel 5)"]);
+    assert!(matches!(bench.tick(), Some(Job::Scan(_))), "a failed scan is followed by the next");
+}

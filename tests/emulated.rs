@@ -1,0 +1,186 @@
+//! The firmware image on the emulated board, as a host sees it: messages on a TCP socket, and the harness's own lines.
+//! A part of the targets that run it; `tests/emulator/README.md` says what the harness does.
+
+use serde_json::Value;
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc;
+use std::time::Duration;
+use taxel::sim::wiring_json;
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::wire::{LONGEST_REQUEST, Receiver, Report, Request, decode, encode, frame_bound};
+
+/// The longest frame that the board sends, and more.
+const LONGEST: usize = 8192;
+/// A harness that says nothing for so long hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A running harness and the link to its board.
+pub struct Emulated {
+    child: Child,
+    input: ChildStdin,
+    lines: mpsc::Receiver<Value>,
+    link: TcpStream,
+    receiver: Box<Receiver<LONGEST>>,
+    messages: VecDeque<(usize, Vec<u8>)>,
+    wire_bytes: usize,
+    seq: Option<u32>,
+}
+
+impl Emulated {
+    /// Runs the image that TAXEL_FIRMWARE_ELF names with `garment` on its pins. The taxels show `rest` until `play`, then
+    /// the frames of `codes`.
+    pub fn start(garment: &Garment, codes: &[u16], rest: u16) -> Emulated {
+        let image = std::env::var_os("TAXEL_FIRMWARE_ELF")
+            .expect("TAXEL_FIRMWARE_ELF names no image: run this by `cargo xtask test --only emulator`");
+        let layout = Layout::build(garment, 2048, 4095).unwrap();
+        let circuit = Circuit::build(garment, &layout, Pins::ANY).unwrap();
+        let wiring = wiring_json(garment, &layout, &circuit).unwrap().to_string();
+        let codes: Vec<u8> = codes.iter().flat_map(|code| code.to_le_bytes()).collect();
+        let mut child = Command::new("node")
+            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("emulator/emulator.mjs"))
+            .arg("--image")
+            .arg(image)
+            .args(["--port", "0", "--hold", "--idle", &rest.to_string()])
+            .arg("--wiring")
+            .arg(file(&format!("{}.json", garment.name), wiring.as_bytes()))
+            .arg("--codes")
+            .arg(file(&format!("{}.bin", garment.name), &codes))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("node cannot be started");
+        let input = child.stdin.take().unwrap();
+        let lines = lines_of(child.stdout.take().unwrap());
+        let port = wait_for(&lines, "port")["port"].as_u64().unwrap() as u16;
+        let link = TcpStream::connect(("127.0.0.1", port)).unwrap();
+        link.set_nodelay(true).unwrap();
+        link.set_read_timeout(Some(PATIENCE)).unwrap();
+        let (receiver, messages) = (Box::new(Receiver::new()), VecDeque::new());
+        Emulated { child, input, lines, link, receiver, messages, wire_bytes: 0, seq: None }
+    }
+
+    /// Lets the frames begin; the number that the board gives to the first scan that shows them.
+    pub fn play(&mut self) -> u32 {
+        writeln!(self.input, "play").unwrap();
+        let scan = wait_for(&self.lines, "play")["play"]["scan"].as_u64().unwrap();
+        // The harness counts scans from 0, the board from 1.
+        scan as u32 + 1
+    }
+
+    /// What the harness has counted so far.
+    pub fn stats(&mut self) -> Value {
+        writeln!(self.input, "stats").unwrap();
+        wait_for(&self.lines, "stats")["stats"].take()
+    }
+
+    /// Sends a request.
+    pub fn ask(&mut self, request: &Request<'_>) {
+        let mut body = vec![0; LONGEST_REQUEST];
+        let mut wire = vec![0; frame_bound(LONGEST_REQUEST)];
+        let length = encode(request, &mut body, &mut wire).unwrap();
+        self.link.write_all(&wire[..length]).unwrap();
+    }
+
+    /// Sends a request and waits until it has been obeyed; what comes meanwhile is dropped.
+    pub fn obey(&mut self, request: &Request<'_>) {
+        self.ask(request);
+        loop {
+            if let Report::Answer(answer) = self.receive().report() {
+                assert_eq!((answer.request, answer.refusal), (request.number(), None));
+                return;
+            }
+        }
+    }
+
+    /// The next message. A gap between two of them fails the test.
+    pub fn receive(&mut self) -> Message {
+        while self.messages.is_empty() {
+            let mut bytes = [0; 4096];
+            let count = self.link.read(&mut bytes).expect("the board says nothing more");
+            assert!(count > 0, "the harness has ended");
+            for byte in &bytes[..count] {
+                self.wire_bytes += 1;
+                let Some(body) = self.receiver.push(*byte) else { continue };
+                let body = body.expect("a damaged frame").to_vec();
+                self.messages.push_back((std::mem::take(&mut self.wire_bytes), body));
+            }
+        }
+        let (wire_bytes, body) = self.messages.pop_front().unwrap();
+        let message = Message { wire_bytes, body };
+        let seq = message.seq();
+        assert!(self.seq.is_none_or(|last| seq == last.wrapping_add(1)), "{:?} then {seq}", self.seq);
+        self.seq = Some(seq);
+        message
+    }
+
+    /// Ends the run. The harness fails on warnings of the emulator, faults, panics and resets of the board.
+    pub fn end(mut self) {
+        writeln!(self.input, "quit").unwrap();
+        self.link.shutdown(std::net::Shutdown::Both).unwrap();
+        assert!(self.child.wait().unwrap().success());
+    }
+}
+
+impl Drop for Emulated {
+    fn drop(&mut self) {
+        // Has no effect on a harness that has ended.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// One message of the board.
+pub struct Message {
+    /// Bytes of its frame on the wire.
+    pub wire_bytes: usize,
+    body: Vec<u8>,
+}
+
+impl Message {
+    /// What it says.
+    pub fn report(&self) -> Report<'_> {
+        self.read().1
+    }
+
+    fn seq(&self) -> u32 {
+        self.read().0
+    }
+
+    fn read(&self) -> (u32, Report<'_>) {
+        decode(&self.body).expect("a message that this program does not know")
+    }
+}
+
+/// A file for the harness.
+fn file(name: &str, content: &[u8]) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}
+
+/// What the harness prints, line by line.
+fn lines_of(output: impl Read + Send + 'static) -> mpsc::Receiver<Value> {
+    let (send, lines) = mpsc::channel();
+    std::thread::spawn(move || {
+        for line in BufReader::new(output).lines().map_while(Result::ok) {
+            let Ok(value) = serde_json::from_str(&line) else { continue };
+            if send.send(value).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+fn wait_for(lines: &mpsc::Receiver<Value>, key: &str) -> Value {
+    loop {
+        let line = lines.recv_timeout(PATIENCE).expect("the harness has ended, or says nothing more");
+        if line.get(key).is_some() {
+            return line;
+        }
+    }
+}

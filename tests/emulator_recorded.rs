@@ -1,0 +1,188 @@
+//! Recorded people on a mat, perceived by the firmware image on the emulated board and by the same core on this machine:
+//! the reports must be the same, byte for byte. `cargo xtask test --only emulator-recorded`.
+
+mod emulated;
+
+use emulated::Emulated;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use taxel::arrays::read_all;
+use taxel_core::acquire::{Scan, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Receiver, Report, Request, decode, encode};
+
+/// Full scale of the converter.
+const FULL_SCALE: u16 = 4095;
+/// Of a recording, every so many frames.
+const STEP: usize = 16;
+/// Scans per second: the link carries everything of the fullest frame in time.
+const RATE_HZ: u16 = 20;
+const TAXELS: usize = 2048;
+
+/// Reports that depend on the codes and their times alone, without `seq`, by the number of their scan.
+type Reports = Vec<(u32, &'static str, Vec<u8>)>;
+
+/// The recordings in `folder` whose names end like that.
+fn files(folder: &str, end: &str) -> Vec<PathBuf> {
+    let data = std::env::var_os("TAXEL_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data")),
+        PathBuf::from,
+    );
+    let listed = std::fs::read_dir(data.join(folder)).expect("TAXEL_DATA names no folder of recordings");
+    let mut files: Vec<PathBuf> = listed.map(|file| file.unwrap().path()).collect();
+    files.retain(|path| path.to_string_lossy().ends_with(end));
+    files.sort();
+    assert!(!files.is_empty(), "{folder} holds no *{end}");
+    files
+}
+
+/// Every 16th frame of each posture and its last, and all trousers, as codes.
+fn codes() -> Vec<u16> {
+    let mut codes = Vec::new();
+    for path in [files("pmatdata", ".npz"), files("smart_garment", "-pants.npy")].concat() {
+        for (name, frames) in read_all(&path).unwrap() {
+            assert_eq!((frames.rows, frames.columns), (64, 32), "{} {name}", path.display());
+            let last = frames.count - 1;
+            let kept = frames.iter().enumerate().filter(|(n, _)| n % STEP == 0 || *n == last);
+            codes.extend(kept.flat_map(|(_, frame)| frame).map(|value| (*value).min(FULL_SCALE)));
+        }
+    }
+    codes
+}
+
+/// No drift on a mat that was not tared, and only so many frames as the link carries.
+fn scene() -> Scene {
+    let mut scene = Scene::shipped();
+    scene.rate_hz = RATE_HZ;
+    scene.condition.track_baseline = false;
+    scene
+}
+
+/// Keeps a report if it is one of those to compare.
+fn keep(kept: &mut Reports, report: &Report<'_>) {
+    let (frame, kind) = match report {
+        Report::Frame(frame) => (frame.frame, "Frame"),
+        Report::Contacts(list) => (list.frame, "Contacts"),
+        Report::Symbols(list) => (list.frame, "Symbols"),
+        Report::Intent(intent) => (intent.frame, "Intent"),
+        Report::Reaction(reaction) => (reaction.frame, "Reaction"),
+        _ => return,
+    };
+    kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));
+}
+
+/// What the board says of scans `played` to `last`, and when each scan began.
+fn from_board(board: &mut Emulated, played: u32, last: u32) -> (Reports, BTreeMap<u32, Micros>) {
+    let (mut reports, mut times, mut bytes) = (Reports::new(), BTreeMap::new(), 0);
+    let mut thinned = None;
+    // The image is the last report of a scan; the next health report tells whether one was left out.
+    while thinned.is_none() || !times.contains_key(&last) {
+        let message = board.receive();
+        let report = message.report();
+        bytes += message.wire_bytes;
+        keep(&mut reports, &report);
+        match report {
+            Report::Frame(frame) => _ = times.insert(frame.frame, frame.time),
+            Report::Health(health) if times.contains_key(&last) => {
+                thinned = Some((health.thinned_frames, health.thinned_contacts, health.lost, health.failed));
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(thinned, Some((0, 0, 0, 0)), "too fast for the link");
+    println!("{} bytes on the wire per frame", bytes / times.len());
+    reports.retain(|(frame, ..)| (played..=last).contains(frame));
+    (reports, times)
+}
+
+/// A board on this machine, fed with the same requests and scans.
+struct Twin {
+    board: Box<Board<TAXELS, 1024>>,
+    receiver: Receiver<8192>,
+    reports: Reports,
+}
+
+impl Twin {
+    fn new() -> Twin {
+        let info =
+            BoardInfo { firmware: "", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: 92_160 };
+        let board = Board::new(info, Garment::reference(), Scene::shipped()).unwrap();
+        Twin { board: Box::new(board), receiver: Receiver::new(), reports: Reports::new() }
+    }
+
+    fn ask(&mut self, request: &Request<'_>) {
+        let (mut body, mut wire) = (vec![0; 4096], vec![0; 4096]);
+        let length = encode(request, &mut body, &mut wire).unwrap();
+        self.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+    }
+
+    fn scan(&mut self, codes: &[Code], start: Micros) {
+        let report = ScanReport { start, duration_us: 0, overruns: 0 };
+        self.board.step(start, Input::Scanned(Ok(Scan { codes, report })), &mut ());
+        loop {
+            let bytes = self.board.pending(start, &mut ()).to_vec();
+            self.board.sent(bytes.len());
+            for byte in &bytes {
+                let Some(body) = self.receiver.push(*byte) else { continue };
+                keep(&mut self.reports, &decode::<(u32, Report<'_>)>(body.unwrap()).unwrap().1);
+            }
+            if bytes.is_empty() {
+                break;
+            }
+        }
+    }
+}
+
+#[test]
+fn recorded_people() {
+    let codes = codes();
+    let garment = postcard::to_allocvec(&Garment::mat()).unwrap();
+    let scene = postcard::to_allocvec(&scene()).unwrap();
+    let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
+    let mut board = Emulated::start(&Garment::mat(), &codes, 0);
+    let mut twin = Twin::new();
+    requests.iter().for_each(|request| board.obey(request));
+    let played = board.play();
+    let count = (codes.len() / TAXELS) as u32;
+    let last = played + count - 1;
+    let (reports, times) = from_board(&mut board, played, last);
+    let stats = board.stats();
+    println!("{count} frames in {} us; stack {}", stats["emulated_us"], stats["stack"]);
+    board.end();
+
+    // Before the requests the twin is shown the scans that the board did before it streamed.
+    let first = *times.keys().next().unwrap();
+    (1..first).for_each(|_| twin.scan(&[Code(0); TAXELS], Micros(0)));
+    requests.iter().for_each(|request| twin.ask(request));
+    for (number, time) in times.range(..=last) {
+        let frame = number.checked_sub(played).and_then(|n| codes.chunks(TAXELS).nth(n as usize));
+        let codes: Vec<Code> = frame.unwrap_or(&[0; TAXELS]).iter().map(|code| Code(*code)).collect();
+        twin.scan(&codes, *time);
+    }
+    twin.reports.retain(|(frame, ..)| (played..=last).contains(frame));
+    compare(&reports, &twin.reports);
+}
+
+fn compare(board: &Reports, host: &Reports) {
+    let (mut kinds, mut bytes) = (BTreeMap::new(), 0);
+    for (ours, theirs) in host.iter().zip(board) {
+        assert!(
+            ours == theirs,
+            "host {} of {}, board {} of {}:\n{:?}\n{:?}",
+            ours.1,
+            ours.0,
+            theirs.1,
+            theirs.0,
+            decode::<Report<'_>>(&ours.2),
+            decode::<Report<'_>>(&theirs.2)
+        );
+        *kinds.entry(ours.1).or_insert(0) += 1;
+        bytes += ours.2.len();
+    }
+    assert_eq!(board.len(), host.len());
+    println!("{bytes} bytes of reports are the same: {kinds:?}");
+    assert!(["Contacts", "Symbols", "Intent", "Frame"].iter().all(|kind| kinds.contains_key(kind)));
+}
