@@ -24,7 +24,7 @@ struct Bench {
 }
 
 fn info() -> BoardInfo {
-    let pins = Pins { outputs: 0x0300_1fcc, inputs: 0xf << 26 };
+    let pins = Pins { outputs: 0x031c_1fcc, inputs: 0xf << 26 };
     BoardInfo { firmware: "test 1.0", pins, full_scale: 4095, link_bytes_per_s: 92_160 }
 }
 
@@ -317,14 +317,17 @@ fn garbage_is_counted_and_loses_no_request() {
 fn jobs_that_fail_are_told() {
     let mut bench = Bench::new(Scene::shipped());
     bench.ask(&Request::Save);
-    let jobs: Vec<_> = std::iter::from_fn(|| bench.tick()).take_while(|job| !matches!(job, Job::Scan(_))).collect();
+    let jobs: Vec<_> =
+        std::iter::from_fn(|| bench.tick()).take_while(|job| !matches!(job, Job::Scan(_))).collect();
     assert_eq!(jobs.last(), Some(&Job::Start(Work::Save)));
     bench.board.step(Micros(0), Input::Done(Work::Save, Err("no flash")), &mut ());
     let error = ScanError::Converter { input: 26, taxel: 5 };
     bench.board.step(Micros(0), Input::Scanned(Err(error)), &mut ());
     let mut told = Vec::new();
     bench.drain(usize::MAX, |report| match report {
-        Report::Answer(answer) => told.push(format!("{} {}", answer.request, answer.refusal.unwrap_or("yes"))),
+        Report::Answer(answer) => {
+            told.push(format!("{} {}", answer.request, answer.refusal.unwrap_or("yes")))
+        }
         Report::Log(log) => told.push(log.text.to_string()),
         _ => {}
     });

@@ -39,9 +39,10 @@ fn perceive(script: &Script) -> Course {
         course.led.push(meaning.leading);
         if let Some(why) = pipeline.intent().and_then(|intent| intent.why(state.intent())) {
             let names = pipeline.intent().expect("it is on").map().concepts();
-            let parts = why.parts.iter().map(|part| {
-                format!("{} {:+.2}", names[usize::from(part.from)], part.value.to_f64())
-            });
+            let parts = why
+                .parts
+                .iter()
+                .map(|part| format!("{} {:+.2}", names[usize::from(part.from)], part.value.to_f64()));
             course.reason =
                 format!("{} because {}", meaning.leading.as_str(), parts.collect::<Vec<_>>().join(", "));
         }
@@ -94,14 +95,21 @@ fn controls() {
     ];
     for (name, course) in &cases {
         let led: Vec<_> = course.led.iter().map(|leading| leading.as_str()).collect();
-        println!("{name}: {}; {}", if led.is_empty() { "none".into() } else { led.join(", ") }, course.reason);
+        println!(
+            "{name}: {}; {}",
+            if led.is_empty() { "none".into() } else { led.join(", ") },
+            course.reason
+        );
     }
     let led = |index: usize, leading| cases[index].1.led.contains(&leading);
     assert!(led(0, Leading::Kindness) && led(1, Leading::Attack));
     assert!(!led(2, Leading::Attack), "a lash without force is no attack");
     // Its slow rise passes through forces at which a palm is kind.
     let end = cases[3].1.led.iter().rev().find(|leading| **leading != Leading::None);
-    assert!(!led(3, Leading::Attack) && end == Some(&Leading::Threat), "a strong hold is no blow, but a threat");
+    assert!(
+        !led(3, Leading::Attack) && end == Some(&Leading::Threat),
+        "a strong hold is no blow, but a threat"
+    );
     assert!(cases[4].1.led.is_empty(), "nothing touches an idle garment");
     assert!(!led(5, Leading::Attack), "quick pats are no blows");
 }

@@ -133,6 +133,13 @@ impl Bench {
     }
 }
 
+/// The block of 4 x 16 with its rows behind a decoder: binary on GP7 and GP8.
+fn binary_block() -> Garment {
+    let mut garment = Garment::block();
+    garment.wiring.row = Garment::reference().wiring.row;
+    garment
+}
+
 fn set(level: bool) -> PinTransaction {
     PinTransaction::set(if level { State::High } else { State::Low })
 }
@@ -162,7 +169,7 @@ fn one_block_is_scanned_in_exactly_this_order() {
     let pins: Vec<_> = [7, 8, 9, 10, 11, 12].map(driven).into();
     assert_eq!(pins.iter().map(|(_, t)| t.len()).collect::<Vec<_>>(), [4, 2, 64, 32, 16, 8]);
     let reads: Vec<_> = (0..64).map(|taxel| (26, Ok(taxel * 10))).collect();
-    let (codes, events) = Bench::new(&pins, &reads).scan(&Garment::block(), 1);
+    let (codes, events) = Bench::new(&pins, &reads).scan(&binary_block(), 1);
     assert_eq!(codes.unwrap(), (0..64).map(|taxel| taxel * 10).collect::<Vec<_>>());
     assert_eq!(events, expected);
     let first: Vec<String> = events.iter().take(12).map(|e| format!("{e:?}")).collect();
@@ -175,7 +182,7 @@ fn one_block_is_scanned_in_exactly_this_order() {
 
 #[test]
 fn a_second_scan_drives_only_what_changed() {
-    let mut garment = Garment::block();
+    let mut garment = binary_block();
     garment.panels[0].rows = 1;
     garment.panels[0].columns = 2;
     garment.blocks[0].rows = 1;
@@ -197,7 +204,7 @@ fn a_second_scan_drives_only_what_changed() {
 /// Two blocks of 2 x 3 on two inputs: one-hot rows on inverted lines GP12 and GP13, a column multiplexer on GP3 and GP4
 /// whose high bit is inverted, one enable of each polarity.
 fn mixed() -> Garment {
-    let mut garment = Garment::block();
+    let mut garment = binary_block();
     let wiring = &mut garment.wiring;
     wiring.row.coding = Coding::OneHot;
     wiring.row.lines = [12, 13].map(|pin| Line { pin, inverted: true }).into_iter().collect();
@@ -258,7 +265,7 @@ fn errors_name_the_line_and_the_taxel() {
     let mut pins: Vec<_> = (7..13).map(|pin| (pin, vec![set(false)])).collect();
     // GP9, the lowest column bit, fails as it is to select taxel 1.
     pins[2].1.push(set(true).with_error(broken));
-    let (result, events) = Bench::new(&pins, &[(26, Ok(1))]).scan(&Garment::block(), 1);
+    let (result, events) = Bench::new(&pins, &[(26, Ok(1))]).scan(&binary_block(), 1);
     assert_eq!(result, Err(ScanError::Line { pin: 9, taxel: 1 }));
     assert_eq!(result.unwrap_err().to_string(), "select line on pin 9 cannot be driven (at taxel 1)");
     assert_eq!(events.last(), Some(&Event::Set(9, true)));
@@ -266,19 +273,19 @@ fn errors_name_the_line_and_the_taxel() {
     let pins: Vec<_> = (7..13)
         .map(|pin| (pin, if pin == 9 { vec![set(false), set(true)] } else { vec![set(false)] }))
         .collect();
-    let (result, _) = Bench::new(&pins, &[(26, Ok(1)), (26, Err(()))]).scan(&Garment::block(), 1);
+    let (result, _) = Bench::new(&pins, &[(26, Ok(1)), (26, Err(()))]).scan(&binary_block(), 1);
     assert_eq!(result, Err(ScanError::Converter { input: 26, taxel: 1 }));
     assert_eq!(result.unwrap_err().to_string(), "converter input on pin 26 gave no sample (at taxel 1)");
 
     let pins: Vec<_> = (7..12).map(|pin| (pin, vec![])).collect();
-    let (result, _) = Bench::new(&pins, &[]).scan(&Garment::block(), 1);
+    let (result, _) = Bench::new(&pins, &[]).scan(&binary_block(), 1);
     assert_eq!(result, Err(ScanError::NoPin(12)));
 }
 
 #[test]
 fn after_a_failed_line_every_line_is_driven_anew() {
     let broken = MockError::Io(std::io::ErrorKind::BrokenPipe);
-    let mut garment = Garment::block();
+    let mut garment = binary_block();
     garment.panels[0].rows = 1;
     garment.panels[0].columns = 2;
     garment.blocks[0].rows = 1;
@@ -398,7 +405,7 @@ fn crosstalk_makes_ghosts_on_the_rows_and_columns_of_the_block() {
 
 #[test]
 fn the_converter_of_the_rp2040_has_wide_codes() {
-    let garment = Garment::block();
+    let garment = binary_block();
     let text = "duration_s = 1\n[idle]\nbase_code = 520\nspread_counts = 0\nnoise_counts = 0\n[converter]\ndnl = true";
     let script = Script::parse(text, "dnl.toml").unwrap();
     assert!(scanned(&script, &garment, 1).iter().all(|code| *code < 517));

@@ -140,8 +140,9 @@ pub struct Percept<'a> {
 impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, RUNS> {
     fn default() -> Self {
         PipelineState {
-            condition: ConditionState::new(),
-            contact: ContactState::new(),
+            // Constants: written where they belong, without a copy on the stack.
+            condition: const { ConditionState::new() },
+            contact: const { ContactState::new() },
             present: Vec::new(),
             released: Vec::new(),
             symbol: SymbolState::default(),

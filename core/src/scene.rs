@@ -123,8 +123,8 @@ impl Scene {
             .collect(),
             joints: [name("left_elbow"), name("right_elbow")].into_iter().collect(),
             react: [
-                reaction("over-pressure", Cause::Pressure, 3_600, 400, 24),
-                reaction("flinch", Cause::Leading(crate::intent::Leading::Attack), 1, 0, 25),
+                reaction("over-pressure", Cause::Pressure, 3_600, 400, 18),
+                reaction("flinch", Cause::Leading(crate::intent::Leading::Attack), 1, 0, 19),
             ]
             .into_iter()
             .collect(),

@@ -99,13 +99,13 @@ pub enum Span {
 pub struct Words {
     /// How hard, at its hardest so far.
     pub strength: Strength,
-    /// How large.
+    /// How large, at its largest so far.
     pub extent: Extent,
     /// How long so far.
     pub span: Span,
     /// It slides over the surface.
     pub moving: bool,
-    /// What shape.
+    /// What shape, while it presses with at least half of its greatest total: what is left of it later has another.
     pub class: Class,
 }
 
@@ -151,7 +151,7 @@ pub struct SymbolState<const CONTACTS: usize> {
     regions: [RegionState; PANELS],
 }
 
-/// Most events of one frame: the rest is counted in [`SymbolState::dropped`] of the frame, newest dropped.
+/// Most events of one frame, and of one message; those beyond are not said.
 pub const EVENTS: usize = 32;
 
 impl<const CONTACTS: usize> Default for SymbolState<CONTACTS> {
@@ -183,11 +183,9 @@ pub struct Symbols {
 fn word(measure: u32, limits: &[u32], before: Option<usize>) -> usize {
     let plain = limits.iter().take_while(|limit| measure >= **limit).count();
     match before {
-        Some(before) if plain > before => limits
-            .iter()
-            .take_while(|limit| measure >= limit.saturating_add(**limit / 8))
-            .count()
-            .max(before),
+        Some(before) if plain > before => {
+            limits.iter().take_while(|limit| measure >= limit.saturating_add(**limit / 8)).count().max(before)
+        }
         Some(before) if plain < before => {
             limits.iter().take_while(|limit| measure >= **limit - **limit / 8).count().min(before)
         }
@@ -234,7 +232,8 @@ impl Symbols {
         let contact = &placed.contact;
         let strength = word(contact.peak_total, &self.config.strength, before.map(|w| w.strength as usize));
         let limits = self.config.extent.map(u32::from);
-        let extent = word(contact.area.into(), &limits, before.map(|w| w.extent as usize));
+        let largest = before.map_or(0, |w| w.extent as usize);
+        let extent = word(contact.area.into(), &limits, Some(largest)).max(largest);
         let span = word(contact.duration_ms, &self.config.span_ms, None);
         Words {
             strength: match strength {
@@ -254,7 +253,10 @@ impl Symbols {
                 _ => Span::Long,
             },
             moving: contact.slip,
-            class: placed.shape.class,
+            class: match before {
+                Some(before) if contact.total < contact.peak_total / 2 => before.class,
+                _ => placed.shape.class,
+            },
         }
     }
 }
@@ -281,5 +283,40 @@ fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) 
             state.moving |= placed.contact.slip;
         }
         state.since = if before.0 == (state.contacts > 0) { before.1 } else { now };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    #[test]
+    fn a_word_moves_only_past_an_eighth_of_its_limit() {
+        let limits = [80, 800];
+        let course = |measures: &[u32]| {
+            let mut said = None;
+            let mut words = std::vec::Vec::new();
+            for measure in measures {
+                said = Some(word(*measure, &limits, said));
+                words.extend(said);
+            }
+            words
+        };
+        assert_eq!(course(&[79, 80, 89, 90, 80, 71, 70, 69]), [0, 0, 0, 1, 1, 1, 1, 0]);
+        assert_eq!(course(&[80, 899, 900, 700, 699, 0]), [1, 1, 2, 2, 1, 0]);
+        assert_eq!(course(&[5000, 75, 0]), [2, 1, 0]);
+    }
+
+    #[test]
+    fn limits_that_do_not_rise_are_refused_by_name() {
+        let refused = |edit: fn(&mut SymbolConfig)| {
+            let mut config = SymbolConfig::default();
+            edit(&mut config);
+            config.build().unwrap_err().parameter
+        };
+        assert_eq!(refused(|c| c.strength[1] = c.strength[0]), "symbol.strength");
+        assert_eq!(refused(|c| c.extent = [9, 8]), "symbol.extent");
+        assert_eq!(refused(|c| c.span_ms = [800, 150]), "symbol.span_ms");
     }
 }

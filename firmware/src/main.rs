@@ -62,7 +62,10 @@ async fn main(_spawner: Spawner) {
             Ok(setup) => Board::with(info, setup),
             Err(error) => {
                 // Nothing feeds the watchdog from here on, so the board starts again and says so again.
-                return defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
+                return defmt::error!(
+                    "what ships does not fit this board: {}",
+                    defmt::Display2Format(&error)
+                );
             }
         };
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

@@ -3,7 +3,7 @@
 use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
-use crate::{firmware, install, locks, paths, process};
+use crate::{firmware, install, locks, paths, process, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -21,8 +21,9 @@ const CHECKS: &[(&str, Check)] = &[
     ("firmware", build_firmware),
     ("firmware-clippy", firmware_clippy),
     ("emulator-units", emulator_units),
-    ("emulator", emulator),
-    ("recorded", recorded),
+    ("emulator", targets::emulator),
+    ("recorded", targets::recorded),
+    ("emulator-recorded", targets::emulator_recorded),
 ];
 
 /// Lines of a failed check's log that are shown.
@@ -86,7 +87,8 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
     }
 }
 
-fn cargo(args: &[&str], folder: PathBuf) -> Command {
+/// Cargo in a folder.
+pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     let mut command = Command::new("cargo");
     command.args(args).current_dir(folder);
     command
@@ -131,7 +133,7 @@ fn build_firmware(log: &Path) -> Result<Result<(), String>, String> {
 }
 
 /// The firmware as its lock file says; built at once where nothing has changed.
-fn image(toolchain: &Toolchain, log: &Path) -> Result<firmware::Image, String> {
+pub fn image(toolchain: &Toolchain, log: &Path) -> Result<firmware::Image, String> {
     process::run_into(firmware::command(toolchain).arg("--locked"), log).and_then(|()| firmware::measure())
 }
 
@@ -149,34 +151,4 @@ fn emulator_units(log: &Path) -> Result<Result<(), String>, String> {
     let mut node = Command::new("node");
     node.args(["--test", "--test-reporter=tap"]).current_dir(paths::emulator());
     Ok(process::run_into(&mut node, log))
-}
-
-fn emulator(log: &Path) -> Result<Result<(), String>, String> {
-    if !has_test("emulator") {
-        return Err("there is no such test yet".into());
-    }
-    install::emulator()?;
-    let image = match image(&Toolchain::find()?, log) {
-        Ok(image) => image,
-        Err(why) => return Ok(Err(why)),
-    };
-    let mut command = cargo(&["test", "--package", "taxel-tests", "--test", "emulator"], paths::root());
-    Ok(process::run_into(command.env("TAXEL_FIRMWARE_ELF", image.elf), log))
-}
-
-fn recorded(log: &Path) -> Result<Result<(), String>, String> {
-    if !has_test("recorded") {
-        return Err("there is no such test yet".into());
-    }
-    let data = paths::recorded_data();
-    if !data.is_dir() {
-        return Err(format!("no recorded data in {} (TAXEL_DATA names another folder)", data.display()));
-    }
-    let mut command = cargo(&["test", "--package", "taxel-tests", "--test", "recorded"], paths::root());
-    Ok(process::run_into(command.env("TAXEL_DATA", data), log))
-}
-
-fn has_test(name: &str) -> bool {
-    let manifest = std::fs::read_to_string(paths::root().join("tests/Cargo.toml")).unwrap_or_default();
-    manifest.lines().any(|line| line.trim() == format!("name = \"{name}\""))
 }

@@ -10,6 +10,7 @@ mod locks;
 mod paths;
 mod process;
 mod report;
+mod targets;
 mod uf2;
 
 use std::process::ExitCode;
@@ -20,6 +21,7 @@ usage: cargo xtask COMMAND
   firmware              build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
+  recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
   test [--only NAME] [--may-miss NAME]
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         }),
         Some("core-thumb") => firmware::build_core().map(|()| true),
         Some("emulator") => firmware::emulate(rest).map(|()| true),
+        Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("test") => checks::run(rest),
         _ => Err(USAGE.to_string()),
     };

@@ -70,8 +70,6 @@ pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     slots: heapless::Vec<u8, 32>,
     wired: heapless::Vec<u8, 32>,
     driven: Option<u32>,
-    /// By column, how its word differs from that of column 0; the same for every block and row.
-    columns: [u32; COLUMNS],
 }
 
 impl<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'l, P, D, A, C, PINS, TAXELS>
@@ -92,7 +90,6 @@ where
             slots: heapless::Vec::new(),
             wired: heapless::Vec::new(),
             driven: None,
-            columns: [0; COLUMNS],
         }
     }
 
@@ -129,7 +126,13 @@ where
     }
 
     /// All addresses of the blocks that share one select code.
-    fn scan_select(&mut self, circuit: &Circuit, plan: &Plan, sites: &[Site]) -> Result<(), ScanError> {
+    fn scan_select(
+        &mut self,
+        circuit: &Circuit,
+        plan: &Plan,
+        columns: &Columns,
+        sites: &[Site],
+    ) -> Result<(), ScanError> {
         let mut cursors = Cursors::new();
         for site in sites.iter().filter(|s| plan.reads(s.panel, s.block)) {
             let _ = cursors.push(Cursor::new(site)); // a circuit has at most BLOCKS of them
@@ -137,9 +140,9 @@ where
         let select = sites.first().map_or(0, |s| s.select);
         for row in 0..cursors.iter().map(|c| c.rows).max().unwrap_or(0) {
             cursors.iter_mut().for_each(|c| c.enter_row(row));
-            let columns = cursors.iter().map(|c| c.columns_here).max().unwrap_or(0);
+            let width = cursors.iter().map(|c| c.columns_here).max().unwrap_or(0);
             let word = circuit.word(select, row, 0);
-            for (column, change) in (0..columns).zip(self.columns) {
+            for (column, change) in (0..width).zip(columns) {
                 self.apply(word ^ change).map_err(|pin| lost(pin, &cursors, column))?;
                 self.delay.delay_ns(circuit.settle_ns());
                 self.read(&mut cursors, column, plan.depth)?;
@@ -152,7 +155,8 @@ where
     fn read(&mut self, cursors: &mut Cursors, column: u8, depth: Depth) -> Result<(), ScanError> {
         for cursor in cursors.iter_mut().filter(|c| column < c.columns_here) {
             let Cursor { input, taxel, .. } = *cursor;
-            let code = self.adc.read(input).map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?;
+            let code =
+                self.adc.read(input).map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?;
             if let Some(slot) = self.codes.get_mut(taxel as usize) {
                 *slot = Code(depth.keep(code));
             }
@@ -160,6 +164,17 @@ where
         }
         Ok(())
     }
+}
+
+/// By column, how its word differs from that of column 0 under the same select code and row.
+type Columns = heapless::Vec<u32, { u8::MAX as usize }>;
+
+fn column_changes(circuit: &Circuit) -> Columns {
+    let mut changes = Columns::new();
+    for column in 0..circuit.sites().iter().map(|s| s.columns).max().unwrap_or(0) {
+        let _ = changes.push(circuit.word(0, 0, column) ^ circuit.word(0, 0, 0)); // as many as fit u8
+    }
+    changes
 }
 
 /// A select line failed: names the first taxel that it was to select.
@@ -189,7 +204,16 @@ struct Cursor {
 impl Cursor {
     fn new(site: &Site) -> Cursor {
         let Site { input, rows, columns, origin, row_step, column_step, .. } = *site;
-        Cursor { input, rows, columns, columns_here: 0, taxel: origin, next_row: origin, row_step, column_step }
+        Cursor {
+            input,
+            rows,
+            columns,
+            columns_here: 0,
+            taxel: origin,
+            next_row: origin,
+            row_step,
+            column_step,
+        }
     }
 
     fn enter_row(&mut self, row: u8) {
@@ -208,15 +232,13 @@ where
 {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
         self.rewire(circuit)?;
-        for (column, change) in (0..=u8::MAX).zip(&mut self.columns) {
-            *change = circuit.word(0, 0, 0) ^ circuit.word(0, 0, column);
-        }
+        let columns = column_changes(circuit);
         let start = self.clock.now();
         let mut rest = circuit.sites();
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|s| s.select == first.select).count();
             let (now, later) = rest.split_at_checked(count).unwrap_or((rest, &[]));
-            self.scan_select(circuit, plan, now)?;
+            self.scan_select(circuit, plan, &columns, now)?;
             rest = later;
         }
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;

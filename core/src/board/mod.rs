@@ -76,23 +76,17 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         Ok(Board::with(info, Setup::build(&info, garment, scene, TAXELS)?))
     }
 
-    /// A board with a setup built before. It is made where the caller keeps it: the stack of a microcontroller holds its
-    /// parts, one after the other, but not the whole.
+    /// A board with a setup built before. It is made where the caller keeps it, part by part: the stack of a microcontroller
+    /// has no room for the whole.
     #[inline(never)]
     pub fn with(info: BoardInfo, setup: Setup) -> Self {
-        let mut state = PipelineState::default();
-        state.reset(&setup.layout, setup.circuit.falling(), info.full_scale);
-        let mut outbox = Outbox::new();
-        outbox.pace(&setup.scene.stream);
-        let mut jobs = Deque::new();
-        put_to_rest(&setup, &mut jobs);
         Board {
             info,
             scans: Pace::new(setup.scan_rate()),
-            state,
+            state: at_rest(&info, &setup),
             inbox: Receiver::new(),
-            outbox,
-            jobs,
+            outbox: Outbox::new(&setup.scene.stream),
+            jobs: put_to_rest(&setup),
             scanning: false,
             health: Health::default(),
             scanned: None,
@@ -117,7 +111,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
         self.taring = false;
-        put_to_rest(&self.setup, &mut self.jobs);
+        for job in put_to_rest(&self.setup) {
+            let _ = self.jobs.push_back(job);
+        }
     }
 
     /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
@@ -131,7 +127,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 self.outbox.log(format_args!("scan: {error}"));
             }
             Input::Done(work, result) => {
-                self.outbox.answer(request::number_of(work), result.err().map(|why| format_args!("{why}").into()));
+                self.outbox
+                    .answer(request::number_of(work), result.err().map(|why| format_args!("{why}").into()));
             }
             Input::Tick => return self.next_job(now),
         }
@@ -167,8 +164,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.health.scan_us = scan.report.duration_us;
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
-        let percept =
-            pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
+        let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
         for change in percept.reactions.changes() {
             if let Some(line) = pipeline.reactions().output(change.index) {
                 let _ = self.jobs.push_back(Job::Drive(line.pin, change.active != line.inverted));
@@ -215,18 +211,31 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 }
 
+/// What the stages remember of a garment that was just put on.
+#[inline(never)]
+fn at_rest<const TAXELS: usize, const RUNS: usize>(
+    info: &BoardInfo,
+    setup: &Setup,
+) -> PipelineState<TAXELS, RUNS> {
+    let mut state = PipelineState::default();
+    state.reset(&setup.layout, setup.circuit.falling(), info.full_scale);
+    state
+}
+
 /// Drives the outputs of all reactions to where they are when nothing happens.
-fn put_to_rest(setup: &Setup, jobs: &mut Jobs) {
+fn put_to_rest(setup: &Setup) -> Jobs {
+    let mut jobs = Jobs::new();
     for line in setup.pipeline.reactions().outputs() {
         let _ = jobs.push_back(Job::Drive(line.pin, line.inverted));
     }
+    jobs
 }
 
 /// What is to be done between two scans.
 type Jobs = Deque<Job, 16>;
 
 /// A sentence of the board, cut where it gets too long.
-type Sentence = String<120>;
+type Sentence = String<112>;
 
 /// Codes to be sent raw, kept until the link has room.
 type Codes<const TAXELS: usize> = Vec<Code, TAXELS>;

@@ -80,8 +80,9 @@ struct Image<const TAXELS: usize> {
 }
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    pub fn new() -> Self {
-        let never = Pace::new(0);
+    /// Nothing waits yet.
+    #[inline(never)]
+    pub fn new(stream: &StreamConfig) -> Self {
         Outbox {
             seq: 0,
             body: [0; BODY],
@@ -105,12 +106,12 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             image: Image { due: None, base: None, key: Micros(0), last: [0; TAXELS] },
             raw: None,
             codes: Codes::new(),
-            contact_pace: never,
-            frame_pace: never,
-            raw_pace: never,
-            key_us: 0,
-            tell_symbols: false,
-            tell_intent: false,
+            contact_pace: Pace::new(stream.contacts_hz),
+            frame_pace: Pace::new(stream.frames_hz),
+            raw_pace: Pace::new(stream.raw_hz),
+            key_us: 1000 * u64::from(stream.key_ms),
+            tell_symbols: stream.symbols,
+            tell_intent: stream.intent,
         }
     }
 

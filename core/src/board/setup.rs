@@ -79,7 +79,8 @@ impl Setup {
         scene: Scene,
         capacity: usize,
     ) -> Result<Setup, SetupError> {
-        let layout = Layout::build(&garment, capacity, info.full_scale)?;
+        // A gain may take a conditioned value past the converter's range.
+        let layout = Layout::build(&garment, capacity, u16::MAX)?;
         let circuit = Circuit::build(&garment, &layout, info.pins)?;
         let pipeline = checked(info, &scene, &layout, &circuit)?;
         Ok(Setup { garment, scene, layout, circuit, pipeline })

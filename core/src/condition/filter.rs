@@ -14,6 +14,7 @@ pub(super) fn conservative(above: Option<&[u16]>, here: &[u16], below: Option<&[
 }
 
 /// One row, column by column: the range of the taxels above and below, and the taxel.
+#[inline(never)]
 fn smooth(mut columns: impl Iterator<Item = (Range, u32)>, out: &mut [u16]) {
     let Some((mut ends, mut value)) = columns.next() else { return };
     let mut left = Range::NONE;
@@ -61,6 +62,7 @@ impl Range {
 ///
 /// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
 /// median middle and the smallest high one (Smith 1996; 113 cycles per taxel on a Cortex-M0+ instead of 350).
+#[inline(never)]
 pub(super) fn median(above: &[u16], here: &[u16], below: &[u16], out: &mut [u16]) {
     let mut columns =
         above.iter().zip(here).zip(below).map(|((a, h), b)| sorted((*a).into(), (*h).into(), (*b).into()));

@@ -7,6 +7,7 @@
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none |
 //! | RAM | 8 bytes per taxel and 280 bytes |
+//! | M0+ cycles | reference garment: 40 k where nothing touches (20 per taxel); 73 k with one contact of 29 taxels; 430 k (conservative), 500 k (median), 150 k (off) if all 2,048 taxels are touched |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
 //! pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel, across the seams of its blocks.

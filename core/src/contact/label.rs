@@ -46,6 +46,19 @@ impl Run {
     };
 }
 
+/// Length, sum and greatest value of the run that a slice begins with.
+#[inline(never)]
+fn measure(values: &[u16], low: u16) -> (usize, u32, u16) {
+    let (mut length, mut mass, mut peak) = (0, 0u32, 0u32);
+    for value in values.iter().take_while(|value| **value >= low) {
+        let value = u32::from(*value);
+        mass = mass.wrapping_add(value);
+        peak = peak.max(value);
+        length += 1;
+    }
+    (length, mass, peak as u16)
+}
+
 /// A place as one word, in the order of the runs.
 const fn key(row: u16, column: u16) -> u32 {
     (row as u32) << 16 | column as u32
@@ -103,18 +116,12 @@ impl<const RUNS: usize> Labels<RUNS> {
         let (mut rest, mut column) = (values, 0);
         while let Some(skipped) = rest.iter().position(|value| *value >= low) {
             rest = rest.get(skipped..).unwrap_or(&[]);
-            let (mut length, mut mass, mut peak) = (0, 0u32, 0u32);
-            for value in rest.iter().take_while(|value| **value >= low) {
-                let value = u32::from(*value);
-                mass = mass.wrapping_add(value);
-                peak = peak.max(value);
-                length += 1;
-            }
+            let (length, mass, peak) = measure(rest, low);
             let left = column + skipped;
             column = left + length;
             rest = rest.get(length..).unwrap_or(&[]);
             let (left, right) = (left as u16, (column - 1) as u16);
-            self.push(Run { left, right, mass, peak: peak as u16, row, panel, ..Run::EMPTY });
+            self.push(Run { left, right, mass, peak, row, panel, ..Run::EMPTY });
         }
     }
 

@@ -53,6 +53,7 @@ impl Moments {
 
     /// At most [`PIECE`] taxels. From the last to the first, three running sums hold
     /// `sum f`, `sum (i + 1) f` and `sum (i + 1)(i + 2) / 2 f`: no multiplication by a coordinate per taxel.
+    #[inline(never)]
     fn of_piece(x: u32, y: u32, values: &[u16]) -> Moments {
         let (mut s0, mut s1, mut s2) = (0u32, 0u32, 0u32);
         for value in values.iter().rev() {

@@ -215,8 +215,7 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
     let (x_step, x0) = if turn.mirror_x { (-1, width as i32 - 1) } else { (1, 0) };
     let (y_step, y0) = if turn.mirror_y { (-stride, height as i32 - 1) } else { (stride, 0) };
     let (row_step, column_step) = if turn.transposed { (x_step, y_step) } else { (y_step, x_step) };
-    let origin =
-        i32::from(area.base) + (i32::from(block.row) + y0) * stride + i32::from(block.column) + x0;
+    let origin = i32::from(area.base) + (i32::from(block.row) + y0) * stride + i32::from(block.column) + x0;
     Site {
         block: index as u8,
         panel: block.panel,

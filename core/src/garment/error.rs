@@ -115,10 +115,9 @@ impl fmt::Display for GarmentError {
                 write!(f, "seam {seam}: it is empty or leaves the {side:?} side of panel {panel}")
             }
             Overlap(a, b) => write!(f, "blocks {a} and {b}: they cover the same taxel"),
-            Uncovered { panel, row, column } => write!(
-                f,
-                "panel {panel}: row {row}, column {column} lies in no block and is not absent"
-            ),
+            Uncovered { panel, row, column } => {
+                write!(f, "panel {panel}: row {row}, column {column} lies in no block and is not absent")
+            }
             SameSelect(a, b) => write!(f, "blocks {a} and {b}: same select code on the same input"),
             Code { block, group, code, codes } => write!(
                 f,

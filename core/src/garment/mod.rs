@@ -14,8 +14,8 @@ mod seam;
 
 pub use circuit::{Circuit, Pins, Site};
 pub use config::{
-    Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, Panel, SEAMS, Seam,
-    Side, Wiring,
+    Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, Panel, SEAMS,
+    Seam, Side, Wiring,
 };
 pub use error::GarmentError;
 pub use layout::{Area, Layout, Place, Rect};

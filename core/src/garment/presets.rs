@@ -1,6 +1,6 @@
 //! Garments that come with the program.
 
-use super::config::{Block, Edge, Garment, Group, Line, Orientation, Panel, Seam, Side, Wiring};
+use super::config::{Block, Coding, Edge, Garment, Group, Line, Orientation, Panel, Seam, Side, Wiring};
 use crate::format::name;
 use heapless::Vec;
 
@@ -60,18 +60,18 @@ impl Garment {
         for input in 0..4u8 {
             for select in 0..8u8 {
                 let row = u16::from(input) * 16 + u16::from(select / 2) * 4;
-                let _ =
-                    garment.blocks.push(block(0, row, u16::from(select % 2) * 16, GP26 + input, select));
+                let _ = garment.blocks.push(block(0, row, u16::from(select % 2) * 16, GP26 + input, select));
             }
         }
         garment
     }
 
-    /// The first thing to solder: one block of 4 x 16, one 16-channel multiplexer for the columns, two row lines, one
-    /// converter input.
+    /// The first thing to solder: one block of 4 x 16, its four rows driven by GP2, GP3, GP6 and GP7 themselves, its sixteen
+    /// columns through one multiplexer (GP9-GP12) to one converter input (GP26).
     pub fn block() -> Garment {
         let mut garment = plain("block-4x16", 4, 16);
         garment.wiring.block.lines.clear();
+        garment.wiring.row = Group { coding: Coding::OneHot, ..lines(&[2, 3, 6, 7]) };
         let _ = garment.blocks.push(block(0, 0, 0, GP26, 0));
         garment
     }
@@ -108,10 +108,6 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
 /// Nine address lines on the pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block (GP2, GP3,
 /// GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
 fn reference_wiring() -> Wiring {
-    let lines = |pins: &[u8]| Group {
-        lines: pins.iter().map(|pin| Line { pin: *pin, inverted: false }).collect(),
-        ..Group::default()
-    };
     Wiring {
         block: lines(&[2, 3, 6]),
         row: lines(&[7, 8]),
@@ -120,6 +116,10 @@ fn reference_wiring() -> Wiring {
         settle_ns: 3_000,
         falling: false,
     }
+}
+
+fn lines(pins: &[u8]) -> Group {
+    Group { lines: pins.iter().map(|pin| Line { pin: *pin, inverted: false }).collect(), ..Group::default() }
 }
 
 fn block(panel: u8, row: u16, column: u16, input: u8, select: u8) -> Block {

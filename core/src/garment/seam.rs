@@ -95,11 +95,7 @@ impl Joint {
             dy: 0,
         };
         let (x, y) = linear.apply(i64::from(b_at.0), i64::from(b_at.1), 1);
-        let b_to_a = Transform {
-            dx: a_at.0 + a_out.0 - x as i32,
-            dy: a_at.1 + a_out.1 - y as i32,
-            ..linear
-        };
+        let b_to_a = Transform { dx: a_at.0 + a_out.0 - x as i32, dy: a_at.1 + a_out.1 - y as i32, ..linear };
         Ok(Joint {
             a: seam.a.panel,
             b: seam.b.panel,
@@ -130,7 +126,12 @@ impl Joint {
 type Point = (i32, i32);
 
 /// First taxel, direction along and direction out of a stretch of a panel's side.
-fn stretch(seam: usize, edge: &Edge, length: u16, area: &Area) -> Result<(Point, Point, Point), GarmentError> {
+fn stretch(
+    seam: usize,
+    edge: &Edge,
+    length: u16,
+    area: &Area,
+) -> Result<(Point, Point, Point), GarmentError> {
     let (right, bottom) = (i32::from(area.columns) - 1, i32::from(area.rows) - 1);
     let start = i32::from(edge.start);
     let (first, along, out, side_length) = match edge.side {

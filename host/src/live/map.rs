@@ -8,6 +8,8 @@ use ratatui::style::{Color, Modifier, Style};
 use taxel_core::garment::{Area, Layout};
 
 const WHITE: Rgb = [255; 3];
+/// Characters between two panels.
+const GAP: u16 = 2;
 /// A place of a panel without a taxel.
 const ABSENT: Rgb = [0; 3];
 
@@ -54,32 +56,59 @@ impl Zoom {
     }
 }
 
-/// Draws all panels into `space`, as large as they fit.
-pub fn draw(client: &Client, top: u16, space: Rect, buffer: &mut Buffer) {
-    let Some(layout) = client.layout() else { return };
-    let count = layout.areas().len() as u16;
-    let cell = |across: u16| {
-        let down = count.div_ceil(across);
-        (space.width / across, space.height / down)
-    };
-    let size = |across: &u16| {
-        let (width, height) = cell(*across);
-        let pixels = (width.saturating_sub(1), height.saturating_sub(1) * 2);
-        let fits = |area: &Area| match Zoom::fit(area, pixels.0, pixels.1) {
-            Zoom::Up(up) => i32::from(up),
-            Zoom::Down(down) => -i32::from(down),
+/// How the panels are laid out: `across` of them beside each other, each in a cell of so many characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Grid {
+    across: u16,
+    cell: [u16; 2],
+}
+
+impl Grid {
+    /// The grid that shows all panels of a garment as large as they fit; none where nothing fits.
+    pub fn fit(layout: &Layout, space: Rect) -> Option<Grid> {
+        let count = layout.areas().len() as u16;
+        let grid = |across: u16| Grid {
+            across,
+            cell: [space.width / across, space.height / count.div_ceil(across)],
         };
-        layout.areas().iter().map(fits).min().unwrap_or(0)
-    };
-    let Some(across) = (1..=count).rev().max_by_key(size) else { return };
-    let (width, height) = cell(across);
-    if width < 2 || height < 2 {
-        return;
+        let size = |across: &u16| {
+            let fits = |area: &Area| match grid(*across).zoom(area) {
+                Zoom::Up(up) => i32::from(up),
+                Zoom::Down(down) => -i32::from(down),
+            };
+            layout.areas().iter().map(fits).min()
+        };
+        // Of equals the narrowest, so that most is left beside.
+        let mut grid = grid((1..=count).rev().max_by_key(size)?);
+        if grid.cell[0] < 2 || grid.cell[1] < 2 {
+            return None;
+        }
+        let widest = layout.areas().iter().map(|area| grid.zoom(area).pixels(area.columns) + GAP).max();
+        grid.cell[0] = grid.cell[0].min(widest?);
+        Some(grid)
     }
-    for (index, area) in layout.areas().iter().enumerate() {
-        let (column, row) = (index as u16 % across, index as u16 / across);
-        let place = Rect::new(space.x + column * width, space.y + row * height, width - 1, height);
-        Panel { client, layout, area, index: index as u8, top }.draw(place, buffer);
+
+    /// Characters from left to right.
+    pub fn width(&self) -> u16 {
+        self.across * self.cell[0]
+    }
+
+    /// The zoom of a panel in its cell, of which the first row is its name and the last column is a gap.
+    fn zoom(&self, area: &Area) -> Zoom {
+        let [width, height] = self.cell;
+        Zoom::fit(area, width.saturating_sub(1), height.saturating_sub(1) * 2)
+    }
+
+    /// Draws all panels.
+    pub fn draw(&self, client: &Client, top: u16, space: Rect, buffer: &mut Buffer) {
+        let Some(layout) = client.layout() else { return };
+        let [width, height] = self.cell;
+        for (index, area) in layout.areas().iter().enumerate() {
+            let (column, row) = (index as u16 % self.across, index as u16 / self.across);
+            let place = Rect::new(space.x + column * width, space.y + row * height, width - 1, height);
+            let panel = Panel { client, layout, area, index: index as u8, top };
+            panel.draw(self.zoom(area), place, buffer);
+        }
     }
 }
 
@@ -93,10 +122,9 @@ struct Panel<'a> {
 
 impl Panel<'_> {
     /// The name, and below it the map.
-    fn draw(&self, place: Rect, buffer: &mut Buffer) {
+    fn draw(&self, zoom: Zoom, place: Rect, buffer: &mut Buffer) {
         let bold = Style::new().add_modifier(Modifier::BOLD);
         buffer.set_stringn(place.x, place.y, &self.area.name, usize::from(place.width), bold);
-        let zoom = Zoom::fit(self.area, place.width, (place.height - 1) * 2);
         let (width, height) = (zoom.pixels(self.area.columns), zoom.pixels(self.area.rows));
         for y in 0..height.div_ceil(2) {
             for x in 0..width {
@@ -146,7 +174,7 @@ impl Panel<'_> {
         let before = |at: Option<u16>| at.and_then(|at| at.checked_sub(1));
         let around = [(before(x), y), (next(x), y), (x, before(y)), (x, next(y))];
         let edge = around.into_iter().any(|(x, y)| !self.inside(zoom, x, y));
-        if edge { mix(plain, WHITE, 0.55) } else { plain }
+        if edge { mix(plain, WHITE, 0.5) } else { plain }
     }
 
     /// The id of each contact at its centroid.

@@ -108,7 +108,8 @@ fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
     let eighths = (value.abs().min(1.0) * f64::from(room) * 8.0).round() as usize;
     let filled = "█".repeat(eighths / 8) + EIGHTHS[eighths % 8];
     let start = space.x + 11;
-    let style = Style::new().fg(color(colour));
+    // What speaks against a concept is grey.
+    let style = Style::new().fg(color(if value < 0.0 { GREY } else { colour }));
     buffer.set_stringn(start, space.y, filled, usize::from(space.width.saturating_sub(11)), style);
     let end = start + room + 1;
     let left = usize::from(space.right().saturating_sub(end));

@@ -51,7 +51,8 @@ mod tests {
     fn the_ramp_rises_in_lightness() {
         let light = |[r, g, b]: Rgb| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
         let all: Vec<_> = (0..=400).map(|v| light(pressure(v, 400))).collect();
-        assert!(all.windows(2).all(|pair| pair[0] <= pair[1]));
+        // Up to the rounding of a colour to 8 bits.
+        assert!(all.windows(2).all(|pair| pair[0] <= pair[1] + 10_000));
         assert_eq!(pressure(0, 400), VIRIDIS[0]);
         assert_eq!(pressure(4095, 400), VIRIDIS[9]);
         assert_eq!(pressure(1, 0), VIRIDIS[9]);

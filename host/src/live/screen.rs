@@ -20,12 +20,21 @@ pub struct Screen {
     drawn: Option<Instant>,
     asked: Instant,
     token: u32,
+    /// The terminal is as it was.
+    left: bool,
 }
 
 impl Screen {
     /// Takes the terminal.
     pub fn open(view: View) -> Result<Screen> {
-        Ok(Screen { terminal: ratatui::try_init()?, view, drawn: None, asked: Instant::now(), token: 0 })
+        Ok(Screen {
+            terminal: ratatui::try_init()?,
+            view,
+            drawn: None,
+            asked: Instant::now(),
+            token: 0,
+            left: false,
+        })
     }
 
     /// What a key asks for: whether to go on.
@@ -57,12 +66,11 @@ impl Show for Screen {
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        let mut go_on = true;
         while event::poll(Duration::ZERO)? {
             match event::read()? {
                 event::Event::Key(key) if key.kind == KeyEventKind::Press => {
-                    if !self.key(client, key)? {
-                        return Ok(false);
-                    }
+                    go_on &= self.key(client, key)?
                 }
                 event::Event::Resize(..) => self.drawn = None,
                 _ => {}
@@ -78,10 +86,11 @@ impl Show for Screen {
             self.terminal.draw(|frame| view.draw(client, frame.buffer_mut()))?;
             self.drawn = Some(Instant::now());
         }
-        Ok(true)
+        Ok(go_on)
     }
 
     fn end(&mut self, client: &Client) -> Result<()> {
+        self.left = true;
         ratatui::try_restore()?;
         print!("{}", lines::total(client));
         Ok(())
@@ -90,6 +99,9 @@ impl Show for Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        ratatui::restore();
+        // Twice would move the cursor.
+        if !self.left {
+            ratatui::restore();
+        }
     }
 }

@@ -14,7 +14,7 @@ const CELL: [u32; 2] = [8, 16];
 const INK: &str = "#d8dee9";
 const PAPER: &str = "#12141a";
 /// The terminal that is drawn.
-const SIZE: [u16; 2] = [128, 40];
+const SIZE: [u16; 2] = [100, 40];
 
 /// Draws the last picture into a file.
 pub struct Painter {
@@ -48,7 +48,7 @@ pub fn picture(buffer: &Buffer) -> String {
     let (width, height) = (u32::from(buffer.area.width) * CELL[0], u32::from(buffer.area.height) * CELL[1]);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-8 -8 {} {}\" \
-         font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" font-size=\"13\">\n\
+         font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" font-size=\"13\" shape-rendering=\"crispEdges\">\n\
          <rect x=\"-8\" y=\"-8\" width=\"100%\" height=\"100%\" rx=\"6\" fill=\"{PAPER}\"/>\n",
         width + 16,
         height + 16

@@ -1,9 +1,10 @@
 //! The picture: what is known of a garment, drawn into a buffer of characters.
 
+use super::map::Grid;
 use super::narrate::{Narrator, region_name};
+use super::panes;
 use super::ramp::{color, ramp};
 use super::rate::Rate;
-use super::{map, panes};
 use crate::client::{Client, Event};
 use crate::source::Source;
 use ratatui::buffer::Buffer;
@@ -14,10 +15,10 @@ use std::time::Duration;
 
 /// Lines of the log that are kept.
 const LOG: usize = 100;
-/// Width of the panes beside the maps.
-const SIDE: u16 = 56;
+/// Width that the panes beside the maps need.
+const SIDE: u16 = 62;
 /// The smallest width at which they are beside and not below.
-const WIDE: u16 = 104;
+const WIDE: u16 = 98;
 /// End of the scale at the start, counts.
 const TOP: u16 = 400;
 
@@ -88,24 +89,31 @@ impl View {
             ..body
         };
         if body.width >= WIDE {
-            let [maps, side] =
-                Layout::horizontal([Constraint::Fill(1), Constraint::Length(SIDE)]).areas(body);
-            map::draw(client, self.top, maps, buffer);
+            let room = Rect { width: body.width - SIDE, ..body };
+            let taken = self.maps(client, room, buffer);
+            let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
             self.side(client, side, buffer);
         } else if body.height >= 24 {
             let parts = Layout::vertical([Constraint::Fill(1), Constraint::Length(12)]);
             let [maps, below] = parts.areas(body);
-            map::draw(client, self.top, maps, buffer);
+            self.maps(client, maps, buffer);
             let [left, right] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas(below);
             self.contacts(client, left, buffer);
             panes::intention(client, right, buffer);
         } else {
             let [maps, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(body);
-            map::draw(client, self.top, maps, buffer);
+            self.maps(client, maps, buffer);
             let touched: Vec<_> = client.contacts().iter().map(|p| region_name(client, p.region)).collect();
             let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
             buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
         }
+    }
+
+    /// Draws the maps: the width that they take.
+    fn maps(&self, client: &Client, space: Rect, buffer: &mut Buffer) -> u16 {
+        let Some(grid) = client.layout().and_then(|layout| Grid::fit(layout, space)) else { return 0 };
+        grid.draw(client, self.top, space, buffer);
+        grid.width()
     }
 
     fn header(&self, client: &Client, space: Rect, buffer: &mut Buffer) {

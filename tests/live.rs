@@ -1,0 +1,332 @@
+//! `taxel live` through the library: a simulated board, the wire, the client, and all three ways to show what comes.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::{Terminal, backend::TestBackend};
+use serde_json::Value;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use taxel::client::{Client, Event, ImageNews};
+use taxel::live::{Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
+use taxel::source::{self, Source, SourceOptions};
+
+/// Writes into a list that the test keeps.
+#[derive(Default, Clone)]
+struct Sink(Arc<Mutex<Vec<u8>>>);
+
+impl std::io::Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Sink {
+    fn text(&self) -> String {
+        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+    }
+}
+
+fn args(source: &str, frames: Option<u64>) -> LiveArgs {
+    LiveArgs {
+        source: source.parse().unwrap(),
+        frames,
+        seconds: None,
+        json: true,
+        pixels: false,
+        save: None,
+        taxel: None,
+        tare: None,
+        realtime: false,
+        seed: None,
+        svg: None,
+    }
+}
+
+fn open(args: &LiveArgs) -> Source {
+    let options = SourceOptions {
+        seed: args.seed,
+        frames: args.frames,
+        seconds: args.seconds,
+        raw: args.taxel.is_some(),
+        ..SourceOptions::default()
+    };
+    source::open(&args.source, &options).unwrap()
+}
+
+/// What `taxel live --json` prints.
+fn json(args: &LiveArgs) -> String {
+    let sink = Sink::default();
+    watch(args, open(args), &mut Messages::new(args.pixels, sink.clone())).unwrap();
+    sink.text()
+}
+
+fn parsed(text: &str) -> Vec<Value> {
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn of_type<'a>(lines: &'a [Value], kind: &'static str) -> impl Iterator<Item = &'a Value> {
+    lines.iter().filter(move |line| line["type"] == kind)
+}
+
+/// The intentions that lead in a run, each once.
+fn leading(lines: &[Value]) -> Vec<String> {
+    let mut all: Vec<String> =
+        of_type(lines, "frame").map(|line| line["intent"]["leading"].as_str().unwrap().into()).collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+fn scratch(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("taxel-live-{}-{name}", std::process::id()))
+}
+
+#[test]
+fn a_pat_is_kindness_and_a_lash_an_attack() {
+    for (scene, meant) in [("sim:pat", "kindness"), ("sim:lash", "attack")] {
+        let lines = parsed(&json(&args(scene, Some(200))));
+        assert_eq!(lines[0]["type"], "hello");
+        assert_eq!(lines[0]["taxels"], 2048);
+        assert_eq!(of_type(&lines, "frame").count(), 200, "{scene}");
+        for (index, line) in of_type(&lines, "frame").enumerate() {
+            assert_eq!(line["frame"], index + 1);
+            assert_eq!((line["lost"].as_u64(), line["thinned"].as_u64()), (Some(0), Some(0)));
+            assert_eq!(line["decoded"], true);
+            assert_eq!(line["intent"]["concepts"].as_object().unwrap().len(), 10);
+        }
+        assert_eq!(leading(&lines), [meant, "none"], "{scene}");
+        assert!(of_type(&lines, "refused").next().is_none());
+        let touched = of_type(&lines, "frame").find(|line| line["contacts"] != Value::Array(vec![])).unwrap();
+        assert_eq!(touched["contacts"][0]["region"], "back");
+        assert!(of_type(&lines, "answer").any(|a| a["request"] == "tare" && a["refusal"].is_null()));
+    }
+}
+
+#[test]
+fn nothing_touches_an_idle_garment_and_the_scene_ends_by_itself() {
+    let lines = parsed(&json(&args("sim:idle", None)));
+    let frames = of_type(&lines, "frame").count();
+    assert!((970..=980).contains(&frames), "5 s at 195 frames/s, not {frames}");
+    assert_eq!(leading(&lines), ["none"]);
+    assert!(of_type(&lines, "frame").all(|line| line["contacts"] == Value::Array(vec![])));
+    assert_eq!(of_type(&lines, "health").count(), 4);
+}
+
+#[test]
+fn a_run_is_repeated_to_the_byte_and_a_saved_one_reads_the_same() {
+    let file = scratch("saved");
+    let saved = LiveArgs { save: Some(file.clone()), pixels: true, ..args("sim:five", Some(60)) };
+    let first = json(&saved);
+    let bytes = std::fs::read(&file).unwrap();
+    assert_eq!(json(&saved), first);
+    assert_eq!(std::fs::read(&file).unwrap(), bytes);
+    let again = LiveArgs { pixels: true, ..args(&format!("file:{}", file.display()), None) };
+    assert_eq!(json(&again), first);
+    let seeded = LiveArgs { seed: Some(7), pixels: true, ..args("sim:five", Some(60)) };
+    assert_ne!(json(&seeded), first);
+    std::fs::remove_file(file).unwrap();
+    let lines = parsed(&first);
+    let last = of_type(&lines, "frame").last().unwrap();
+    assert_eq!(last["panels"][3]["rows"][31].as_array().unwrap().len(), 16);
+}
+
+/// The bytes of a run, and all events that come of them.
+fn recorded(scene: &str, frames: u64) -> Vec<u8> {
+    let file = scratch(&scene.replace(':', "-"));
+    json(&LiveArgs { save: Some(file.clone()), ..args(scene, Some(frames)) });
+    let bytes = std::fs::read(&file).unwrap();
+    std::fs::remove_file(file).unwrap();
+    bytes
+}
+
+fn events(client: &mut Client, bytes: &[u8]) -> Vec<Event> {
+    bytes.iter().filter_map(|byte| client.push(*byte)).collect()
+}
+
+#[test]
+fn garbage_between_frames_loses_no_good_frame() {
+    let bytes = recorded("sim:pat", 120);
+    let (mut clean, mut dirty) = (Client::new(), Client::new());
+    let wanted = events(&mut clean, &bytes);
+    let mut noise = 1u32;
+    let mut soiled = Vec::new();
+    for frame in bytes.split_inclusive(|byte| *byte == 0) {
+        soiled.extend_from_slice(frame);
+        for _ in 0..noise >> 27 {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            soiled.push((noise >> 24) as u8);
+        }
+        noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+        soiled.push(0);
+    }
+    let got = events(&mut dirty, &soiled);
+    let refused = got.iter().filter(|event| matches!(event, Event::Refused(_))).count();
+    assert!(refused > 50, "{refused}");
+    assert_eq!(dirty.counts().refused(), refused as u64);
+    assert!(got.iter().filter(|event| !matches!(event, Event::Refused(_))).eq(&wanted));
+    assert_eq!((dirty.counts().lost, dirty.counts().thinned), (0, 0));
+    assert_eq!(dirty.image(), clean.image());
+}
+
+#[test]
+fn a_lost_frame_is_counted_and_a_key_frame_asked_for() {
+    let bytes = recorded("sim:pat", 100);
+    let frames: Vec<_> = bytes.split_inclusive(|byte| *byte == 0).collect();
+    let mut client = Client::new();
+    client.start(0).unwrap();
+    client.take_requests();
+    let mut missing = 0;
+    let mut reader = Client::new();
+    let is_fiftieth = |event: &Event| matches!(event, Event::Frame { frame: 50, .. });
+    for frame in frames {
+        let mut frame = frame.to_vec();
+        if events(&mut reader, &frame).iter().any(is_fiftieth) {
+            frame[3] ^= 0x40;
+        }
+        for event in events(&mut client, &frame) {
+            missing += u32::from(matches!(event, Event::Frame { image: ImageNews::NoBase, .. }));
+        }
+    }
+    let counts = client.counts();
+    assert_eq!((counts.lost, counts.refused(), counts.thinned), (1, 1, 0));
+    // Nobody answers the request here.
+    assert_eq!(missing, 50);
+    assert!(client.image().is_none());
+    assert!(!client.take_requests().is_empty());
+}
+
+#[test]
+fn one_taxel_is_printed_with_code_and_pressure() {
+    let args = LiveArgs { taxel: Some("back,12,8".parse().unwrap()), ..args("sim:pat", Some(80)) };
+    let sink = Sink::default();
+    let place = args.taxel.clone().unwrap();
+    watch(&args, open(&args), &mut TaxelLines::new(place, false, sink.clone())).unwrap();
+    let text = sink.text();
+    let numbers =
+        |line: &str| -> Vec<f64> { line.split_whitespace().filter_map(|w| w.parse().ok()).collect() };
+    let lines: Vec<Vec<f64>> = text.lines().map(numbers).collect();
+    assert_eq!(lines.len(), 80, "{text}");
+    assert!(lines.iter().all(|line| line.len() == 3), "{text}");
+    assert_eq!(lines[79][0], 79.0 * 0.00512);
+    let highest = lines.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    assert!((0.25..0.35).contains(&highest[0]) && highest[1] - highest[2] > 60.0, "{highest:?}");
+}
+
+#[test]
+fn plain_lines_hold_no_control_code() {
+    let args = args("sim:lash", None);
+    let (sink, source) = (Sink::default(), open(&args));
+    let mut lines = Lines::new(&source, sink.clone());
+    watch(&args, source, &mut lines).unwrap();
+    let text = sink.text();
+    assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text}");
+    for part in [
+        "hello: taxel-sim",
+        "tare: done",
+        "on the back begins",
+        "intention: attack",
+        "reaction flinch",
+        "195.3 frames/s",
+        "end: 215 frames",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+}
+
+/// A view that is drawn at the end.
+struct Drawn {
+    view: View,
+    sizes: Vec<(u16, u16)>,
+    pictures: Vec<Buffer>,
+}
+
+impl Show for Drawn {
+    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+        self.view.event(client, event);
+        Ok(())
+    }
+
+    fn end(&mut self, client: &Client) -> anyhow::Result<()> {
+        for (width, height) in &self.sizes {
+            let mut terminal = Terminal::new(TestBackend::new(*width, *height)).unwrap();
+            terminal.draw(|frame| self.view.draw(client, frame.buffer_mut())).unwrap();
+            self.pictures.push(terminal.backend().buffer().clone());
+        }
+        Ok(())
+    }
+}
+
+fn drawn(scene: &str, frames: u64, sizes: &[(u16, u16)]) -> Vec<Buffer> {
+    let args = args(scene, Some(frames));
+    let source = open(&args);
+    let mut show = Drawn { view: View::new(&source), sizes: sizes.to_vec(), pictures: Vec::new() };
+    watch(&args, source, &mut show).unwrap();
+    show.pictures
+}
+
+fn text(buffer: &Buffer) -> Vec<String> {
+    let Rect { width, height, .. } = buffer.area;
+    let row = |y: u16| (0..width).map(|x| buffer[(x, y)].symbol()).collect::<String>().trim_end().to_string();
+    (0..height).map(row).collect()
+}
+
+#[test]
+fn the_picture_shows_maps_contacts_and_intention() {
+    let pictures = drawn("sim:pat", 60, &[(128, 40), (80, 40), (80, 24), (30, 8), (1, 1), (300, 100)]);
+    let wide = text(&pictures[0]).join("\n");
+    for part in [
+        "taxel  sim:pat  garment reference (2048 taxels)  scene shipped  taxel-sim",
+        "195.3 frames/s  frame 60  0.30 s  lost 0  thinned 0  refused 0",
+        "chest",
+        "right arm",
+        " id region     shape        force area  axis    mm/s",
+        "  1 back ",
+        "7.8 N ",
+        "intention kindness",
+        "politeness",
+        "contact 1 on the back begins",
+        "q quit",
+        "400 counts",
+    ] {
+        assert!(wide.contains(part), "{part} in\n{wide}");
+    }
+    assert!(text(&pictures[1]).join("\n").contains("intention kindness"));
+    assert!(text(&pictures[2]).iter().any(|line| line == "kindness back"), "{:#?}", text(&pictures[2]));
+    let colours = |buffer: &Buffer| {
+        let all: std::collections::BTreeSet<_> =
+            buffer.content.iter().filter(|c| c.symbol() == "▀").map(|c| format!("{:?}", c.fg)).collect();
+        all.len()
+    };
+    assert!(colours(&pictures[0]) > 10, "a touch has many shades");
+    let idle = drawn("sim:idle", 60, &[(128, 40)]);
+    assert_eq!(colours(&idle[0]), 1);
+    assert!(text(&idle[0]).join("\n").contains("intention none"));
+}
+
+#[test]
+fn what_cannot_be_opened_is_said_in_one_sentence() {
+    let error = |source: &str| match source::open(&source.parse().unwrap(), &SourceOptions::default()) {
+        Ok(_) => panic!("{source} opened"),
+        Err(error) => format!("{error:#}"),
+    };
+    for (source, start) in [
+        ("serial:/dev/no-such-port", "serial port /dev/no-such-port at 921600 Bd cannot be opened: "),
+        ("tcp:127.0.0.1:1", "tcp:127.0.0.1:1 cannot be reached: "),
+        ("file:/no/such/file", "file /no/such/file cannot be read: "),
+        ("sim:tickle", "there is no scene \"tickle\"; known are pat, "),
+    ] {
+        let sentence = error(source);
+        assert!(sentence.starts_with(start) && !sentence.contains('\n'), "{sentence}");
+    }
+    let file = scratch("garbage");
+    std::fs::write(&file, [7; 1000]).unwrap();
+    let args = args(&format!("file:{}", file.display()), None);
+    let error = watch(&args, open(&args), &mut Messages::new(false, Sink::default())).unwrap_err();
+    assert!(error.to_string().ends_with("no Hello of a taxel board in 1000 bytes"), "{error}");
+    std::fs::remove_file(file).unwrap();
+}

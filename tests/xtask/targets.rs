@@ -1,0 +1,69 @@
+//! The test targets that a plain `cargo test` leaves out: they need the firmware image, or the recordings, or both.
+
+use crate::checks::{cargo, image};
+use crate::cross::Toolchain;
+use crate::{install, paths, process};
+use std::path::Path;
+use std::process::Command;
+
+/// Five contacts at full speed.
+pub fn emulator(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator", log)
+}
+
+/// Recordings on the emulated board and on this machine.
+pub fn emulator_recorded(log: &Path) -> Result<Result<(), String>, String> {
+    recordings()?;
+    on_emulator("emulator_recorded", log)
+}
+
+/// A test target that runs the firmware image; what it measured is shown.
+fn on_emulator(target: &str, log: &Path) -> Result<Result<(), String>, String> {
+    install::emulator()?;
+    let image = match image(&Toolchain::find()?, log) {
+        Ok(image) => image,
+        Err(why) => return Ok(Err(why)),
+    };
+    let mut command = test_target(target);
+    command.args(["--", "--nocapture"]).env("TAXEL_FIRMWARE_ELF", image.elf);
+    let end = process::run_into(&mut command, log);
+    let text = std::fs::read_to_string(log).unwrap_or_default();
+    let measured = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
+    measured.take_while(|line| !line.starts_with("test result")).for_each(|line| println!("  {line}"));
+    Ok(end)
+}
+
+/// Recordings through the pipeline.
+pub fn recorded(log: &Path) -> Result<Result<(), String>, String> {
+    recordings()?;
+    Ok(process::run_into(&mut test_target("recorded"), log))
+}
+
+/// `cargo xtask recorded`: the recordings through the pipeline, in the open.
+pub fn feed_recordings(args: &[String]) -> Result<(), String> {
+    recordings()?;
+    let mut command = test_target("recorded");
+    command.args(["--", "--nocapture"]);
+    match args {
+        [] => {}
+        [all] if all == "--all" => _ = command.env("TAXEL_RECORDED", "all"),
+        _ => return Err(crate::USAGE.into()),
+    }
+    process::run(&mut command)
+}
+
+/// One of the test targets that a plain `cargo test` leaves out.
+fn test_target(name: &str) -> Command {
+    let mut command = cargo(&["test", "--package", "taxel-tests", "--test", name], paths::root());
+    command.env("TAXEL_DATA", paths::recorded_data());
+    command
+}
+
+/// Whether the recordings are there.
+fn recordings() -> Result<(), String> {
+    let data = paths::recorded_data();
+    if data.is_dir() {
+        return Ok(());
+    }
+    Err(format!("no recorded data in {} (TAXEL_DATA names another folder)", data.display()))
+}
