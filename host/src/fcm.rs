@@ -14,7 +14,7 @@ use taxel_core::intent::{Outcome, Rule, Transfer};
 /// Arguments of `taxel fcm`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct FcmArgs {
-    /// JSON file with the keys names (concepts), W (W[i][j] is the edge i -> j) and x0 (the first state)
+    /// JSON file with the keys names (concepts), W (row i, column j is the edge i -> j) and x0 (the first state)
     pub map: PathBuf,
     /// What is summed: kosko, mkosko or rescaled
     #[arg(long, default_value = "kosko", value_parser = rule)]

@@ -16,7 +16,7 @@ use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
 use heapless::{Deque, String, Vec};
-use outbox::Outbox;
+use outbox::{Outbox, Refusal};
 use pace::Pace;
 
 /// What happened.
@@ -41,6 +41,12 @@ pub enum Job {
     Drive(u8, bool),
     /// Do this; answered by [`Input::Done`].
     Start(Work),
+}
+
+impl Job {
+    fn drives(&self, wanted: u8) -> bool {
+        matches!(self, Job::Drive(pin, _) if *pin == wanted)
+    }
 }
 
 /// Work beyond scanning.
@@ -100,7 +106,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// The garment has changed: nothing that was known of the old one holds.
     fn worn(&mut self) {
         self.state.reset(&self.setup.layout, self.setup.circuit.falling(), self.info.full_scale);
-        self.outbox.forget_image();
+        self.outbox.renew();
+        if core::mem::take(&mut self.taring) {
+            self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
+        }
         self.tared = false;
         self.used();
     }
@@ -110,7 +119,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.state.forget();
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
-        self.taring = false;
         for job in put_to_rest(&self.setup) {
             let _ = self.jobs.push_back(job);
         }

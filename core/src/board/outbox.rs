@@ -136,6 +136,17 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn stop(&mut self) {
         self.streaming = false;
         self.hello = None;
+        self.drop_waiting();
+    }
+
+    /// Another garment: nothing of the old one, and `Hello` tells of the new one.
+    pub fn renew(&mut self) {
+        self.hello = Some(Micros(0));
+        self.forget_image();
+        self.drop_waiting();
+    }
+
+    fn drop_waiting(&mut self) {
         self.reactions.clear();
         self.changes.clear();
         (self.intent, self.symbols, self.image.due, self.raw) = (None, None, None, None);

@@ -85,7 +85,15 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let scene: Scene = decode(bytes).map_err(Refusal::of)?;
+        let before = super::put_to_rest(&self.setup);
         self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
+        // What the new scene does not drive must not stay where the old one left it.
+        for job in before {
+            let kept = self.setup.pipeline.reactions().outputs().any(|line| job.drives(line.pin));
+            if !kept {
+                let _ = self.jobs.push_back(job);
+            }
+        }
         self.used();
         Ok(())
     }
@@ -127,5 +135,36 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         if self.jobs.push_back(Job::Start(work)).is_err() {
             self.outbox.answer(number_of(work), Some(Refusal::of("too much is waiting to be done")));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::board::{BoardInfo, Input};
+    use crate::garment::Pins;
+    use crate::wire::encode;
+
+    #[test]
+    fn an_output_that_the_new_scene_does_not_drive_is_put_to_rest() {
+        let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
+        let mut board = Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap();
+        let drives = |board: &mut Board<64, 32>| {
+            let jobs = core::iter::from_fn(|| board.step(Micros(0), Input::Tick, &mut ()));
+            let pins = jobs
+                .map_while(|job| if let Job::Drive(pin, level) = job { Some((pin, level)) } else { None });
+            pins.collect::<heapless::Vec<_, 8>>()
+        };
+        let mut scene = Scene::shipped();
+        let resting: heapless::Vec<_, 8> =
+            scene.react.iter().map(|row| (row.output.unwrap().pin, false)).collect();
+        assert_eq!(drives(&mut board), resting);
+        scene.react.remove(0);
+        let (mut text, mut body, mut wire) = ([0; 2048], [0; 2048], [0; 2048]);
+        let text = postcard::to_slice(&scene, &mut text).unwrap();
+        let length = encode(&Request::SetScene(text), &mut body, &mut wire).unwrap();
+        board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        assert_eq!(drives(&mut board), resting);
+        assert_eq!(board.setup().scene, scene);
     }
 }

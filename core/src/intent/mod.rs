@@ -1,7 +1,7 @@
 //! Intent: what a touch means, by a fuzzy cognitive map over what was measured of it.
 //!
 //! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer functions, [`infer`] the inference, [`input`] the
-//! encoding of a touch, [`stage`] the decision with its debounce, [`why`] the reason for it, [`tactile`] the map that
+//! encoding of a touch, [`stage`] the decision with its debounce, [`why`] the reason for it, [`mod@tactile`] the map that
 //! ships.
 
 pub mod config;

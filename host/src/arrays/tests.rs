@@ -88,7 +88,7 @@ fn a_value_that_is_no_count_is_named() {
 
 #[test]
 fn a_wrong_shape_is_named() {
-    for shape in [&[24][..], &[1, 2, 3, 4], &[2, 0, 4]] {
+    for shape in [&[24][..], &[1, 1, 2, 3, 4], &[2, 0, 4]] {
         let count = shape.iter().product::<u64>() as usize;
         let text = error("shape.npy", &npy(shape, npyz::Order::C, &numbers()[..count]), None);
         assert!(text.starts_with(&format!("shape.npy: shape {shape:?}: ")), "{text}");

@@ -128,10 +128,10 @@ mod tests {
         board.delay.delay_ns(500_000);
         assert_eq!(board.clock.now(), Micros(502));
         // Column 5, row 2, block 1 of the left arm.
-        for pin in [2, 6, 7, 9] {
+        for pin in [2, 8, 9, 11] {
             board.lines.drive(pin, true).unwrap().unwrap();
         }
-        assert_eq!(board.clock.levels(), 1 << 2 | 1 << 6 | 1 << 7 | 1 << 9);
+        assert_eq!(board.clock.levels(), 1 << 2 | 1 << 8 | 1 << 9 | 1 << 11);
         assert_eq!(board.adc.read(28), Ok(world.code(1024 + (4 + 2) * 16 + 5, 502_000)));
         assert_eq!(board.clock.now_ns(), 504_000);
         assert_eq!(

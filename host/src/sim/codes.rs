@@ -189,6 +189,7 @@ mod tests {
     #[test]
     fn the_wiring_of_inverted_lines_counts_asserted_lines() {
         let mut garment = Garment::block();
+        garment.wiring.row = Garment::reference().wiring.row;
         garment.wiring.row.lines[0].inverted = true;
         let value = wiring(&garment);
         assert_eq!(value["lines"][0]["inverted"], json!(true));

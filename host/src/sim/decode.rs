@@ -181,12 +181,12 @@ mod tests {
         }
         agrees(&garment);
         garment.wiring.row.coding = Coding::OneHot;
-        garment.wiring.row.lines = (11..15).map(|pin| Line { pin, inverted: pin & 1 == 1 }).collect();
+        garment.wiring.row.lines = (13..17).map(|pin| Line { pin, inverted: pin & 1 == 1 }).collect();
         garment.wiring.enable.push(Line { pin: 20, inverted: true }).unwrap();
         garment.wiring.enable.push(Line { pin: 21, inverted: false }).unwrap();
         agrees(&garment);
         let decoder = Decoder::build(&garment);
-        let one_row = 1 << 11 ^ (1 << 11 | 1 << 13);
+        let one_row = 1 << 13 ^ (1 << 13 | 1 << 15);
         assert_eq!(decoder.address(1 << 21), None, "rows 0 and 2 are both asserted");
         assert!(decoder.address(1 << 21 | one_row).is_some());
         assert_eq!(decoder.address(one_row), None, "not enabled");

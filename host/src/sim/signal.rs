@@ -251,8 +251,8 @@ mod tests {
             let w = world(&format!("{STILL}{BALL}force_n = {force}\n"));
             (0..2048).map(|t| u32::from(w.code(t, 1_000_000_000)) - 100).sum::<u32>()
         };
-        assert!((f64::from(total("8")) / 3200.0 - 1.0).abs() < 0.02, "{}", total("8"));
-        assert!((f64::from(total("30")) / 12_000.0 - 1.0).abs() < 0.01);
+        assert!((f64::from(total("3")) / 3_000.0 - 1.0).abs() < 0.02, "{}", total("3"));
+        assert!((f64::from(total("10")) / 10_000.0 - 1.0).abs() < 0.01);
         let hard = world(&format!("{STILL}{BALL}force_n = 5000\n"));
         assert_eq!(hard.code(16 * 16 + 8, 1_000_000_000), 4095);
         assert_eq!(hard.code(16 * 16 + 8, 6_000_000_000), 100);
