@@ -40,6 +40,8 @@ fn args(source: &str, frames: Option<u64>) -> LiveArgs {
         pixels: false,
         save: None,
         taxel: None,
+        garment: None,
+        scene: None,
         tare: None,
         realtime: false,
         seed: None,
@@ -328,5 +330,30 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
     let args = args(&format!("file:{}", file.display()), None);
     let error = watch(&args, open(&args), &mut Messages::new(false, Sink::default())).unwrap_err();
     assert!(error.to_string().ends_with("no Hello of a taxel board in 1000 bytes"), "{error}");
+    std::fs::remove_file(file).unwrap();
+}
+
+#[test]
+fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
+    let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../host/garments/block-4x16.toml");
+    assert_eq!(taxel::sim::garment(shipped).unwrap(), taxel_core::garment::Garment::block());
+    let refused = |edit: &dyn Fn(&mut LiveArgs)| {
+        let mut args = args("sim:idle", Some(1));
+        edit(&mut args);
+        let source = open(&args);
+        format!("{:#}", watch(&args, source, &mut Messages::new(false, Vec::new())).unwrap_err())
+    };
+    let why = refused(&|args| args.garment = Some("mat-64x32".into()));
+    assert_eq!(why, "--garment mat-64x32: a simulated board wears the garment that its scene file names");
+    let file = scratch("scene.toml");
+    for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
+        std::fs::write(&file, text).unwrap();
+        let why = refused(&|args| args.scene = Some(file.clone()));
+        assert!(why.starts_with(&file.display().to_string()) && why.contains(wrong), "{why}");
+    }
+    std::fs::write(&file, "rate_hz = 50\n[stream]\nframes_hz = 10").unwrap();
+    let lines = json(&LiveArgs { scene: Some(file.clone()), seconds: Some(2.0), ..args("sim:pat", None) });
+    let images = of_type(&parsed(&lines), "frame").count();
+    assert!((19..=23).contains(&images), "{images} images in 2 s at 10 a second");
     std::fs::remove_file(file).unwrap();
 }

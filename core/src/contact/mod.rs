@@ -11,7 +11,8 @@
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
-//! one taxel of where a contact was one frame ago. A contact keeps its id from onset to release.
+//! one taxel of where a contact was one frame ago and goes on as that contact; a faint one begins nothing. A contact
+//! keeps its id from onset to release.
 //!
 //! The stage makes four passes: runs of each active row and their union (`label`); joins across seams
 //! (`join`); the choice of contacts; and the measures of the chosen ones only (`component`). Then

@@ -124,7 +124,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         });
         self.trails.retain(|trail| trail.component != NONE);
         for (index, component) in (0u16..).zip(components) {
-            if self.index_of(index).is_none() {
+            // A faint one goes on as what it was, but begins nothing: it is a splinter of a contact that lifts.
+            if component.peak >= config.high && self.index_of(index).is_none() {
                 self.begin(index, component, layout, now);
             }
         }

@@ -4,6 +4,7 @@ mod lines;
 mod map;
 mod messages;
 mod narrate;
+mod outfit;
 mod panes;
 mod ramp;
 mod rate;
@@ -52,6 +53,12 @@ pub struct LiveArgs {
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
+    /// Garment that a real or emulated board is to wear: a preset or a TOML file
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// Scene that the board is used for: a TOML file; what it does not say is as shipped
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
@@ -116,6 +123,15 @@ pub fn run(args: LiveArgs) -> Result<()> {
 /// Shows what comes from a source until it ends, or until enough has come.
 pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result<()> {
     let mut client = Client::new();
+    if let Some(garment) = &args.garment {
+        if source.label.starts_with("sim:") {
+            bail!("--garment {garment}: a simulated board wears the garment that its scene file names");
+        }
+        outfit::wear(&mut client, garment)?;
+    }
+    if let Some(scene) = &args.scene {
+        outfit::play(&mut client, scene)?;
+    }
     client.start(args.tare.unwrap_or(source.tare))?;
     let mut limits = Limits {
         frames: args.frames,

@@ -1,0 +1,36 @@
+//! Another garment or scene for a board, from a file, before it streams.
+
+use crate::client::Client;
+use crate::sim;
+use anyhow::{Context, Result};
+use std::path::Path;
+use taxel_core::garment::{Circuit, Layout, Pins};
+use taxel_core::pipeline::Pipeline;
+use taxel_core::scene::Scene;
+use taxel_core::wire::Request;
+
+/// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it whatever the board
+/// is said here; the board knows its own pins and size.
+pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
+    let garment = sim::garment(name_or_path)?;
+    let checked = Layout::build(&garment, usize::from(u16::MAX), 4095)
+        .and_then(|layout| Circuit::build(&garment, &layout, Pins::ANY));
+    checked.with_context(|| name_or_path.to_string())?;
+    let bytes = postcard::to_allocvec(&garment).context("the garment cannot be written")?;
+    client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
+}
+
+/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene.
+pub fn play(client: &mut Client, path: &Path) -> Result<()> {
+    let place = || path.display().to_string();
+    let text = std::fs::read_to_string(path).with_context(place)?;
+    let scene: Scene = toml::from_str(&text).with_context(place)?;
+    let garment = taxel_core::garment::Garment::reference();
+    let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
+    // Regions are the board's affair: it may wear another garment.
+    let mut elsewhere = scene.clone();
+    elsewhere.react.iter_mut().for_each(|row| row.region.clear());
+    Pipeline::build(&elsewhere, &layout).with_context(place)?;
+    let bytes = postcard::to_allocvec(&scene).context("the scene cannot be written")?;
+    client.request(&Request::SetScene(&bytes)).with_context(place)
+}
