@@ -157,6 +157,18 @@ fn bad_garments_are_refused_by_name() {
     refused(&["process", &image, "--layout", "mat-64x32"], &["garment.npy", "2 x 3", "mat-64x32"]);
 }
 
+#[test]
+fn bad_sources_are_refused_by_name() {
+    let scene = file("colour.toml", b"duration_s = 1\ncolour = 3\n");
+    refused(&["live", "--source", &format!("sim:{scene}")], &["colour.toml, line 2", "unknown field `colour`"]);
+    refused(&["live", "--source", "sim:nothing"], &["no scene", "nothing", "pat"]);
+    refused(&["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);
+    refused(&["live", "--source", "tcp:127.0.0.1:1"], &["127.0.0.1:1"]);
+    refused(&["live", "--source", "file:/no/such/bytes"], &["/no/such/bytes"]);
+    let garbage = file("garbage.bin", &[0x5a; 4000]);
+    refused(&["live", "--source", &format!("file:{garbage}"), "--json"], &["garbage.bin", "no Hello"]);
+}
+
 /// An argument that cannot be read has the same status; clap adds how to get help.
 #[test]
 fn bad_arguments_have_the_same_status() {

@@ -1,4 +1,5 @@
 //! The host side of taxel.
+#![forbid(unsafe_code)]
 
 pub mod arrays;
 pub mod cli;

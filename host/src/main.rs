@@ -1,4 +1,5 @@
 //! The program `taxel`: one sentence and exit status 2 where the input is bad.
+#![forbid(unsafe_code)]
 
 use clap::Parser;
 use std::process::ExitCode;

@@ -108,9 +108,8 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
             eprint!("\r{}{}: {} of {} frames", args.file.display(), array_of(name), number + 1, frames.count);
         }
     }
-    if progress {
-        eprintln!("\r{}{}: {} frames", args.file.display(), array_of(name), frames.count);
-    }
+    let again = if progress { "\r" } else { "" };
+    eprintln!("{again}{}{}: {} frames", args.file.display(), array_of(name), frames.count);
     Ok(())
 }
 
