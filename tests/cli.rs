@@ -160,7 +160,10 @@ fn bad_garments_are_refused_by_name() {
 #[test]
 fn bad_sources_are_refused_by_name() {
     let scene = file("colour.toml", b"duration_s = 1\ncolour = 3\n");
-    refused(&["live", "--source", &format!("sim:{scene}")], &["colour.toml, line 2", "unknown field `colour`"]);
+    refused(
+        &["live", "--source", &format!("sim:{scene}")],
+        &["colour.toml, line 2", "unknown field `colour`"],
+    );
     refused(&["live", "--source", "sim:nothing"], &["no scene", "nothing", "pat"]);
     refused(&["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);
     refused(&["live", "--source", "tcp:127.0.0.1:1"], &["127.0.0.1:1"]);

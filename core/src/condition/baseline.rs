@@ -9,42 +9,10 @@
 
 use super::feedback::Feedback;
 use super::image::{Rows, row_mut, row_of};
-use super::state::{ConditionState, Tare};
+use super::progress::Tare;
+use super::state::ConditionState;
 use crate::format::Code;
 use crate::garment::{Area, Layout};
-
-/// Progress of a tare, and the rotation of the drift.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Baseline {
-    tare: Tare,
-    /// Frames of the tare.
-    frames: u16,
-    /// Panels that are being tared; latched at its first frame.
-    panels: Option<u8>,
-    tared: bool,
-    /// Row that follows drift in the next frame, over all panels.
-    turn: u16,
-}
-
-impl Baseline {
-    pub(super) const fn new() -> Self {
-        Baseline { tare: Tare::Idle, frames: 0, panels: None, tared: false, turn: 0 }
-    }
-
-    pub(super) const fn tare(&self) -> Tare {
-        self.tare
-    }
-
-    pub(super) const fn mark_tared(&mut self) {
-        self.tared = true;
-    }
-
-    pub(super) const fn request(&mut self, frames: u16) {
-        self.tare = Tare::Running { left: frames };
-        self.frames = frames;
-        self.panels = None;
-    }
-}
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Takes a frame into the tare, if one runs; `true` if it did, and then there is no image.

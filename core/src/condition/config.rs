@@ -1,7 +1,5 @@
 //! Settings of the stage.
 
-use super::stage::Condition;
-use crate::format::Invalid;
 use serde::{Deserialize, Serialize};
 
 /// How codes become pressure.
@@ -34,18 +32,5 @@ pub enum Filter {
 impl Default for ConditionConfig {
     fn default() -> Self {
         ConditionConfig { floor: 24, filter: Filter::default(), track_baseline: true }
-    }
-}
-
-impl ConditionConfig {
-    /// Checks the settings.
-    pub fn build(&self) -> Result<Condition, Invalid> {
-        if self.floor == 0 {
-            return Err(Invalid {
-                parameter: "condition.floor",
-                must: "must be at least 1 count, or all noise is a touch",
-            });
-        }
-        Ok(Condition::new(*self))
     }
 }

@@ -21,6 +21,7 @@ mod edge;
 mod feedback;
 mod filter;
 mod image;
+mod progress;
 mod stage;
 mod state;
 
@@ -29,8 +30,9 @@ pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
 pub use feedback::{CARRIED, Feedback};
 pub use image::{Image, Rows};
+pub use progress::Tare;
 pub use stage::Condition;
-pub use state::{ConditionState, Tare, UNITY};
+pub use state::{ConditionState, UNITY};
 
 #[cfg(doc)]
 use crate::format::Code;

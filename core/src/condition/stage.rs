@@ -5,7 +5,7 @@ use super::feedback::Feedback;
 use super::filter;
 use super::image::{Image, Rows, row_mut, row_of};
 use super::state::ConditionState;
-use crate::format::Code;
+use crate::format::{Code, Invalid};
 use crate::garment::{Area, Layout};
 
 /// Makes pressure out of codes; see the [module](super).
@@ -14,11 +14,20 @@ pub struct Condition {
     config: ConditionConfig,
 }
 
-impl Condition {
-    pub(super) const fn new(config: ConditionConfig) -> Condition {
-        Condition { config }
+impl ConditionConfig {
+    /// Checks the settings.
+    pub fn build(&self) -> Result<Condition, Invalid> {
+        if self.floor == 0 {
+            return Err(Invalid {
+                parameter: "condition.floor",
+                must: "must be at least 1 count, or all noise is a touch",
+            });
+        }
+        Ok(Condition { config: *self })
     }
+}
 
+impl Condition {
     /// Takes in one frame.
     ///
     /// `codes` go by taxel number; what is missing reads as no pressure, what is too much is ignored. Pressure lowers the

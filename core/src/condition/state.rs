@@ -1,7 +1,7 @@
 //! What the stage remembers: the calibration of every taxel and the last image.
 
-use super::baseline::Baseline;
 use super::image::{Rows, row_mut};
+use super::progress::{Progress, Tare};
 use crate::format::Code;
 use crate::garment::Layout;
 
@@ -25,22 +25,7 @@ pub struct ConditionState<const TAXELS: usize> {
     pub(super) calibrated_rows: Rows,
     /// Rows of `filtered` that may hold something.
     pub(super) filtered_rows: Rows,
-    pub(super) tracking: Baseline,
-}
-
-/// How far a tare is.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-pub enum Tare {
-    /// None has been asked for, or the last has been reported as done.
-    #[default]
-    Idle,
-    /// The image is zero until so many more frames have been taken in.
-    Running {
-        /// frames still to come
-        left: u16,
-    },
-    /// The last frame completed it: the next one is measured from the new baseline.
-    Done,
+    pub(super) tracking: Progress,
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -54,7 +39,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             filtered: [0; TAXELS],
             calibrated_rows: Rows::NONE,
             filtered_rows: Rows::NONE,
-            tracking: Baseline::new(),
+            tracking: Progress::new(),
         }
     }
 
@@ -75,7 +60,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.filtered.fill(0);
         self.calibrated_rows = Rows::NONE;
         self.filtered_rows = Rows::NONE;
-        self.tracking = Baseline::new();
+        self.tracking = Progress::new();
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.

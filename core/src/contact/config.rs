@@ -1,7 +1,5 @@
 //! Settings of the stage.
 
-use super::stage::Contacts;
-use crate::format::Invalid;
 use serde::{Deserialize, Serialize};
 
 /// What is a contact, and how it is followed.
@@ -29,25 +27,5 @@ impl Default for ContactConfig {
     /// taxels per second are clear of noise and below the stroke of a hand (about 10 taxels per second at 10 mm).
     fn default() -> Self {
         ContactConfig { low: 60, high: 120, min_area: 1, gate: 4, smoothing_ms: 40, slip_speed: 64 }
-    }
-}
-
-impl ContactConfig {
-    /// Checks the settings.
-    pub fn build(&self) -> Result<Contacts, Invalid> {
-        let refuse = |parameter, must| Err(Invalid { parameter, must });
-        if self.low == 0 {
-            return refuse("contact.low", "must be at least 1 count");
-        }
-        if self.high < self.low {
-            return refuse("contact.high", "must not be below contact.low");
-        }
-        if self.gate == 0 || self.gate > 1000 {
-            return refuse("contact.gate", "must be 1 to 1000 taxels");
-        }
-        if self.slip_speed == 0 {
-            return refuse("contact.slip_speed", "must be at least 1 (1/16 taxel/s)");
-        }
-        Ok(Contacts::new(*self))
     }
 }

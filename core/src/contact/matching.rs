@@ -3,10 +3,11 @@
 use super::component::Component;
 use super::config::ContactConfig;
 use super::label::NONE;
+use super::point::{LONGEST, Point, nearest_way};
 use super::record::Contact;
 use super::track::Tracks;
 use crate::format::{Fixed16, Micros};
-use crate::garment::{Layout, Transform};
+use crate::garment::Layout;
 
 /// Work space: squared distances, a row per contact and a column per component.
 #[derive(Debug, Clone)]
@@ -18,8 +19,6 @@ pub(super) struct Matching<const CONTACTS: usize> {
 
 /// Out of reach.
 const FAR: u32 = u32::MAX;
-/// Distances are in 1/16 taxel, at most 2047 taxels: two squares fit in 32 bits.
-const LONGEST: i32 = 32767;
 
 impl<const CONTACTS: usize> Matching<CONTACTS> {
     pub const fn new() -> Self {
@@ -88,26 +87,6 @@ fn seconds(us: u64) -> i64 {
     ((us.min(16_000_000) * 281_474_977) >> 32) as i64
 }
 
-/// A point of a panel in 1/16 taxel: fine enough to compare distances, and 32 bits do.
-#[derive(Clone, Copy)]
-pub(super) struct Point {
-    pub panel: u8,
-    x: i32,
-    y: i32,
-}
-
-impl Point {
-    /// From coordinates in Q16.
-    pub fn of(panel: u8, x: Fixed16, y: Fixed16) -> Point {
-        Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
-    }
-
-    fn through(self, way: &Transform) -> (i32, i32) {
-        // As `Transform::apply`, in 32 bits: coordinates are below 2^20, and so are shifts.
-        (way.xx * self.x + way.xy * self.y + way.dx * 16, way.yx * self.x + way.yy * self.y + way.dy * 16)
-    }
-}
-
 /// Where a contact should be, and how far from there it may be, in 1/16 taxel.
 struct Expected {
     at: Point,
@@ -134,29 +113,4 @@ impl Expected {
             _ => FAR,
         }
     }
-}
-
-/// The way between two panels (none within one panel, else over one seam) that brings a point closest to another, and
-/// the squared distance that is left.
-pub(super) fn nearest_way(layout: &Layout, from: Point, to: Point) -> Option<(Option<Transform>, u32)> {
-    let squared = |(x, y): (i32, i32)| {
-        let square = |apart: i32| (apart.clamp(-LONGEST, LONGEST).pow(2)) as u32;
-        square(x - to.x) + square(y - to.y)
-    };
-    let mut best = (from.panel == to.panel).then(|| (None, squared((from.x, from.y))));
-    let mut consider = |way: Transform| {
-        let left = squared(from.through(&way));
-        if best.is_none_or(|(_, least)| left < least) {
-            best = Some((Some(way), left));
-        }
-    };
-    for joint in layout.joints() {
-        if (joint.b, joint.a) == (from.panel, to.panel) {
-            consider(joint.b_to_a);
-        }
-        if (joint.a, joint.b) == (from.panel, to.panel) {
-            consider(joint.b_to_a.inverse());
-        }
-    }
-    best
 }

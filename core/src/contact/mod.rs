@@ -25,6 +25,7 @@ mod join;
 mod label;
 mod matching;
 mod moments;
+mod point;
 mod record;
 mod stage;
 mod track;

@@ -9,7 +9,7 @@ use super::moments::Moments;
 use super::record::Contact;
 use super::track::Tracks;
 use crate::condition::{Feedback, Image};
-use crate::format::Micros;
+use crate::format::{Invalid, Micros};
 use crate::garment::Layout;
 
 /// Finds and follows contacts; see the [module](super).
@@ -83,11 +83,27 @@ impl<const CONTACTS: usize, const RUNS: usize> Default for ContactState<CONTACTS
     }
 }
 
-impl Contacts {
-    pub(super) const fn new(config: ContactConfig) -> Contacts {
-        Contacts { config }
+impl ContactConfig {
+    /// Checks the settings.
+    pub fn build(&self) -> Result<Contacts, Invalid> {
+        let refuse = |parameter, must| Err(Invalid { parameter, must });
+        if self.low == 0 {
+            return refuse("contact.low", "must be at least 1 count");
+        }
+        if self.high < self.low {
+            return refuse("contact.high", "must not be below contact.low");
+        }
+        if self.gate == 0 || self.gate > 1000 {
+            return refuse("contact.gate", "must be 1 to 1000 taxels");
+        }
+        if self.slip_speed == 0 {
+            return refuse("contact.slip_speed", "must be at least 1 (1/16 taxel/s)");
+        }
+        Ok(Contacts { config: *self })
     }
+}
 
+impl Contacts {
     /// The settings.
     pub const fn config(&self) -> &ContactConfig {
         &self.config

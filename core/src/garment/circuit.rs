@@ -1,8 +1,9 @@
 //! The checked wiring of a garment: which lines to drive for which block, row and column, and what is read then.
 
+use super::area::{Area, Place};
 use super::config::{BLOCKS, Block, Coding, Garment, Group, LINES, Line};
 use super::error::GarmentError;
-use super::layout::{Area, Layout, Place};
+use super::layout::Layout;
 use heapless::Vec;
 
 /// The pins that a board brings out, as bit masks over GPIO numbers.

@@ -5,6 +5,7 @@
 //! pins that a board brings out, which only the scan needs. Taxels are numbered panel by panel, row by row:
 //! `taxel = panel.base + row * panel.columns + column`; x is the column, y the row.
 
+mod area;
 mod circuit;
 mod config;
 mod error;
@@ -12,11 +13,12 @@ mod layout;
 mod presets;
 mod seam;
 
+pub use area::{Area, Place, Rect};
 pub use circuit::{Circuit, Pins, Site};
 pub use config::{
     Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, Panel, SEAMS,
     Seam, Side, Wiring,
 };
 pub use error::GarmentError;
-pub use layout::{Area, Layout, Place, Rect};
+pub use layout::Layout;
 pub use seam::{Joint, Transform};

@@ -1,8 +1,8 @@
 //! Seams: where a contact passes from one panel to another, and how coordinates follow it.
 
+use super::area::Area;
 use super::config::{Edge, Seam, Side};
 use super::error::GarmentError;
-use super::layout::Area;
 
 /// An integer map of taxel coordinates, a quarter turn or reflection and a shift:
 /// `x' = xx x + xy y + dx`, `y' = yx x + yy y + dy`.

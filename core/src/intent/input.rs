@@ -5,8 +5,7 @@
 //! describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
 
 use super::error::MapError;
-use super::map::Map;
-use crate::format::{Name, Q15};
+use crate::format::Name;
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
@@ -104,7 +103,7 @@ impl Encoder {
     }
 
     /// The ramp at `value`. Total.
-    fn ramp(&self, value: i32) -> i32 {
+    pub(super) fn ramp(&self, value: i32) -> i32 {
         let value = value.max(self.low).min(self.high);
         // Always from the smaller end upwards, in unsigned numbers: halves round upwards on both slopes.
         let (base, run) = if self.at_high >= self.at_low {
@@ -120,30 +119,6 @@ impl Encoder {
             Err(_) => (product / core::num::NonZeroU64::from(self.span)) as u32,
         };
         base.saturating_add_unsigned(rise)
-    }
-}
-
-impl<const N: usize> Map<N> {
-    /// The start of an inference: each input concept encoded, every other concept 0. `host` holds the values the host
-    /// feeds, by slot. Total.
-    pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
-        let mut state = [0; N];
-        for input in &self.inputs {
-            let measured =
-                |pick: fn(&Touch) -> u32| touch.map(|t| i32::try_from(pick(t)).unwrap_or(i32::MAX));
-            let value = match input.source {
-                Source::Press => measured(|t| t.press),
-                Source::Breadth => measured(|t| t.breadth),
-                Source::Friendliness => touch.map(|t| t.friendliness.into()),
-                Source::Duration => measured(|t| t.duration_ms),
-                Source::Speed => measured(|t| t.speed),
-                Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
-            };
-            if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {
-                *out = input.ramp(value);
-            }
-        }
-        state
     }
 }
 

@@ -5,6 +5,7 @@
 //! ships.
 
 pub mod config;
+mod encode;
 pub mod error;
 pub mod infer;
 pub mod input;

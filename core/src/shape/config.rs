@@ -1,8 +1,5 @@
 //! Settings of the stage.
 
-use super::knn::{Base, VOTERS};
-use super::stage::Shapes;
-use crate::format::Invalid;
 use serde::{Deserialize, Serialize};
 
 /// How shapes are recognised.
@@ -18,29 +15,5 @@ pub struct ShapeConfig {
 impl Default for ShapeConfig {
     fn default() -> Self {
         ShapeConfig { k: 1, reject: 400 }
-    }
-}
-
-impl ShapeConfig {
-    /// Checks the settings and a base.
-    pub fn build<const PROTOTYPES: usize>(
-        &self,
-        base: Base<PROTOTYPES>,
-    ) -> Result<Shapes<PROTOTYPES>, Invalid> {
-        let refuse = |parameter, must| Err(Invalid { parameter, must });
-        if base.prototypes.is_empty() {
-            return refuse("shape.base", "must have at least one prototype");
-        }
-        let named = 1..=base.names.len();
-        if base.prototypes.iter().any(|p| !named.contains(&usize::from(p.class.0))) {
-            return refuse("shape.base", "must name the class of every prototype");
-        }
-        if self.k == 0 || usize::from(self.k) > VOTERS.min(base.prototypes.len()) {
-            return refuse("shape.k", "must be 1 to 9, and not more than there are prototypes");
-        }
-        if self.reject == 0 {
-            return refuse("shape.reject", "must be at least 1");
-        }
-        Ok(Shapes::new(*self, base))
     }
 }

@@ -2,10 +2,10 @@
 
 use super::config::ShapeConfig;
 use super::features::features;
-use super::knn::{Base, Class, vote};
+use super::knn::{Base, Class, VOTERS, vote};
 use super::nmi::nmi;
 use crate::contact::{Contact, Moments};
-use crate::format::{Fixed24, Q15};
+use crate::format::{Fixed24, Invalid, Q15};
 use serde::{Deserialize, Serialize};
 
 /// What a contact is shaped like.
@@ -31,11 +31,31 @@ pub struct Shapes<const PROTOTYPES: usize> {
     base: Base<PROTOTYPES>,
 }
 
-impl<const PROTOTYPES: usize> Shapes<PROTOTYPES> {
-    pub(super) const fn new(config: ShapeConfig, base: Base<PROTOTYPES>) -> Self {
-        Shapes { config, base }
+impl ShapeConfig {
+    /// Checks the settings and a base.
+    pub fn build<const PROTOTYPES: usize>(
+        &self,
+        base: Base<PROTOTYPES>,
+    ) -> Result<Shapes<PROTOTYPES>, Invalid> {
+        let refuse = |parameter, must| Err(Invalid { parameter, must });
+        if base.prototypes.is_empty() {
+            return refuse("shape.base", "must have at least one prototype");
+        }
+        let named = 1..=base.names.len();
+        if base.prototypes.iter().any(|p| !named.contains(&usize::from(p.class.0))) {
+            return refuse("shape.base", "must name the class of every prototype");
+        }
+        if self.k == 0 || usize::from(self.k) > VOTERS.min(base.prototypes.len()) {
+            return refuse("shape.k", "must be 1 to 9, and not more than there are prototypes");
+        }
+        if self.reject == 0 {
+            return refuse("shape.reject", "must be at least 1");
+        }
+        Ok(Shapes { config: *self, base })
     }
+}
 
+impl<const PROTOTYPES: usize> Shapes<PROTOTYPES> {
     /// The base it recognises.
     pub const fn base(&self) -> &Base<PROTOTYPES> {
         &self.base

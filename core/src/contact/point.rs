@@ -1,0 +1,52 @@
+//! Distances between points of panels, over the shortest seam.
+
+use crate::format::Fixed16;
+use crate::garment::{Layout, Transform};
+
+/// Distances are in 1/16 taxel, at most 2047 taxels: two squares fit in 32 bits.
+pub(super) const LONGEST: i32 = 32767;
+
+/// A point of a panel in 1/16 taxel: fine enough to compare distances, and 32 bits do.
+#[derive(Clone, Copy)]
+pub(super) struct Point {
+    pub panel: u8,
+    pub x: i32,
+    pub y: i32,
+}
+
+impl Point {
+    /// From coordinates in Q16.
+    pub fn of(panel: u8, x: Fixed16, y: Fixed16) -> Point {
+        Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
+    }
+
+    fn through(self, way: &Transform) -> (i32, i32) {
+        // As `Transform::apply`, in 32 bits: coordinates are below 2^20, and so are shifts.
+        (way.xx * self.x + way.xy * self.y + way.dx * 16, way.yx * self.x + way.yy * self.y + way.dy * 16)
+    }
+}
+
+/// The way between two panels (none within one panel, else over one seam) that brings a point closest to another, and
+/// the squared distance that is left.
+pub(super) fn nearest_way(layout: &Layout, from: Point, to: Point) -> Option<(Option<Transform>, u32)> {
+    let squared = |(x, y): (i32, i32)| {
+        let square = |apart: i32| (apart.clamp(-LONGEST, LONGEST).pow(2)) as u32;
+        square(x - to.x) + square(y - to.y)
+    };
+    let mut best = (from.panel == to.panel).then(|| (None, squared((from.x, from.y))));
+    let mut consider = |way: Transform| {
+        let left = squared(from.through(&way));
+        if best.is_none_or(|(_, least)| left < least) {
+            best = Some((Some(way), left));
+        }
+    };
+    for joint in layout.joints() {
+        if (joint.b, joint.a) == (from.panel, to.panel) {
+            consider(joint.b_to_a);
+        }
+        if (joint.a, joint.b) == (from.panel, to.panel) {
+            consider(joint.b_to_a.inverse());
+        }
+    }
+    best
+}

@@ -1,0 +1,62 @@
+//! Panels as numbered, places and rectangles on them.
+
+use crate::format::Name;
+use serde::{Deserialize, Serialize};
+
+/// One panel as numbered: taxel `base + row * columns + column`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Area {
+    /// Name of the panel.
+    pub name: Name,
+    /// Link of the robot.
+    pub link: Name,
+    /// Index into [`Layout::regions`].
+    pub region: u8,
+    /// Number of the first taxel.
+    pub base: u16,
+    /// Number of the first row, counting the rows of all panels.
+    pub first_row: u16,
+    /// Rows (y).
+    pub rows: u16,
+    /// Columns (x).
+    pub columns: u16,
+    /// Distance of taxel centres along x and y, micrometres; 0 where unknown.
+    pub pitch_um: [u32; 2],
+}
+
+/// Where a taxel is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Place {
+    /// Index of the panel.
+    pub panel: u8,
+    /// Row (y).
+    pub row: u16,
+    /// Column (x).
+    pub column: u16,
+}
+
+/// A rectangle of taxels of one panel, last row and column included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rect {
+    /// Index of the panel.
+    pub panel: u8,
+    /// First row.
+    pub top: u16,
+    /// Last row.
+    pub bottom: u16,
+    /// First column.
+    pub left: u16,
+    /// Last column.
+    pub right: u16,
+}
+
+impl Rect {
+    /// Whether a taxel lies in the rectangle grown by `margin` on each side.
+    pub const fn holds(&self, panel: u8, row: u16, column: u16, margin: u16) -> bool {
+        self.panel == panel
+            && row + margin >= self.top
+            && row <= self.bottom + margin
+            && column + margin >= self.left
+            && column <= self.right + margin
+    }
+}

@@ -1,0 +1,29 @@
+//! The start of an inference: what was measured, as activations of the input concepts.
+
+use super::input::{Source, Touch};
+use super::map::Map;
+use crate::format::Q15;
+
+impl<const N: usize> Map<N> {
+    /// The start of an inference: each input concept encoded, every other concept 0. `host` holds the values the host
+    /// feeds, by slot. Total.
+    pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
+        let mut state = [0; N];
+        for input in &self.inputs {
+            let measured =
+                |pick: fn(&Touch) -> u32| touch.map(|t| i32::try_from(pick(t)).unwrap_or(i32::MAX));
+            let value = match input.source {
+                Source::Press => measured(|t| t.press),
+                Source::Breadth => measured(|t| t.breadth),
+                Source::Friendliness => touch.map(|t| t.friendliness.into()),
+                Source::Duration => measured(|t| t.duration_ms),
+                Source::Speed => measured(|t| t.speed),
+                Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
+            };
+            if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {
+                *out = input.ramp(value);
+            }
+        }
+        state
+    }
+}
