@@ -147,7 +147,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         if let Some(scanned) = self.scanned.take() {
             self.health.process_us = now.since(scanned).min(u64::from(u32::MAX)) as u32;
         }
-        self.outbox.tick(now, &self.health);
+        self.outbox.tick(now);
         if let Some(job) = self.jobs.pop_front() {
             return Some(job);
         }

@@ -1,6 +1,6 @@
 //! What waits to be sent, in the order of its urgency; encoded only when the link has room.
 
-use super::pace::Pace;
+use super::pace::Rates;
 use super::setup::{BoardInfo, Setup};
 use super::{Codes, Sentence};
 use crate::contact::Phase;
@@ -63,12 +63,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     image: Image<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
-    contact_pace: Pace,
-    frame_pace: Pace,
-    raw_pace: Pace,
-    key_us: u64,
-    tell_symbols: bool,
-    tell_intent: bool,
+    rates: Rates,
 }
 
 /// The image that waits, and the one that was sent last.
@@ -106,23 +101,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             image: Image { due: None, base: None, key: Micros(0), last: [0; TAXELS] },
             raw: None,
             codes: Codes::new(),
-            contact_pace: Pace::new(stream.contacts_hz),
-            frame_pace: Pace::new(stream.frames_hz),
-            raw_pace: Pace::new(stream.raw_hz),
-            key_us: 1000 * u64::from(stream.key_ms),
-            tell_symbols: stream.symbols,
-            tell_intent: stream.intent,
+            rates: Rates::of(stream),
         }
     }
 
     /// What is streamed from now on, and how often.
     pub fn pace(&mut self, stream: &StreamConfig) {
-        self.contact_pace = Pace::new(stream.contacts_hz);
-        self.frame_pace = Pace::new(stream.frames_hz);
-        self.raw_pace = Pace::new(stream.raw_hz);
-        self.key_us = 1000 * u64::from(stream.key_ms);
-        self.tell_symbols = stream.symbols;
-        self.tell_intent = stream.intent;
+        self.rates = Rates::of(stream);
     }
 
     /// `Start`: `Hello`, then everything, beginning with a key frame.
@@ -174,7 +159,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     /// Once a second: `Hello` until `Start`, then `Health`.
-    pub fn tick(&mut self, now: Micros, _health: &Health) {
+    pub fn tick(&mut self, now: Micros) {
         const SECOND: u64 = 1_000_000;
         if self.streaming {
             self.health.get_or_insert(Micros(now.0 + SECOND));
@@ -192,7 +177,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             let report = ReactionReport { frame, time, reaction: reaction.clone() };
             health.lost += u32::from(self.reactions.push_back(report).is_err());
         }
-        if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.tell_intent) {
+        if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.rates.intent) {
             let report = IntentReport {
                 frame,
                 time,
@@ -211,12 +196,12 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.note_contacts(frame, time, percept, health);
         self.note_symbols(frame, time, percept, health);
         // What waits is encoded from the newest image and codes, so it bears their number.
-        let due = self.frame_pace.due(time);
+        let due = self.rates.frames.due(time);
         health.thinned_frames += u32::from(due && self.image.due.is_some());
         if due || self.image.due.is_some() {
             self.image.due = Some((frame, time));
         }
-        if self.raw_pace.due(time) || self.raw.is_some() {
+        if self.rates.raw.due(time) || self.raw.is_some() {
             self.raw = Some((frame, time));
         }
     }
@@ -225,7 +210,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     fn note_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let list = &mut self.contacts.contacts;
         let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
-        let due = self.contact_pace.due(time) && !percept.present.is_empty();
+        let due = self.rates.contacts.due(time) && !percept.present.is_empty();
         if self.contacts_wait {
             health.thinned_contacts += u32::from(due);
         } else {
@@ -254,7 +239,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn note_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let events = percept.symbols.events();
-        if !self.tell_symbols || (events.is_empty() && self.symbols.is_none()) {
+        if !self.rates.symbols || (events.is_empty() && self.symbols.is_none()) {
             return;
         }
         for event in events {
@@ -351,8 +336,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     fn put_image(&mut self, frame: u32, time: Micros, image: &[u16], health: &mut Health) {
-        let Outbox { seq, body, wire, to, image: Image { base, key, last, .. }, key_us, .. } = self;
-        let fresh = time.since(*key) >= *key_us;
+        let Outbox { seq, body, wire, to, image: Image { base, key, last, .. }, rates, .. } = self;
+        let fresh = time.since(*key) >= rates.key_us;
         let against = base.filter(|_| !fresh);
         let mut data = [0; IMAGE];
         let reference = last.get(..image.len()).filter(|_| against.is_some());

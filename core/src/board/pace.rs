@@ -1,6 +1,7 @@
 //! How often something is due.
 
 use crate::format::Micros;
+use crate::scene::StreamConfig;
 
 /// A rate, and when it is due next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +36,31 @@ impl Pace {
     /// When it is due next.
     pub fn next(&self) -> Micros {
         self.next
+    }
+}
+
+/// What is streamed, and how often.
+pub(super) struct Rates {
+    pub contacts: Pace,
+    pub frames: Pace,
+    pub raw: Pace,
+    /// Longest time between two key frames.
+    pub key_us: u64,
+    pub symbols: bool,
+    pub intent: bool,
+}
+
+impl Rates {
+    /// As a scene asks.
+    pub fn of(stream: &StreamConfig) -> Rates {
+        Rates {
+            contacts: Pace::new(stream.contacts_hz),
+            frames: Pace::new(stream.frames_hz),
+            raw: Pace::new(stream.raw_hz),
+            key_us: 1000 * u64::from(stream.key_ms),
+            symbols: stream.symbols,
+            intent: stream.intent,
+        }
     }
 }
 

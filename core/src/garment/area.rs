@@ -10,7 +10,7 @@ pub struct Area {
     pub name: Name,
     /// Link of the robot.
     pub link: Name,
-    /// Index into [`Layout::regions`].
+    /// Index into [`Layout::regions`](super::Layout::regions).
     pub region: u8,
     /// Number of the first taxel.
     pub base: u16,
