@@ -2,13 +2,16 @@
 
 use super::{Frames, npy};
 use anyhow::{Context, Result, anyhow, bail};
-use npyz::npz::{NpzArchive, file_name_from_array_name};
 use std::fs::File;
 use std::io::{BufReader, Read};
+use zip::ZipArchive;
+
+/// What the file of an array has behind the array's name.
+const ENDING: &str = ".npy";
 
 /// An open archive.
 pub struct Archive {
-    archive: NpzArchive<BufReader<File>>,
+    archive: ZipArchive<BufReader<File>>,
     /// Of all its arrays, in order.
     names: Vec<String>,
 }
@@ -16,8 +19,10 @@ pub struct Archive {
 impl Archive {
     /// Reads the table of contents.
     pub fn open(file: File) -> Result<Archive> {
-        let archive = NpzArchive::new(BufReader::new(file)).context("not a NumPy archive")?;
-        let mut names: Vec<String> = archive.array_names().map(String::from).collect();
+        let archive = ZipArchive::new(BufReader::new(file)).context("not a NumPy archive")?;
+        let files: Vec<_> = archive.file_names().collect::<Result<_, _>>().context("damaged")?;
+        let arrays = files.iter().filter_map(|name| name.strip_suffix(ENDING));
+        let mut names: Vec<String> = arrays.map(String::from).collect();
         names.sort();
         Ok(Archive { archive, names })
     }
@@ -64,7 +69,7 @@ impl Archive {
 
     /// What `read` makes of an entry, given its reader and its size.
     fn entry<T>(&mut self, name: &str, read: impl FnOnce(&mut dyn Read, u64) -> Result<T>) -> Result<T> {
-        let entry = self.archive.zip_archive().by_name(&file_name_from_array_name(name));
+        let entry = self.archive.by_name(&format!("{name}{ENDING}"));
         let mut entry = entry.map_err(|error| anyhow!("damaged: {error}"))?;
         let size = entry.size();
         read(&mut entry, size)
