@@ -11,7 +11,7 @@
 //! | NMI and its forms | [`Fixed24`] | see `shape::nmi` | 0 ..< 256 | 2^-24 (6.0e-8) |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
-//! Floats appear only in the conversions of this file, which are for hosts, tests and set-up code; no function of the
+//! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests and set-up code; no function of the
 //! per-frame path calls them.
 
 mod invalid;
