@@ -1,7 +1,7 @@
 //! The data path, composed: codes of one scan in, everything that was perceived out.
 
 use crate::body::Placed;
-use crate::condition::{Condition, ConditionState, Tare};
+use crate::condition::{Condition, ConditionState, Image, Tare};
 use crate::contact::{ContactState, Contacts};
 use crate::fold::FoldState;
 use crate::format::{Code, Invalid, Micros, Q15};
@@ -174,9 +174,9 @@ impl<const TAXELS: usize, const RUNS: usize> PipelineState<TAXELS, RUNS> {
         !self.present.is_empty()
     }
 
-    /// The conditioned image of the last frame, by taxel number.
-    pub fn image(&self, pipeline: &Pipeline, layout: &Layout) -> &[u16] {
-        pipeline.condition.image(&self.condition, layout).values
+    /// The conditioned image of the last frame.
+    pub fn image(&self, pipeline: &Pipeline, layout: &Layout) -> Image<'_> {
+        pipeline.condition.image(&self.condition, layout)
     }
 
     /// The announced intention and what led to it.

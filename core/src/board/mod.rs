@@ -5,6 +5,7 @@ mod outbox;
 mod pace;
 mod request;
 mod setup;
+mod under_way;
 
 pub use setup::{BoardInfo, Setup, SetupError};
 
@@ -190,7 +191,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// What is to be sent next: the rest of the frame under way, else the most urgent message, encoded now.
     pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        self.outbox.pending(now, &self.info, &self.setup, image, &mut self.health, probe)
+        self.outbox.pending(now, &self.info, &self.setup, &image, &mut self.health, probe)
     }
 
     /// The first `count` of the pending bytes have been taken by the link.

@@ -2,23 +2,18 @@
 
 use super::pace::Rates;
 use super::setup::{BoardInfo, Setup};
+use super::under_way::UnderWay;
 use super::{Codes, Sentence};
+use crate::condition::Image;
 use crate::contact::Phase;
 use crate::format::{Code, Micros};
+use crate::garment::{Layout, PANELS};
 use crate::pipeline::{Percept, Probe, Stage};
 use crate::scene::StreamConfig;
-use crate::symbol::{EVENTS, RegionState, Symbol};
 use crate::wire::*;
 use core::fmt::{self, Write};
 use heapless::{Deque, Vec};
 use serde::Serialize;
-
-/// Room for an image: any of 2,048 taxels.
-const IMAGE: usize = image_bound(2048, 16);
-/// Longest body of a message: an image and what stands before it. A full list of contacts is shorter.
-const BODY: usize = IMAGE + 64;
-/// Its frame.
-const FRAME: usize = frame_bound(BODY);
 
 /// Why something is refused, as a sentence.
 #[derive(Debug, Clone)]
@@ -42,11 +37,7 @@ impl From<fmt::Arguments<'_>> for Refusal {
 
 /// What waits to be sent.
 pub(super) struct Outbox<const TAXELS: usize> {
-    seq: u32,
-    body: [u8; BODY],
-    wire: [u8; FRAME],
-    from: usize,
-    to: usize,
+    under_way: UnderWay,
     streaming: bool,
     hello: Option<Micros>,
     synced: Deque<(u32, Micros), 4>,
@@ -55,23 +46,23 @@ pub(super) struct Outbox<const TAXELS: usize> {
     reactions: Deque<ReactionReport, 16>,
     changes: Deque<IntentReport, 8>,
     intent: Option<IntentReport>,
-    events: Vec<Symbol, EVENTS>,
-    symbols: Option<(u32, Micros, Vec<RegionState, { crate::garment::PANELS }>)>,
+    symbols: SymbolList,
+    symbols_wait: bool,
     contacts: ContactList,
     contacts_wait: bool,
     health: Option<Micros>,
-    image: Image<TAXELS>,
+    image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
     rates: Rates,
 }
 
 /// The image that waits, and the one that was sent last.
-struct Image<const TAXELS: usize> {
+struct Waiting<const TAXELS: usize> {
     due: Option<(u32, Micros)>,
     base: Option<u32>,
     key: Micros,
-    last: [u16; TAXELS],
+    last: Reference<TAXELS>,
 }
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
@@ -79,12 +70,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     #[inline(never)]
     pub fn new(stream: &StreamConfig) -> Self {
         Outbox {
-            seq: 0,
-            body: [0; BODY],
-            wire: [0; FRAME],
-            from: 0,
-            // One 0x00 first: whatever a booting board or an opening line put on the wire ends there.
-            to: 1,
+            under_way: UnderWay::new(),
             streaming: false,
             hello: Some(Micros(0)),
             synced: Deque::new(),
@@ -93,12 +79,12 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             reactions: Deque::new(),
             changes: Deque::new(),
             intent: None,
-            events: Vec::new(),
-            symbols: None,
+            symbols: SymbolList { frame: 0, time: Micros(0), events: Vec::new(), regions: Vec::new() },
+            symbols_wait: false,
             contacts: ContactList { frame: 0, time: Micros(0), dropped: 0, contacts: Vec::new() },
             contacts_wait: false,
             health: None,
-            image: Image { due: None, base: None, key: Micros(0), last: [0; TAXELS] },
+            image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
             codes: Codes::new(),
             rates: Rates::of(stream),
@@ -128,16 +114,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn renew(&mut self) {
         self.hello = Some(Micros(0));
         self.forget_image();
+        self.image.last.clear();
         self.drop_waiting();
     }
 
     fn drop_waiting(&mut self) {
         self.reactions.clear();
         self.changes.clear();
-        (self.intent, self.symbols, self.image.due, self.raw) = (None, None, None, None);
-        self.events.clear();
+        (self.intent, self.image.due, self.raw) = (None, None, None);
         self.contacts.contacts.clear();
-        self.contacts_wait = false;
+        (self.symbols_wait, self.contacts_wait) = (false, false);
     }
 
     /// The next image stands alone.
@@ -239,15 +225,23 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn note_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let events = percept.symbols.events();
-        if !self.rates.symbols || (events.is_empty() && self.symbols.is_none()) {
+        if !self.rates.symbols || (events.is_empty() && !self.symbols_wait) {
             return;
         }
-        for event in events {
-            health.lost += u32::from(self.events.push(*event).is_err());
+        let list = &mut self.symbols;
+        if !self.symbols_wait {
+            list.events.clear();
         }
-        let all = percept.symbols.regions(crate::garment::PANELS);
-        let touched = all.iter().filter(|region| region.contacts > 0).copied().collect();
-        self.symbols = Some((frame, time, touched));
+        for event in events {
+            health.lost += u32::from(list.events.push(*event).is_err());
+        }
+        list.regions.clear();
+        for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {
+            // As many as there are.
+            let _ = list.regions.push(*region);
+        }
+        (list.frame, list.time) = (frame, time);
+        self.symbols_wait = true;
     }
 
     /// Keeps the codes of a frame that is to be sent raw.
@@ -264,137 +258,108 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         info: &BoardInfo,
         setup: &Setup,
-        image: &[u16],
+        image: &Image<'_>,
         health: &mut Health,
         probe: &mut impl Probe,
     ) -> &[u8] {
-        if self.from >= self.to {
+        if self.under_way.rest().is_empty() {
             probe.begin(Stage::Encode);
-            (self.from, self.to) = (0, 0);
             self.next(now, info, setup, image, health);
             probe.begin(Stage::Idle);
         }
-        self.wire.get(self.from..self.to).unwrap_or(&[])
+        self.under_way.rest()
     }
 
     pub fn sent(&mut self, count: usize) {
-        self.from = self.from.saturating_add(count).min(self.to);
+        self.under_way.sent(count);
     }
 
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
-    fn next(&mut self, now: Micros, info: &BoardInfo, setup: &Setup, image: &[u16], health: &mut Health) {
-        if let Some((token, received)) = self.synced.pop_front() {
-            self.put(&Report::Sync(SyncReport { token, received, sent: now }), health);
+    fn next(&mut self, now: Micros, info: &BoardInfo, setup: &Setup, image: &Image<'_>, health: &mut Health) {
+        let under_way = &mut self.under_way;
+        let fits = if let Some((token, received)) = self.synced.pop_front() {
+            under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
-            self.put_hello(now, info, setup, health);
+            put_hello(under_way, now, info, setup)
         } else if let Some((request, refusal)) = self.answers.pop_front() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
-            self.put(&Report::Answer(Answer { request, refusal }), health);
+            under_way.put(Report::ANSWER, &Answer { request, refusal })
         } else if let Some(report) = self.reactions.pop_front() {
-            self.put(&Report::Reaction(report), health);
+            under_way.put(Report::REACTION, &report)
         } else if self.contacts_wait {
             self.contacts_wait = false;
-            let contacts = self.contacts.clone();
-            self.put(&Report::Contacts(contacts), health);
-        } else if let Some((frame, time, regions)) = self.symbols.take() {
-            let events = core::mem::take(&mut self.events);
-            self.put(&Report::Symbols(SymbolList { frame, time, events, regions }), health);
+            under_way.put(Report::CONTACTS, &self.contacts)
+        } else if self.symbols_wait {
+            self.symbols_wait = false;
+            under_way.put(Report::SYMBOLS, &self.symbols)
         } else if let Some(report) = self.changes.pop_front().or_else(|| self.intent.take()) {
-            self.put(&Report::Intent(report), health);
+            under_way.put(Report::INTENT, &report)
         } else if let Some(text) = self.logs.pop_front() {
-            self.put(&Report::Log(Log { time: now, level: Level::Error, text: &text }), health);
+            under_way.put(Report::LOG, &Log { time: now, level: Level::Error, text: &text })
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
-            let report = Report::Health(Health { time: now, ..*health });
-            self.put(&report, health);
+            under_way.put(Report::HEALTH, &Health { time: now, ..*health })
         } else if let Some((frame, time)) = self.image.due.take() {
-            self.put_image(frame, time, image, health);
+            self.put_image(frame, time, &setup.layout, image, health)
         } else if let Some((frame, time)) = self.raw.take() {
-            self.put_raw(frame, time, health);
-        }
-    }
-
-    fn put(&mut self, report: &Report<'_>, health: &mut Health) -> bool {
-        let Outbox { seq, body, wire, to, .. } = self;
-        put(seq, body, wire, to, report, health)
-    }
-
-    fn put_hello(&mut self, now: Micros, info: &BoardInfo, setup: &Setup, health: &mut Health) {
-        let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; 2048]);
-        let hello = Report::Hello(Hello {
-            magic: MAGIC,
-            protocol: PROTOCOL,
-            garment: written(&setup.garment, &mut garment),
-            firmware: info.firmware.as_bytes(),
-            clock: written(&now, &mut clock),
-            scene: written(&setup.scene, &mut scene),
-            calibration: &[],
-        });
-        self.put(&hello, health);
-    }
-
-    fn put_image(&mut self, frame: u32, time: Micros, image: &[u16], health: &mut Health) {
-        let Outbox { seq, body, wire, to, image: Image { base, key, last, .. }, rates, .. } = self;
-        let fresh = time.since(*key) >= rates.key_us;
-        let against = base.filter(|_| !fresh);
-        let mut data = [0; IMAGE];
-        let reference = last.get(..image.len()).filter(|_| against.is_some());
-        let Some(length) = encode_image(image, reference, &mut data) else {
-            health.thinned_frames += 1;
-            return;
+            self.put_raw(frame, time)
+        } else {
+            true
         };
-        let sum = image_sum(image);
-        let data = data.get(..length).unwrap_or(&[]);
-        let report = Report::Frame(Frame { frame, time, base: against, sum, data });
-        if put(seq, body, wire, to, &report, health) {
-            if against.is_none() {
-                *key = time;
-            }
-            *base = Some(frame);
-            for (kept, value) in last.iter_mut().zip(image) {
-                *kept = *value;
-            }
-        }
+        health.lost = health.lost.wrapping_add(u32::from(!fits));
     }
 
-    fn put_raw(&mut self, frame: u32, time: Micros, health: &mut Health) {
-        let Outbox { seq, body, wire, to, codes, .. } = self;
-        let mut data = [0; IMAGE];
+    /// `false`: it does not fit. An image whose code has no room is thinned.
+    fn put_image(
+        &mut self,
+        frame: u32,
+        time: Micros,
+        layout: &Layout,
+        image: &Image<'_>,
+        health: &mut Health,
+    ) -> bool {
+        let Outbox { under_way, image: Waiting { base, key, last, .. }, rates, .. } = self;
+        let against = base.filter(|_| time.since(*key) < rates.key_us);
+        let Some(length) = last.advance(layout, image, against.is_none(), under_way.scratch()) else {
+            last.clear();
+            *base = None;
+            health.thinned_frames += 1;
+            return true;
+        };
+        let fits =
+            under_way.put_frame(Frame { frame, time, base: against, sum: last.sum(), data: &[] }, length);
+        *base = fits.then_some(frame);
+        if fits && against.is_none() {
+            *key = time;
+        }
+        fits
+    }
+
+    fn put_raw(&mut self, frame: u32, time: Micros) -> bool {
         let mut plain = [0; TAXELS];
-        for (value, code) in plain.iter_mut().zip(codes.iter()) {
+        for (value, code) in plain.iter_mut().zip(&self.codes) {
             *value = code.0;
         }
-        let plain = plain.get(..codes.len()).unwrap_or(&[]);
-        let Some(data) = encode_image(plain, None, &mut data).and_then(|length| data.get(..length)) else {
-            health.lost = health.lost.wrapping_add(1);
-            return;
-        };
-        put(seq, body, wire, to, &Report::Raw(Raw { frame, time, data }), health);
+        let plain = plain.get(..self.codes.len()).unwrap_or(&[]);
+        let length = encode_image(plain, None, self.under_way.scratch());
+        length.is_some_and(|length| self.under_way.put_raw(Raw { frame, time, data: &[] }, length))
     }
 }
 
-/// Encodes a message into the frame that is sent next; `seq` counts only what was encoded.
-fn put(
-    seq: &mut u32,
-    body: &mut [u8; BODY],
-    wire: &mut [u8; FRAME],
-    to: &mut usize,
-    report: &Report<'_>,
-    health: &mut Health,
-) -> bool {
-    match encode(&(*seq, report), body, wire) {
-        Ok(length) => {
-            *seq = seq.wrapping_add(1);
-            *to = length;
-            true
-        }
-        Err(_) => {
-            health.lost = health.lost.wrapping_add(1);
-            false
-        }
-    }
+fn put_hello(under_way: &mut UnderWay, now: Micros, info: &BoardInfo, setup: &Setup) -> bool {
+    let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; 2048]);
+    let hello = Hello {
+        magic: MAGIC,
+        protocol: PROTOCOL,
+        garment: written(&setup.garment, &mut garment),
+        firmware: info.firmware.as_bytes(),
+        clock: written(&now, &mut clock),
+        scene: written(&setup.scene, &mut scene),
+        calibration: &[],
+    };
+    under_way.put(Report::HELLO, &hello)
 }
 
 /// postcard of a value; nothing where it does not fit.

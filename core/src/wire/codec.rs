@@ -23,6 +23,9 @@ static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 const CRC_BYTES: usize = 4;
 
+/// Most bytes of a group of COBS.
+const GROUP: usize = 254;
+
 /// Why some bytes are no message, or a message is no bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WireError {
@@ -72,6 +75,14 @@ pub fn encode<T: Serialize + ?Sized>(
     body: &mut [u8],
     out: &mut [u8],
 ) -> Result<usize, WireError> {
+    stuff(pack(message, body)?, out).ok_or(WireError::NoRoom)
+}
+
+/// Writes `message` and its CRC into `body`.
+pub(crate) fn pack<'a, T: Serialize + ?Sized>(
+    message: &T,
+    body: &'a mut [u8],
+) -> Result<&'a [u8], WireError> {
     let bytes = match postcard::to_slice(message, body) {
         Ok(used) => used.len(),
         Err(postcard::Error::SerializeBufferFull) => return Err(WireError::NoRoom),
@@ -83,7 +94,7 @@ pub fn encode<T: Serialize + ?Sized>(
     let whole = body.get_mut(..bytes + CRC_BYTES).ok_or(WireError::NoRoom)?;
     let (message, tail) = whole.split_last_chunk_mut::<CRC_BYTES>().ok_or(WireError::NoRoom)?;
     *tail = CRC.checksum(message).to_le_bytes();
-    stuff(whole, out).ok_or(WireError::NoRoom)
+    Ok(whole)
 }
 
 /// Opens one received `frame` (without its 0x00) in place: checks length, COBS and CRC, and returns the message's bytes.
@@ -112,31 +123,26 @@ pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, WireError> {
 /// COBS of `data` and a 0x00 into `out`; the length of both, or `None` if there is no room.
 ///
 /// Data that end with a full group of 254 bytes end with it: no empty group follows.
-fn stuff(data: &[u8], out: &mut [u8]) -> Option<usize> {
-    let (mut head, mut to, mut full) = (0, 1, false);
-    for byte in data {
-        if full {
-            (head, to, full) = (to, to + 1, false);
-        }
-        if *byte != 0 {
-            *out.get_mut(to)? = *byte;
-            to += 1;
-        }
-        // At most 255, see below.
-        let group = to - head;
-        if *byte == 0 {
-            *out.get_mut(head)? = group as u8;
-            (head, to) = (to, to + 1);
-        } else if group == 255 {
-            *out.get_mut(head)? = 255;
-            full = true;
+pub(crate) fn stuff(data: &[u8], out: &mut [u8]) -> Option<usize> {
+    let room = out.len();
+    let (mut data, mut out) = (data, out);
+    loop {
+        let most = data.get(..GROUP).unwrap_or(data);
+        let group = most.iter().position(|byte| *byte == 0);
+        let length = group.unwrap_or(most.len());
+        let (code, rest) = out.split_first_mut()?;
+        *code = length as u8 + 1;
+        let (to, rest) = rest.split_at_mut_checked(length)?;
+        to.iter_mut().zip(most).for_each(|(to, from)| *to = *from);
+        out = rest;
+        data = data.get(length + usize::from(group.is_some())..)?;
+        // A zero at the end asks for the empty group that it stands before.
+        if data.is_empty() && group.is_none() {
+            let (end, rest) = out.split_first_mut()?;
+            *end = 0;
+            return Some(room - rest.len());
         }
     }
-    if !full {
-        *out.get_mut(head)? = (to - head) as u8;
-    }
-    *out.get_mut(to)? = 0;
-    Some(to + 1)
 }
 
 /// Undoes COBS in place; the length of the data, or `None` if `frame` is not COBS.

@@ -9,7 +9,7 @@ use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::symbol::{EVENTS, RegionState, Symbol};
 use heapless::Vec;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// First bytes of a `Hello`.
 pub const MAGIC: [u8; 4] = *b"TAXL";
@@ -20,7 +20,7 @@ pub const LONGEST_REQUEST: usize = 3072;
 
 /// What the board tells the host; numbered as in the [module's](super) table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[allow(clippy::large_enum_variant)] // made where it is encoded, never stored
+#[allow(clippy::large_enum_variant)] // read where it is used, never stored
 pub enum Report<'a> {
     /// Who is there.
     #[serde(borrow)]
@@ -51,6 +51,32 @@ pub enum Report<'a> {
     Raw(Raw<'a>),
 }
 
+/// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
+impl Report<'_> {
+    /// Of `Hello`.
+    pub const HELLO: u32 = 0;
+    /// Of `Frame`.
+    pub const FRAME: u32 = 1;
+    /// Of `Contacts`.
+    pub const CONTACTS: u32 = 2;
+    /// Of `Symbols`.
+    pub const SYMBOLS: u32 = 3;
+    /// Of `Intent`.
+    pub const INTENT: u32 = 4;
+    /// Of `Reaction`.
+    pub const REACTION: u32 = 5;
+    /// Of `Health`.
+    pub const HEALTH: u32 = 6;
+    /// Of `Log`.
+    pub const LOG: u32 = 7;
+    /// Of `Sync`.
+    pub const SYNC: u32 = 8;
+    /// Of `Answer`.
+    pub const ANSWER: u32 = 9;
+    /// Of `Raw`.
+    pub const RAW: u32 = 10;
+}
+
 /// Frozen.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello<'a> {
@@ -70,6 +96,11 @@ pub struct Hello<'a> {
     pub calibration: &'a [u8],
 }
 
+/// The same bytes as a sequence of them, not one by one.
+fn at_once<S: Serializer>(bytes: &&[u8], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_bytes(bytes)
+}
+
 /// A conditioned image.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame<'a> {
@@ -82,6 +113,7 @@ pub struct Frame<'a> {
     /// [`image_sum`](super::image_sum) of the image.
     pub sum: u32,
     /// The image, see [`encode_image`](super::encode_image).
+    #[serde(serialize_with = "at_once")]
     pub data: &'a [u8],
 }
 
@@ -93,6 +125,7 @@ pub struct Raw<'a> {
     /// Start of the scan.
     pub time: Micros,
     /// The codes, coded as an image alone.
+    #[serde(serialize_with = "at_once")]
     pub data: &'a [u8],
 }
 

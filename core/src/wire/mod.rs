@@ -28,11 +28,16 @@
 //! `Raw` has the same coding, always alone.
 
 mod codec;
+mod encoder;
 mod image;
 mod message;
 mod receiver;
+mod reference;
 
 pub use codec::{WireError, decode, encode, frame_bound, open};
-pub use image::{ImageError, ImageFault, decode_image, encode_image, image_bound, image_sum};
+pub(crate) use codec::{pack, stuff};
+pub use encoder::encode_image;
+pub use image::{ImageError, ImageFault, decode_image, image_bound, image_sum};
 pub use message::*;
 pub use receiver::Receiver;
+pub(crate) use reference::Reference;
