@@ -22,6 +22,7 @@ usage: cargo xtask COMMAND
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
+  peers [--json]        the core beside imageproc, and OpenCV where Python has it: microseconds per panel
   test [--only NAME] [--may-miss NAME]
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Some("core-thumb") => firmware::build_core().map(|()| true),
         Some("emulator") => firmware::emulate(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
+        Some("peers") => targets::peers(rest).map(|()| true),
         Some("test") => checks::run(rest),
         _ => Err(USAGE.to_string()),
     };

@@ -52,6 +52,13 @@ pub fn feed_recordings(args: &[String]) -> Result<(), String> {
     process::run(&mut command)
 }
 
+/// `cargo xtask peers`: the core beside other libraries, in one run.
+pub fn peers(args: &[String]) -> Result<(), String> {
+    let mut command =
+        cargo(&["bench", "--quiet", "--package", "taxel-tests", "--bench", "peers", "--"], paths::root());
+    process::run(command.args(args))
+}
+
 /// One of the test targets that a plain `cargo test` leaves out.
 fn test_target(name: &str) -> Command {
     let mut command = cargo(&["test", "--package", "taxel-tests", "--test", name], paths::root());

@@ -1,0 +1,107 @@
+//! `cargo xtask peers`: microseconds per 32 x 64 panel, the core beside imageproc, and OpenCV where Python has it.
+
+mod chains;
+mod scenes;
+
+use scenes::Scene;
+use serde_json::{Value, json};
+use std::hint::black_box;
+use std::io::Write;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+use taxel_core::format::Code;
+
+/// Repetitions that are timed together, and how often; the median counts.
+const ROUNDS: usize = 31;
+const REPEATED: u32 = 200;
+
+fn main() {
+    let json = std::env::args().any(|arg| arg == "--json");
+    let rows: Vec<Value> = scenes::all().iter().map(row).collect();
+    if json {
+        return println!("{}", json!({ "unit": "us per 32 x 64 panel", "rows": rows }));
+    }
+    println!("Microseconds per panel of 32 x 64: median 3x3, Sobel, threshold, labels, moments");
+    println!(
+        "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}",
+        "scene", "taxel", "imageproc", "ratio", "OpenCV", "ratio"
+    );
+    for row in &rows {
+        let number = |key: &str| row[key].as_f64();
+        let show = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));
+        println!(
+            "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}",
+            row["scene"].as_str().unwrap_or(""),
+            number("taxel").map_or("-".into(), |value| format!("{value:.2}")),
+            show(number("imageproc")),
+            show(number("ratio")),
+            show(number("opencv")),
+            show(number("opencv_ratio")),
+        );
+    }
+    if rows.iter().all(|row| row["opencv"].is_null()) {
+        println!("OpenCV: not run, `python3 -c 'import cv2'` fails here");
+    }
+}
+
+fn row(scene: &Scene) -> Value {
+    let (ours, theirs) = chains::found(&scene.values);
+    if ours != theirs || ours.len() != scene.contacts {
+        return json!({ "scene": format!("{} (void: not the same contacts)", scene.name) });
+    }
+    let codes: Vec<Code> = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
+    let (panel, mut chain) = (chains::panel(&scene.values), chains::Ours::new());
+    let taxel = time(|| chain.process(black_box(&codes), |sums| sums.for_each(|sum| _ = black_box(sum))));
+    let imageproc = time(|| _ = black_box(chains::imageproc(black_box(&panel))));
+    let opencv = opencv(&scene.values);
+    json!({
+        "scene": scene.name, "contacts": scene.contacts, "taxel": taxel, "imageproc": imageproc,
+        "ratio": imageproc / taxel, "opencv": opencv, "opencv_ratio": opencv.map(|time| time / taxel),
+    })
+}
+
+/// Median microseconds of a call.
+fn time(mut call: impl FnMut()) -> f64 {
+    let mut times = [0.0; ROUNDS];
+    for time in &mut times {
+        let start = Instant::now();
+        (0..REPEATED).for_each(|_| call());
+        *time = start.elapsed().as_secs_f64() * 1e6 / f64::from(REPEATED);
+    }
+    times.sort_unstable_by(f64::total_cmp);
+    times[ROUNDS / 2]
+}
+
+/// The same steps by OpenCV's Python module, one thread; none where it is not installed.
+fn opencv(values: &[u8]) -> Option<f64> {
+    let script = format!(
+        "import sys, time, cv2, numpy as np
+cv2.setNumThreads(1)
+image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({rows}, {columns})
+def chain():
+    smooth = cv2.medianBlur(image, 3)
+    cv2.Sobel(smooth, cv2.CV_16S, 1, 0), cv2.Sobel(smooth, cv2.CV_16S, 0, 1)
+    _, touched = cv2.threshold(smooth, {below}, 255, cv2.THRESH_BINARY)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(touched, connectivity=8)
+    for label in range(1, count):
+        x, y, w, h, _ = stats[label]
+        box = np.s_[y:y + h, x:x + w]
+        cv2.moments(smooth[box] * (labels[box] == label))
+times = []
+for _ in range({ROUNDS}):
+    start = time.perf_counter()
+    for _ in range({REPEATED}): chain()
+    times.append((time.perf_counter() - start) * 1e6 / {REPEATED})
+print(sorted(times)[{ROUNDS} // 2])",
+        rows = scenes::ROWS,
+        columns = scenes::COLUMNS,
+        below = scenes::THRESHOLD - 1,
+    );
+    let mut python = Command::new("python3");
+    python.args(["-c", &script]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut child = python.spawn().ok()?;
+    // A script that ends early for want of cv2 does not read.
+    let _ = child.stdin.take()?.write_all(values);
+    let output = child.wait_with_output().ok()?;
+    String::from_utf8(output.stdout).ok()?.trim().parse().ok()
+}
