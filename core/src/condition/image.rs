@@ -1,6 +1,7 @@
 //! The conditioned image, and which of its rows are worth a look.
 
 use crate::garment::{Area, Layout};
+use core::ops::Range;
 
 const WORDS: usize = 32;
 
@@ -67,6 +68,15 @@ impl<'a> Image<'a> {
             row_of(self.values, area, row)
         } else {
             &[]
+        }
+    }
+
+    /// The columns of a row that may hold something; all others are 0. Empty if the row holds nothing or does not exist.
+    pub fn span(&self, area: &Area, row: u16) -> Range<u16> {
+        if row < area.rows && self.rows.contains(area.first_row.saturating_add(row)) {
+            0..area.columns
+        } else {
+            0..0
         }
     }
 }
