@@ -28,22 +28,38 @@ pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
 pub(crate) struct Neighbourhood<'a>([&'a [u16]; 3]);
 
 impl<'a> Neighbourhood<'a> {
+    /// Of no row.
+    pub const NONE: Neighbourhood<'static> = Neighbourhood([&[]; 3]);
+
     pub fn of(values: &'a [u16], area: &Area, row: u16) -> Self {
         let last = area.rows.saturating_sub(1);
         let y = row.min(last);
         Neighbourhood([y.saturating_sub(1), y, (y + 1).min(last)].map(|row| row_of(values, area, row)))
     }
 
+    /// The row above, the row, the row below.
+    pub const fn rows(&self) -> [&'a [u16]; 3] {
+        self.0
+    }
+
     pub fn gradient(&self, column: u16) -> Gradient {
         let x = usize::from(column).min(self.0[1].len().saturating_sub(1));
-        let three = |row: &[u16]| {
-            let at = |x: usize| row.get(x).map(|v| i32::from(*v));
-            let middle = at(x).unwrap_or(0);
-            [at(x.wrapping_sub(1)).unwrap_or(middle), middle, at(x + 1).unwrap_or(middle)]
-        };
-        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(three);
+        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(|row| three(row, x));
         Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
     }
+}
+
+/// A value with its neighbours to the left and right, which it replaces beyond the ends of the row.
+fn three(row: &[u16], x: usize) -> [i32; 3] {
+    let around = x.checked_sub(1).and_then(|left| row.get(left..)?.first_chunk::<3>());
+    around
+        .copied()
+        .unwrap_or_else(|| {
+            let middle = row.get(x).copied().unwrap_or(0);
+            let before = x.checked_sub(1).and_then(|left| row.get(left));
+            [before.copied().unwrap_or(middle), middle, row.get(x + 1).copied().unwrap_or(middle)]
+        })
+        .map(i32::from)
 }
 
 #[cfg(test)]

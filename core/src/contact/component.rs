@@ -1,12 +1,14 @@
 //! Which components are contacts, and what is measured on each of them.
 
 use super::config::ContactConfig;
+use super::contour::{Contour, Line};
 use super::join::{Joins, weigh};
-use super::label::{Labels, NONE, Run};
+use super::label::Labels;
 use super::moments::Moments;
-use crate::condition::{CARRIED, Feedback, Image, Neighbourhood};
+use super::run::{NONE, Run};
+use crate::condition::{CARRIED, Feedback, Image};
 use crate::format::{Fixed16, Inverse};
-use crate::garment::{Area, Layout, Place, Rect};
+use crate::garment::{Layout, Place, Rect};
 use heapless::Vec;
 
 /// A connected touch of one frame, not yet tracked.
@@ -20,9 +22,7 @@ pub(super) struct Component {
     /// First taxel with the greatest value.
     pub peak_at: Option<Place>,
     pub area: u16,
-    pub perimeter: u16,
-    /// Sum of the Sobel magnitudes over the contour, in eighths.
-    pub slope: u32,
+    pub contour: Contour,
     /// In the home panel, where it lies there.
     pub bounds: Rect,
     /// In the frame of the home panel.
@@ -54,54 +54,72 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         self.list.clear();
         self.beyond.clear();
         self.dropped = 0;
+        let mut least = None;
         for (part, run) in labels.parts().filter(|(part, run)| run.group == *part) {
             let (total, peak, area, held) =
                 if run.joined { weigh(labels, part) } else { (run.mass, run.peak, run.area, run.held) };
             if area < config.min_area || (peak < config.high && !held) {
                 continue;
             }
-            self.keep(Component {
+            let found = || Component {
                 part,
                 joined: run.joined,
                 total,
                 peak,
                 peak_at: None,
                 area,
-                perimeter: 0,
-                slope: 0,
+                contour: Contour::NONE,
                 bounds: Rect { panel: run.panel, ..NOWHERE },
                 moments: Moments::default(),
                 x: Fixed16(0),
                 y: Fixed16(0),
-            });
-        }
-    }
-
-    fn keep(&mut self, found: Component) {
-        let Err(found) = self.list.push(found) else { return };
-        self.dropped = self.dropped.saturating_add(1);
-        // Of equals the last found gives way.
-        if let Some(least) = self.list.iter_mut().rev().min_by_key(|kept| kept.total)
-            && least.total < found.total
-        {
-            *least = found;
-        }
-    }
-
-    /// Numbers the parts: the group of each becomes the index of its contact, or [`NONE`].
-    pub fn number<const RUNS: usize>(&self, labels: &mut Labels<RUNS>) {
-        for part in 0..labels.runs.len() as u16 {
-            let Some(run) = labels.runs.get(usize::from(part)).copied() else { return };
-            let group = match run.group {
-                _ if run.parent != part => continue,
-                own if own == part => {
-                    self.list.iter().position(|c| c.part == part).map_or(NONE, |index| index as u16)
-                }
-                // A smaller part stands for this one, and it has its number already.
-                first => labels.runs.get(usize::from(first)).map_or(NONE, |run| run.group),
             };
-            if let Some(run) = labels.runs.get_mut(usize::from(part)) {
-                run.group = group;
+            if self.list.is_full() {
+                self.dropped = self.dropped.saturating_add(1);
+                self.replace_least(&mut least, total, found);
+            } else {
+                let _ = self.list.push(found());
+            }
+        }
+    }
+
+    /// Puts a component in the place of the one with the smallest total, which `least` remembers, if it has more.
+    fn replace_least(
+        &mut self,
+        least: &mut Option<(usize, u32)>,
+        total: u32,
+        found: impl FnOnce() -> Component,
+    ) {
+        // Of equals the last found gives way.
+        let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
+        let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
+            return;
+        };
+        *least = Some((index, smallest));
+        if smallest < total
+            && let Some(kept) = self.list.get_mut(index)
+        {
+            *kept = found();
+            *least = None;
+        }
+    }
+
+    /// Tells the parts which contact they belong to.
+    pub fn number<const RUNS: usize>(&self, labels: &mut Labels<RUNS>) {
+        for (index, component) in (0u16..).zip(&self.list) {
+            if let Some(run) = labels.runs.get_mut(usize::from(component.part)) {
+                run.contact = index;
+            }
+        }
+        if self.list.iter().all(|component| !component.joined) {
+            return;
+        }
+        for part in 0..labels.runs.len() {
+            let Some(run) = labels.runs.get(part).filter(|run| run.joined) else { continue };
+            // A smaller part stands for this one, and it has its number already.
+            let contact = labels.runs.get(usize::from(run.group)).map_or(NONE, |run| run.contact);
+            if let Some(run) = labels.runs.get_mut(part) {
+                run.contact = contact;
             }
         }
     }
@@ -118,17 +136,20 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
+        let mut line = Line::NONE;
         for run in &labels.runs {
             let Some(index) = labels.contact_of(run) else { continue };
             let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
-            let Some(area) = layout.areas().get(usize::from(run.panel)) else { continue };
-            let row = run.row.saturating_sub(area.first_row);
-            component.add_moments(run, row, area, image, joins);
-            component.add_contour(run, row, area, image, low);
+            if !line.is_of(run) {
+                let Some(area) = layout.areas().get(usize::from(run.panel)) else { continue };
+                line = line.moved(run, area, image);
+            }
+            component.add_moments(run, &line, joins);
+            component.contour.add(run, &mut line, &labels.runs, low);
             if run.panel == component.bounds.panel {
-                widen(&mut component.bounds, run, row);
+                widen(&mut component.bounds, run, line.row);
             } else {
-                self.widen_beyond(index, run, row);
+                self.widen_beyond(index, run, line.row);
             }
         }
         for (contact, moments) in joins.carried_moments() {
@@ -177,50 +198,18 @@ fn widen(rect: &mut Rect, run: &Run, row: u16) {
     rect.right = rect.right.max(run.right);
 }
 
-/// Columns `left ..= right` of a row.
-fn piece<'a>(run: &Run, row: &'a [u16]) -> &'a [u16] {
-    row.get(usize::from(run.left)..=usize::from(run.right)).unwrap_or(&[])
-}
-
 impl Component {
-    fn add_moments(&mut self, run: &Run, row: u16, area: &Area, image: &Image, joins: &mut Joins) {
-        let values = piece(run, image.row(area, row));
-        let here = Moments::of_run(run.left.into(), row.into(), values);
+    fn add_moments(&mut self, run: &Run, line: &Line, joins: &mut Joins) {
+        let values = line.piece(run);
         // Of parts that are carried the sums are, once all their runs are in.
-        if !self.joined || !joins.collect(run.parent, &here) {
-            self.moments.add(&here);
-        }
+        let carried = if self.joined { joins.moments_of(run.parent) } else { None };
+        let moments = carried.unwrap_or(&mut self.moments);
+        moments.add_run(run.left.into(), line.row.into(), values, self.peak);
         if self.peak_at.is_none()
+            && run.peak == self.peak
             && let Some((column, _)) = (run.left..).zip(values).find(|(_, value)| **value == self.peak)
         {
-            self.peak_at = Some(Place { panel: run.panel, row, column });
-        }
-    }
-
-    /// Taxels with at least one of four neighbours in the panel, or beyond its border, below the threshold.
-    fn add_contour(&mut self, run: &Run, row: u16, area: &Area, image: &Image, low: u16) {
-        let above = row.checked_sub(1).map_or(&[][..], |row| piece(run, image.row(area, row)));
-        let below = piece(run, image.row(area, row.saturating_add(1)));
-        let neighbourhood = Neighbourhood::of(image.values, area, row);
-        let mut count = |column: u16| {
-            self.perimeter = self.perimeter.saturating_add(1);
-            let slope = neighbourhood.gradient(column).magnitude() >> 3;
-            self.slope = self.slope.saturating_add(slope);
-        };
-        if above.is_empty() || below.is_empty() {
-            return (run.left..=run.right).for_each(count);
-        }
-        count(run.left);
-        // Between the ends only what is above and below matters.
-        let inner = 1..usize::from(run.right - run.left).max(1);
-        let vertical = above.get(inner.clone()).unwrap_or(&[]).iter().zip(below.get(inner).unwrap_or(&[]));
-        for (index, (above, below)) in vertical.enumerate() {
-            if *above < low || *below < low {
-                count(run.left + 1 + index as u16);
-            }
-        }
-        if run.right > run.left {
-            count(run.right);
+            self.peak_at = Some(Place { panel: run.panel, row: line.row, column });
         }
     }
 }

@@ -6,10 +6,10 @@
 //! piece, and a ring that closes over two seams is cut at the later one. Parts of the home panel that are connected only over
 //! another panel are carried like all others.
 
-use super::label::{Labels, NONE};
+use super::label::Labels;
 use super::moments::Moments;
-use crate::condition::{CARRIED, Image};
-use crate::garment::{Joint, Layout, PANELS, Place, Transform};
+use crate::condition::CARRIED;
+use crate::garment::{Joint, Layout, PANELS, Transform};
 use heapless::Vec;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,66 +45,73 @@ impl Joins {
     }
 
     /// Joins the parts of a frame across all seams.
-    pub fn find<const RUNS: usize>(
-        &mut self,
-        labels: &mut Labels<RUNS>,
-        layout: &Layout,
-        image: &Image,
-        low: u16,
-    ) {
+    pub fn find<const RUNS: usize>(&mut self, labels: &mut Labels<RUNS>, layout: &Layout) {
         self.joins.clear();
         self.carried.clear();
         self.overflow = 0;
-        for (index, joint) in layout.joints().iter().enumerate() {
-            // Most frames end here: nothing touches the border on one of the two sides.
-            if labels.border >> (joint.a % 8) & labels.border >> (joint.b % 8) & 1 == 1 {
-                self.find_along(index as u8, joint, labels, layout, image, low);
+        for (index, joint) in (0u8..).zip(layout.joints()) {
+            // Most frames end here: nothing touches the seam's side of one of the two panels.
+            if labels.touches(joint.a, joint.edge_a.side) && labels.touches(joint.b, joint.edge_b.side) {
+                self.find_along(index, joint, labels, layout);
             }
         }
-        for index in 0..self.joins.len() {
-            if let Some(join) = self.joins.get(index) {
-                unite(labels, join.a, join.b);
-            }
+        for join in &self.joins {
+            unite(labels, join.a, join.b);
         }
     }
 
+    /// From run to run of the one panel at the seam, and from taxel to taxel of the other beside it.
     fn find_along<const RUNS: usize>(
         &mut self,
         index: u8,
         joint: &Joint,
-        labels: &mut Labels<RUNS>,
+        labels: &Labels<RUNS>,
         layout: &Layout,
-        image: &Image,
-        low: u16,
     ) {
-        let mut last = None;
-        for (a, b) in joint.neighbours() {
-            let mut part = |panel, (x, y): (i32, i32)| {
-                let place = Place { panel, row: u16::try_from(y).ok()?, column: u16::try_from(x).ok()? };
-                if *image.values.get(layout.taxel(place)?)? < low {
-                    return None;
-                }
-                let (run, _) =
-                    labels.run_at(layout.areas().get(usize::from(panel))?, place.row, place.column)?;
-                Some(labels.part(run))
-            };
-            // The same taxel of the one side comes up to three times in a row.
-            let near = match last {
-                Some((place, near)) if place == a => near,
-                _ => part(joint.a, a),
-            };
-            last = Some((a, near));
-            let (Some(a), Some(b)) = (near, near.and_then(|_| part(joint.b, b))) else { continue };
-            let join = Join { a, b, joint: index };
-            if a != b && !self.joins.contains(&join) && self.joins.push(join).is_err() {
-                self.overflow = self.overflow.saturating_add(1);
+        let areas = layout.areas();
+        let (Some(area_a), Some(area_b)) = (areas.get(usize::from(joint.a)), areas.get(usize::from(joint.b)))
+        else {
+            return;
+        };
+        let ((left, top), (right, bottom)) =
+            (joint.edge_a.at(0), joint.edge_a.at(i32::from(joint.length) - 1));
+        let first_row = i32::from(area_a.first_row);
+        let mut near = None;
+        let from = labels.runs.partition_point(|run| i32::from(run.row) < first_row + top);
+        for run in labels.runs.iter().skip(from) {
+            let y = i32::from(run.row) - first_row;
+            if y > bottom {
+                return;
             }
+            let (from, to) = (i32::from(run.left).max(left), i32::from(run.right).min(right));
+            if from > to {
+                continue;
+            }
+            // Along the seam either the row or the column counts.
+            for j in joint.beside(y - top + from - left, y - top + to - left) {
+                let (x, y) = joint.edge_b.at(j);
+                let (row, column) = (y as u16, x as u16);
+                let before = match near {
+                    None => labels.before(area_b, row, column),
+                    Some(near) => labels.before_near(near, area_b, row, column),
+                };
+                near = Some(before);
+                if let Some(beside) = labels.holding(before, area_b, row, column) {
+                    self.note(Join { a: run.parent, b: beside.parent, joint: index });
+                }
+            }
+        }
+    }
+
+    fn note(&mut self, join: Join) {
+        if join.a != join.b && !self.joins.contains(&join) && self.joins.push(join).is_err() {
+            self.overflow = self.overflow.saturating_add(1);
         }
     }
 
     /// The panel with most of the mass of contact `contact`, whose parts are joined; places all its parts.
     pub fn settle<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout, contact: u16) -> u8 {
-        let parts = || labels.parts().filter(|(_, run)| run.group == contact && run.group != NONE);
+        let parts = || labels.parts().filter(|(_, run)| run.contact == contact);
         let mut mass = [0u64; PANELS];
         for (_, run) in parts() {
             if let Some(sum) = mass.get_mut(usize::from(run.panel)) {
@@ -154,10 +161,9 @@ impl Joins {
         }
     }
 
-    /// Takes in the moments of a run of a joined part; `false` if it is none.
-    pub fn collect(&mut self, part: u16, moments: &Moments) -> bool {
-        let carried = self.carried.iter_mut().find(|c| c.part == part);
-        carried.map(|c| c.moments.add(moments)).is_some()
+    /// Where the moments of a part are collected if it is joined to another.
+    pub fn moments_of(&mut self, part: u16) -> Option<&mut Moments> {
+        self.carried.iter_mut().find(|c| c.part == part).map(|c| &mut c.moments)
     }
 
     /// What has been collected, in the frames of the contacts' home panels.

@@ -1,165 +1,129 @@
 //! Connected components: 8-connected runs joined by union-find, row by row.
 
+use super::run::{NONE, Run, Stretch, key};
 use crate::condition::{Feedback, Image};
-use crate::garment::{Area, Layout};
+use crate::garment::{Area, Layout, Rect, Side};
+use core::ops::Range;
 use heapless::Vec;
-
-/// A piece of a row in which every taxel is at least the low threshold. The first run of a part stands for the part and
-/// carries its sums.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
-    /// sum f of the part; fits, since taxels and values have 16 bits
-    pub mass: u32,
-    /// over all panels
-    pub row: u16,
-    pub left: u16,
-    /// last column
-    pub right: u16,
-    /// A run of the same part with a smaller index, or itself.
-    pub parent: u16,
-    /// For the first run of a part: the same, between parts that a seam joins; later the index of the contact, or [`NONE`].
-    pub group: u16,
-    /// taxels of the part
-    pub area: u16,
-    /// greatest value of the part
-    pub peak: u16,
-    pub panel: u8,
-    /// The part comes within one taxel of a contact of the previous frame.
-    pub held: bool,
-    /// A seam joins the part to another.
-    pub joined: bool,
-}
-
-impl Run {
-    const EMPTY: Run = Run {
-        mass: 0,
-        row: 0,
-        left: 0,
-        right: 0,
-        parent: 0,
-        group: 0,
-        area: 0,
-        peak: 0,
-        panel: 0,
-        held: false,
-        joined: false,
-    };
-}
-
-/// Length, sum and greatest value of the run that a slice begins with.
-#[inline(never)]
-fn measure(values: &[u16], low: u16) -> (usize, u32, u16) {
-    let (mut length, mut mass, mut peak) = (0, 0u32, 0u32);
-    for value in values.iter().take_while(|value| **value >= low) {
-        let value = u32::from(*value);
-        mass = mass.wrapping_add(value);
-        peak = peak.max(value);
-        length += 1;
-    }
-    (length, mass, peak as u16)
-}
-
-/// A place as one word, in the order of the runs.
-const fn key(row: u16, column: u16) -> u32 {
-    (row as u32) << 16 | column as u32
-}
-
-/// No contact.
-pub(super) const NONE: u16 = u16::MAX;
 
 /// The runs of a frame, in the order of rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct Labels<const RUNS: usize> {
     pub runs: Vec<Run, RUNS>,
-    /// Panels that have a run at their border.
-    pub border: u8,
+    /// Sides of panels that have a run, four bits for each panel.
+    sides: u32,
     /// Runs that did not fit, in this frame.
     pub overflow: u16,
+}
+
+/// The bit of a side among the four of its panel.
+const fn bit(panel: u8, side: Side) -> u32 {
+    1 << (panel as u32 % 8 * 4 + side as u32)
 }
 
 impl<const RUNS: usize> Labels<RUNS> {
     pub const fn new() -> Self {
         const { assert!(RUNS < NONE as usize, "a run is numbered with 16 bits") };
-        Labels { runs: Vec::new(), border: 0, overflow: 0 }
+        Labels { runs: Vec::new(), sides: 0, overflow: 0 }
     }
 
     /// Finds the parts of an image: connected runs within one panel.
-    pub fn scan<const CONTACTS: usize>(
-        &mut self,
-        layout: &Layout,
-        image: &Image,
-        low: u16,
-        last: &Feedback<CONTACTS>,
-    ) {
+    pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
         self.runs.clear();
-        self.border = 0;
+        self.sides = 0;
         self.overflow = 0;
-        for (panel, area) in layout.areas().iter().enumerate() {
+        if image.rows.is_empty() {
+            return;
+        }
+        for (panel, area) in (0u8..).zip(layout.areas()) {
             let mut above = 0..0;
             for row in 0..area.rows {
-                let start = self.runs.len();
-                self.scan_row(image.row(area, row), low, panel as u8, area.first_row.saturating_add(row));
-                let here = start..self.runs.len();
-                if here.is_empty() {
+                let span = image.span(area, row);
+                if span.is_empty() {
                     above = 0..0;
                     continue;
                 }
-                self.mark(start, row, area, last);
-                self.connect(above, here.clone());
+                let start = self.runs.len();
+                self.scan_row(image.row(area, row), span, low, panel, area.first_row.saturating_add(row));
+                let here = start..self.runs.len();
+                if !here.is_empty() {
+                    self.mark_sides(start, panel, row, area);
+                    self.connect(above, here.clone());
+                }
                 above = here;
             }
         }
+        self.flatten();
     }
 
     /// Appends the runs of a row.
-    fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16) {
-        let (mut rest, mut column) = (values, 0);
+    fn scan_row(&mut self, values: &[u16], span: Range<u16>, low: u16, panel: u8, row: u16) {
+        let (mut column, end) = (usize::from(span.start), usize::from(span.end));
+        let mut rest = values.get(column..end).or(values.get(column..)).unwrap_or(&[]);
         while let Some(skipped) = rest.iter().position(|value| *value >= low) {
             rest = rest.get(skipped..).unwrap_or(&[]);
-            let (length, mass, peak) = measure(rest, low);
+            let Stretch { length, mass, peak } = Stretch::of(rest, low.into());
             let left = column + skipped;
             column = left + length;
             rest = rest.get(length..).unwrap_or(&[]);
-            let (left, right) = (left as u16, (column - 1) as u16);
-            self.push(Run { left, right, mass, peak, row, panel, ..Run::EMPTY });
+            let index = self.runs.len() as u16;
+            let run = Run {
+                mass,
+                row,
+                left: left as u16,
+                right: (column - 1) as u16,
+                parent: index,
+                group: index,
+                contact: NONE,
+                area: length as u16,
+                peak: peak as u16,
+                panel,
+                held: false,
+                joined: false,
+            };
+            if self.runs.push(run).is_err() {
+                self.overflow = self.overflow.saturating_add(1);
+            }
         }
     }
 
-    fn push(&mut self, mut run: Run) {
-        run.parent = self.runs.len() as u16;
-        run.group = run.parent;
-        run.area = run.right - run.left + 1;
-        if self.runs.push(run).is_err() {
-            self.overflow = self.overflow.saturating_add(1);
-        }
+    /// Marks the sides of the panel that the new runs of a row touch.
+    fn mark_sides(&mut self, start: usize, panel: u8, row: u16, area: &Area) {
+        let mut mark = |touched: bool, side| {
+            if touched {
+                self.sides |= bit(panel, side);
+            }
+        };
+        mark(row == 0, Side::Top);
+        mark(row + 1 >= area.rows, Side::Bottom);
+        mark(self.runs.get(start).is_some_and(|run| run.left == 0), Side::Left);
+        mark(self.runs.last().is_some_and(|run| run.right + 1 >= area.columns), Side::Right);
     }
 
-    /// Marks what the new runs of a row touch: the panel's border, contacts of the previous frame.
-    fn mark<const CONTACTS: usize>(
-        &mut self,
-        start: usize,
-        row: u16,
-        area: &Area,
-        last: &Feedback<CONTACTS>,
-    ) {
-        let edge = row == 0 || row + 1 >= area.rows;
-        for run in self.runs.iter_mut().skip(start) {
-            run.held = last.touches(run.panel, row, run.left, run.right);
-            let border = edge || run.left == 0 || run.right + 1 >= area.columns;
-            self.border |= u8::from(border) << (run.panel % 8);
-        }
+    /// Whether a run touches that side of a panel.
+    pub const fn touches(&self, panel: u8, side: Side) -> bool {
+        self.sides & bit(panel, side) != 0
     }
 
     /// Joins the runs of two rows that follow each other where they touch, corners included.
-    fn connect(&mut self, above: core::ops::Range<usize>, here: core::ops::Range<usize>) {
+    fn connect(&mut self, above: Range<usize>, here: Range<usize>) {
         let (mut i, mut j) = (above.start, here.start);
+        let ends = |labels: &Self, index: usize| {
+            labels.runs.get(index).map_or((0, 0), |run| (u32::from(run.left), u32::from(run.right)))
+        };
+        let (mut a, mut b) = (ends(self, i), ends(self, j));
         while i < above.end && j < here.end {
-            let (Some(a), Some(b)) = (self.runs.get(i).copied(), self.runs.get(j).copied()) else { return };
-            if a.left <= b.right.saturating_add(1) && b.left <= a.right.saturating_add(1) {
+            if a.0 <= b.1 + 1 && b.0 <= a.1 + 1 {
                 self.union(i as u16, j as u16);
             }
             // The one that ends first cannot touch what follows the other.
-            if a.right < b.right { i += 1 } else { j += 1 }
+            if a.1 < b.1 {
+                i += 1;
+                a = ends(self, i);
+            } else {
+                j += 1;
+                b = ends(self, j);
+            }
         }
     }
 
@@ -171,40 +135,78 @@ impl<const RUNS: usize> Labels<RUNS> {
         }
         let Some(other) = self.runs.get_mut(usize::from(second)) else { return };
         other.parent = first;
-        let other = *other;
+        let (mass, area, peak) = (other.mass, other.area, other.peak);
         if let Some(run) = self.runs.get_mut(usize::from(first)) {
-            run.mass = run.mass.wrapping_add(other.mass);
-            run.area = run.area.saturating_add(other.area);
-            run.peak = run.peak.max(other.peak);
-            run.held |= other.held;
+            run.mass = run.mass.wrapping_add(mass);
+            run.area = run.area.saturating_add(area);
+            run.peak = run.peak.max(peak);
         }
     }
 
     /// The first run of the part that a run belongs to. Parents have smaller indices, so this ends; it halves the path.
-    pub fn part(&mut self, mut run: u16) -> u16 {
-        while let Some(parent) = self.parent(run) {
+    fn part(&mut self, mut run: u16) -> u16 {
+        loop {
+            let parent = self.parent(run);
             if parent >= run {
-                break;
+                return run;
             }
-            let grandparent = self.parent(parent).unwrap_or(parent);
+            let grandparent = self.parent(parent);
+            if grandparent >= parent {
+                return parent;
+            }
             if let Some(held) = self.runs.get_mut(usize::from(run)) {
                 held.parent = grandparent;
             }
             run = grandparent;
         }
-        run
     }
 
-    fn parent(&self, run: u16) -> Option<u16> {
-        self.runs.get(usize::from(run)).map(|run| run.parent)
+    fn parent(&self, run: u16) -> u16 {
+        self.runs.get(usize::from(run)).map_or(run, |run| run.parent)
     }
 
-    /// Makes the first run of its part the parent of each run.
-    pub fn flatten(&mut self) {
-        for run in 0..self.runs.len() as u16 {
-            let part = self.part(run);
-            if let Some(run) = self.runs.get_mut(usize::from(run)) {
-                run.parent = part;
+    /// Makes the first run of its part the parent of each run: those before it have it already.
+    fn flatten(&mut self) {
+        for index in 0..self.runs.len() as u16 {
+            let parent = self.parent(index);
+            if parent < index {
+                let part = self.parent(parent);
+                if let Some(run) = self.runs.get_mut(usize::from(index)) {
+                    run.parent = part;
+                }
+            }
+        }
+    }
+
+    /// Marks the parts that come within one taxel of a contact of the previous frame. Only of parts with a peak below
+    /// `high` that is asked, and most frames have none.
+    pub fn mark_held<const CONTACTS: usize>(
+        &mut self,
+        layout: &Layout,
+        last: &Feedback<CONTACTS>,
+        high: u16,
+    ) {
+        if self.parts().all(|(_, run)| run.peak >= high) {
+            return;
+        }
+        for rect in last.home.iter().chain(&last.beyond) {
+            if let Some(area) = layout.areas().get(usize::from(rect.panel)) {
+                self.mark_held_by(area, rect);
+            }
+        }
+    }
+
+    fn mark_held_by(&mut self, area: &Area, rect: &Rect) {
+        let top = area.first_row.saturating_add(rect.top.saturating_sub(1));
+        let bottom = area.first_row.saturating_add(rect.bottom.saturating_add(1));
+        for index in self.runs.partition_point(|run| run.row < top)..self.runs.len() {
+            let Some(run) = self.runs.get(index).filter(|run| run.row <= bottom) else { return };
+            let beside = run.right.saturating_add(1) >= rect.left && run.left <= rect.right.saturating_add(1);
+            if beside && run.panel == rect.panel {
+                let part = run.parent;
+                if let Some(part) = self.runs.get_mut(usize::from(part)) {
+                    part.held = true;
+                }
             }
         }
     }
@@ -214,24 +216,40 @@ impl<const RUNS: usize> Labels<RUNS> {
         (0u16..).zip(&self.runs).filter(|(index, run)| run.parent == *index)
     }
 
-    /// The run that holds a taxel.
-    pub fn run_at(&self, area: &Area, row: u16, column: u16) -> Option<(u16, &Run)> {
-        let row = area.first_row.saturating_add(row);
-        let after = self.runs.partition_point(|run| key(run.row, run.left) <= key(row, column));
-        let index = after.checked_sub(1)?;
-        let run = self.runs.get(index)?;
-        (run.row == row && column <= run.right).then_some((index as u16, run))
+    /// How many runs begin before or at a place of a panel.
+    pub fn before(&self, area: &Area, row: u16, column: u16) -> usize {
+        let place = key(area.first_row.saturating_add(row), column);
+        self.runs.partition_point(|run| run.key() <= place)
+    }
+
+    /// As [`Labels::before`], for a place not far from another, of which it was `near`.
+    pub fn before_near(&self, near: usize, area: &Area, row: u16, column: u16) -> usize {
+        let place = key(area.first_row.saturating_add(row), column);
+        let begins = |index: usize| self.runs.get(index).is_some_and(|run| run.key() <= place);
+        let mut count = near.min(self.runs.len());
+        while begins(count) {
+            count += 1;
+        }
+        while count > 0 && !begins(count - 1) {
+            count -= 1;
+        }
+        count
+    }
+
+    /// The run that holds a taxel, where so many begin before or at it.
+    pub fn holding(&self, before: usize, area: &Area, row: u16, column: u16) -> Option<&Run> {
+        let run = self.runs.get(before.checked_sub(1)?)?;
+        run.covers(area.first_row.saturating_add(row), column, column).then_some(run)
     }
 
     /// The contact that a taxel belongs to, once contacts are numbered.
     pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
-        let (_, run) = self.run_at(area, row, column)?;
-        self.contact_of(run)
+        self.contact_of(self.holding(self.before(area, row, column), area, row, column)?)
     }
 
     /// The contact that a run belongs to, once contacts are numbered.
     pub fn contact_of(&self, run: &Run) -> Option<u16> {
         let part = self.runs.get(usize::from(run.parent))?;
-        (part.group != NONE).then_some(part.group)
+        (part.contact != NONE).then_some(part.contact)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::component::Component;
 use super::config::ContactConfig;
-use super::label::NONE;
 use super::point::{LONGEST, Point, nearest_way};
 use super::record::Contact;
+use super::run::NONE;
 use super::track::Tracks;
 use crate::format::{Fixed16, Micros};
 use crate::garment::Layout;

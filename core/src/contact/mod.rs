@@ -21,12 +21,14 @@
 mod axis;
 mod component;
 mod config;
+mod contour;
 mod join;
 mod label;
 mod matching;
 mod moments;
 mod point;
 mod record;
+mod run;
 mod stage;
 mod track;
 

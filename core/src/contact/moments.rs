@@ -36,55 +36,99 @@ pub struct Central {
     pub c: i64,
 }
 
-/// Taxels whose sums fit in 32 bits: 65535 * (1 + 3 + 6 + ... + 528) < 2^29.
-const PIECE: usize = 32;
+/// Taxels whose running sums fit in 32 bits: 65535 * (1 + 3 + 6 + ... + 2080) < 2^32.
+const PIECE: usize = 64;
+/// Values up to this have squares of which [`PIECE`] fit in 32 bits.
+const NARROW: u16 = 8191;
+
+/// What a piece of a row adds, before its place counts.
+struct Piece {
+    /// sum f
+    s0: u32,
+    /// sum (i + 1) f
+    s1: u32,
+    /// sum (i + 1)(i + 2) / 2 f
+    s2: u32,
+    /// sum f^2
+    squares: u64,
+}
+
+impl Piece {
+    /// At most [`PIECE`] values, each not above `peak`. From the last to the first, three running sums: no
+    /// multiplication by a coordinate per taxel.
+    fn of(values: &[u16], peak: u16) -> Piece {
+        if peak <= NARROW {
+            return Piece::of_narrow(values);
+        }
+        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
+        for value in values.iter().rev().map(|value| u32::from(*value)) {
+            s0 = s0.wrapping_add(value);
+            s1 = s1.wrapping_add(s0);
+            s2 = s2.wrapping_add(s1);
+            squares += u64::from(value * value);
+        }
+        Piece { s0, s1, s2, squares }
+    }
+
+    #[inline(never)]
+    fn of_narrow(values: &[u16]) -> Piece {
+        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u32);
+        let mut take = |value: u16| {
+            let value = u32::from(value);
+            s0 = s0.wrapping_add(value);
+            s1 = s1.wrapping_add(s0);
+            s2 = s2.wrapping_add(s1);
+            squares = squares.wrapping_add(value.wrapping_mul(value));
+        };
+        let (first, fours) = values.as_rchunks::<4>();
+        for [a, b, c, d] in fours.iter().rev() {
+            [*d, *c, *b, *a].into_iter().for_each(&mut take);
+        }
+        first.iter().rev().for_each(|value| take(*value));
+        Piece { s0, s1, s2, squares: squares.into() }
+    }
+}
 
 impl Moments {
     /// Of a piece of a row whose first taxel is (x, y).
     pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
         let mut sum = Moments::default();
-        let mut start = x;
-        for piece in values.chunks(PIECE) {
-            sum.add(&Moments::of_piece(start, y, piece));
-            start = start.wrapping_add(PIECE as u32);
-        }
+        sum.add_run(x, y, values, u16::MAX);
         sum
     }
 
-    /// At most [`PIECE`] taxels. From the last to the first, three running sums hold
-    /// `sum f`, `sum (i + 1) f` and `sum (i + 1)(i + 2) / 2 f`: no multiplication by a coordinate per taxel.
-    #[inline(never)]
-    fn of_piece(x: u32, y: u32, values: &[u16]) -> Moments {
-        let (mut s0, mut s1, mut s2) = (0u32, 0u32, 0u32);
-        for value in values.iter().rev() {
-            s0 = s0.wrapping_add((*value).into());
-            s1 = s1.wrapping_add(s0);
-            s2 = s2.wrapping_add(s1);
+    /// Adds a piece of a row whose first taxel is (x, y), with no value above `peak`.
+    pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], peak: u16) {
+        let mut x = x;
+        for piece in values.chunks(PIECE) {
+            self.add_piece(x, y, &Piece::of(piece, peak));
+            x = x.wrapping_add(PIECE as u32);
         }
-        // A loop of its own, and the squares by halves: the registers of a Cortex-M0+ do for that.
-        let (mut low, mut high) = (0u32, 0u32);
-        for value in values {
-            let square = u32::from(*value) * u32::from(*value);
-            low = low.wrapping_add(square & 0xffff);
-            high = high.wrapping_add(square >> 16);
-        }
-        let squares = (u64::from(high) << 16).wrapping_add(low.into());
-        // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1
-        let (m, first) = (u64::from(s0), u64::from(s1.wrapping_sub(s0)));
-        let second = u64::from(s2) * 2 + m - u64::from(s1) * 3;
-        let (x, y) = (u64::from(x), u64::from(y));
-        let sx = x.wrapping_mul(m).wrapping_add(first);
-        let sy = y.wrapping_mul(m);
-        Moments {
-            m,
-            sx: sx as i64,
-            sy: sy as i64,
+    }
+
+    fn add_piece(&mut self, x: u32, y: u32, piece: &Piece) {
+        let Piece { s0, s1, s2, squares } = *piece;
+        let first = s1.wrapping_sub(s0);
+        // Small coordinates and sums, as nearly always: everything below 128^2 * 2^17 = 2^31 fits in 32 bits, where a
+        // multiplication takes one cycle instead of 55.
+        if x < 64 && y < 128 && s0 < 1 << 17 {
+            // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
+            let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
+            let (sx, sy) = (x * s0 + first, y * s0);
             // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
-            sxx: x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second),
-            syy: y.wrapping_mul(sy),
-            sxy: y.wrapping_mul(sx) as i64,
-            s2: squares,
+            let sxx = x * (sx + first) + second;
+            self.add_sums([s0, sx, sy, sxx, y * sy, y * sx].map(u64::from), squares);
+            return;
         }
+        let second = (u64::from(s2) * 2).wrapping_add(s0.into()).wrapping_sub(u64::from(s1) * 3);
+        let (x, y, m, first) = (u64::from(x), u64::from(y), u64::from(s0), u64::from(first));
+        let (sx, sy) = (x.wrapping_mul(m).wrapping_add(first), y.wrapping_mul(m));
+        let sxx = x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second);
+        self.add_sums([m, sx, sy, sxx, y.wrapping_mul(sy), y.wrapping_mul(sx)], squares);
+    }
+
+    fn add_sums(&mut self, [m, sx, sy, sxx, syy, sxy]: [u64; 6], s2: u64) {
+        self.add(&Moments { m, sx: sx as i64, sy: sy as i64, sxx, syy, sxy: sxy as i64, s2 });
     }
 
     /// Of a whole image as it stands, row by row.

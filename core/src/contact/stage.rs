@@ -119,9 +119,9 @@ impl Contacts {
     ) -> Touches<'a> {
         let low = self.config.low;
         let ContactState { labels, joins, components, matching, tracks, feedback } = state;
-        labels.scan(layout, image, low, feedback);
-        labels.flatten();
-        joins.find(labels, layout, image, low);
+        labels.scan(layout, image, low);
+        labels.mark_held(layout, feedback, self.config.high);
+        joins.find(labels, layout);
         components.select(&self.config, labels);
         components.number(labels);
         components.measure(labels, joins, layout, image, low);

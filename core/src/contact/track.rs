@@ -6,10 +6,11 @@
 use super::axis::{axis, breadth};
 use super::component::Component;
 use super::config::ContactConfig;
-use super::label::{Labels, NONE};
+use super::label::Labels;
 use super::moments::Moments;
 use super::point::{Point, nearest_way};
 use super::record::{Contact, Phase};
+use super::run::NONE;
 use crate::format::{Fixed16, Inverse, Micros, Q15};
 use crate::garment::{Layout, Place, Rect, Transform};
 use heapless::Vec;
@@ -194,8 +195,9 @@ fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     contact.peak = component.peak;
     contact.peak_at = component.peak_at.unwrap_or(contact.peak_at);
     contact.area = component.area;
-    contact.perimeter = component.perimeter;
-    contact.edge = component.slope.checked_div(component.perimeter.into()).unwrap_or(0).min(0xffff) as u16;
+    contact.perimeter = component.contour.length;
+    contact.edge =
+        component.contour.slope.checked_div(component.contour.length.into()).unwrap_or(0).min(0xffff) as u16;
     contact.bounds = component.bounds;
     (contact.x, contact.y) = (component.x, component.y);
     (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);

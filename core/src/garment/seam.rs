@@ -3,6 +3,7 @@
 use super::area::Area;
 use super::config::{Edge, Seam, Side};
 use super::error::GarmentError;
+use core::ops::RangeInclusive;
 
 /// An integer map of taxel coordinates, a quarter turn or reflection and a shift:
 /// `x' = xx x + xy y + dx`, `y' = yx x + yy y + dy`.
@@ -29,8 +30,8 @@ impl Transform {
     /// Image of a point whose coordinates are in units of `1 / one` taxel.
     pub const fn apply(&self, x: i64, y: i64, one: i64) -> (i64, i64) {
         (
-            self.xx as i64 * x + self.xy as i64 * y + self.dx as i64 * one,
-            self.yx as i64 * x + self.yy as i64 * y + self.dy as i64 * one,
+            signed(self.xx, x) + signed(self.xy, y) + self.dx as i64 * one,
+            signed(self.yx, x) + signed(self.yy, y) + self.dy as i64 * one,
         )
     }
 
@@ -59,6 +60,31 @@ impl Transform {
     }
 }
 
+/// `factor * value` for a factor of -1, 0 or 1.
+const fn signed(factor: i32, value: i64) -> i64 {
+    match factor {
+        0 => 0,
+        1.. => value,
+        _ => -value,
+    }
+}
+
+/// Taxels of a panel along a seam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stretch {
+    /// The side of the panel.
+    pub side: Side,
+    first: Point,
+    along: Point,
+}
+
+impl Stretch {
+    /// `(x, y)` of the taxel of that number.
+    pub const fn at(&self, number: i32) -> (i32, i32) {
+        (self.first.0 + self.along.0 * number, self.first.1 + self.along.1 * number)
+    }
+}
+
 /// A checked seam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Joint {
@@ -70,20 +96,21 @@ pub struct Joint {
     pub length: u16,
     /// Coordinates of panel `b` to those of panel `a`.
     pub b_to_a: Transform,
-    first: (i32, i32),
-    along: (i32, i32),
-    out: (i32, i32),
+    /// Taxels of panel `a` along the seam, from the top or left.
+    pub edge_a: Stretch,
+    /// Taxels of panel `b` along the seam, in the same order.
+    pub edge_b: Stretch,
 }
 
 impl Joint {
     pub(super) fn build(index: usize, seam: &Seam, a: &Area, b: &Area) -> Result<Joint, GarmentError> {
-        let (a_at, a_along, a_out) = stretch(index, &seam.a, seam.length, a)?;
-        let (mut b_at, mut b_along, b_out) = stretch(index, &seam.b, seam.length, b)?;
+        let (edge_a, a_out) = stretch(index, &seam.a, seam.length, a)?;
+        let (mut edge_b, b_out) = stretch(index, &seam.b, seam.length, b)?;
         if seam.reversed {
-            let last = i32::from(seam.length) - 1;
-            b_at = (b_at.0 + b_along.0 * last, b_at.1 + b_along.1 * last);
-            b_along = (-b_along.0, -b_along.1);
+            edge_b.first = edge_b.at(i32::from(seam.length) - 1);
+            edge_b.along = (-edge_b.along.0, -edge_b.along.1);
         }
+        let (a_at, a_along, b_at, b_along) = (edge_a.first, edge_a.along, edge_b.first, edge_b.along);
         // Linear part: along b becomes along a, into b becomes out of a; both pairs are orthonormal.
         let into_b = (-b_out.0, -b_out.1);
         let linear = Transform {
@@ -96,42 +123,25 @@ impl Joint {
         };
         let (x, y) = linear.apply(i64::from(b_at.0), i64::from(b_at.1), 1);
         let b_to_a = Transform { dx: a_at.0 + a_out.0 - x as i32, dy: a_at.1 + a_out.1 - y as i32, ..linear };
-        Ok(Joint {
-            a: seam.a.panel,
-            b: seam.b.panel,
-            length: seam.length,
-            b_to_a,
-            first: a_at,
-            along: a_along,
-            out: a_out,
-        })
+        Ok(Joint { a: seam.a.panel, b: seam.b.panel, length: seam.length, b_to_a, edge_a, edge_b })
+    }
+
+    /// The taxels of panel `b` that adjoin taxels `first ..= last` of panel `a`, corners included.
+    pub fn beside(&self, first: i32, last: i32) -> RangeInclusive<i32> {
+        (first - 1).max(0)..=(last + 1).min(i32::from(self.length) - 1)
     }
 
     /// Pairs of 8-connected taxels across the seam: `((x, y) in panel a, (x, y) in panel b)`.
     pub fn neighbours(&self) -> impl Iterator<Item = ((i32, i32), (i32, i32))> + '_ {
-        let a_to_b = self.b_to_a.inverse();
-        let last = i32::from(self.length) - 1;
-        (0..=last).flat_map(move |i| {
-            ((i - 1).max(0)..=(i + 1).min(last)).map(move |j| {
-                let at = |k: i32| (self.first.0 + self.along.0 * k, self.first.1 + self.along.1 * k);
-                let (a, beside) = (at(i), at(j));
-                let (x, y) =
-                    a_to_b.apply(i64::from(beside.0 + self.out.0), i64::from(beside.1 + self.out.1), 1);
-                (a, (x as i32, y as i32))
-            })
-        })
+        (0..i32::from(self.length))
+            .flat_map(move |i| self.beside(i, i).map(move |j| (self.edge_a.at(i), self.edge_b.at(j))))
     }
 }
 
 type Point = (i32, i32);
 
-/// First taxel, direction along and direction out of a stretch of a panel's side.
-fn stretch(
-    seam: usize,
-    edge: &Edge,
-    length: u16,
-    area: &Area,
-) -> Result<(Point, Point, Point), GarmentError> {
+/// A stretch of a panel's side, and the direction out of the panel.
+fn stretch(seam: usize, edge: &Edge, length: u16, area: &Area) -> Result<(Stretch, Point), GarmentError> {
     let (right, bottom) = (i32::from(area.columns) - 1, i32::from(area.rows) - 1);
     let start = i32::from(edge.start);
     let (first, along, out, side_length) = match edge.side {
@@ -143,5 +153,5 @@ fn stretch(
     if length == 0 || u32::from(edge.start) + u32::from(length) > u32::from(side_length) {
         return Err(GarmentError::OutsideSide { seam, panel: area.name.clone(), side: edge.side });
     }
-    Ok((first, along, out))
+    Ok((Stretch { side: edge.side, first, along }, out))
 }

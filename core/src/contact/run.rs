@@ -1,0 +1,85 @@
+//! Runs: pieces of a row in which every taxel is touched.
+
+/// No contact.
+pub(super) const NONE: u16 = u16::MAX;
+
+/// A piece of a row in which every taxel is at least the low threshold. The first run of a part stands for the part and
+/// carries its sums.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    /// sum f of the part; fits, since taxels and values have 16 bits
+    pub mass: u32,
+    /// over all panels
+    pub row: u16,
+    pub left: u16,
+    /// last column
+    pub right: u16,
+    /// A run of the same part with a smaller index, or itself.
+    pub parent: u16,
+    /// For the first run of a part: the same, between parts that a seam joins.
+    pub group: u16,
+    /// For the first run of a part: the index of its contact, or [`NONE`].
+    pub contact: u16,
+    /// taxels of the part
+    pub area: u16,
+    /// greatest value of the part; of any other run at least its own greatest value
+    pub peak: u16,
+    pub panel: u8,
+    /// The part comes within one taxel of a contact of the previous frame; asked of faint parts only.
+    pub held: bool,
+    /// A seam joins the part to another.
+    pub joined: bool,
+}
+
+impl Run {
+    /// The place of the first taxel as one word, in the order of the runs.
+    pub const fn key(&self) -> u32 {
+        key(self.row, self.left)
+    }
+
+    /// Whether the columns `left ..= right` of its own row all belong to it.
+    pub const fn covers(&self, row: u16, left: u16, right: u16) -> bool {
+        self.row == row && self.left <= left && self.right >= right
+    }
+}
+
+/// A place as one word, in the order of the runs.
+pub(super) const fn key(row: u16, column: u16) -> u32 {
+    (row as u32) << 16 | column as u32
+}
+
+/// What a slice begins with: taxels from `low` on.
+pub(super) struct Stretch {
+    pub length: usize,
+    /// sum f
+    pub mass: u32,
+    /// greatest f
+    pub peak: u32,
+}
+
+impl Stretch {
+    /// Measures the taxels that a slice begins with; four at a time as long as that goes.
+    #[inline(never)]
+    pub fn of(values: &[u16], low: u32) -> Stretch {
+        let mut found = Stretch { length: 0, mass: 0, peak: 0 };
+        let (fours, _) = values.as_chunks::<4>();
+        for four in fours {
+            let [a, b, c, d] = four.map(u32::from);
+            if a < low || b < low || c < low || d < low {
+                break;
+            }
+            found.mass = found.mass.wrapping_add(a + b + c + d);
+            found.peak = found.peak.max(a).max(b).max(c).max(d);
+            found.length += 4;
+        }
+        for value in values.get(found.length..).unwrap_or(&[]).iter().map(|value| u32::from(*value)) {
+            if value < low {
+                break;
+            }
+            found.mass = found.mass.wrapping_add(value);
+            found.peak = found.peak.max(value);
+            found.length += 1;
+        }
+        found
+    }
+}
