@@ -21,7 +21,7 @@ impl Gradient {
 
 /// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; values past the end of the slice are 0.
 pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
-    Neighbourhood::of(values, area, row).gradient(column)
+    Neighbourhood::of(values, area, row).gradient(column.into())
 }
 
 /// A row of a panel with the one above and the one below it, itself at the border.
@@ -42,8 +42,8 @@ impl<'a> Neighbourhood<'a> {
         self.0
     }
 
-    pub fn gradient(&self, column: u16) -> Gradient {
-        let x = usize::from(column).min(self.0[1].len().saturating_sub(1));
+    pub fn gradient(&self, column: usize) -> Gradient {
+        let x = column.min(self.0[1].len().saturating_sub(1));
         let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(|row| three(row, x));
         Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
     }
@@ -51,15 +51,15 @@ impl<'a> Neighbourhood<'a> {
 
 /// A value with its neighbours to the left and right, which it replaces beyond the ends of the row.
 fn three(row: &[u16], x: usize) -> [i32; 3] {
-    let around = x.checked_sub(1).and_then(|left| row.get(left..)?.first_chunk::<3>());
-    around
-        .copied()
-        .unwrap_or_else(|| {
-            let middle = row.get(x).copied().unwrap_or(0);
-            let before = x.checked_sub(1).and_then(|left| row.get(left));
-            [before.copied().unwrap_or(middle), middle, row.get(x + 1).copied().unwrap_or(middle)]
-        })
-        .map(i32::from)
+    let three = match *row.get(x.saturating_sub(1)..).unwrap_or(&[]) {
+        [middle, right, ..] if x == 0 => [middle, middle, right],
+        [left, middle, right, ..] => [left, middle, right],
+        [left, middle] => [left, middle, middle],
+        [middle] if x == 0 => [middle; 3],
+        [left] => [left, 0, 0],
+        [] => [0; 3],
+    };
+    three.map(i32::from)
 }
 
 #[cfg(test)]

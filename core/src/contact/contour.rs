@@ -71,9 +71,9 @@ fn piece(row: &[u16], left: u16, right: u16) -> &[u16] {
 /// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contour {
-    /// How many there are; saturates.
-    pub length: u16,
-    /// Sum of their Sobel magnitudes, in eighths; saturates.
+    /// How many there are; a garment has fewer than 2^16.
+    pub length: u32,
+    /// Sum of their Sobel magnitudes, in eighths: none is above the full scale, so that 32 bits do.
     pub slope: u32,
 }
 
@@ -82,28 +82,29 @@ impl Contour {
 
     /// Adds what a run has of it.
     pub fn add(&mut self, run: &Run, line: &mut Line, runs: &[Run], low: u16) {
+        let (left, right) = (u32::from(run.left), u32::from(run.right));
         if line.edge {
-            return (run.left..=run.right).for_each(|column| self.take(line, column));
+            return (left..right + 1).for_each(|column| self.take(line, column));
         }
-        self.take(line, run.left);
+        self.take(line, left);
+        if left == right {
+            return;
+        }
+        self.take(line, right);
         // Between the ends only what is above and below matters.
-        let (left, right) = (run.left + 1, run.right.saturating_sub(1));
-        if left <= right && !line.is_inside(runs, left, right) {
+        if right - left > 1 && !line.is_inside(runs, run.left + 1, run.right - 1) {
             let [above, _, below] = line.around.rows();
-            let vertical = piece(above, left, right).iter().zip(piece(below, left, right));
-            for (column, (above, below)) in (left..).zip(vertical) {
+            let inner = |row| piece(row, run.left + 1, run.right - 1);
+            for (column, (above, below)) in (left + 1..).zip(inner(above).iter().zip(inner(below))) {
                 if *above < low || *below < low {
                     self.take(line, column);
                 }
             }
         }
-        if run.right > run.left {
-            self.take(line, run.right);
-        }
     }
 
-    fn take(&mut self, line: &Line, column: u16) {
-        self.length = self.length.saturating_add(1);
-        self.slope = self.slope.saturating_add(line.around.gradient(column).magnitude() >> 3);
+    fn take(&mut self, line: &Line, column: u32) {
+        self.length = self.length.wrapping_add(1);
+        self.slope = self.slope.wrapping_add(line.around.gradient(column as usize).magnitude() >> 3);
     }
 }

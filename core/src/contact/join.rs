@@ -8,6 +8,7 @@
 
 use super::label::Labels;
 use super::moments::Moments;
+use super::run::NONE;
 use crate::condition::CARRIED;
 use crate::garment::{Joint, Layout, PANELS, Transform};
 use heapless::Vec;
@@ -77,6 +78,8 @@ impl Joins {
             (joint.edge_a.at(0), joint.edge_a.at(i32::from(joint.length) - 1));
         let first_row = i32::from(area_a.first_row);
         let mut near = None;
+        // What the same part has beside it already.
+        let (mut part, mut seen) = (NONE, -1);
         let from = labels.runs.partition_point(|run| i32::from(run.row) < first_row + top);
         for run in labels.runs.iter().skip(from) {
             let y = i32::from(run.row) - first_row;
@@ -88,7 +91,11 @@ impl Joins {
                 continue;
             }
             // Along the seam either the row or the column counts.
-            for j in joint.beside(y - top + from - left, y - top + to - left) {
+            let beside = joint.beside(y - top + from - left, y - top + to - left);
+            if part != run.parent {
+                (part, seen) = (run.parent, -1);
+            }
+            for j in *beside.start().max(&(seen + 1))..=*beside.end() {
                 let (x, y) = joint.edge_b.at(j);
                 let (row, column) = (y as u16, x as u16);
                 let before = match near {
@@ -99,6 +106,7 @@ impl Joins {
                 if let Some(beside) = labels.holding(before, area_b, row, column) {
                     self.note(Join { a: run.parent, b: beside.parent, joint: index });
                 }
+                seen = j;
             }
         }
     }

@@ -70,21 +70,16 @@ impl Piece {
         Piece { s0, s1, s2, squares }
     }
 
+    /// As many sums as the registers of a Cortex-M0+ hold: unrolled, it would be slower.
     #[inline(never)]
     fn of_narrow(values: &[u16]) -> Piece {
         let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u32);
-        let mut take = |value: u16| {
-            let value = u32::from(value);
+        for value in values.iter().rev().map(|value| u32::from(*value)) {
             s0 = s0.wrapping_add(value);
             s1 = s1.wrapping_add(s0);
             s2 = s2.wrapping_add(s1);
             squares = squares.wrapping_add(value.wrapping_mul(value));
-        };
-        let (first, fours) = values.as_rchunks::<4>();
-        for [a, b, c, d] in fours.iter().rev() {
-            [*d, *c, *b, *a].into_iter().for_each(&mut take);
         }
-        first.iter().rev().for_each(|value| take(*value));
         Piece { s0, s1, s2, squares: squares.into() }
     }
 }
@@ -99,11 +94,12 @@ impl Moments {
 
     /// Adds a piece of a row whose first taxel is (x, y), with no value above `peak`.
     pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], peak: u16) {
-        let mut x = x;
-        for piece in values.chunks(PIECE) {
+        let (mut x, mut rest) = (x, values);
+        while let Some((piece, after)) = rest.split_at_checked(PIECE) {
             self.add_piece(x, y, &Piece::of(piece, peak));
-            x = x.wrapping_add(PIECE as u32);
+            (x, rest) = (x.wrapping_add(PIECE as u32), after);
         }
+        self.add_piece(x, y, &Piece::of(rest, peak));
     }
 
     fn add_piece(&mut self, x: u32, y: u32, piece: &Piece) {

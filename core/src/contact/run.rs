@@ -58,28 +58,20 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Measures the taxels that a slice begins with; four at a time as long as that goes.
+    /// Measures the taxels that a slice begins with.
     #[inline(never)]
     pub fn of(values: &[u16], low: u32) -> Stretch {
-        let mut found = Stretch { length: 0, mass: 0, peak: 0 };
-        let (fours, _) = values.as_chunks::<4>();
-        for four in fours {
-            let [a, b, c, d] = four.map(u32::from);
-            if a < low || b < low || c < low || d < low {
-                break;
-            }
-            found.mass = found.mass.wrapping_add(a + b + c + d);
-            found.peak = found.peak.max(a).max(b).max(c).max(d);
-            found.length += 4;
-        }
-        for value in values.get(found.length..).unwrap_or(&[]).iter().map(|value| u32::from(*value)) {
+        let (mut mass, mut peak) = (0u32, 0u32);
+        let quiet = values.iter().map(|value| u32::from(*value)).position(|value| {
             if value < low {
-                break;
+                return true;
             }
-            found.mass = found.mass.wrapping_add(value);
-            found.peak = found.peak.max(value);
-            found.length += 1;
-        }
-        found
+            mass = mass.wrapping_add(value);
+            if value > peak {
+                peak = value;
+            }
+            false
+        });
+        Stretch { length: quiet.unwrap_or(values.len()), mass, peak }
     }
 }

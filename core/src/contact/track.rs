@@ -195,9 +195,9 @@ fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     contact.peak = component.peak;
     contact.peak_at = component.peak_at.unwrap_or(contact.peak_at);
     contact.area = component.area;
-    contact.perimeter = component.contour.length;
+    contact.perimeter = component.contour.length as u16;
     contact.edge =
-        component.contour.slope.checked_div(component.contour.length.into()).unwrap_or(0).min(0xffff) as u16;
+        component.contour.slope.checked_div(component.contour.length).unwrap_or(0).min(0xffff) as u16;
     contact.bounds = component.bounds;
     (contact.x, contact.y) = (component.x, component.y);
     (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
