@@ -1,7 +1,7 @@
 //! Direction, elongation and breadth of a contact from its central moments.
 
 use super::moments::{Central, Moments};
-use crate::format::{Inverse, Q15, Scaled, Turn, root};
+use crate::format::{Inverse, Q15, Scaled, Turn, product, root};
 
 /// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
 pub const ASSUMED_PITCH_UM: u32 = 10_000;
@@ -40,7 +40,7 @@ impl Normal {
         let (difference, mixed) = (self.a as i64 - self.b as i64, self.c * 2);
         let (x, y) = (difference.unsigned_abs(), mixed.unsigned_abs());
         // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
-        (difference, mixed, root(x * x + y * y).into())
+        (difference, mixed, root(product(x, x) + product(y, y)).into())
     }
 }
 
@@ -49,8 +49,10 @@ pub fn axis(central: &Central, area: u32) -> Axis {
     let normal = Normal::of(central.a, central.b, central.c);
     let (difference, mixed, d) = normal.spread();
     let anisotropy = Q15::ratio(d, normal.a + normal.b);
-    let limit = 32768u32.checked_div(area).unwrap_or(u32::MAX).clamp(655, 4915);
-    let defined = d > 0 && anisotropy.0 >= limit as i32;
+    // Not below 32768 / area, rounded down, without the division.
+    let share = anisotropy.0 as u32;
+    let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
+    let defined = d > 0 && clear;
     Axis { azimuth: defined.then(|| half_angle(mixed, difference)), anisotropy }
 }
 
@@ -79,12 +81,14 @@ pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     let pixel = px * px + py * py;
     let central = moments.central();
     let taxels = Normal::of(central.a, central.b, central.c);
-    let c = taxels.c * (px * py) as i64;
-    let normal = Normal::of(taxels.a * px * px, taxels.b * py * py, c);
+    let c = product(taxels.c.unsigned_abs(), px * py) as i64;
+    let c = if taxels.c < 0 { -c } else { c };
+    let normal = Normal::of(product(taxels.a, px * px), product(taxels.b, py * py), c);
     let (difference, _, d) = normal.spread();
     // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
     let skew = (px * px) as i64 - (py * py) as i64;
-    let lean = if d == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
+    let lean =
+        if d == 0 || skew == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
     let pixel2 = (pixel as i64 - lean).max(0) as u64;
     // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
     let minor = (normal.a + normal.b).saturating_sub(d);

@@ -2,12 +2,13 @@
 
 use super::component::Component;
 use super::config::ContactConfig;
-use super::point::{LONGEST, Point, nearest_way};
+use super::point::{Images, LONGEST, Point};
 use super::record::Contact;
 use super::run::NONE;
 use super::track::Tracks;
 use crate::format::{Fixed16, Micros};
 use crate::garment::Layout;
+use heapless::Vec;
 
 /// Work space: squared distances, a row per contact and a column per component.
 #[derive(Debug, Clone)]
@@ -15,6 +16,8 @@ pub(super) struct Matching<const CONTACTS: usize> {
     distance: [[u32; CONTACTS]; CONTACTS],
     /// The least of each row, and its column.
     least: [(u32, u16); CONTACTS],
+    /// Rows and columns in use.
+    used: (usize, usize),
 }
 
 /// Out of reach.
@@ -22,7 +25,7 @@ const FAR: u32 = u32::MAX;
 
 impl<const CONTACTS: usize> Matching<CONTACTS> {
     pub const fn new() -> Self {
-        Matching { distance: [[FAR; CONTACTS]; CONTACTS], least: [(FAR, 0); CONTACTS] }
+        Matching { distance: [[FAR; CONTACTS]; CONTACTS], least: [(FAR, 0); CONTACTS], used: (0, 0) }
     }
 
     /// Gives each track the index of its component, or [`NONE`].
@@ -35,16 +38,22 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         now: Micros,
     ) {
         let seconds = seconds(now.since(tracks.last));
-        self.least.fill((FAR, 0));
+        self.used = (tracks.contacts.len(), components.len());
+        let mut points: Vec<Point, CONTACTS> = Vec::new();
+        for component in components {
+            let _ = points.push(Point::of(component.bounds.panel, component.x, component.y));
+        }
         let rows = self.distance.iter_mut().zip(&mut self.least);
         for ((row, least), (contact, trail)) in rows.zip(tracks.contacts.iter().zip(&mut tracks.trails)) {
             trail.component = NONE;
-            let expected = Expected::of(contact, seconds, config.gate);
-            row.fill(FAR);
-            for (cell, component) in row.iter_mut().zip(components) {
-                *cell = expected.distance(layout, component);
+            let expected = Expected::of(contact, layout, seconds, config.gate);
+            *least = (FAR, 0);
+            for ((cell, point), column) in row.iter_mut().zip(&points).zip(0..) {
+                *cell = expected.distance(point);
+                if *cell < least.0 {
+                    *least = (*cell, column);
+                }
             }
-            *least = least_of(row);
         }
         while let Some((track, component)) = self.nearest() {
             if let Some(trail) = tracks.trails.get_mut(track) {
@@ -56,21 +65,24 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
 
     /// The pair that is nearest; of equals the oldest contact.
     fn nearest(&self) -> Option<(usize, u16)> {
-        let rows = self.least.iter().enumerate().filter(|(_, (distance, _))| *distance < FAR);
+        let rows =
+            self.least.iter().take(self.used.0).enumerate().filter(|(_, (distance, _))| *distance < FAR);
         rows.min_by_key(|(_, (distance, _))| *distance).map(|(track, (_, component))| (track, *component))
     }
 
     /// Takes a pair out. Only the rows whose least it was need another look.
     fn take(&mut self, track: usize, component: u16) {
-        for (index, (row, least)) in self.distance.iter_mut().zip(&mut self.least).enumerate() {
+        let (rows, columns) = self.used;
+        for (row, least) in self.distance.iter_mut().zip(&mut self.least).take(rows) {
             if let Some(cell) = row.get_mut(usize::from(component)) {
                 *cell = FAR;
             }
-            if index == track {
-                *least = (FAR, 0);
-            } else if least.0 < FAR && least.1 == component {
-                *least = least_of(row);
+            if least.0 < FAR && least.1 == component {
+                *least = least_of(row.get(..columns).unwrap_or(row));
             }
+        }
+        if let Some(least) = self.least.get_mut(track) {
+            *least = (FAR, 0);
         }
     }
 }
@@ -87,30 +99,42 @@ fn seconds(us: u64) -> i64 {
     ((us.min(16_000_000) * 281_474_977) >> 32) as i64
 }
 
-/// Where a contact should be, and how far from there it may be, in 1/16 taxel.
+/// Where a contact should be, on its own panel and as seen from others, and how far from there it may be, in 1/16 taxel.
 struct Expected {
-    at: Point,
+    at: Images,
     reach: u32,
 }
 
 impl Expected {
-    fn of(contact: &Contact, seconds: i64, gate: u16) -> Expected {
+    fn of(contact: &Contact, layout: &Layout, seconds: i64, gate: u16) -> Expected {
         let gate = i32::from(gate) * 16;
         let step = |v: Fixed16| ((i64::from(v.0) * seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
-        let (x, y) = (step(contact.vx), step(contact.vy));
+        let (x, y) =
+            if (contact.vx.0 | contact.vy.0) == 0 { (0, 0) } else { (step(contact.vx), step(contact.vy)) };
         let at = Point::of(contact.panel, contact.x, contact.y);
         let bounds = &contact.bounds;
         let side = bounds.right.saturating_sub(bounds.left).max(bounds.bottom.saturating_sub(bounds.top));
         let reach = gate + (i32::from(side) + 1) * 8 + x.abs() + y.abs();
-        Expected { at: Point { x: at.x + x, y: at.y + y, ..at }, reach: reach.min(LONGEST) as u32 }
+        let at = Point { x: at.x + x, y: at.y + y, ..at };
+        Expected { at: at.images(layout), reach: reach.min(LONGEST) as u32 }
     }
 
-    /// Squared distance of a component, over whichever seam is shortest; [`FAR`] if out of reach.
-    fn distance(&self, layout: &Layout, component: &Component) -> u32 {
-        let to = Point::of(component.bounds.panel, component.x, component.y);
-        match nearest_way(layout, self.at, to) {
-            Some((_, squared)) if squared <= self.reach * self.reach => squared,
-            _ => FAR,
+    /// Squared distance of a point, over whichever seam is shortest; [`FAR`] if out of reach.
+    fn distance(&self, to: &Point) -> u32 {
+        let mut least = FAR;
+        for image in self.at.iter().filter(|image| image.panel == to.panel) {
+            let apart = |a: i32, b: i32| (a - b).unsigned_abs().min(LONGEST as u32);
+            let x = apart(image.x, to.x);
+            // Most pairs are told apart by this.
+            if x > self.reach {
+                continue;
+            }
+            let y = apart(image.y, to.y);
+            let squared = x * x + y * y;
+            if squared < least && squared <= self.reach * self.reach {
+                least = squared;
+            }
         }
+        least
     }
 }

@@ -1,5 +1,6 @@
 //! Exact moments of pressure (eq. 1 to 3 of the source, with coordinates from 0).
 
+use crate::format::product;
 use crate::garment::Transform;
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
@@ -183,9 +184,9 @@ impl Moments {
     pub const fn central(&self) -> Central {
         let (m, sx, sy) = (self.m, self.sx as u64, self.sy as u64);
         Central {
-            a: m.wrapping_mul(self.sxx).wrapping_sub(sx.wrapping_mul(sx)),
-            b: m.wrapping_mul(self.syy).wrapping_sub(sy.wrapping_mul(sy)),
-            c: m.wrapping_mul(self.sxy as u64).wrapping_sub(sx.wrapping_mul(sy)) as i64,
+            a: product(m, self.sxx).wrapping_sub(product(sx, sx)),
+            b: product(m, self.syy).wrapping_sub(product(sy, sy)),
+            c: product(m, self.sxy as u64).wrapping_sub(product(sx, sy)) as i64,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Distances between points of panels, over the shortest seam.
 
 use crate::format::Fixed16;
-use crate::garment::{Layout, Transform};
+use crate::garment::{Layout, SEAMS, Transform};
+use heapless::Vec;
 
 /// Distances are in 1/16 taxel, at most 2047 taxels: two squares fit in 32 bits.
 pub(super) const LONGEST: i32 = 32767;
@@ -20,11 +21,32 @@ impl Point {
         Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
     }
 
+    /// Itself, and as seen from the panels beyond every seam.
+    pub fn images(self, layout: &Layout) -> Images {
+        let mut images = Images::new();
+        let mut add = |panel, (x, y)| {
+            let _ = images.push(Point { panel, x, y });
+        };
+        add(self.panel, (self.x, self.y));
+        for joint in layout.joints() {
+            if joint.b == self.panel {
+                add(joint.a, self.through(&joint.b_to_a));
+            }
+            if joint.a == self.panel {
+                add(joint.b, self.through(&joint.b_to_a.inverse()));
+            }
+        }
+        images
+    }
+
     fn through(self, way: &Transform) -> (i32, i32) {
         // As `Transform::apply`, in 32 bits: coordinates are below 2^20, and so are shifts.
         (way.xx * self.x + way.xy * self.y + way.dx * 16, way.yx * self.x + way.yy * self.y + way.dy * 16)
     }
 }
+
+/// A point, and where it lies in the frames of the panels that seams join to its own.
+pub(super) type Images = Vec<Point, { 1 + 2 * SEAMS }>;
 
 /// The way between two panels (none within one panel, else over one seam) that brings a point closest to another, and
 /// the squared distance that is left.

@@ -16,11 +16,13 @@
 
 mod invalid;
 mod inverse;
+mod product;
 mod root;
 mod scaled;
 
 pub use invalid::Invalid;
 pub use inverse::Inverse;
+pub(crate) use product::product;
 pub use root::root;
 pub use scaled::Scaled;
 

@@ -1,6 +1,6 @@
 //! The integer square root without a divider.
 
-use super::inverse::wide;
+use super::product::wide;
 
 /// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where there is no divider:
 /// Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one exact correction.
@@ -8,8 +8,15 @@ pub const fn root(value: u64) -> u32 {
     if value == 0 {
         return 0;
     }
+    if value >> 62 != 0 {
+        return exact_root(value);
+    }
     let shift = value.leading_zeros() & !1;
-    let normal = value << shift;
+    exact_root(value << shift) >> (shift / 2)
+}
+
+/// The root of a `normal` with bit 63 or 62 set.
+const fn exact_root(normal: u64) -> u32 {
     let mut root = normal_root(normal);
     // A unit or two off at most.
     let mut square = wide(root, root);
@@ -21,7 +28,7 @@ pub const fn root(value: u64) -> u32 {
         square += 2 * root as u64 + 1;
         root += 1;
     }
-    root >> (shift / 2)
+    root
 }
 
 /// `sqrt(normal)` for a `normal` with bit 63 or 62 set, one or two off.

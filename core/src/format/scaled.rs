@@ -9,7 +9,7 @@
 //!
 //! The exponent saturates; the values of the core stay within 2^-130 ..= 2^130.
 
-use super::inverse::wide;
+use super::product::wide;
 use super::{Fixed24, Inverse, Q15, root};
 
 /// `mantissa * 2^exponent`, with bit 31 of the mantissa set, or zero.

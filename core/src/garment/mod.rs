@@ -21,4 +21,4 @@ pub use config::{
 };
 pub use error::GarmentError;
 pub use layout::Layout;
-pub use seam::{Joint, Transform};
+pub use seam::{Joint, Stretch, Transform};

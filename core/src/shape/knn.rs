@@ -80,21 +80,33 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
 /// The `k` nearest prototypes in the order of their squared distance; of equals the first in the base.
 fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Class); VOTERS] {
     let mut nearest = [(u32::MAX, Class::UNKNOWN); VOTERS];
+    let mut limit = u32::MAX;
     for prototype in prototypes {
-        let mut carried = (distance(&prototype.features, features), prototype.class);
+        let Some(distance) = distance_below(limit, &prototype.features, features) else { continue };
+        let mut carried = (distance, prototype.class);
         for held in nearest.iter_mut().take(k) {
             if carried.0 < held.0 {
                 core::mem::swap(held, &mut carried);
             }
+            limit = held.0;
         }
     }
     nearest
 }
 
-/// Squared; each feature counts for at most 32767 apart, so that four squares fit.
-fn distance(a: &Features, b: &Features) -> u32 {
-    a.iter().zip(b).fold(0, |sum: u32, (a, b)| {
-        let apart = (i32::from(*a) - i32::from(*b)).unsigned_abs().min(32767);
-        sum.wrapping_add(apart.wrapping_mul(apart))
-    })
+/// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
+fn distance_below(limit: u32, a: &Features, b: &Features) -> Option<u32> {
+    let [[a0, a1, a2, a3], [b0, b1, b2, b3]] = [a, b];
+    let first = square(*a3, *b3) + square(*a2, *b2);
+    if first >= limit {
+        return None;
+    }
+    let distance = first + square(*a0, *b0) + square(*a1, *b1);
+    (distance < limit).then_some(distance)
+}
+
+/// Each feature counts for at most 32767 apart, so that four squares fit.
+fn square(a: i16, b: i16) -> u32 {
+    let apart = i32::from(a) - i32::from(b);
+    (apart.wrapping_mul(apart) as u32).min(32767 * 32767)
 }

@@ -8,7 +8,7 @@
 //! Error of every form: half a step of 2^-24, and 4e-9 of the value (asserted against 25 digits).
 
 use crate::contact::Moments;
-use crate::format::{Fixed24, Scaled};
+use crate::format::{Fixed24, Scaled, product};
 use serde::{Deserialize, Serialize};
 
 /// The forms; all 0 where there is no pressure, all saturate just below 256.
@@ -33,8 +33,9 @@ pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
     }
     // One division: the rest is multiplications by the inverse of the mass, and roots.
     let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));
-    let published = Scaled::from_u64(moments.jm()).times(inverse).sqrt().times(inverse);
-    let sheppard = sheppard(moments).times(inverse).sqrt().times(inverse);
+    let jm = moments.jm();
+    let published = Scaled::from_u64(jm).times(inverse).sqrt().times(inverse);
+    let sheppard = sheppard(jm, moments.m).times(inverse).sqrt().times(inverse);
     let peak = Scaled::from_u64(peak.into()).sqrt();
     let mean = Scaled::from_u64(moments.s2).times(inverse).sqrt();
     Nmi {
@@ -49,10 +50,12 @@ pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
 const SIXTH: Scaled = Scaled::from_u64(1).over(Scaled::from_u64(6));
 
 /// `J m - m^2 / 6` through `6 J m - m^2`, which is exact where it fits; 0 where the pixel is all there is.
-fn sheppard(moments: &Moments) -> Scaled {
-    let (jm, square) = (moments.jm(), moments.m.saturating_mul(moments.m));
-    match jm.checked_mul(6) {
-        Some(six) => Scaled::from_u64(six.saturating_sub(square)).times(SIXTH),
-        None => Scaled::from_u64(jm.saturating_sub(square / 6)),
+fn sheppard(jm: u64, m: u64) -> Scaled {
+    let square = if m >> 32 == 0 { product(m, m) } else { u64::MAX };
+    if jm <= u64::MAX / 6 {
+        let six = (jm << 2) + (jm << 1);
+        Scaled::from_u64(six.saturating_sub(square)).times(SIXTH)
+    } else {
+        Scaled::from_u64(jm.saturating_sub(square / 6))
     }
 }
