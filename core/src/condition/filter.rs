@@ -1,97 +1,25 @@
-//! The 3x3 filters, one row at a time.
+//! The 3x3 filters, where there is something in reach.
 
-/// Clamps each taxel to the range of its neighbours in the panel (conservative smoothing). Neighbours beyond the border do
-/// not count: were the border replicated, a taxel there would be its own neighbour and an impulse would survive.
-pub(super) fn conservative(above: Option<&[u16]>, here: &[u16], below: Option<&[u16]>, out: &mut [u16]) {
-    // A row that is missing lends from the other: a neighbour that counts twice changes neither end of the range.
-    match above.or(below).zip(below.or(above)) {
-        Some((above, below)) => {
-            let columns = above.iter().zip(here).zip(below);
-            smooth(columns.map(|((a, h), b)| (Range::of(*a).and(Range::of(*b)), u32::from(*h))), out);
+use super::config::Filter;
+use super::conservative::conservative;
+use super::image::{panel_mut, panel_of};
+use super::median::median;
+use super::rows::grain;
+use super::state::ConditionState;
+use crate::garment::Area;
+
+impl<const TAXELS: usize> ConditionState<TAXELS> {
+    /// Filters the calibrated image of a panel whose filtered image is empty. What either of them may hold takes the place
+    /// of what the calibrated one held.
+    pub(super) fn filter(&mut self, area: &Area, filter: Filter) {
+        let values = panel_of(&self.calibrated, area);
+        let out = panel_mut(&mut self.filtered, area);
+        match filter {
+            Filter::Off => {}
+            Filter::Conservative => conservative(values, out, area, grain(area), &mut self.rows),
+            Filter::Median => median(values, out, area, grain(area), &mut self.rows),
         }
-        None => smooth(here.iter().map(|h| (Range::NONE, u32::from(*h))), out),
     }
-}
-
-/// One row, column by column: the range of the taxels above and below, and the taxel.
-#[inline(never)]
-fn smooth(mut columns: impl Iterator<Item = (Range, u32)>, out: &mut [u16]) {
-    let Some((mut ends, mut value)) = columns.next() else { return };
-    let mut left = Range::NONE;
-    let mut out = out.iter_mut();
-    // The columns go first, so that the last taxel is left for them to leave.
-    for ((next_ends, next), out) in columns.zip(out.by_ref()) {
-        *out = left.and(ends).and(next_ends).and_value(next).clamp(value);
-        left = ends.and_value(value);
-        (ends, value) = (next_ends, next);
-    }
-    if let Some(out) = out.next() {
-        *out = left.and(ends).clamp(value);
-    }
-}
-
-/// The smallest and the largest of some taxels; whole words, which need no masking.
-#[derive(Clone, Copy)]
-struct Range {
-    low: u32,
-    high: u32,
-}
-
-impl Range {
-    const NONE: Range = Range { low: u32::MAX, high: 0 };
-
-    fn of(value: u16) -> Range {
-        Range { low: value.into(), high: value.into() }
-    }
-
-    fn and(self, other: Range) -> Range {
-        Range { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    fn and_value(self, value: u32) -> Range {
-        Range { low: self.low.min(value), high: self.high.max(value) }
-    }
-
-    fn clamp(self, value: u32) -> u16 {
-        let clamped = if self.low > self.high { value } else { value.max(self.low).min(self.high) };
-        clamped as u16
-    }
-}
-
-/// The exact median of nine with the border replicated.
-///
-/// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
-/// median middle and the smallest high one (Smith 1996; 113 cycles per taxel on a Cortex-M0+ instead of 350).
-#[inline(never)]
-pub(super) fn median(above: &[u16], here: &[u16], below: &[u16], out: &mut [u16]) {
-    let mut columns =
-        above.iter().zip(here).zip(below).map(|((a, h), b)| sorted((*a).into(), (*h).into(), (*b).into()));
-    let Some(mut middle) = columns.next() else { return };
-    let mut left = middle;
-    for out in out {
-        let right = columns.next().unwrap_or(middle);
-        *out = match left.2 | middle.2 | right.2 {
-            0 => 0,
-            _ => median_of_columns(left, middle, right) as u16,
-        };
-        left = middle;
-        middle = right;
-    }
-}
-
-type Sorted = (u32, u32, u32);
-
-fn median_of_columns(a: Sorted, b: Sorted, c: Sorted) -> u32 {
-    let low = a.0.max(b.0).max(c.0);
-    let middle = sorted(a.1, b.1, c.1).1;
-    let high = a.2.min(b.2).min(c.2);
-    sorted(low, middle, high).1
-}
-
-fn sorted(a: u32, b: u32, c: u32) -> Sorted {
-    let (a, b) = (a.min(b), a.max(b));
-    let (b, c) = (b.min(c), b.max(c));
-    (a.min(b), a.max(b), c)
 }
 
 #[cfg(test)]

@@ -15,22 +15,31 @@
 //! Work follows what is touched: a row without a code above the floor is compared and left, and filters and clearing
 //! visit only rows that hold something or did so one frame ago.
 
-mod baseline;
+mod calibrate;
+mod clear;
 mod config;
+mod consensus;
+mod conservative;
+mod drift;
 mod edge;
 mod feedback;
 mod filter;
 mod image;
+mod limit;
+mod median;
 mod progress;
+mod rows;
 mod stage;
 mod state;
+mod tare;
 
 pub use config::{ConditionConfig, Filter};
 pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
 pub use feedback::{CARRIED, Feedback};
-pub use image::{Image, Rows};
+pub use image::Image;
 pub use progress::Tare;
+pub use rows::Rows;
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};
 

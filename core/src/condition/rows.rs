@@ -1,0 +1,195 @@
+//! Which parts of an image are worth a look.
+
+use super::image::row_of;
+use crate::garment::{Area, Layout};
+use core::ops::Range;
+
+const ENTRIES: usize = 256;
+/// Bits of an entry.
+const GROUPS: u32 = 16;
+
+/// The activity of an image: for each row, by its number over all panels ([`Area::first_row`]` + row`), the columns that
+/// may hold something; whatever it leaves out is 0.
+///
+/// A row has one bit for each of 16 groups of columns, so up to 16 columns have one of their own. Rows from 255 on share one
+/// entry, so that it answers "may hold something" for any garment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rows {
+    groups: [u16; ENTRIES],
+    /// A bit for each row with a group.
+    held: [u32; ENTRIES / 32],
+}
+
+impl Rows {
+    /// No row.
+    pub const NONE: Rows = Rows { groups: [0; ENTRIES], held: [0; ENTRIES / 32] };
+    /// Every column of every row.
+    pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: [u32::MAX; ENTRIES / 32] };
+
+    /// The places of `values` (by taxel number) that hold anything but 0.
+    pub fn of(layout: &Layout, values: &[u16]) -> Rows {
+        let mut rows = Rows::NONE;
+        for area in layout.areas() {
+            let grain = grain(area);
+            for row in 0..area.rows {
+                let held = row_of(values, area, row).iter().enumerate().filter(|(_, value)| **value != 0);
+                let groups = held.fold(0, |all, (column, _)| all | 1u16 << (column >> grain));
+                rows.add(area.first_row.saturating_add(row), groups);
+            }
+        }
+        rows
+    }
+
+    /// Whether the row, or one that shares its entry, may hold something.
+    pub const fn contains(&self, row: u16) -> bool {
+        self.groups(row) != 0
+    }
+
+    /// Whether nothing is held.
+    pub fn is_empty(&self) -> bool {
+        self.held == [0; ENTRIES / 32]
+    }
+
+    /// The first of some rows that may hold something.
+    pub const fn next(&self, rows: Range<u16>) -> Option<u16> {
+        let mut row = rows.start;
+        while row < rows.end {
+            let entry = Rows::entry(row);
+            if entry == SHARED {
+                return if self.groups[SHARED] != 0 { Some(row) } else { None };
+            }
+            let ahead = self.held[entry / 32] >> (entry % 32);
+            if ahead != 0 {
+                let next = row + ahead.trailing_zeros() as u16;
+                return if next < rows.end { Some(next) } else { None };
+            }
+            row = (row | 31) + 1;
+        }
+        None
+    }
+
+    /// The groups of columns of a row that may hold something.
+    pub(super) const fn groups(&self, row: u16) -> u16 {
+        self.groups[Rows::entry(row)]
+    }
+
+    pub(super) const fn add(&mut self, row: u16, groups: u16) {
+        let entry = Rows::entry(row);
+        self.groups[entry] |= groups;
+        if groups != 0 {
+            self.held[entry / 32] |= 1 << (entry % 32);
+        }
+    }
+
+    /// Leaves only these groups of a row, unless others share its entry.
+    pub(super) const fn set(&mut self, row: u16, groups: u16) {
+        if Rows::entry(row) != SHARED {
+            self.forget(Rows::entry(row));
+        }
+        self.add(row, groups);
+    }
+
+    /// Empties the entry that many rows share.
+    pub(super) const fn forget_shared(&mut self) {
+        self.forget(SHARED);
+    }
+
+    const fn forget(&mut self, entry: usize) {
+        self.groups[entry] = 0;
+        self.held[entry / 32] &= !(1 << (entry % 32));
+    }
+
+    const fn entry(row: u16) -> usize {
+        if row as usize >= SHARED { SHARED } else { row as usize }
+    }
+}
+
+const SHARED: usize = ENTRIES - 1;
+
+/// Columns of a group, as a power of two.
+pub(super) fn grain(area: &Area) -> u32 {
+    let mut grain = 0;
+    while area.columns.saturating_sub(1) >> grain >= GROUPS as u16 {
+        grain += 1;
+    }
+    grain
+}
+
+/// The first and the last of some groups, as columns.
+pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
+    if groups == 0 {
+        return 0..0;
+    }
+    let grain = grain(area);
+    let end = (u16::BITS - groups.leading_zeros()) << grain;
+    (groups.trailing_zeros() << grain) as u16..end.min(area.columns.into()) as u16
+}
+
+/// Groups that follow each other: as groups, and as columns of a row.
+pub(super) struct Pieces {
+    groups: u32,
+    at: u32,
+    grain: u32,
+    columns: u32,
+}
+
+impl Pieces {
+    pub fn of(area: &Area, grain: u32, groups: u32) -> Self {
+        Pieces { groups, at: 0, grain, columns: area.columns.into() }
+    }
+}
+
+impl Iterator for Pieces {
+    type Item = (u16, Range<usize>);
+
+    fn next(&mut self) -> Option<(u16, Range<usize>)> {
+        if self.groups == 0 {
+            return None;
+        }
+        let skipped = self.groups.trailing_zeros();
+        let length = (!(self.groups >> skipped)).trailing_zeros();
+        let start = self.at + skipped;
+        let groups = ((1 << length) - 1) << start;
+        self.groups >>= skipped + length;
+        self.at = start + length;
+        let end = (self.at << self.grain).min(self.columns);
+        Some((groups as u16, (start << self.grain) as usize..end as usize))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::Image;
+    use super::*;
+    use crate::garment::Garment;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn spans_and_pieces_hold_what_there_is_and_no_more_than_its_groups() {
+        for (rows, columns, group) in
+            [(1, 1, 1), (3, 16, 1), (300, 16, 1), (2, 17, 2), (5, 40, 4), (1, 700, 64)]
+        {
+            let layout = Layout::build(&Garment::recorded(rows, columns), 4800, 255).unwrap();
+            let area = &layout.areas()[0];
+            let mut values = vec![0u16; layout.taxels()];
+            assert!(Rows::of(&layout, &values).is_empty());
+            let (row, last) = (rows - 1, columns - 1);
+            for column in [last / 3, last] {
+                values[usize::from(row * columns + column)] = 1;
+            }
+            let held = Rows::of(&layout, &values);
+            let image = Image { values: &values, rows: &held };
+            assert_eq!(image.span(area, row), last / 3 / group * group..columns);
+            assert_eq!(image.span(area, rows), 0..0);
+            assert!(rows == 1 || rows > 255 || image.span(area, row - 1).is_empty());
+            assert_eq!(Image { values: &values, rows: &Rows::ALL }.span(area, row), 0..columns);
+            let pieces = Pieces::of(area, grain(area), held.groups(row).into());
+            let pieces: Vec<_> = pieces.map(|(_, columns)| columns).collect();
+            assert!(pieces.iter().any(|piece| piece.contains(&usize::from(last))));
+            assert!(pieces.iter().any(|piece| piece.contains(&usize::from(last / 3))));
+            assert!(pieces.iter().all(|piece| piece.len() <= 2 * usize::from(group)));
+        }
+    }
+}
