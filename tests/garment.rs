@@ -126,6 +126,22 @@ fn words_of_binary_and_one_hot_lines_with_their_polarity() {
 }
 
 #[test]
+fn thirty_two_lines_may_select_blocks_and_rows_alone() {
+    let lines = |pins: std::ops::Range<u8>| pins.map(|pin| Line { pin, inverted: false }).collect();
+    let mut garment = Garment::block();
+    (garment.panels[0].columns, garment.blocks[0].columns) = (1, 1);
+    garment.wiring.block.lines = lines(0..16);
+    garment.wiring.row.lines = lines(32..48);
+    garment.wiring.column.lines.clear();
+    let layout = Layout::build(&garment, 4, 4095).expect("it is checked");
+    let circuit = Circuit::build(&garment, &layout, Pins::ANY).expect("it is checked");
+    assert_eq!(circuit.lines().len(), 32);
+    assert_eq!((circuit.idle_word(), circuit.word(0x8001, 3, 0)), (0, 0x0008_8001));
+    garment.wiring.enable.push(Line { pin: 50, inverted: false }).expect("there is room");
+    assert!(Circuit::build(&garment, &layout, Pins::ANY).is_err());
+}
+
+#[test]
 fn a_seam_maps_neighbours_onto_each_other() {
     let sides = [Side::Left, Side::Right, Side::Top, Side::Bottom];
     for (a, b) in sides.into_iter().flat_map(|a| sides.map(|b| (a, b))) {

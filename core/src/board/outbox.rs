@@ -202,8 +202,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else {
             list.clear();
         }
-        let untold: Vec<u32, LISTED> =
-            list.iter().filter(|p| p.contact.phase == Phase::Onset).map(|p| p.contact.id).collect();
+        let mut untold = Vec::<u32, LISTED>::new();
+        for told_later in list.iter().filter(|p| p.contact.phase == Phase::Onset) {
+            let _ = untold.push(told_later.contact.id);
+        }
         list.retain(|old| {
             let present = percept.present.iter().any(|p| p.contact.id == old.contact.id);
             old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)

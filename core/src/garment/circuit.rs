@@ -92,7 +92,7 @@ impl Circuit {
             circuit.add_block(index, block, garment, layout, pins)?;
         }
         check_cover(garment, layout)?;
-        circuit.sites.sort_unstable_by_key(|s| (s.select, s.input));
+        in_order_of_scan(&mut circuit.sites);
         for pair in circuit.sites.windows(2) {
             if let [a, b] = pair
                 && (a.select, a.input) == (b.select, b.input)
@@ -171,7 +171,8 @@ impl Circuit {
                 Coding::Binary => u32::from(code),
                 Coding::OneHot => 1u32.checked_shl(u32::from(code)).unwrap_or(0),
             };
-            word |= (bits & mask(usize::from(*lines))) << shift;
+            // A group without lines may stand behind 32 of them.
+            word |= (bits & mask(usize::from(*lines))).checked_shl(shift).unwrap_or(0);
             shift += u32::from(*lines);
         }
         word ^ self.inverted
@@ -227,6 +228,19 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
         origin,
         row_step,
         column_step,
+    }
+}
+
+/// Sorts by select code, then by input. By insertion: the library's sort checks that an order is one, and panics.
+fn in_order_of_scan(sites: &mut [Site]) {
+    for end in 1..sites.len() {
+        for at in (0..end).rev() {
+            if let Some([a, b, ..]) = sites.get_mut(at..)
+                && (b.select, b.input) < (a.select, a.input)
+            {
+                core::mem::swap(a, b);
+            }
+        }
     }
 }
 
