@@ -3,7 +3,7 @@
 use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
-use crate::{firmware, install, locks, paths, process, targets};
+use crate::{firmware, install, locks, no_panic, paths, process, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -20,6 +20,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("core-thumb", core_thumb),
     ("firmware", build_firmware),
     ("firmware-clippy", firmware_clippy),
+    ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
     ("emulator", targets::emulator),
     ("recorded", targets::recorded),
@@ -143,7 +144,7 @@ fn firmware_clippy(log: &Path) -> Result<Result<(), String>, String> {
         install::packages(install::CROSS)?;
     }
     let mut command = toolchain.cargo("clippy", &paths::firmware());
-    Ok(process::run_into(command.args(["--", "--deny", "warnings"]), log))
+    Ok(process::run_into(command.args(["--bins", "--examples", "--", "--deny", "warnings"]), log))
 }
 
 fn emulator_units(log: &Path) -> Result<Result<(), String>, String> {

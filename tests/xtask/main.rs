@@ -7,6 +7,7 @@ mod elf;
 mod firmware;
 mod install;
 mod locks;
+mod no_panic;
 mod paths;
 mod process;
 mod report;

@@ -1,0 +1,79 @@
+//! Links only if no panic is reachable from [`Board`]: the panic handler calls a function that nobody defines. Never run.
+//!
+//! What the calls are given comes from outside, so the compiler knows nothing of it: any state, any bytes, any codes.
+//! With `--cfg control` one panic is reachable, and it must not link. `cargo xtask test --only no-panic` builds both, as
+//! the firmware is built. To find a panic, define the function by `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in
+//! the disassembly for who calls `core::panicking`.
+//!
+//! The loop around the board, an `async fn`, is not covered: polled again after its end it panics.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+use core::panic::PanicInfo;
+use taxel_core::acquire::{Scan, ScanError, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input, Setup, Work};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::Garment;
+use taxel_core::scene::Scene;
+
+unsafe extern "C" {
+    /// The linker names it where a panic is reachable.
+    fn a_panic_is_reachable() -> !;
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    // SAFETY: what links does not call it.
+    unsafe { a_panic_is_reachable() }
+}
+
+/// With the capacities of the firmware.
+type Reference = Board<2048, 1024>;
+
+/// What the calls are given.
+pub struct Given {
+    call: u8,
+    board: Reference,
+    now: Micros,
+    bytes: &'static [u8],
+    codes: &'static [Code],
+    report: ScanReport,
+    error: ScanError,
+    work: Work,
+    result: Result<(), &'static str>,
+    count: usize,
+    info: BoardInfo,
+    garment: Garment,
+    scene: Scene,
+    setup: Setup,
+}
+
+/// One call; where a linker begins, and so what it keeps.
+#[unsafe(no_mangle)]
+pub extern "C" fn _start(given: &mut Given) {
+    let Given { board, now, bytes, codes, report, info, garment, scene, .. } = given;
+    let mut step = |input| keep(board.step(*now, input, &mut ()));
+    match given.call {
+        0 => step(Input::Received(bytes)),
+        1 => step(Input::Scanned(Ok(Scan { codes, report: *report }))),
+        2 => step(Input::Scanned(Err(given.error))),
+        3 => step(Input::Done(given.work, given.result)),
+        4 => step(Input::Tick),
+        5 => keep(board.pending(*now, &mut ())),
+        6 => board.sent(given.count),
+        7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
+        8 => keep((Garment::reference(), Scene::shipped())),
+        9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
+        10 => keep(Reference::with(*info, given.setup.clone())),
+        11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
+        #[cfg(control)]
+        12 => keep(codes[given.count]),
+        _ => {}
+    }
+}
+
+/// The compiler must take it that somebody looks at the value.
+fn keep<T>(value: T) {
+    black_box(value);
+}
