@@ -71,10 +71,11 @@ impl Emulated {
         scan as u32 + 1
     }
 
-    /// What the harness has counted so far.
-    pub fn stats(&mut self) -> Value {
-        writeln!(self.input, "stats").unwrap();
-        wait_for(&self.lines, "stats")["stats"].take()
+    /// What the harness answers to a command: `stats`, what it has counted so far, or `stack`, how deep the stack was since
+    /// it was last asked.
+    pub fn look(&mut self, at: &str) -> Value {
+        writeln!(self.input, "{at}").unwrap();
+        wait_for(&self.lines, at)[at].take()
     }
 
     /// Sends a request.

@@ -67,7 +67,7 @@ fn five_moving_contacts() {
         let message = board.receive();
         before = images.take(&message).inspect(|(number, _)| assert!(*number < first)).or(before);
     }
-    let marks = board.stats();
+    let marks = board.look("stats");
     let (mut frame, start) = before.unwrap();
     let (mut end, mut contacts, mut bytes) = (start, Vec::new(), BTreeMap::new());
     while frame + 1 < first + FRAMES {
@@ -81,7 +81,7 @@ fn five_moving_contacts() {
         }
         *bytes.entry(kind(&message.report())).or_insert(0) += message.wire_bytes;
     }
-    let spent = board.stats();
+    let spent = board.look("stats");
     assert!(contacts.len() as u32 + 2 > FRAMES && contacts.iter().all(|n| *n == 5), "{contacts:?}");
     let health = loop {
         if let Report::Health(health) = board.receive().report() {

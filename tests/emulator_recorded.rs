@@ -149,7 +149,7 @@ fn recorded_people() {
     let count = (codes.len() / TAXELS) as u32;
     let last = played + count - 1;
     let (reports, times) = from_board(&mut board, played, last);
-    let stats = board.stats();
+    let stats = board.look("stats");
     println!("{count} frames in {} us; stack {}", stats["emulated_us"], stats["stack"]);
     board.end();
 

@@ -86,6 +86,10 @@ async function main() {
   const commands = {
     play: () => garment?.play(),
     stats: () => say({ stats: statistics(machine, garment, link, started) }),
+    stack: () => {
+      say({ stack: machine.stack });
+      machine.stack.paint(machine.core.SP);
+    },
     quit: () => { control.quit = true; },
   };
   createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.());

@@ -8,10 +8,15 @@ export class Stack {
   constructor(symbols, ramView, top) {
     const bottom = symbols.get('_stack_end')?.address;
     Object.assign(this, { view: ramView, bottom: bottom === undefined ? top : (bottom + 3) & ~3, top });
-    for (let at = this.bottom; at < this.top; at += 4) this.view.setUint32(at - RAM_START, PAINT, true);
+    this.paint(top);
   }
 
-  /** Bytes that were used at most, and bytes that there are. */
+  /** Forgets how deep it has been: all below the stack pointer `pointer` is painted anew. */
+  paint(pointer) {
+    for (let at = this.bottom; at < pointer; at += 4) this.view.setUint32(at - RAM_START, PAINT, true);
+  }
+
+  /** Bytes that were used at most since it was painted, and bytes that there are. */
   toJSON() {
     let at = this.bottom;
     while (at < this.top && this.view.getUint32(at - RAM_START, true) === PAINT) at += 4;

@@ -3,7 +3,7 @@
 use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
-use crate::{firmware, install, locks, no_panic, paths, process, targets};
+use crate::{firmware, install, locks, no_panic, paths, process, sizes, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -19,10 +19,12 @@ const CHECKS: &[(&str, Check)] = &[
     ("docs", docs),
     ("core-thumb", core_thumb),
     ("firmware", build_firmware),
+    ("sizes", compare_sizes),
     ("firmware-clippy", firmware_clippy),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
     ("emulator", targets::emulator),
+    ("emulator-stack", targets::emulator_stack),
     ("recorded", targets::recorded),
     ("emulator-recorded", targets::emulator_recorded),
 ];
@@ -131,6 +133,10 @@ fn core_thumb(log: &Path) -> Result<Result<(), String>, String> {
 
 fn build_firmware(log: &Path) -> Result<Result<(), String>, String> {
     Ok(image(&Toolchain::find()?, log).map(|image| print!("{image}")))
+}
+
+fn compare_sizes(log: &Path) -> Result<Result<(), String>, String> {
+    Ok(image(&Toolchain::find()?, log).and_then(|image| sizes::check(&image.elf)))
 }
 
 /// The firmware as its lock file says; built at once where nothing has changed.

@@ -1,4 +1,4 @@
-//! What the program headers of a 32-bit ELF file say: what goes into flash, and how much memory it takes.
+//! What a 32-bit ELF file says of itself: what goes into flash, how much memory it takes, and what for.
 
 /// A loadable piece.
 #[derive(Debug, PartialEq, Eq)]
@@ -11,6 +11,32 @@ pub struct Segment<'a> {
     pub bytes: &'a [u8],
     /// Memory that it takes when the program runs.
     pub memory: u32,
+}
+
+/// A part of the program.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Section<'a> {
+    /// With a dot in front.
+    pub name: &'a str,
+    /// Whether it takes memory or flash, which notes for debuggers do not.
+    pub allocated: bool,
+    /// Whether it is stored in the file, which zeros are not.
+    pub stored: bool,
+    /// Bytes.
+    pub size: u32,
+}
+
+/// A function or a variable.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Symbol<'a> {
+    /// As the compiler wrote it.
+    pub name: &'a str,
+    /// Index of its section.
+    pub section: usize,
+    /// Where it is when the program runs.
+    pub address: u32,
+    /// Bytes.
+    pub size: u32,
 }
 
 const LOAD: u32 = 1;
@@ -42,6 +68,65 @@ pub fn segments(file: &[u8]) -> Option<Vec<Segment<'_>>> {
     Some(found)
 }
 
+const SECTIONS_AT: usize = 32;
+const SECTION_SIZE_AT: usize = 46;
+const SECTION_COUNT_AT: usize = 48;
+const SECTION_NAMES_AT: usize = 50;
+const SYMBOLS: u32 = 2;
+const ZEROS: u32 = 8;
+const ALLOCATED: u32 = 2;
+const SYMBOL_SIZE: usize = 16;
+
+/// The section headers of a file.
+fn headers(file: &[u8]) -> Option<Vec<&[u8]>> {
+    let start = word(file, SECTIONS_AT)? as usize;
+    let size = half(file, SECTION_SIZE_AT)?;
+    (0..half(file, SECTION_COUNT_AT)?).map(|index| file.get(start + index * size..)).collect()
+}
+
+/// What a section header points at.
+fn content<'a>(file: &'a [u8], header: &[u8]) -> Option<&'a [u8]> {
+    let (offset, size) = (word(header, 16)? as usize, word(header, 20)? as usize);
+    file.get(offset..offset + size)
+}
+
+/// The sections of a file, in their order.
+pub fn sections(file: &[u8]) -> Option<Vec<Section<'_>>> {
+    let headers = headers(file)?;
+    let names = content(file, headers.get(half(file, SECTION_NAMES_AT)?)?)?;
+    let section = |header: &&[u8]| {
+        Some(Section {
+            name: text(names, word(header, 0)?)?,
+            allocated: word(header, 8)? & ALLOCATED != 0,
+            stored: word(header, 4)? != ZEROS,
+            size: word(header, 20)?,
+        })
+    };
+    headers.iter().map(section).collect()
+}
+
+/// The functions and variables of a file.
+pub fn symbols(file: &[u8]) -> Option<Vec<Symbol<'_>>> {
+    let headers = headers(file)?;
+    let table = headers.iter().find(|header| word(header, 4) == Some(SYMBOLS))?;
+    let names = content(file, headers.get(word(table, 24)? as usize)?)?;
+    let symbol = |entry: &'_ [u8]| {
+        Some(Symbol {
+            name: text(names, word(entry, 0)?)?,
+            section: half(entry, 14)?,
+            address: word(entry, 4)?,
+            size: word(entry, 8)?,
+        })
+    };
+    content(file, table)?.chunks_exact(SYMBOL_SIZE).map(symbol).collect()
+}
+
+/// A text that ends with a zero.
+fn text(bytes: &[u8], at: u32) -> Option<&str> {
+    let from = bytes.get(at as usize..)?;
+    std::str::from_utf8(from.split(|byte| *byte == 0).next()?).ok()
+}
+
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?))
 }
@@ -69,5 +154,31 @@ mod tests {
         assert_eq!(segments(&file), Some(vec![segment]));
         assert_eq!(segments(&file[..80]), None);
         assert_eq!(segments(b"#!/bin/sh"), None);
+    }
+
+    #[test]
+    fn reads_what_it_is_for() {
+        // Header, names and symbols at 52, then three section headers: names, symbols, memory for zeros.
+        let names = b"\0.text\0.bss\0it\0";
+        let mut file = vec![0; 52];
+        file[..6].copy_from_slice(b"\x7fELF\x01\x01");
+        let symbols = (52 + names.len()) as u32;
+        file[SECTIONS_AT..][..4].copy_from_slice(&(symbols + SYMBOL_SIZE as u32).to_le_bytes());
+        file[SECTION_SIZE_AT] = 40;
+        file[SECTION_COUNT_AT] = 3;
+        file.extend(names);
+        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<_>>();
+        file.extend(words(&[12, 0x2000_0004, 8, 2 << 16]));
+        file.extend(words(&[1, 3, ALLOCATED, 0, 52, names.len() as u32, 0, 0, 0, 0]));
+        file.extend(words(&[0, SYMBOLS, 0, 0, symbols, SYMBOL_SIZE as u32, 0, 0, 0, 0]));
+        file.extend(words(&[7, ZEROS, ALLOCATED, 0, 0, 99, 0, 0, 0, 0]));
+        let sections = sections(&file).unwrap();
+        let text = Section { name: ".text", allocated: true, stored: true, size: names.len() as u32 };
+        assert_eq!(sections[0], text);
+        assert!(!sections[1].allocated);
+        assert_eq!(sections[2], Section { name: ".bss", allocated: true, stored: false, size: 99 });
+        let it = Symbol { name: "it", section: 2, address: 0x2000_0004, size: 8 };
+        assert_eq!(super::symbols(&file), Some(vec![it]));
+        assert_eq!(super::symbols(&file[..file.len() - 100]), None);
     }
 }

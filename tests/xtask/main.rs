@@ -7,10 +7,12 @@ mod elf;
 mod firmware;
 mod install;
 mod locks;
+mod names;
 mod no_panic;
 mod paths;
 mod process;
 mod report;
+mod sizes;
 mod targets;
 mod uf2;
 
@@ -19,7 +21,8 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
-  firmware              build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive
+  firmware [--write]    build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive;
+                        --write: and write down its sizes, docs/bench/sizes.txt
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
@@ -28,14 +31,23 @@ usage: cargo xtask COMMAND
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
 
+/// Builds the firmware, says how large it is, and writes that down if it is asked to.
+fn build_firmware(args: &[String]) -> Result<(), String> {
+    let write = match args {
+        [] => false,
+        [write] if write == "--write" => true,
+        _ => return Err(USAGE.into()),
+    };
+    let built = firmware::build()?;
+    print!("{built}");
+    if write { sizes::write(&built.elf) } else { Ok(()) }
+}
+
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let rest = args.get(1..).unwrap_or(&[]);
     let done = match args.first().map(String::as_str) {
-        Some("firmware") => firmware::build().map(|built| {
-            print!("{built}");
-            true
-        }),
+        Some("firmware") => build_firmware(rest).map(|()| true),
         Some("core-thumb") => firmware::build_core().map(|()| true),
         Some("emulator") => firmware::emulate(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),

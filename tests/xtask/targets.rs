@@ -11,6 +11,11 @@ pub fn emulator(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator", log)
 }
 
+/// How deep the stack gets.
+pub fn emulator_stack(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_stack", log)
+}
+
 /// Recordings on the emulated board and on this machine.
 pub fn emulator_recorded(log: &Path) -> Result<Result<(), String>, String> {
     recordings()?;
