@@ -330,8 +330,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             health.thinned_frames += 1;
             return true;
         };
-        let fits =
-            under_way.put_frame(Frame { frame, time, base: against, sum: last.sum(), data: &[] }, length);
+        let head = Frame { frame, time, base: against, sum: last.sum(), data: &[] };
+        let fits = under_way.put_data(Report::FRAME, &head, length);
         *base = fits.then_some(frame);
         if fits && against.is_none() {
             *key = time;
@@ -346,7 +346,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         let plain = plain.get(..self.codes.len()).unwrap_or(&[]);
         let length = encode_image(plain, None, self.under_way.scratch());
-        length.is_some_and(|length| self.under_way.put_raw(Raw { frame, time, data: &[] }, length))
+        let head = Raw { frame, time, data: &[] };
+        length.is_some_and(|length| self.under_way.put_data(Report::RAW, &head, length))
     }
 }
 

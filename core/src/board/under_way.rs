@@ -3,8 +3,12 @@
 use crate::wire::*;
 use serde::Serialize;
 
-/// Longest body of a message: an image of any 2,048 taxels and what stands before it. A full list of contacts is shorter.
-const BODY: usize = image_bound(2048, 16) + 64;
+/// Most data of a message: an image of any 2,048 taxels.
+const DATA: usize = image_bound(2048, 16);
+/// What stands before them: numbers, time, sum.
+const HEAD: usize = 44;
+/// Longest body of a message. A full list of contacts is shorter.
+const BODY: usize = HEAD + DATA + 20;
 /// Its frame.
 const FRAME: usize = frame_bound(BODY);
 
@@ -40,25 +44,30 @@ impl UnderWay {
         self.begin(length)
     }
 
-    /// Where the data of a `Frame` or `Raw` are written first: what will be sent has room for them.
+    /// Where the data of a `Frame` or `Raw` are written first.
     pub fn scratch(&mut self) -> &mut [u8] {
-        &mut self.wire
+        self.body.get_mut(HEAD..HEAD + DATA).unwrap_or(&mut [])
     }
 
-    /// As [`UnderWay::put`]; its data are the first `length` bytes of the scratch.
-    pub fn put_frame(&mut self, head: Frame<'static>, length: usize) -> bool {
-        let data = self.wire.get(..length).unwrap_or(&[]);
-        let packed = pack(&(self.seq, Report::FRAME, Frame { data, ..head }), &mut self.body);
-        let length = packed.ok().and_then(|packed| stuff(packed, &mut self.wire));
+    /// As [`UnderWay::put`]; the data, which come last, are the first `length` bytes of the scratch: what goes before them is
+    /// written before them.
+    pub fn put_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> bool {
+        let length = self.pack_data(number, without, length);
         self.begin(length)
     }
 
-    /// As [`UnderWay::put_frame`].
-    pub fn put_raw(&mut self, head: Raw<'static>, length: usize) -> bool {
-        let data = self.wire.get(..length).unwrap_or(&[]);
-        let packed = pack(&(self.seq, Report::RAW, Raw { data, ..head }), &mut self.body);
-        let length = packed.ok().and_then(|packed| stuff(packed, &mut self.wire));
-        self.begin(length)
+    fn pack_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> Option<usize> {
+        let mut head = [0; HEAD];
+        // Without data a report ends with their length, 0.
+        let (_, start) = postcard::to_slice(&(self.seq, number, without), &mut head).ok()?.split_last()?;
+        let (start, mut tail) = (start.len(), [0; 5]);
+        let tail = postcard::to_slice(&(length as u32), &mut tail).ok()?;
+        let at = HEAD.checked_sub(start + tail.len())?;
+        let message = self.body.get_mut(at..HEAD + length + CRC_BYTES)?;
+        for (to, from) in message.iter_mut().zip(head.iter().take(start).chain(tail.iter())) {
+            *to = *from;
+        }
+        stuff(sealed(message)?, &mut self.wire)
     }
 
     fn begin(&mut self, length: Option<usize>) -> bool {

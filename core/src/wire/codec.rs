@@ -21,7 +21,8 @@ use serde::{Deserialize, Serialize};
 /// A `static`: a `const` would copy the table to the stack of each user.
 static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
-const CRC_BYTES: usize = 4;
+/// Bytes of the CRC.
+pub(crate) const CRC_BYTES: usize = 4;
 
 /// Most bytes of a group of COBS.
 const GROUP: usize = 254;
@@ -91,10 +92,15 @@ pub(crate) fn pack<'a, T: Serialize + ?Sized>(
     if bytes == 0 {
         return Err(WireError::TooShort);
     }
-    let whole = body.get_mut(..bytes + CRC_BYTES).ok_or(WireError::NoRoom)?;
-    let (message, tail) = whole.split_last_chunk_mut::<CRC_BYTES>().ok_or(WireError::NoRoom)?;
+    body.get_mut(..bytes + CRC_BYTES).and_then(sealed).ok_or(WireError::NoRoom)
+}
+
+/// A message whose last bytes were left free for its CRC.
+#[inline(never)]
+pub(crate) fn sealed(whole: &mut [u8]) -> Option<&[u8]> {
+    let (message, tail) = whole.split_last_chunk_mut::<CRC_BYTES>()?;
     *tail = CRC.checksum(message).to_le_bytes();
-    Ok(whole)
+    Some(whole)
 }
 
 /// Opens one received `frame` (without its 0x00) in place: checks length, COBS and CRC, and returns the message's bytes.
@@ -123,24 +129,30 @@ pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, WireError> {
 /// COBS of `data` and a 0x00 into `out`; the length of both, or `None` if there is no room.
 ///
 /// Data that end with a full group of 254 bytes end with it: no empty group follows.
+#[inline(never)] // the few registers of an M0+ are for its loop
 pub(crate) fn stuff(data: &[u8], out: &mut [u8]) -> Option<usize> {
     let room = out.len();
     let (mut data, mut out) = (data, out);
     loop {
-        let most = data.get(..GROUP).unwrap_or(data);
-        let group = most.iter().position(|byte| *byte == 0);
-        let length = group.unwrap_or(most.len());
-        let (code, rest) = out.split_first_mut()?;
-        *code = length as u8 + 1;
-        let (to, rest) = rest.split_at_mut_checked(length)?;
-        to.iter_mut().zip(most).for_each(|(to, from)| *to = *from);
-        out = rest;
-        data = data.get(length + usize::from(group.is_some())..)?;
-        // A zero at the end asks for the empty group that it stands before.
-        if data.is_empty() && group.is_none() {
-            let (end, rest) = out.split_first_mut()?;
-            *end = 0;
-            return Some(room - rest.len());
+        let (head, group) = out.split_first_mut()?;
+        let mut length = 0;
+        for (to, from) in group.iter_mut().zip(data.iter().take(GROUP)) {
+            if *from == 0 {
+                break;
+            }
+            *to = *from;
+            length += 1;
+        }
+        *head = length as u8 + 1;
+        out = group.get_mut(length..)?;
+        match data.get(length..)? {
+            [] => {
+                *out.first_mut()? = 0;
+                return Some(room - out.len() + 1);
+            }
+            [0, rest @ ..] if length < GROUP => data = rest,
+            // The group is full, or there is no room for the next one.
+            rest => data = rest,
         }
     }
 }

@@ -1,15 +1,16 @@
 //! Writes the code of an image; the [module of its reader](super::image) says what it is.
 //!
-//! Runs with at most `GAP` = 1 unchanged taxel between them are joined: a new run costs at least 2 bytes, an unchanged
+//! Runs with one unchanged taxel between them are joined: a new run costs at least 2 bytes, an unchanged
 //! taxel within one costs 1 (alone: 2 for the first after a value above 63). 2 would cost as much, 0 costs 6 % more on a
 //! pressed image that does not move.
 //!
 //! Quiet taxels are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 58 with a base, counted in its instructions.
 
+use core::mem::{replace, take};
 use core::slice;
 
-/// Unchanged taxels between two changed ones that do not end a run.
-const GAP: usize = 1;
+/// Most taxels of a run: its length has one byte, which is left free and written at its end.
+pub(super) const RUN: usize = 127;
 
 /// No varint of an image is as large: 3 bytes hold 21 bits.
 const LIMIT: usize = 1 << 21;
@@ -46,25 +47,12 @@ fn equal([a, b, c, d, e, f, g, h]: &[u16; 8], [i, j, k, l, m, n, o, p]: &[u16; 8
     (a ^ i) | (b ^ j) | (c ^ k) | (d ^ l) | (e ^ m) | (f ^ n) | (g ^ o) | (h ^ p) == 0
 }
 
-/// How many taxels the run has that starts with the first.
-fn run(changed: impl Iterator<Item = bool>) -> usize {
-    let mut count = 0;
-    for (at, changed) in changed.enumerate() {
-        if changed {
-            count = at + 1;
-        } else if at - count >= GAP {
-            break;
-        }
-    }
-    count
-}
-
 /// Writes the code of an image part by part, in the order of the taxels; those between two parts keep the reference.
 pub(super) struct Encoder<'a> {
     out: slice::IterMut<'a, u8>,
     /// First taxel that is not told yet.
     told: usize,
-    /// What the written runs change in the [`image_sum`] of the reference.
+    /// What the written runs change in the [`image_sum`](super::image_sum) of the reference.
     sum: u32,
 }
 
@@ -91,56 +79,96 @@ impl<'a> Encoder<'a> {
             if values.is_empty() {
                 return Some(());
             }
-            let count = match base {
-                None => run(values.iter().map(|value| *value != 0)),
-                Some(base) => run(values.iter().zip(base).map(|(value, base)| value != base)),
-            };
             start += skip;
             self.varint((start - self.told) as u32)?;
-            self.varint(count as u32)?;
-            let (now, later) = values.split_at_checked(count)?;
-            match base {
-                None => self.alone(start, now)?,
-                Some(base) => self.differences(start, now, base)?,
-            }
+            // Written when it is known: it has one byte.
+            let length = self.out.next()?;
+            let count = match base {
+                None => self.alone(start, values)?,
+                Some(base) => self.differences(start, values, base)?,
+            };
+            *length = count as u8;
             start += count;
             self.told = start;
-            (values, base) = (later, after(base, count)?);
+            (values, base) = (values.get(count..)?, after(base, count)?);
         }
     }
 
-    fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
-        let (mut last, mut place) = (0, start as u32);
-        values.iter().try_for_each(|value| {
+    /// Writes a run that stands alone; how many taxels it has.
+    fn alone(&mut self, start: usize, values: &[u16]) -> Option<usize> {
+        let mut last = 0;
+        let count = self.run(values.iter().map(|value| {
             let value = i32::from(*value);
-            place = place.wrapping_add(1);
-            self.sum = self.sum.wrapping_add(place.wrapping_mul(value as u32));
-            self.zigzag(value - core::mem::replace(&mut last, value))
-        })
+            (value != 0, value - replace(&mut last, value))
+        }))?;
+        self.weigh(start, values.get(..count)?.iter().rev().map(|value| (*value).into()));
+        Some(count)
     }
 
-    fn differences(&mut self, start: usize, values: &[u16], base: &[u16]) -> Option<()> {
-        let mut place = start as u32;
-        values.iter().zip(base).try_for_each(|(value, base)| {
-            let difference = i32::from(*value) - i32::from(*base);
-            place = place.wrapping_add(1);
-            self.sum = self.sum.wrapping_add(place.wrapping_mul(difference as u32));
-            self.zigzag(difference)
-        })
+    /// Writes a run of differences; how many taxels it has.
+    fn differences(&mut self, start: usize, values: &[u16], base: &[u16]) -> Option<usize> {
+        let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
+        let count = self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))?;
+        let (values, base) = (values.get(..count)?, base.get(..count)?);
+        self.weigh(start, values.iter().rev().zip(base.iter().rev()).map(difference));
+        Some(count)
     }
 
-    fn zigzag(&mut self, difference: i32) -> Option<()> {
-        self.varint((difference << 1 ^ difference >> 31) as u32)
-    }
-
-    fn varint(&mut self, mut value: u32) -> Option<()> {
-        while value > 127 {
-            *self.out.next()? = value as u8 | 128;
-            value >>= 7;
+    /// Writes the numbers of the taxels up to two unchanged ones; how many there are.
+    #[inline(never)]
+    fn run(&mut self, taxels: impl Iterator<Item = (bool, i32)>) -> Option<usize> {
+        // In registers: few of them are left for what is behind a pointer.
+        let mut out = take(&mut self.out);
+        let (mut count, mut waits) = (0, None);
+        for (changed, number) in taxels.take(RUN) {
+            if let Some(waiting) = waits.take() {
+                if !changed {
+                    break;
+                }
+                varint(&mut out, zigzag(waiting))?;
+                count += 1;
+            }
+            if changed {
+                varint(&mut out, zigzag(number))?;
+                count += 1;
+            } else {
+                waits = Some(number);
+            }
         }
-        *self.out.next()? = value as u8;
-        Some(())
+        self.out = out;
+        Some(count)
     }
+
+    /// Adds the numbers of taxels from number `start` on to the sum. From the last to the first, the sums of `number` and of
+    /// that sum hold `sum number` and `sum (i + 1) number`.
+    #[inline(never)]
+    fn weigh(&mut self, start: usize, numbers: impl Iterator<Item = i32>) {
+        let (mut plain, mut placed) = (0i32, 0i32);
+        for number in numbers {
+            plain = plain.wrapping_add(number);
+            placed = placed.wrapping_add(plain);
+        }
+        let sum = (placed as u32).wrapping_add((start as u32).wrapping_mul(plain as u32));
+        self.sum = self.sum.wrapping_add(sum);
+    }
+
+    fn varint(&mut self, value: u32) -> Option<()> {
+        varint(&mut self.out, value)
+    }
+}
+
+const fn zigzag(number: i32) -> u32 {
+    (number << 1 ^ number >> 31) as u32
+}
+
+#[inline]
+fn varint(out: &mut slice::IterMut<'_, u8>, mut value: u32) -> Option<()> {
+    while value > 127 {
+        *out.next()? = value as u8 | 128;
+        value >>= 7;
+    }
+    *out.next()? = value as u8;
+    Some(())
 }
 
 /// The base from a taxel on; `None` if it ends before, which it does not.

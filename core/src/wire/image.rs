@@ -10,15 +10,17 @@
 //! | nothing changed | 0 |
 //! | 5 contacts, 231 taxels, noise of 3 counts: alone | 534 |
 //! | the same, difference: at rest / moving 6 / 59 taxels a second (195 frames/s) | 297 / 313 / 510 |
-//! | most, see [`image_bound`] | 4,099 |
+//! | most, see [`image_bound`] | 4,122 |
 //!
 //! The table is asserted by `tests/wire.rs`.
 
+use super::encoder::RUN;
 use core::{fmt, slice};
 
-/// The longest code of an image of `taxels` taxels of `bits` bits: the numbers and one run's head.
+/// The longest code of an image of `taxels` taxels of `bits` bits: the numbers and the heads of the runs.
 ///
-/// Every later run follows at least 2 unchanged taxels, which cost nothing, and its head has at most 4 bytes.
+/// A run of fewer taxels than a run can have is followed by at least 2 unchanged taxels, which cost nothing; the head of the
+/// next has at most 4 bytes.
 pub const fn image_bound(taxels: usize, bits: u32) -> usize {
     // A difference has one bit more than a value.
     let each = match bits {
@@ -26,7 +28,7 @@ pub const fn image_bound(taxels: usize, bits: u32) -> usize {
         7..14 => 2,
         _ => 3,
     };
-    taxels.saturating_mul(each).saturating_add(4)
+    taxels.saturating_mul(each).saturating_add(2 * (taxels / RUN)).saturating_add(4)
 }
 
 /// The checksum of an image: the sum of `(i + 1) * value`, modulo 2^32. It tells that a base is the one meant.

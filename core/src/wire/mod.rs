@@ -34,8 +34,8 @@ mod message;
 mod receiver;
 mod reference;
 
+pub(crate) use codec::{CRC_BYTES, pack, sealed, stuff};
 pub use codec::{WireError, decode, encode, frame_bound, open};
-pub(crate) use codec::{pack, stuff};
 pub use encoder::encode_image;
 pub use image::{ImageError, ImageFault, decode_image, image_bound, image_sum};
 pub use message::*;

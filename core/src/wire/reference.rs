@@ -75,7 +75,10 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         let now = image.values.get(part.clone()).unwrap_or(&[]);
         let last = self.values.get_mut(part.clone()).unwrap_or(&mut []);
         encoder.part(part.start, now, if alone { None } else { Some(last) })?;
-        last.iter_mut().zip(now).for_each(|(last, now)| *last = *now);
+        let taxels = now.len();
+        if let (Some(last), Some(now)) = (last.get_mut(..taxels), now.get(..taxels)) {
+            last.copy_from_slice(now);
+        }
         Some(())
     }
 }
