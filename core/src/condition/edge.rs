@@ -43,23 +43,33 @@ impl<'a> Neighbourhood<'a> {
     }
 
     pub fn gradient(&self, column: usize) -> Gradient {
-        let x = column.min(self.0[1].len().saturating_sub(1));
-        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(|row| three(row, x));
+        let around = self.inside(column).unwrap_or_else(|| {
+            let x = column.min(self.0[1].len().saturating_sub(1));
+            self.0.map(|row| three(row, x))
+        });
+        let [[nw, n, ne], [w, _, e], [sw, s, se]] = around.map(|row| row.map(i32::from));
         Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
+    }
+
+    /// Three by three, where none of them lies beyond the ends of the rows.
+    fn inside(&self, column: usize) -> Option<[[u16; 3]; 3]> {
+        let [above, here, below] = self.0;
+        let left = column.checked_sub(1)?;
+        let three = |row: &[u16]| row.get(left..)?.first_chunk::<3>().copied();
+        Some([three(above)?, three(here)?, three(below)?])
     }
 }
 
 /// A value with its neighbours to the left and right, which it replaces beyond the ends of the row.
-fn three(row: &[u16], x: usize) -> [i32; 3] {
-    let three = match *row.get(x.saturating_sub(1)..).unwrap_or(&[]) {
+fn three(row: &[u16], x: usize) -> [u16; 3] {
+    match *row.get(x.saturating_sub(1)..).unwrap_or(&[]) {
         [middle, right, ..] if x == 0 => [middle, middle, right],
         [left, middle, right, ..] => [left, middle, right],
         [left, middle] => [left, middle, middle],
         [middle] if x == 0 => [middle; 3],
         [left] => [left, 0, 0],
         [] => [0; 3],
-    };
-    three.map(i32::from)
+    }
 }
 
 #[cfg(test)]

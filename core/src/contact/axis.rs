@@ -42,18 +42,60 @@ impl Normal {
         // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
         (difference, mixed, root(product(x, x) + product(y, y)).into())
     }
+
+    fn axis(&self, area: u32) -> Axis {
+        let (difference, mixed, d) = self.spread();
+        let anisotropy = Q15::ratio(d, self.a + self.b);
+        // Not below 32768 / area, rounded down, without the division.
+        let share = anisotropy.0 as u32;
+        let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
+        let defined = d > 0 && clear;
+        Axis { azimuth: defined.then(|| half_angle(mixed, difference)), anisotropy }
+    }
+
+    /// See [`breadth`]; of a contact of mass `m`.
+    fn breadth(&self, m: u64, pitch_um: [u32; 2]) -> u32 {
+        // Beyond 655 mm the squares would not leave room; no garment is that coarse.
+        let [px, py] = pitch_um.map(|p| {
+            // A hundredth by multiplication: exact below 2^30.
+            let um = if p == 0 { ASSUMED_PITCH_UM } else { p.min(655_399) };
+            (product(um.into(), 42_949_673) >> 32).clamp(1, 6553)
+        });
+        let pixel = px * px + py * py;
+        let c = product(self.c.unsigned_abs(), px * py) as i64;
+        let c = if self.c < 0 { -c } else { c };
+        let normal = Normal::of(product(self.a, px * px), product(self.b, py * py), c);
+        let (difference, _, d) = normal.spread();
+        // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
+        let skew = (px * px) as i64 - (py * py) as i64;
+        let lean =
+            if d == 0 || skew == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
+        let pixel2 = (pixel as i64 - lean).max(0) as u64;
+        // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
+        let minor = (normal.a + normal.b).saturating_sub(d);
+        let exponent = self.exponent + normal.exponent;
+        let strip = if m == 0 {
+            Scaled::ZERO
+        } else {
+            let inverse = Scaled::from_u64(1).over(Scaled::from_u64(m));
+            Scaled::from_u64(minor * 12).times(inverse).times(inverse).shifted(exponent)
+        };
+        // Eight fraction bits, which a width of one pixel needs.
+        let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
+        Scaled::from_u64(sum).shifted(-9).sqrt().to_fixed(0)
+    }
 }
 
 /// Azimuth and anisotropy of a contact of `area` taxels.
 pub fn axis(central: &Central, area: u32) -> Axis {
+    Normal::of(central.a, central.b, central.c).axis(area)
+}
+
+/// Axis, and [`breadth`], of a contact of `area` taxels.
+pub(super) fn axis_and_breadth(moments: &Moments, area: u32, pitch_um: [u32; 2]) -> (Axis, u32) {
+    let central = moments.central();
     let normal = Normal::of(central.a, central.b, central.c);
-    let (difference, mixed, d) = normal.spread();
-    let anisotropy = Q15::ratio(d, normal.a + normal.b);
-    // Not below 32768 / area, rounded down, without the division.
-    let share = anisotropy.0 as u32;
-    let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
-    let defined = d > 0 && clear;
-    Axis { azimuth: defined.then(|| half_angle(mixed, difference)), anisotropy }
+    (normal.axis(area), normal.breadth(moments.m, pitch_um))
 }
 
 /// Half the angle of the point (x, y), in (-1/4, 1/4] turn.
@@ -73,33 +115,6 @@ fn half_angle(y: i64, x: i64) -> Turn {
 /// taken to millimetres first, so that a pitch that differs along the axes is honoured. A pitch that is 0 counts as 10 mm.
 /// Rounded to the nearest: 0.501 steps off at most.
 pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
-    // Beyond 655 mm the squares would not leave room; no garment is that coarse.
-    let [px, py] = pitch_um.map(|p| {
-        let tenths = u64::from(if p == 0 { ASSUMED_PITCH_UM } else { p }) / 100;
-        tenths.clamp(1, 6553)
-    });
-    let pixel = px * px + py * py;
     let central = moments.central();
-    let taxels = Normal::of(central.a, central.b, central.c);
-    let c = product(taxels.c.unsigned_abs(), px * py) as i64;
-    let c = if taxels.c < 0 { -c } else { c };
-    let normal = Normal::of(product(taxels.a, px * px), product(taxels.b, py * py), c);
-    let (difference, _, d) = normal.spread();
-    // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
-    let skew = (px * px) as i64 - (py * py) as i64;
-    let lean =
-        if d == 0 || skew == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
-    let pixel2 = (pixel as i64 - lean).max(0) as u64;
-    // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
-    let minor = (normal.a + normal.b).saturating_sub(d);
-    let exponent = taxels.exponent + normal.exponent;
-    let strip = if moments.m == 0 {
-        Scaled::ZERO
-    } else {
-        let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));
-        Scaled::from_u64(minor * 12).times(inverse).times(inverse).shifted(exponent)
-    };
-    // Eight fraction bits, which a width of one pixel needs.
-    let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
-    Scaled::from_u64(sum).shifted(-9).sqrt().to_fixed(0)
+    Normal::of(central.a, central.b, central.c).breadth(moments.m, pitch_um)
 }

@@ -16,6 +16,8 @@ pub(super) struct Matching<const CONTACTS: usize> {
     distance: [[u32; CONTACTS]; CONTACTS],
     /// The least of each row, and its column.
     least: [(u32, u16); CONTACTS],
+    /// Components that have found their contact.
+    taken: [bool; CONTACTS],
     /// Rows and columns in use.
     used: (usize, usize),
 }
@@ -25,7 +27,12 @@ const FAR: u32 = u32::MAX;
 
 impl<const CONTACTS: usize> Matching<CONTACTS> {
     pub const fn new() -> Self {
-        Matching { distance: [[FAR; CONTACTS]; CONTACTS], least: [(FAR, 0); CONTACTS], used: (0, 0) }
+        Matching {
+            distance: [[FAR; CONTACTS]; CONTACTS],
+            least: [(FAR, 0); CONTACTS],
+            taken: [false; CONTACTS],
+            used: (0, 0),
+        }
     }
 
     /// Gives each track the index of its component, or [`NONE`].
@@ -39,6 +46,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
     ) {
         let seconds = seconds(now.since(tracks.last));
         self.used = (tracks.contacts.len(), components.len());
+        self.taken.fill(false);
         let mut points: Vec<Point, CONTACTS> = Vec::new();
         for component in components {
             let _ = points.push(Point::of(component.bounds.panel, component.x, component.y));
@@ -73,12 +81,12 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
     /// Takes a pair out. Only the rows whose least it was need another look.
     fn take(&mut self, track: usize, component: u16) {
         let (rows, columns) = self.used;
-        for (row, least) in self.distance.iter_mut().zip(&mut self.least).take(rows) {
-            if let Some(cell) = row.get_mut(usize::from(component)) {
-                *cell = FAR;
-            }
-            if least.0 < FAR && least.1 == component {
-                *least = least_of(row.get(..columns).unwrap_or(row));
+        if let Some(taken) = self.taken.get_mut(usize::from(component)) {
+            *taken = true;
+        }
+        for (row, least) in self.distance.iter().zip(&mut self.least).take(rows) {
+            if least.1 == component && least.0 < FAR {
+                *least = least_of(row.get(..columns).unwrap_or(row), &self.taken);
             }
         }
         if let Some(least) = self.least.get_mut(track) {
@@ -87,10 +95,11 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
     }
 }
 
-/// The least distance of a row and its column, the first of equals.
-fn least_of(row: &[u32]) -> (u32, u16) {
-    let least = (0u16..).zip(row).min_by_key(|(_, distance)| **distance);
-    least.map_or((FAR, 0), |(column, distance)| (*distance, column))
+/// The least distance of a row to what is not taken, and its column, the first of equals.
+fn least_of(row: &[u32], taken: &[bool]) -> (u32, u16) {
+    let free = (0u16..).zip(row.iter().zip(taken)).filter(|(_, (_, taken))| !**taken);
+    let least = free.min_by_key(|(_, (distance, _))| **distance);
+    least.map_or((FAR, 0), |(column, (distance, _))| (*distance, column))
 }
 
 /// Microseconds as seconds in Q16, at most 16.

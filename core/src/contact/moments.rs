@@ -1,7 +1,7 @@
 //! Exact moments of pressure (eq. 1 to 3 of the source, with coordinates from 0).
 
 use crate::format::product;
-use crate::garment::Transform;
+use crate::garment::{Transform, signed};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
 ///
@@ -150,25 +150,25 @@ impl Moments {
 
     /// The same pressure in the coordinates that `map` leads to; exact.
     pub fn transform(&self, map: &Transform) -> Moments {
-        let times = |a: i32, b: i32, v: i64| (i64::from(a) * i64::from(b)).wrapping_mul(v);
-        let sum = |terms: [i64; 3]| terms.into_iter().fold(0, i64::wrapping_add);
-        let (m, sxx, syy) = (self.m as i64, self.sxx as i64, self.syy as i64);
         let Transform { xx, xy, yx, yy, dx, dy } = *map;
-        // The quarter turn or reflection first,
-        let x = sum([times(xx, 1, self.sx), times(xy, 1, self.sy), 0]);
-        let y = sum([times(yx, 1, self.sx), times(yy, 1, self.sy), 0]);
-        let x_x = sum([times(xx, xx, sxx), times(2 * xx, xy, self.sxy), times(xy, xy, syy)]);
-        let y_y = sum([times(yx, yx, sxx), times(2 * yx, yy, self.sxy), times(yy, yy, syy)]);
-        let mixed = times(xx, yy, self.sxy).wrapping_add(times(xy, yx, self.sxy));
-        let x_y = sum([times(xx, yx, sxx), mixed, times(xy, yy, syy)]);
+        let sum = i64::wrapping_add;
+        // The quarter turn or reflection first: of each row and column one factor is 0, the other 1 or -1;
+        let x = sum(signed(xx, self.sx), signed(xy, self.sy));
+        let y = sum(signed(yx, self.sx), signed(yy, self.sy));
+        let (x_x, y_y) = if xx == 0 { (self.syy, self.sxx) } else { (self.sxx, self.syy) };
+        let x_y = sum(signed(xx * yy, self.sxy), signed(xy * yx, self.sxy));
         // then the shift.
+        let by = |shift: i32, v: i64| if shift == 0 { 0 } else { i64::from(shift).wrapping_mul(v) };
+        let m = self.m as i64;
+        let (shift_x, shift_y) = (by(dx, m), by(dy, m));
         Moments {
             m: self.m,
-            sx: x.wrapping_add(times(dx, 1, m)),
-            sy: y.wrapping_add(times(dy, 1, m)),
-            sxx: sum([x_x, times(2, dx, x), times(dx, dx, m)]) as u64,
-            syy: sum([y_y, times(2, dy, y), times(dy, dy, m)]) as u64,
-            sxy: sum([x_y, times(dx, 1, y).wrapping_add(times(dy, 1, x)), times(dx, dy, m)]),
+            sx: sum(x, shift_x),
+            sy: sum(y, shift_y),
+            // sum (x + d)^2 f = sum x^2 f + d (2 sum x f + d m)
+            sxx: sum(x_x as i64, by(dx, sum(x << 1, shift_x))) as u64,
+            syy: sum(y_y as i64, by(dy, sum(y << 1, shift_y))) as u64,
+            sxy: sum(x_y, sum(by(dx, sum(y, shift_y)), by(dy, x))),
             s2: self.s2,
         }
     }

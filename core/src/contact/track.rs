@@ -3,7 +3,7 @@
 //! A contact that two become keeps the id of the older one, even if the younger is nearer: the older is known by the taxel
 //! that was its peak, or one beside it. Of a contact that falls apart the nearest part keeps the id.
 
-use super::axis::{axis, breadth};
+use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::config::ContactConfig;
 use super::label::Labels;
@@ -189,7 +189,7 @@ fn beside<const RUNS: usize>(labels: &Labels<RUNS>, layout: &Layout, place: Plac
 fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     let panel = component.bounds.panel;
     let pitch = layout.areas().get(usize::from(panel)).map_or([0, 0], |area| area.pitch_um);
-    let axis = axis(&component.moments.central(), component.area.into());
+    let (axis, breadth) = axis_and_breadth(&component.moments, component.area.into(), pitch);
     contact.panel = panel;
     contact.total = component.total;
     contact.peak = component.peak;
@@ -201,7 +201,7 @@ fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     contact.bounds = component.bounds;
     (contact.x, contact.y) = (component.x, component.y);
     (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
-    contact.breadth = breadth(&component.moments, pitch);
+    contact.breadth = breadth;
     if component.total >= contact.peak_total {
         (contact.peak_total, contact.peak_breadth) = (component.total, contact.breadth);
     }

@@ -21,4 +21,5 @@ pub use config::{
 };
 pub use error::GarmentError;
 pub use layout::Layout;
+pub(crate) use seam::signed;
 pub use seam::{Joint, Stretch, Transform};

@@ -61,7 +61,7 @@ impl Transform {
 }
 
 /// `factor * value` for a factor of -1, 0 or 1.
-const fn signed(factor: i32, value: i64) -> i64 {
+pub(crate) const fn signed(factor: i32, value: i64) -> i64 {
     match factor {
         0 => 0,
         1.. => value,
