@@ -43,20 +43,9 @@ impl<'a> Neighbourhood<'a> {
     }
 
     pub fn gradient(&self, column: usize) -> Gradient {
-        let around = self.inside(column).unwrap_or_else(|| {
-            let x = column.min(self.0[1].len().saturating_sub(1));
-            self.0.map(|row| three(row, x))
-        });
-        let [[nw, n, ne], [w, _, e], [sw, s, se]] = around.map(|row| row.map(i32::from));
+        let x = column.min(self.0[1].len().saturating_sub(1));
+        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(|row| three(row, x).map(i32::from));
         Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
-    }
-
-    /// Three by three, where none of them lies beyond the ends of the rows.
-    fn inside(&self, column: usize) -> Option<[[u16; 3]; 3]> {
-        let [above, here, below] = self.0;
-        let left = column.checked_sub(1)?;
-        let three = |row: &[u16]| row.get(left..)?.first_chunk::<3>().copied();
-        Some([three(above)?, three(here)?, three(below)?])
     }
 }
 

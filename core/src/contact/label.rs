@@ -36,30 +36,28 @@ impl<const RUNS: usize> Labels<RUNS> {
             return;
         }
         for (panel, area) in (0u8..).zip(layout.areas()) {
-            let mut above = 0..0;
-            for row in 0..area.rows {
-                let span = image.span(area, row);
-                if span.is_empty() {
-                    above = 0..0;
-                    continue;
-                }
+            let last = area.first_row.saturating_add(area.rows);
+            let (mut above, mut from) = (0..0, area.first_row);
+            while let Some(number) = image.rows.next(from..last) {
                 let start = self.runs.len();
-                self.scan_row(image.row(area, row), span, low, panel, area.first_row.saturating_add(row));
+                let row = number - area.first_row;
+                self.scan_row(image.row(area, row), low, panel, number);
                 let here = start..self.runs.len();
                 if !here.is_empty() {
                     self.mark_sides(start, panel, row, area);
-                    self.connect(above, here.clone());
+                    if number == from {
+                        self.connect(above, here.clone());
+                    }
                 }
-                above = here;
+                (above, from) = (here, number + 1);
             }
         }
         self.flatten();
     }
 
     /// Appends the runs of a row.
-    fn scan_row(&mut self, values: &[u16], span: Range<u16>, low: u16, panel: u8, row: u16) {
-        let (mut column, end) = (usize::from(span.start), usize::from(span.end));
-        let mut rest = values.get(column..end).or(values.get(column..)).unwrap_or(&[]);
+    fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16) {
+        let (mut rest, mut column) = (values, 0);
         while let Some(skipped) = rest.iter().position(|value| *value >= low) {
             rest = rest.get(skipped..).unwrap_or(&[]);
             let Stretch { length, mass, peak } = Stretch::of(rest, low.into());

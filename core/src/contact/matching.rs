@@ -16,6 +16,10 @@ pub(super) struct Matching<const CONTACTS: usize> {
     distance: [[u32; CONTACTS]; CONTACTS],
     /// The least of each row, and its column.
     least: [(u32, u16); CONTACTS],
+    /// Where the components are.
+    points: Vec<Point, CONTACTS>,
+    /// Where a contact should be, on its own panel and as seen from others.
+    expected: Images,
     /// Components that have found their contact.
     taken: [bool; CONTACTS],
     /// Rows and columns in use.
@@ -30,6 +34,8 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         Matching {
             distance: [[FAR; CONTACTS]; CONTACTS],
             least: [(FAR, 0); CONTACTS],
+            points: Vec::new(),
+            expected: Images::new(),
             taken: [false; CONTACTS],
             used: (0, 0),
         }
@@ -47,17 +53,18 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         let seconds = seconds(now.since(tracks.last));
         self.used = (tracks.contacts.len(), components.len());
         self.taken.fill(false);
-        let mut points: Vec<Point, CONTACTS> = Vec::new();
+        self.points.clear();
         for component in components {
-            let _ = points.push(Point::of(component.bounds.panel, component.x, component.y));
+            let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
         }
         let rows = self.distance.iter_mut().zip(&mut self.least);
         for ((row, least), (contact, trail)) in rows.zip(tracks.contacts.iter().zip(&mut tracks.trails)) {
             trail.component = NONE;
-            let expected = Expected::of(contact, layout, seconds, config.gate);
+            let (at, reach) = expected(contact, seconds, config.gate);
+            at.list_images(layout, &mut self.expected);
             *least = (FAR, 0);
-            for ((cell, point), column) in row.iter_mut().zip(&points).zip(0..) {
-                *cell = expected.distance(point);
+            for ((cell, point), column) in row.iter_mut().zip(&self.points).zip(0..) {
+                *cell = distance(&self.expected, point, reach);
                 if *cell < least.0 {
                     *least = (*cell, column);
                 }
@@ -108,42 +115,34 @@ fn seconds(us: u64) -> i64 {
     ((us.min(16_000_000) * 281_474_977) >> 32) as i64
 }
 
-/// Where a contact should be, on its own panel and as seen from others, and how far from there it may be, in 1/16 taxel.
-struct Expected {
-    at: Images,
-    reach: u32,
+/// Where a contact should be, and how far from there it may be, in 1/16 taxel.
+fn expected(contact: &Contact, seconds: i64, gate: u16) -> (Point, u32) {
+    let gate = i32::from(gate) * 16;
+    let step = |v: Fixed16| ((i64::from(v.0) * seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
+    let still = contact.vx.0 == 0 && contact.vy.0 == 0;
+    let (x, y) = if still { (0, 0) } else { (step(contact.vx), step(contact.vy)) };
+    let at = Point::of(contact.panel, contact.x, contact.y);
+    let bounds = &contact.bounds;
+    let side = bounds.right.saturating_sub(bounds.left).max(bounds.bottom.saturating_sub(bounds.top));
+    let reach = gate + (i32::from(side) + 1) * 8 + x.abs() + y.abs();
+    (Point { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
 }
 
-impl Expected {
-    fn of(contact: &Contact, layout: &Layout, seconds: i64, gate: u16) -> Expected {
-        let gate = i32::from(gate) * 16;
-        let step = |v: Fixed16| ((i64::from(v.0) * seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
-        let (x, y) =
-            if (contact.vx.0 | contact.vy.0) == 0 { (0, 0) } else { (step(contact.vx), step(contact.vy)) };
-        let at = Point::of(contact.panel, contact.x, contact.y);
-        let bounds = &contact.bounds;
-        let side = bounds.right.saturating_sub(bounds.left).max(bounds.bottom.saturating_sub(bounds.top));
-        let reach = gate + (i32::from(side) + 1) * 8 + x.abs() + y.abs();
-        let at = Point { x: at.x + x, y: at.y + y, ..at };
-        Expected { at: at.images(layout), reach: reach.min(LONGEST) as u32 }
-    }
-
-    /// Squared distance of a point, over whichever seam is shortest; [`FAR`] if out of reach.
-    fn distance(&self, to: &Point) -> u32 {
-        let mut least = FAR;
-        for image in self.at.iter().filter(|image| image.panel == to.panel) {
-            let apart = |a: i32, b: i32| (a - b).unsigned_abs().min(LONGEST as u32);
-            let x = apart(image.x, to.x);
-            // Most pairs are told apart by this.
-            if x > self.reach {
-                continue;
-            }
-            let y = apart(image.y, to.y);
-            let squared = x * x + y * y;
-            if squared < least && squared <= self.reach * self.reach {
-                least = squared;
-            }
+/// Squared distance of a point from the nearest of the images; [`FAR`] if out of reach.
+fn distance(images: &Images, to: &Point, reach: u32) -> u32 {
+    let mut least = FAR;
+    for image in images.iter().filter(|image| image.panel == to.panel) {
+        let apart = |a: i32, b: i32| (a - b).unsigned_abs().min(LONGEST as u32);
+        let x = apart(image.x, to.x);
+        // Most pairs are told apart by this.
+        if x > reach {
+            continue;
         }
-        least
+        let y = apart(image.y, to.y);
+        let squared = x * x + y * y;
+        if squared < least && squared <= reach * reach {
+            least = squared;
+        }
     }
+    least
 }

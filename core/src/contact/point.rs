@@ -8,7 +8,7 @@ use heapless::Vec;
 pub(super) const LONGEST: i32 = 32767;
 
 /// A point of a panel in 1/16 taxel: fine enough to compare distances, and 32 bits do.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub panel: u8,
     pub x: i32,
@@ -21,9 +21,9 @@ impl Point {
         Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
     }
 
-    /// Itself, and as seen from the panels beyond every seam.
-    pub fn images(self, layout: &Layout) -> Images {
-        let mut images = Images::new();
+    /// Lists itself, and as seen from the panels beyond every seam.
+    pub fn list_images(self, layout: &Layout, images: &mut Images) {
+        images.clear();
         let mut add = |panel, (x, y)| {
             let _ = images.push(Point { panel, x, y });
         };
@@ -36,7 +36,6 @@ impl Point {
                 add(joint.b, self.through(&joint.b_to_a.inverse()));
             }
         }
-        images
     }
 
     fn through(self, way: &Transform) -> (i32, i32) {

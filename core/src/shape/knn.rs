@@ -97,11 +97,15 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Cl
 /// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
 fn distance_below(limit: u32, a: &Features, b: &Features) -> Option<u32> {
     let [[a0, a1, a2, a3], [b0, b1, b2, b3]] = [a, b];
-    let first = square(*a3, *b3) + square(*a2, *b2);
+    let first = square(*a3, *b3);
     if first >= limit {
         return None;
     }
-    let distance = first + square(*a0, *b0) + square(*a1, *b1);
+    let second = first + square(*a2, *b2);
+    if second >= limit {
+        return None;
+    }
+    let distance = second + square(*a0, *b0) + square(*a1, *b1);
     (distance < limit).then_some(distance)
 }
 
