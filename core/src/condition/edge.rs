@@ -37,6 +37,12 @@ impl<'a> Neighbourhood<'a> {
         Neighbourhood([y.saturating_sub(1), y, (y + 1).min(last)].map(|row| row_of(values, area, row)))
     }
 
+    /// The row below, which is `row` and not the last one of the panel.
+    pub fn next(&self, values: &'a [u16], area: &Area, row: u16) -> Self {
+        let [_, here, below] = self.0;
+        Neighbourhood([here, below, row_of(values, area, row + 1)])
+    }
+
     /// The row above, the row, the row below.
     pub const fn rows(&self) -> [&'a [u16]; 3] {
         self.0

@@ -32,11 +32,17 @@ impl<'a> Line<'a> {
     /// The row of a run that comes later.
     pub fn moved(&self, run: &Run, area: &Area, image: &Image<'a>) -> Line<'a> {
         let row = run.row.saturating_sub(area.first_row);
+        let edge = row == 0 || row + 1 >= area.rows;
+        let follows = !edge && self.number.is_some_and(|number| number + 1 == run.row);
         Line {
-            around: Neighbourhood::of(image.values, area, row),
+            around: if follows {
+                self.around.next(image.values, area, row)
+            } else {
+                Neighbourhood::of(image.values, area, row)
+            },
             number: Some(run.row),
             row,
-            edge: row == 0 || row + 1 >= area.rows,
+            edge,
             above: self.above,
             below: self.below,
         }

@@ -87,6 +87,9 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
 
     /// Takes a pair out. Only the rows whose least it was need another look.
     fn take(&mut self, track: usize, component: u16) {
+        if let Some(least) = self.least.get_mut(track) {
+            *least = (FAR, 0);
+        }
         let (rows, columns) = self.used;
         if let Some(taken) = self.taken.get_mut(usize::from(component)) {
             *taken = true;
@@ -95,9 +98,6 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
             if least.1 == component && least.0 < FAR {
                 *least = least_of(row.get(..columns).unwrap_or(row), &self.taken);
             }
-        }
-        if let Some(least) = self.least.get_mut(track) {
-            *least = (FAR, 0);
         }
     }
 }

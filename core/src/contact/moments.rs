@@ -114,18 +114,29 @@ impl Moments {
             let (sx, sy) = (x * s0 + first, y * s0);
             // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
             let sxx = x * (sx + first) + second;
-            self.add_sums([s0, sx, sy, sxx, y * sy, y * sx].map(u64::from), squares);
+            // One after the other, for want of registers.
+            self.m = self.m.wrapping_add(s0.into());
+            self.sx = self.sx.wrapping_add(sx.into());
+            self.sy = self.sy.wrapping_add(sy.into());
+            self.sxx = self.sxx.wrapping_add(sxx.into());
+            self.syy = self.syy.wrapping_add((y * sy).into());
+            self.sxy = self.sxy.wrapping_add((y * sx).into());
+            self.s2 = self.s2.wrapping_add(squares);
             return;
         }
         let second = (u64::from(s2) * 2).wrapping_add(s0.into()).wrapping_sub(u64::from(s1) * 3);
         let (x, y, m, first) = (u64::from(x), u64::from(y), u64::from(s0), u64::from(first));
         let (sx, sy) = (x.wrapping_mul(m).wrapping_add(first), y.wrapping_mul(m));
         let sxx = x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second);
-        self.add_sums([m, sx, sy, sxx, y.wrapping_mul(sy), y.wrapping_mul(sx)], squares);
-    }
-
-    fn add_sums(&mut self, [m, sx, sy, sxx, syy, sxy]: [u64; 6], s2: u64) {
-        self.add(&Moments { m, sx: sx as i64, sy: sy as i64, sxx, syy, sxy: sxy as i64, s2 });
+        self.add(&Moments {
+            m,
+            sx: sx as i64,
+            sy: sy as i64,
+            sxx,
+            syy: y.wrapping_mul(sy),
+            sxy: y.wrapping_mul(sx) as i64,
+            s2: squares,
+        });
     }
 
     /// Of a whole image as it stands, row by row.
