@@ -201,3 +201,40 @@ impl Moments {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec::Vec;
+
+    /// Runs on both sides of every limit of the fast paths, against the definition in wide integers.
+    #[test]
+    fn sums_of_a_run_are_exact_on_every_path() {
+        let mut state = 1u32;
+        let mut next = |n: u32| {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            (state >> 8) % n
+        };
+        for round in 0..4000 {
+            let peak = [1, 4095, NARROW, NARROW + 1, u16::MAX][round % 5];
+            let length = [1, 2, 15, 16, 31, 63, 64, 65, 130][round % 9];
+            let (x, y) = ([0, 15, 63, 64, 1000][round % 7 % 5], [0, 31, 127, 128, 3000][round % 11 % 5]);
+            let least = if round % 2 == 0 { peak } else { 0 };
+            let values: Vec<u16> = (0..length).map(|_| least.max(next(u32::from(peak) + 1) as u16)).collect();
+            let sum = |weight: &dyn Fn(u128) -> u128| -> u128 {
+                (u128::from(x)..).zip(&values).map(|(x, f)| weight(x) * u128::from(*f)).sum()
+            };
+            let mut have = Moments::default();
+            have.add_run(x, y, &values, peak);
+            let wide_y = u128::from(y);
+            assert_eq!(u128::from(have.m), sum(&|_| 1));
+            assert_eq!((have.sx as u128, have.sy as u128), (sum(&|x| x), sum(&|_| wide_y)));
+            assert_eq!(u128::from(have.sxx), sum(&|x| x * x));
+            assert_eq!(u128::from(have.syy), sum(&|_| wide_y * wide_y));
+            assert_eq!(have.sxy as u128, sum(&|x| x * wide_y));
+            assert_eq!(u128::from(have.s2), values.iter().map(|f| u128::from(*f).pow(2)).sum());
+            assert_eq!(have, Moments::of_run(x, y, &values));
+        }
+    }
+}
