@@ -157,7 +157,7 @@ fn one_block_is_scanned_in_exactly_this_order() {
                 expected.push(Event::Set(pin, level));
             }
         }
-        expected.extend([Event::Delay(3_000), Event::Read(26)]);
+        expected.extend([Event::Delay(8_000), Event::Read(26)]);
     }
     let driven = |pin: u8| {
         let of_pin = |event: &Event| match event {
@@ -175,8 +175,8 @@ fn one_block_is_scanned_in_exactly_this_order() {
     let first: Vec<String> = events.iter().take(12).map(|e| format!("{e:?}")).collect();
     assert_eq!(
         first.join(" "),
-        "Set(7, false) Set(8, false) Set(9, false) Set(10, false) Set(11, false) Set(12, false) Delay(3000) Read(26) \
-         Set(9, true) Delay(3000) Read(26) Set(9, false)"
+        "Set(7, false) Set(8, false) Set(9, false) Set(10, false) Set(11, false) Set(12, false) Delay(8000) Read(26) \
+         Set(9, true) Delay(8000) Read(26) Set(9, false)"
     );
 }
 

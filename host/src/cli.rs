@@ -1,5 +1,6 @@
 //! The command line: one variant for each subcommand, each with an example.
 
+use crate::bench::{self, BenchArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
 use crate::live::{self, LiveArgs};
@@ -31,6 +32,9 @@ enum Command {
     /// Run a fuzzy cognitive map in f64 and in the board's arithmetic
     #[command(after_help = FCM)]
     Fcm(FcmArgs),
+    /// Speed against error, as tables and charts
+    #[command(after_help = BENCH)]
+    Bench(BenchArgs),
     /// List the simulated scenes
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -53,6 +57,10 @@ const FEATURES: &str = "Examples:
 const FCM: &str = "Example:
   taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json";
 
+const BENCH: &str = "Examples:
+  taxel bench acquisition
+  taxel bench nmi --json";
+
 const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";
@@ -66,6 +74,7 @@ impl Cli {
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),
+            Command::Bench(args) => bench::run(args),
             Command::Scenes(args) => scenes::run(args),
         }
     }

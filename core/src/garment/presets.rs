@@ -68,10 +68,14 @@ impl Garment {
 
     /// The first thing to solder: one block of 4 x 16, its four rows driven by GP2, GP3, GP6 and GP7 themselves, its sixteen
     /// columns through one multiplexer (GP9-GP12) to one converter input (GP26).
+    ///
+    /// It settles for 8 us: after the 7 that a delay in whole microseconds is sure to give, a line of 80 pF behind its 10 kOhm
+    /// keeps 0.65 counts of a full-scale step (`taxel bench acquisition`).
     pub fn block() -> Garment {
         let mut garment = plain("block-4x16", 4, 16);
         garment.wiring.block.lines.clear();
         garment.wiring.row = Group { coding: Coding::OneHot, ..lines(&[2, 3, 6, 7]) };
+        garment.wiring.settle_ns = 8_000;
         let _ = garment.blocks.push(block(0, 0, 0, GP26, 0));
         garment
     }
@@ -107,6 +111,11 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
 
 /// Nine address lines on the pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block (GP2, GP3,
 /// GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
+///
+/// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds): a conditioned line
+/// with a time constant of 240 ns (3 kOhm and 80 pF, or an amplifier with 10 kOhm and 22 pF in its feedback) keeps 0.98
+/// counts of a full-scale step then (`taxel bench acquisition`). A slower line needs a longer time, and a frame takes
+/// 512 times as much longer.
 fn reference_wiring() -> Wiring {
     Wiring {
         block: lines(&[2, 3, 6]),

@@ -13,6 +13,7 @@
 //! | signal of a taxel | counts, [`COUNTS_PER_NEWTON`] per newton on the taxel, linear up to [`FULL_SCALE`] |
 
 mod board;
+mod chain;
 mod codes;
 mod contact;
 mod decode;
@@ -29,6 +30,7 @@ mod variants;
 mod wiring;
 
 pub use board::{NoSuchInput, SimAdc, SimBoard};
+pub use chain::Chain;
 pub use codes::{FRAME_PERIOD_US, Player, frame_codes, wiring_json};
 pub use contact::Contact;
 pub use decode::{Address, Decoder};

@@ -1,0 +1,75 @@
+//! `taxel bench`: speed against error, as a text table, as JSON and as a chart.
+
+pub mod acquisition;
+pub mod chart;
+pub mod nmi;
+mod outline;
+
+use anyhow::Result;
+use chart::Chart;
+use clap::{Args, Subcommand};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// Arguments of `taxel bench`.
+#[derive(Debug, Clone, Args)]
+pub struct BenchArgs {
+    /// Which table
+    #[command(subcommand)]
+    table: Table,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum Table {
+    /// Frames a second against the error of a taxel, over settling, source resistance, bits and averaging
+    #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
+    Acquisition(Output),
+    /// Spread of the NMI and its forms under rotation, scale, shift and pressure
+    #[command(after_help = "Example:\n  taxel bench nmi --json")]
+    Nmi(Output),
+}
+
+/// What comes out besides the text table.
+#[derive(Debug, Clone, Args)]
+pub struct Output {
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the chart into a file, too
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+}
+
+/// A finished table in its three forms.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// For people.
+    pub text: String,
+    /// For programs: `{"columns": ..., "rows": [...]}`
+    pub json: Value,
+    /// Error over cost.
+    pub chart: Chart,
+}
+
+/// Runs the command.
+pub fn run(args: BenchArgs) -> Result<()> {
+    match args.table {
+        Table::Acquisition(output) => output.put(&acquisition::report()),
+        Table::Nmi(output) => output.put(&nmi::report()?),
+    }
+}
+
+impl Output {
+    /// Prints a report, and draws it where a file is named.
+    pub fn put(&self, report: &Report) -> Result<()> {
+        if let Some(file) = &self.svg {
+            report.chart.write(file)?;
+        }
+        if self.json {
+            println!("{}", report.json);
+        } else {
+            print!("{}", report.text);
+        }
+        Ok(())
+    }
+}
