@@ -5,6 +5,10 @@
 //! the pressure-weighted mean `sum f^2 / sum f`, which suffers less from noise and coarse grids. Sheppard's correction
 //! takes the variance of the pixel itself out of the moment of inertia: J - m / 6.
 //!
+//! Which form strays least is told by `taxel bench nmi` (one touch turned, scaled, shifted or pressed harder): by peak with the
+//! correction on a fine grid, 0.4 % on 32 x 64; by sum of squares without it on a block of 4 x 16, where a touch is
+//! hardly wider than the pixel whose variance the correction takes away.
+//!
 //! Error of every form: half a step of 2^-24, and 4e-9 of the value (asserted against 25 digits).
 
 use crate::contact::Moments;

@@ -56,9 +56,10 @@ struct Outcome {
     largest: f64,
 }
 
-/// What a full-scale step leaves of itself after that time, counts: the largest error that settling alone can make.
-pub fn residue(settle_ns: u32, source_kohm: f64) -> f64 {
-    f64::from(FULL_SCALE) * (-f64::from(settle_ns) / (source_kohm * LINE_PF)).exp()
+/// What a full-scale step leaves of itself after that time on a line of that time constant (kOhm times pF), counts: the
+/// largest error that settling alone can make.
+pub fn residue(settle_ns: u32, tau_ns: f64) -> f64 {
+    f64::from(FULL_SCALE) * (-f64::from(settle_ns) / tau_ns).exp()
 }
 
 /// The settling that a board really gives a garment that asks for so much: the reference board's chain spends it in
@@ -141,7 +142,7 @@ fn acquire(setting: &Setting, real: bool) -> Outcome {
     let squares: f64 = errors().map(|error| error * error).sum();
     Outcome {
         rate: 1e9 / (chain.scan_ns(setting.addresses) * setting.averaged as u64) as f64,
-        residue: residue(setting.settle_ns, setting.source_kohm),
+        residue: residue(setting.settle_ns, setting.source_kohm * LINE_PF),
         rms: (squares / signals.len() as f64).sqrt(),
         largest: errors().fold(0.0, f64::max),
     }
@@ -257,6 +258,7 @@ fn chart(rows: &[(Setting, Outcome)]) -> Chart {
         title: "Acquisition: 2,048 taxels, simulated wiring and converter".into(),
         x: Axis::new("frames a second", Better::More),
         y: Axis::new("error of a taxel, counts of 12 bits, rms", Better::Less),
+        named: false,
         series: series.into(),
     }
 }
@@ -269,17 +271,26 @@ mod tests {
     fn shipped_settling_leaves_less_than_a_count() {
         for (name, source_kohm) in SHIPPED {
             let (_, asked, setting, _) = shipped(name, source_kohm).unwrap();
-            let left = residue(setting.settle_ns, source_kohm);
+            let tau_ns = source_kohm * LINE_PF;
+            let left = residue(setting.settle_ns, tau_ns);
             assert!(left < 1.0, "{name}: {left} counts left after {} of {asked} ns", setting.settle_ns);
             // As simulated, with an ideal converter: the residue, and half a count of rounding.
             let simulated = acquire(&setting, false).largest;
             assert!(simulated < 1.5, "{name}: {simulated}");
             // A microsecond less would not do: the figure is as small as it can be.
-            assert!(
-                residue(taken_ns(asked - 1_000).min(setting.settle_ns - 1_000), source_kohm) > 1.0,
-                "{name}"
-            );
+            assert!(residue(taken_ns(asked - 1_000).min(setting.settle_ns - 1_000), tau_ns) > 1.0, "{name}");
         }
+    }
+
+    #[test]
+    fn lines_that_the_documents_name() {
+        // 10 kOhm and 22 pF in an amplifier's feedback; eight multiplexers at a divider.
+        assert!(residue(2_000, 220.0) < 0.5);
+        let divider = 10.0 * (8.0 * 45.0 + 31.0);
+        assert_eq!((residue(2_000, divider) / 40.95).round(), 60.0);
+        assert!(residue(taken_ns(34_000), divider) < 1.0 && residue(taken_ns(33_000), divider) > 1.0);
+        assert_eq!((residue(2_000, 240.0) * 100.0).round(), 98.0);
+        assert_eq!((residue(7_000, 800.0) * 100.0).round(), 65.0);
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub struct Axis {
 pub struct Series {
     /// What the legend says.
     pub name: String,
-    /// x, y and what a viewer shows for the point; neither is negative.
+    /// x, y (neither is negative) and what a viewer shows for the point; see [`Chart::named`].
     pub points: Vec<(f64, f64, String)>,
 }
 
@@ -54,6 +54,8 @@ pub struct Chart {
     pub x: Axis,
     /// The axis upwards.
     pub y: Axis,
+    /// Whether the points of the front carry their names: what stands before the first colon of what a viewer shows.
+    pub named: bool,
     /// What is drawn.
     pub series: Vec<Series>,
 }
@@ -110,6 +112,12 @@ impl Chart {
         );
         // Writing to a string cannot fail.
         let _ = self.axes(&x, &y, &mut svg);
+        let below = FRAME[1] + 12.0 + 22.0 * self.series.len() as f64;
+        svg += &format!(
+            "<text x=\"{}\" y=\"{}\" font-size=\"11\">filled: nothing betters it</text>\n",
+            FRAME[2] + 20.0,
+            below + 4.0
+        );
         for (number, series) in self.series.iter().enumerate() {
             let colour = COLOURS.get(number % COLOURS.len()).unwrap_or(&INK);
             let _ = self.draw(series, colour, number, [&x, &y], &mut svg);
@@ -167,11 +175,19 @@ impl Chart {
         }
         for (index, point) in series.points.iter().enumerate() {
             let ((cx, cy), name) = (at(point), escaped(&point.2));
-            let (r, fill) = if front.contains(&index) { (4.5, colour) } else { (3.0, "none") };
+            let in_front = front.contains(&index);
+            let (r, fill) = if in_front { (4.5, colour) } else { (3.0, "none") };
             writeln!(
                 svg,
                 "<circle cx=\"{cx:.1}\" cy=\"{cy:.1}\" r=\"{r}\" fill=\"{fill}\" stroke=\"{colour}\"><title>{name}</title></circle>"
             )?;
+            if let (true, Some((short, _))) = (self.named && in_front, name.split_once(':')) {
+                let (x, y) = (cx + 8.0, cy - 6.0);
+                writeln!(
+                    svg,
+                    "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\" fill=\"{colour}\">{short}</text>"
+                )?;
+            }
         }
         let (left, line) = (FRAME[2] + 24.0, FRAME[1] + 12.0 + 22.0 * number as f64);
         writeln!(svg, "<circle cx=\"{left}\" cy=\"{line}\" r=\"4.5\" fill=\"{colour}\"/>")?;
@@ -233,11 +249,12 @@ mod tests {
     use super::*;
 
     fn chart(better: Better, points: &[(f64, f64)]) -> Chart {
-        let points = points.iter().map(|(x, y)| (*x, *y, format!("{x} < {y}"))).collect();
+        let points = points.iter().map(|(x, y)| (*x, *y, format!("p{x}: {x} < {y}"))).collect();
         Chart {
             title: "a & b".into(),
             x: Axis::new("cost", better),
             y: Axis::new("error", Better::Less),
+            named: true,
             series: vec![Series { name: "all".into(), points }],
         }
     }
@@ -269,7 +286,8 @@ mod tests {
         let svg = chart(Better::Less, &[(1.0, 1.0), (10.0, 0.0), (10.0, 1.0)]).svg();
         assert_eq!(svg.matches("r=\"4.5\" fill=\"#88c0d0\" stroke").count(), 2, "two on the front");
         assert_eq!(svg.matches("r=\"3\" fill=\"none\"").count(), 1);
-        assert!(svg.contains("<title>1 &lt; 1</title>") && svg.contains(">a &amp; b</text>"));
+        assert!(svg.contains("<title>p1: 1 &lt; 1</title>") && svg.contains(">a &amp; b</text>"));
+        assert_eq!(svg.matches(">p10</text>").count(), 1, "only points of the front are named");
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     }
 }

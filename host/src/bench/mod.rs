@@ -4,6 +4,7 @@ pub mod acquisition;
 pub mod chart;
 pub mod nmi;
 mod outline;
+mod touch;
 
 use anyhow::Result;
 use chart::Chart;

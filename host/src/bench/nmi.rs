@@ -7,7 +7,7 @@
 
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};
-use super::outline::Outline;
+use super::touch::{Shape, Touch, VARIED};
 use anyhow::{Context, Result};
 use serde_json::json;
 use std::fmt::Write;
@@ -19,96 +19,11 @@ use taxel_core::shape::{Nmi, nmi};
 
 /// The forms, in the order of the columns.
 pub const FORMS: [&str; 5] = ["published", "peak", "s2", "peak, Sheppard", "s2, Sheppard"];
-/// What varies.
-pub const VARIED: [&str; 4] = ["rotation", "scale", "shift", "pressure"];
 /// Rows, columns, and the radius of the disc at scale 1, in taxels: at scale 2 every shape still fits.
 pub const GRIDS: [(u16, u16, f64); 3] = [(4, 16, 0.9), (16, 16, 3.0), (32, 64, 6.0)];
 /// Taxels of the largest grid.
 const TAXELS: usize = 2048;
 const FULL_SCALE: f64 = 4095.0;
-/// Steps that make up the dome of a finger.
-const LAYERS: usize = 8;
-
-/// What touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
-    /// Even pressure.
-    Disc,
-    /// Even pressure, the disc's area.
-    Square,
-    /// Even pressure, the disc's area, twice as long as wide.
-    Rectangle,
-    /// A capsule, softer towards its rim.
-    Finger,
-}
-
-impl Shape {
-    /// All, in the order of the rows.
-    pub const ALL: [Shape; 4] = [Shape::Disc, Shape::Square, Shape::Rectangle, Shape::Finger];
-
-    fn name(self) -> &'static str {
-        match self {
-            Shape::Disc => "disc",
-            Shape::Square => "square",
-            Shape::Rectangle => "rectangle",
-            Shape::Finger => "finger",
-        }
-    }
-
-    /// Outlines that are pressed one upon the other, each with its part of the pressure.
-    fn layers(self, radius: f64) -> Vec<(Outline, f64)> {
-        let side = radius * std::f64::consts::PI.sqrt() / 2.0;
-        match self {
-            Shape::Disc => vec![(Outline::disc(radius), 1.0)],
-            Shape::Square => vec![(Outline::rectangle(side, side), 1.0)],
-            Shape::Rectangle => {
-                vec![(Outline::rectangle(side * 2f64.sqrt(), side / 2f64.sqrt()), 1.0)]
-            }
-            Shape::Finger => {
-                // A ball's pressure on a soft ground, sqrt(1 - r^2): where a layer lies, seen from its rim.
-                let layer = |index: usize| {
-                    let height = (index as f64 + 0.5) / LAYERS as f64;
-                    let across = 0.65 * radius * (1.0 - height * height).sqrt();
-                    (Outline::capsule(0.6 * radius, across), 1.0 / LAYERS as f64)
-                };
-                (0..LAYERS).map(layer).collect()
-            }
-        }
-    }
-}
-
-/// One touch of a shape.
-#[derive(Debug, Clone, Copy)]
-pub struct Touch {
-    /// Radians.
-    pub angle: f64,
-    /// Of the size on that grid.
-    pub scale: f64,
-    /// Of the centre from the grid's, in taxels.
-    pub shift: [f64; 2],
-    /// Greatest pressure as a part of full scale.
-    pub gain: f64,
-}
-
-/// What the others stay at while one thing varies.
-pub const STILL: Touch = Touch { angle: 17.0 * DEGREE, scale: 1.0, shift: [0.13, 0.29], gain: 0.5 };
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
-
-impl Touch {
-    /// The touches under one variation: its index in [`VARIED`].
-    pub fn varied(variation: usize) -> Vec<Touch> {
-        let part = |step: i32, of: i32| f64::from(step) / f64::from(of);
-        match variation {
-            0 => (0..=30).map(|i| Touch { angle: 90.0 * DEGREE * part(i, 30), ..STILL }).collect(),
-            1 => (0..=30).map(|i| Touch { scale: 0.5 * 4f64.powf(part(i, 30)), ..STILL }).collect(),
-            2 => {
-                let at = |i: i32| [part(i % 8, 8) - 0.5, part(i / 8, 8) - 0.5];
-                (0..64).map(|i| Touch { shift: at(i), ..STILL }).collect()
-            }
-            _ => (0..=14).map(|i| Touch { gain: 0.2 + 0.7 * part(i, 14), ..STILL }).collect(),
-        }
-    }
-}
 
 /// A grid on which touches are drawn and measured.
 pub struct Grid {
@@ -181,8 +96,7 @@ fn row(grid: &Grid, shape: Shape, variation: usize) -> Result<Row> {
     Ok(Row { grid: name, shape: shape.name(), varied: VARIED[variation], mean, spread })
 }
 
-/// The whole table; the same whenever it is made.
-pub fn report() -> Result<Report> {
+fn rows() -> Result<Vec<Row>> {
     let mut rows = Vec::new();
     for grid in GRIDS {
         let grid = Grid::new(grid)?;
@@ -192,6 +106,12 @@ pub fn report() -> Result<Report> {
             }
         }
     }
+    Ok(rows)
+}
+
+/// The whole table; the same whenever it is made.
+pub fn report() -> Result<Report> {
+    let rows = rows()?;
     let each: Vec<_> = rows
         .iter()
         .map(|r| json!({ "grid": r.grid, "shape": r.shape, "varied": r.varied, "mean": r.mean, "spread": r.spread }))
@@ -237,22 +157,93 @@ fn kinds(rows: &[Row]) -> Vec<(String, &'static str)> {
     first.map(|row| (row.grid.clone(), row.varied)).collect()
 }
 
-/// Each form by what geometry does to it and what pressure does to it, a point for every grid and shape.
+/// Each form by what geometry does to it and what pressure does to it, the worst of the shapes on each grid.
 fn chart(rows: &[Row]) -> Chart {
-    let series = FORMS.iter().enumerate().map(|(form, name)| {
-        let points = rows.chunks(VARIED.len()).filter_map(|chunk| {
-            let (pressed, moved) = chunk.split_last()?;
-            let worst = moved.iter().map(|row| row.spread[form]).fold(0.0, f64::max);
-            let place =
-                format!("{} {}: {worst:.2} %, {:.2} %", pressed.grid, pressed.shape, pressed.spread[form]);
-            Some((worst, pressed.spread[form], place))
+    let on_grid = rows.chunks(Shape::ALL.len() * VARIED.len());
+    let series = on_grid.filter_map(|rows| {
+        let worst = |form: usize, pressed: bool| {
+            let rows = rows.iter().filter(|row| (row.varied == VARIED[3]) == pressed);
+            rows.map(|row| row.spread[form]).fold(0.0, f64::max)
+        };
+        let points = FORMS.iter().enumerate().map(|(form, name)| {
+            let (moved, pressed) = (worst(form, false), worst(form, true));
+            (moved, pressed, format!("{name}: {moved:.2} %, {pressed:.2} %"))
         });
-        Series { name: (*name).into(), points: points.collect() }
+        Some(Series { name: rows.first()?.grid.clone(), points: points.collect() })
     });
     Chart {
-        title: "Forms of the NMI: spread of one shape, per grid and shape".into(),
+        title: "Forms of the NMI: spread of one touch, worst of four shapes".into(),
         x: Axis::new("rotation, scale or shift: largest spread, %", Better::Less),
         y: Axis::new("pressure 0.2 to 0.9: spread, %", Better::Less),
+        named: true,
         series: series.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// What an outline of even pressure has, whatever its size: sqrt(J) / m with f = 1.
+    const EXACT: [(Shape, f64); 3] =
+        [(Shape::Disc, 0.398942280401), (Shape::Square, 0.408248290464), (Shape::Rectangle, 0.456435464588)];
+
+    fn all() -> Vec<Row> {
+        rows().unwrap()
+    }
+
+    fn spread<'a>(
+        rows: &'a [Row],
+        grid: &'a str,
+        varied: &'a str,
+        form: usize,
+    ) -> impl Iterator<Item = f64> + 'a {
+        rows.iter()
+            .filter(move |row| row.grid == grid && row.varied == varied)
+            .map(move |row| row.spread[form])
+    }
+
+    #[test]
+    fn references_are_those_of_the_outlines() {
+        let exact = [1.0 / (2.0 * PI).sqrt(), 1.0 / 6f64.sqrt(), (2.5f64 / 12.0).sqrt()];
+        for ((_, want), exact) in EXACT.iter().zip(exact) {
+            assert!((want - exact).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn pressure_moves_the_published_form_alone() {
+        let rows = all();
+        // f -> a f: sqrt(J) / m goes as the root of 1 / a.
+        let steps: Vec<f64> = Touch::varied(3).iter().map(|touch| touch.gain.sqrt().recip()).collect();
+        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+        let law = 100.0 * (steps[0] - steps[steps.len() - 1]) / mean;
+        for (rows_columns, off, rest) in [("16 x 16", 0.5, 0.3), ("32 x 64", 0.2, 0.13)] {
+            for published in spread(&rows, rows_columns, "pressure", 0) {
+                assert!((published - law).abs() < off, "{rows_columns}: {published} {law}");
+            }
+            for (form, name) in FORMS.iter().enumerate().skip(1) {
+                for other in spread(&rows, rows_columns, "pressure", form) {
+                    assert!(other < rest + 0.01, "{rows_columns} {name}: {other}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn peak_with_sheppards_correction_holds_the_exact_value_on_a_fine_grid() {
+        let rows = all();
+        for varied in VARIED {
+            for spread in spread(&rows, "32 x 64", varied, 3) {
+                assert!(spread < 0.35, "{varied}: {spread}");
+            }
+        }
+        for (shape, exact) in EXACT {
+            for row in rows.iter().filter(|row| row.grid == "32 x 64" && row.shape == shape.name()) {
+                let off = row.mean[3] / exact - 1.0;
+                assert!(off.abs() < 2e-3, "{} {}: {off}", row.shape, row.varied);
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@ use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::garment::{Circuit, Garment, Layout};
 
-/// Time from frame to frame on the reference board, us: 195 frames per second.
+/// Time from frame to frame on the reference board, us: 195 frames per second, see [`Timing::REFERENCE`].
 pub const FRAME_PERIOD_US: u64 = 5_128;
 
 /// Most select lines of a garment in the emulator, whose table has an entry for every word.
