@@ -7,6 +7,12 @@ export class Marks {
     this.since = 0;
   }
 
+  /** Forgets what was counted, and the stage under way. */
+  clear() {
+    this.stages.clear();
+    this.stage = undefined;
+  }
+
   enter(stage, cycles) {
     if (this.stage !== undefined) this.add(cycles - this.since);
     this.stage = stage;

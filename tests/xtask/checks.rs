@@ -23,6 +23,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("firmware-clippy", firmware_clippy),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
+    ("cycles", targets::cycles),
     ("emulator", targets::emulator),
     ("emulator-stack", targets::emulator_stack),
     ("recorded", targets::recorded),

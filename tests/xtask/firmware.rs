@@ -48,6 +48,18 @@ pub fn command(toolchain: &Toolchain) -> Command {
     toolchain.cargo("build", &paths::firmware())
 }
 
+/// The command that builds the image that measures.
+pub fn bench_command(toolchain: &Toolchain) -> Command {
+    let mut cargo = command(toolchain);
+    cargo.args(["--bin", "bench", "--features", "bench"]);
+    cargo
+}
+
+/// The image that measures.
+pub fn bench_elf() -> PathBuf {
+    paths::cross_target().join(crate::cross::TARGET).join("release/bench")
+}
+
 /// Writes the UF2 beside the ELF that was just built, and measures both.
 pub fn measure() -> Result<Image, String> {
     let elf = paths::cross_target().join(crate::cross::TARGET).join("release/taxel-firmware");

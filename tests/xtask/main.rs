@@ -25,6 +25,8 @@ usage: cargo xtask COMMAND
                         --write: and write down its sizes, docs/bench/sizes.txt
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
+  cycles [--json|--write]
+                        what the chain costs on the emulated board, beside its error; --write renews docs/bench
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json]        the core beside imageproc, and OpenCV where Python has it: microseconds per panel
   test [--only NAME] [--may-miss NAME]
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         Some("firmware") => build_firmware(rest).map(|()| true),
         Some("core-thumb") => firmware::build_core().map(|()| true),
         Some("emulator") => firmware::emulate(rest).map(|()| true),
+        Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
         Some("test") => checks::run(rest),

@@ -2,7 +2,7 @@
 
 use crate::checks::{cargo, image};
 use crate::cross::Toolchain;
-use crate::{install, paths, process};
+use crate::{firmware, install, paths, process};
 use std::path::Path;
 use std::process::Command;
 
@@ -36,6 +36,30 @@ fn on_emulator(target: &str, log: &Path) -> Result<Result<(), String>, String> {
     let measured = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
     measured.take_while(|line| !line.starts_with("test result")).for_each(|line| println!("  {line}"));
     Ok(end)
+}
+
+/// What the chain costs on the emulated board, against the bars and the table that was written.
+pub fn cycles(log: &Path) -> Result<Result<(), String>, String> {
+    install::emulator()?;
+    let mut build = firmware::bench_command(&Toolchain::find()?);
+    if let Err(why) = process::run_into(build.arg("--locked"), log) {
+        return Ok(Err(why));
+    }
+    Ok(process::run_into(measuring().arg("--check"), log))
+}
+
+/// `cargo xtask cycles`: the table of what the chain costs on the emulated board.
+pub fn show_cycles(args: &[String]) -> Result<(), String> {
+    install::emulator()?;
+    process::run(&mut firmware::bench_command(&Toolchain::find()?))?;
+    process::run(measuring().args(args))
+}
+
+/// The program that measures, up to its own options.
+fn measuring() -> Command {
+    let mut command = test_target("cycles");
+    command.arg("--").env("TAXEL_BENCH_ELF", firmware::bench_elf());
+    command
 }
 
 /// Recordings through the pipeline.

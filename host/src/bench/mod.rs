@@ -3,6 +3,8 @@
 pub mod acquisition;
 pub mod chart;
 pub mod nmi;
+pub mod case;
+pub mod error;
 mod outline;
 mod touch;
 

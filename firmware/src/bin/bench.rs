@@ -1,0 +1,104 @@
+//! The image that measures (`cargo xtask cycles`): the board's perception without pins and link, driven through a mailbox in
+//! memory. The harness waits until `command` is [`READY`], puts bytes or codes into the mailbox and a command behind them, and
+//! reads what the board said.
+#![no_std]
+#![no_main]
+#![deny(unsafe_code)]
+
+#[path = "../mark.rs"]
+mod mark;
+
+use core::panic::PanicInfo;
+use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
+use cortex_m_rt::entry;
+use static_cell::ConstStaticCell;
+use taxel_core::format::Code;
+use taxel_core::pipeline::{Probe, Stage};
+use taxel_suite::chain::{Chain, Said, TAXELS};
+use {defmt_rtt as _, embassy_rp as _};
+
+/// What the harness and this image tell each other; the order of the fields is a part of tests/emulator/bench.mjs.
+#[repr(C)]
+struct Mailbox {
+    command: AtomicU32,
+    /// Halves of `content` that count, or bytes of it.
+    length: AtomicU32,
+    bytes: AtomicU32,
+    digest: AtomicU32,
+    content: [AtomicU16; TAXELS],
+}
+
+/// The image has started, or has done what it was told.
+const READY: u32 = 0;
+/// The image has not started yet.
+const STARTING: u32 = u32::MAX;
+/// `content` holds bytes of a host, two in each half.
+const RECEIVE: u32 = 1;
+/// `content` holds the codes of a scan.
+const SCAN: u32 = 2;
+
+// The harness finds it by its name.
+#[allow(unsafe_code)] // SAFETY: no other symbol has this name
+#[unsafe(no_mangle)]
+static TAXEL_MAILBOX: Mailbox = Mailbox {
+    command: AtomicU32::new(STARTING),
+    length: AtomicU32::new(0),
+    bytes: AtomicU32::new(0),
+    digest: AtomicU32::new(0),
+    content: [const { AtomicU16::new(0) }; TAXELS],
+};
+
+static CODES: ConstStaticCell<[Code; TAXELS]> = ConstStaticCell::new([Code(0); TAXELS]);
+
+/// Tells the harness which stage begins.
+struct Marks;
+
+impl Probe for Marks {
+    fn begin(&mut self, stage: Stage) {
+        mark::mark(stage as u32);
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    let Ok(setup) = Chain::setup() else { panic!("what ships does not fit this board") };
+    // Made where it stays: the stack has no room for a second one. The harness counts the stack below this frame.
+    let chain = &mut Chain::with(setup);
+    let codes = CODES.take();
+    let mailbox = &TAXEL_MAILBOX;
+    mailbox.command.store(READY, Relaxed);
+    loop {
+        let said = match mailbox.command.load(Relaxed) {
+            RECEIVE => receive(chain, mailbox),
+            SCAN => {
+                for (code, sent) in codes.iter_mut().zip(&mailbox.content) {
+                    code.0 = sent.load(Relaxed);
+                }
+                chain.scanned(codes, &mut Marks, |_| ())
+            }
+            _ => continue,
+        };
+        mailbox.bytes.store(said.bytes, Relaxed);
+        mailbox.digest.store(said.digest, Relaxed);
+        mailbox.command.store(READY, Relaxed);
+    }
+}
+
+/// Hands the bytes of a host over, a few at a time.
+fn receive(chain: &mut Chain, mailbox: &Mailbox) -> Said {
+    let mut said = Said::default();
+    for index in 0..mailbox.length.load(Relaxed) as usize {
+        let half = mailbox.content.get(index / 2).map_or(0, |half| half.load(Relaxed));
+        said = chain.receive(&[half.to_le_bytes()[index % 2]]);
+    }
+    said
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    // The harness ends the run here and says where.
+    cortex_m::asm::bkpt();
+    loop {
+        cortex_m::asm::nop();
+    }
+}

@@ -1,0 +1,161 @@
+//! A case: a garment, a scene's settings, and the codes of its frames; the same for the emulated board and this machine.
+
+use crate::arrays;
+use anyhow::{Context, Result};
+use std::path::Path;
+use taxel_core::acquire::Depth;
+use taxel_core::condition::Filter;
+use taxel_core::format::Code;
+use taxel_core::garment::Garment;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
+use taxel_suite::chain::{FULL_SCALE, TAXELS};
+use taxel_suite::pattern::Pattern;
+
+/// Frames of the tare.
+const TARE: u16 = 16;
+/// Frames before those that are measured: contacts are followed by then, and the images are differences.
+pub const WARM: usize = 8;
+/// Frames that are measured.
+pub const MEASURED: usize = 16;
+
+/// Posture of the recording that is used, and its first frame: a person lies still.
+const RECORDING: (&str, &str, usize) = ("pmatdata/subject_01.npz", "posture_03", 40);
+
+/// What happens to the chain.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Step {
+    /// The host sends these bytes.
+    Receive(Vec<u8>),
+    /// A scan of these codes is done.
+    Scan(Vec<Code>),
+}
+
+/// One row of the table of the whole chain.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The scene's name.
+    pub name: &'static str,
+    /// How it differs from what ships.
+    pub variant: Variant,
+    /// What is simulated; none: it is recorded.
+    pub pattern: Option<Pattern>,
+    garment: Garment,
+    scene: Scene,
+    frames: Vec<Vec<Code>>,
+}
+
+/// How a chain differs from the one that ships (12 bit, conservative filter).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variant {
+    /// Not at all.
+    Shipped,
+    /// No filter.
+    Off,
+    /// The median of nine.
+    Median,
+    /// The upper 8 bits of each code.
+    EightBit,
+}
+
+impl Variant {
+    /// What tables call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variant::Shipped => "shipped",
+            Variant::Off => "filter off",
+            Variant::Median => "median",
+            Variant::EightBit => "8 bit",
+        }
+    }
+
+    fn scene(self) -> Scene {
+        let mut scene = Scene::shipped();
+        match self {
+            Variant::Shipped => {}
+            Variant::Off => scene.condition.filter = Filter::Off,
+            Variant::Median => scene.condition.filter = Filter::Median,
+            Variant::EightBit => scene.plan.depth = Depth::Eight,
+        }
+        scene
+    }
+}
+
+impl Case {
+    /// All simulated cases.
+    pub fn simulated() -> Vec<Case> {
+        let shipped = Pattern::ALL.into_iter().filter(|pattern| *pattern != Pattern::Grid);
+        let cases = shipped.map(|pattern| (pattern, Variant::Shipped)).chain([
+            (Pattern::Grid, Variant::Off),
+            (Pattern::Five, Variant::Off),
+            (Pattern::Five, Variant::Median),
+            (Pattern::Five, Variant::EightBit),
+            (Pattern::Texture, Variant::Off),
+            (Pattern::Texture, Variant::Median),
+        ]);
+        cases.map(|(pattern, variant)| Case::of(pattern, variant)).collect()
+    }
+
+    fn of(pattern: Pattern, variant: Variant) -> Case {
+        let scene = variant.scene();
+        let rest = (0..u32::from(TARE)).map(|n| (Pattern::Empty, n));
+        let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + MEASURED);
+        let frames = rest.chain(touch).map(|(pattern, number)| {
+            let mut codes = [Code(0); TAXELS];
+            pattern.codes(number, &mut codes);
+            codes.iter().map(|code| Code(scene.plan.depth.keep(code.0))).collect()
+        });
+        Case {
+            name: pattern.name(),
+            variant,
+            pattern: Some(pattern),
+            garment: Garment::reference(),
+            frames: frames.collect(),
+            scene,
+        }
+    }
+
+    /// A person lying on a mat of 64 x 32 taxels, from the folder of recordings.
+    pub fn recorded(data: &Path) -> Result<Case> {
+        let (file, posture, first) = RECORDING;
+        let recording = arrays::read(&data.join(file), Some(posture))?;
+        let rest = vec![vec![Code(0); TAXELS]; usize::from(TARE)];
+        let touch = recording.iter().skip(first).take(WARM + MEASURED);
+        let touch = touch.map(|frame| frame.iter().map(|code| Code((*code).min(FULL_SCALE))).collect());
+        let frames: Vec<Vec<Code>> = rest.into_iter().chain(touch).collect();
+        let variant = Variant::Shipped;
+        anyhow::ensure!(frames.len() == usize::from(TARE) + WARM + MEASURED, "{file}: too short");
+        let (garment, scene) = (Garment::mat(), variant.scene());
+        Ok(Case { name: "recorded", variant, pattern: None, garment, scene, frames })
+    }
+
+    /// Number of a measured frame, as [`Pattern::pressure`] counts them.
+    pub const fn number(measured: usize) -> u32 {
+        TARE as u32 + (WARM + measured) as u32
+    }
+
+    /// What happens, one after the other; the last [`MEASURED`] scans are those that are measured.
+    pub fn steps(&self) -> Result<Vec<Step>> {
+        let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
+        let (garment, scene) = (garment?, scene?);
+        let ask = |request: &Request<'_>| {
+            let (mut body, mut wire) = ([0; LONGEST_REQUEST], [0; frame_bound(LONGEST_REQUEST)]);
+            let length = encode(request, &mut body, &mut wire).ok().context("a request too long")?;
+            Ok(Step::Receive(wire[..length].to_vec()))
+        };
+        let mut steps = [
+            Request::Stop,
+            Request::SetGarment(&garment),
+            Request::SetScene(&scene),
+            Request::Tare { frames: TARE },
+        ]
+        .iter()
+        .map(ask)
+        .collect::<Result<Vec<Step>>>()?;
+        let (rest, touch) = self.frames.split_at(TARE.into());
+        steps.extend(rest.iter().cloned().map(Step::Scan));
+        steps.push(ask(&Request::Start)?);
+        steps.extend(touch.iter().cloned().map(Step::Scan));
+        Ok(steps)
+    }
+}

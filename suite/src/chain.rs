@@ -1,0 +1,108 @@
+//! The whole chain: a board that is handed codes and whose messages are drained at once.
+
+use crc::{CRC_32_ISO_HDLC, Crc, Table};
+use taxel_core::acquire::{Scan, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input, Setup, SetupError};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::scene::Scene;
+
+/// Taxels, and runs of touched taxels in a row, that a board holds.
+pub const TAXELS: usize = 2048;
+/// Runs.
+pub const RUNS: usize = 1024;
+
+/// Time from scan to scan, us: 195 frames a second.
+pub const PERIOD_US: u64 = 5_128;
+
+/// Largest code of the converter.
+pub const FULL_SCALE: u16 = 4095;
+
+/// A `static`: a `const` would copy the table to the stack.
+static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
+
+/// A board without pins, whose link takes everything at once.
+pub struct Chain {
+    board: Board<TAXELS, RUNS>,
+    scans: u64,
+}
+
+/// What a board said since it was last asked.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Said {
+    /// Bytes on the wire.
+    pub bytes: u32,
+    /// CRC-32/ISO-HDLC of them: images, contacts, shapes, symbols, intentions, in the order in which they were sent.
+    pub digest: u32,
+}
+
+impl Chain {
+    /// What is checked before a board can be made: the reference garment and the scene that ships.
+    pub fn setup() -> Result<Setup, SetupError> {
+        Setup::build(&Chain::info(), Garment::reference(), Scene::shipped(), TAXELS)
+    }
+
+    fn info() -> BoardInfo {
+        BoardInfo { firmware: "bench", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: u32::MAX }
+    }
+
+    /// A board with what was checked.
+    #[inline(never)]
+    pub fn with(setup: Setup) -> Chain {
+        Chain { board: Board::with(Chain::info(), setup), scans: 0 }
+    }
+
+    fn now(&self) -> Micros {
+        Micros(self.scans * PERIOD_US)
+    }
+
+    /// Bytes come from the host.
+    pub fn receive(&mut self, bytes: &[u8]) -> Said {
+        let now = self.now();
+        self.board.step(now, Input::Received(bytes), &mut ());
+        self.drain(&mut (), |_| ())
+    }
+
+    /// A scan is done; what the board sends goes to `link`, too. `probe` is told what the board does; [`Stage::Scan`] is
+    /// what is no work of the board.
+    pub fn scanned(&mut self, codes: &[Code], probe: &mut impl Probe, link: impl FnMut(&[u8])) -> Said {
+        self.scans += 1;
+        let now = self.now();
+        let report = ScanReport { start: now, duration_us: 0, overruns: 0 };
+        probe.begin(Stage::Idle);
+        self.board.step(now, Input::Scanned(Ok(Scan { codes, report })), probe);
+        let said = self.drain(probe, link);
+        probe.begin(Stage::Scan);
+        said
+    }
+
+    /// Takes all that waits to be sent.
+    fn drain(&mut self, probe: &mut impl Probe, mut link: impl FnMut(&[u8])) -> Said {
+        let now = self.now();
+        let (mut digest, mut bytes) = (CRC.digest(), 0);
+        loop {
+            let pending = self.board.pending(now, probe);
+            probe.begin(Stage::Scan);
+            digest.update(pending);
+            link(pending);
+            let count = pending.len();
+            probe.begin(Stage::Idle);
+            if count == 0 {
+                return Said { bytes, digest: digest.finalize() };
+            }
+            bytes += count as u32;
+            self.board.sent(count);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_ships_fits() {
+        assert!(Chain::setup().is_ok());
+    }
+}
