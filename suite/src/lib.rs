@@ -1,7 +1,13 @@
 //! What is measured, once for the emulated board (`cargo xtask cycles`) and for this machine (`taxel bench`): the scenes of
-//! [`pattern`], the whole [`chain`] from codes to encoded messages.
+//! [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading alone, the [`dense`] chain, and
+//! formats of numbers to [`measure`] the contacts of [`windows`] with, or for the [`activation`] of concepts.
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod activation;
 pub mod chain;
+pub mod dense;
+pub mod kernel;
+pub mod measure;
 pub mod pattern;
+pub mod windows;

@@ -160,7 +160,7 @@ fn small(row: usize, column: usize) -> u16 {
 }
 
 /// Bits that look random, of a taxel and a purpose.
-const fn hash(taxel: u32, salt: u32) -> u32 {
+pub(crate) const fn hash(taxel: u32, salt: u32) -> u32 {
     let mut bits = taxel.wrapping_mul(0x9e37_79b1) ^ salt.wrapping_mul(0x85eb_ca6b);
     bits = (bits ^ bits >> 15).wrapping_mul(0x2c1b_3c6d);
     bits = (bits ^ bits >> 12).wrapping_mul(0x297a_2d39);

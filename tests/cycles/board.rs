@@ -3,27 +3,25 @@
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use taxel::bench::case::Step;
-use taxel_core::pipeline::Stage;
+use taxel::bench::stages::case::Step;
+use taxel::bench::stages::row::Cost;
+use taxel_core::format::Code;
 use taxel_suite::chain::Said;
-
-/// Stages, by their numbers in the marks.
-pub const STAGES: usize = Stage::Scan as usize;
+use taxel_suite::kernel::Kernel;
 
 /// What the board did in a step.
 #[derive(Debug, Clone)]
 pub struct Answer {
     /// What it said.
     pub said: Said,
-    /// Cycles by stage.
-    pub cycles: [u64; STAGES],
-    /// Bytes of stack that were used at most up to now.
-    pub stack: u64,
+    /// What it took, in cycles.
+    pub cost: Cost,
 }
 
 /// Commands of firmware/src/bin/bench.rs.
 const RECEIVE: u32 = 1;
 const SCAN: u32 = 2;
+const KERNELS: u32 = 16;
 
 /// Runs the image that TAXEL_BENCH_ELF names.
 pub fn run(steps: &[Step]) -> Result<Vec<Answer>, String> {
@@ -48,9 +46,14 @@ pub fn run(steps: &[Step]) -> Result<Vec<Answer>, String> {
 
 /// A step as the harness reads it.
 fn bytes(step: &Step) -> Vec<u8> {
-    let (command, content) = match step {
+    let halves = |codes: &[Code]| codes.iter().flat_map(|code| code.0.to_le_bytes()).collect();
+    let (command, content): (u32, Vec<u8>) = match step {
         Step::Receive(bytes) => (RECEIVE, bytes.clone()),
-        Step::Scan(codes) => (SCAN, codes.iter().flat_map(|code| code.0.to_le_bytes()).collect()),
+        Step::Scan(codes) => (SCAN, halves(codes)),
+        Step::Kernel(kernel, codes) => {
+            let number = Kernel::all().position(|k| k == *kernel).expect("one of all");
+            (KERNELS + number as u32, halves(&codes[..]))
+        }
     };
     [&command.to_le_bytes(), &(content.len() as u32).to_le_bytes(), &content[..]].concat()
 }
@@ -60,7 +63,7 @@ fn answer(line: &str) -> Option<Answer> {
     let value: Value = serde_json::from_str(line).ok()?;
     let number = |value: &Value| value.as_u64();
     let said = Said { bytes: number(&value["bytes"])? as u32, digest: number(&value["digest"])? as u32 };
-    let cycles =
-        std::array::from_fn(|stage| number(&value["marks"][stage.to_string()]["cycles"]).unwrap_or(0));
-    Some(Answer { said, cycles, stack: number(&value["stack"]["used"])? })
+    let cycles = |stage: usize| number(&value["marks"][stage.to_string()]["cycles"]).unwrap_or(0);
+    let cost = Cost { stages: std::array::from_fn(cycles), stack: Some(number(&value["stack"]["used"])?) };
+    Some(Answer { said, cost })
 }

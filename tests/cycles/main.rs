@@ -1,16 +1,16 @@
-//! What the whole chain costs on the emulated board, beside its error; the same messages must come from the board and from
-//! this machine. `cargo xtask cycles` shows or writes the table, `cargo xtask test --only cycles` compares it.
+//! What each stage and each variant costs on the emulated board, beside its error; the board must say the same as this
+//! machine. `cargo xtask cycles` shows or writes the tables, `cargo xtask test --only cycles` compares them.
 
+mod bars;
 mod board;
-mod row;
-mod table;
-mod twin;
 
-use row::Row;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use table::Table;
-use taxel::bench::case::{Case, MEASURED};
+use taxel::bench::stages::case::{Case, Step};
+use taxel::bench::stages::format::{Form, FormRow};
+use taxel::bench::stages::row::{Cost, Row};
+use taxel::bench::stages::table::Table;
+use taxel::bench::stages::twin::{Told, Twin};
 
 /// Where recordings lie unless TAXEL_DATA says so.
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data");
@@ -29,49 +29,59 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &[String]) -> Result<(), String> {
-    let table = Table { rows: measure()? };
-    let written = Path::new(WRITTEN);
+    let table = measure()?;
     match args.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => print!("{table}"),
-        ["--json"] => println!("{}", table.json()),
+        [] => print!("{table}\n{}", bars::text(&table)),
+        ["--json"] => println!("{}", bars::json(&table)),
         ["--write"] => {
-            table.write(written)?;
-            print!("{table}");
+            bars::write(&table, Path::new(WRITTEN))?;
+            print!("{table}\n{}", bars::text(&table));
         }
         ["--check"] => {
-            table.check_bars()?;
-            table.compare(written)?;
-            print!("{table}");
+            print!("{table}\n{}", bars::text(&table));
+            bars::compare(&table, Path::new(WRITTEN))?;
+            bars::check(&table)?;
         }
         _ => return Err("options: --json, --write or --check".into()),
     }
     Ok(())
 }
 
-/// Runs all cases on the board and here; both must say the same.
-fn measure() -> Result<Vec<Row>, String> {
-    let mut cases = Case::simulated();
+/// Runs everything on the board and here; both must say the same.
+fn measure() -> Result<Table, String> {
     let data = std::env::var_os("TAXEL_DATA").map_or_else(|| PathBuf::from(DATA), PathBuf::from);
+    let mut cases = Case::simulated();
     if data.is_dir() {
         cases.push(Case::recorded(&data).map_err(|error| format!("{error:#}"))?);
     } else {
         eprintln!("recorded frames are left out: there is no folder {}", data.display());
     }
-    let steps: Vec<_> = cases.iter().map(Case::steps).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
-    let mut answers = board::run(&steps.concat())?.into_iter();
-    let mut twin = twin::Twin::new();
-    let mut rows = Vec::new();
-    for (case, steps) in cases.iter().zip(&steps) {
+    let forms = Form::all();
+    let steps = cases.iter().map(Case::steps).collect::<Result<Vec<_>, _>>();
+    let mut steps = steps.map_err(|error| format!("{error:#}"))?;
+    steps.extend(forms.iter().map(Form::steps));
+    let costs = together(&steps)?;
+    let of_cases = cases.iter().zip(&costs);
+    let rows: Vec<Row> = of_cases.map(|(case, (costs, told))| Row::of(case, costs, told)).collect();
+    let of_forms = forms.iter().zip(costs.iter().skip(cases.len()));
+    let forms: Vec<FormRow> = of_forms.map(|(form, (costs, _))| form.row(costs)).collect();
+    Ok(Table { place: "emulated RP2040 (Cortex-M0+, 125 MHz)", unit: "cycles", rows, forms })
+}
+
+/// The costs on the board and what this machine did, by groups of steps.
+fn together(groups: &[Vec<Step>]) -> Result<Vec<(Vec<Cost>, Vec<Told>)>, String> {
+    let mut answers = board::run(&groups.concat())?.into_iter();
+    let mut twin = Twin::default();
+    let mut done = Vec::new();
+    for (number, steps) in groups.iter().enumerate() {
         let answers: Vec<_> = answers.by_ref().take(steps.len()).collect();
-        let said: Vec<_> = steps.iter().map(|step| twin.perform(step)).collect();
-        if let Some(step) = answers.iter().zip(&said).position(|(board, host)| board.said != host.said) {
-            let (name, variant) = (case.name, case.variant.name());
+        let told: Vec<Told> = steps.iter().map(|step| twin.perform(step)).collect();
+        if let Some(step) = answers.iter().zip(&told).position(|(board, host)| board.said != host.said) {
             return Err(format!(
-                "{name}, {variant}: step {step}: the board says something else than this machine"
+                "group {number}, step {step}: the board says something else than this machine"
             ));
         }
-        let first = steps.len() - MEASURED;
-        rows.push(Row::of(case, &answers[first..], &said[first..]));
+        done.push((answers.iter().map(|answer| answer.cost).collect(), told));
     }
-    Ok(rows)
+    Ok(done)
 }

@@ -15,6 +15,7 @@ use static_cell::ConstStaticCell;
 use taxel_core::format::Code;
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_suite::chain::{Chain, Said, TAXELS};
+use taxel_suite::kernel::{Bench, Kernel};
 use {defmt_rtt as _, embassy_rp as _};
 
 /// What the harness and this image tell each other; the order of the fields is a part of tests/emulator/bench.mjs.
@@ -36,6 +37,8 @@ const STARTING: u32 = u32::MAX;
 const RECEIVE: u32 = 1;
 /// `content` holds the codes of a scan.
 const SCAN: u32 = 2;
+/// This and what follows are kernels; `content` holds what they take.
+const KERNELS: u32 = 16;
 
 // The harness finds it by its name.
 #[allow(unsafe_code)] // SAFETY: no other symbol has this name
@@ -64,24 +67,34 @@ fn main() -> ! {
     let Ok(setup) = Chain::setup() else { panic!("what ships does not fit this board") };
     // Made where it stays: the stack has no room for a second one. The harness counts the stack below this frame.
     let chain = &mut Chain::with(setup);
+    let bench = &mut Bench::default();
     let codes = CODES.take();
     let mailbox = &TAXEL_MAILBOX;
     mailbox.command.store(READY, Relaxed);
     loop {
         let said = match mailbox.command.load(Relaxed) {
             RECEIVE => receive(chain, mailbox),
-            SCAN => {
-                for (code, sent) in codes.iter_mut().zip(&mailbox.content) {
-                    code.0 = sent.load(Relaxed);
+            SCAN => chain.scanned(taken(codes, mailbox), &mut Marks, |_| ()),
+            command => match command.checked_sub(KERNELS).and_then(|n| Kernel::all().nth(n as usize)) {
+                Some(kernel) => {
+                    let digest = kernel.run(bench, taken(codes, mailbox), &mut Marks);
+                    Said { digest, bytes: 0 }
                 }
-                chain.scanned(codes, &mut Marks, |_| ())
-            }
-            _ => continue,
+                None => continue,
+            },
         };
         mailbox.bytes.store(said.bytes, Relaxed);
         mailbox.digest.store(said.digest, Relaxed);
         mailbox.command.store(READY, Relaxed);
     }
+}
+
+/// The codes in the mailbox.
+fn taken<'a>(codes: &'a mut [Code; TAXELS], mailbox: &Mailbox) -> &'a [Code; TAXELS] {
+    for (code, sent) in codes.iter_mut().zip(&mailbox.content) {
+        code.0 = sent.load(Relaxed);
+    }
+    codes
 }
 
 /// Hands the bytes of a host over, a few at a time.

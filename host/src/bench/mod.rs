@@ -3,9 +3,8 @@
 pub mod acquisition;
 pub mod chart;
 pub mod nmi;
-pub mod case;
-pub mod error;
 mod outline;
+pub mod stages;
 mod touch;
 
 use anyhow::Result;
@@ -16,14 +15,20 @@ use std::path::PathBuf;
 
 /// Arguments of `taxel bench`.
 #[derive(Debug, Clone, Args)]
+#[command(args_conflicts_with_subcommands = true)]
 pub struct BenchArgs {
-    /// Which table
+    /// Which table; without it, `stages`
     #[command(subcommand)]
-    table: Table,
+    table: Option<Table>,
+    #[command(flatten)]
+    output: Output,
 }
 
 #[derive(Debug, Clone, Subcommand)]
 enum Table {
+    /// Each stage and each variant: time on this machine, error, contacts
+    #[command(after_help = "Example:\n  taxel bench stages --svg stages.svg")]
+    Stages(Output),
     /// Frames a second against the error of a taxel, over settling, source resistance, bits and averaging
     #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
     Acquisition(Output),
@@ -56,7 +61,8 @@ pub struct Report {
 
 /// Runs the command.
 pub fn run(args: BenchArgs) -> Result<()> {
-    match args.table {
+    match args.table.unwrap_or(Table::Stages(args.output)) {
+        Table::Stages(output) => output.put(&stages::report()?),
         Table::Acquisition(output) => output.put(&acquisition::report()),
         Table::Nmi(output) => output.put(&nmi::report()?),
     }

@@ -10,12 +10,13 @@ use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 use taxel_suite::chain::{FULL_SCALE, TAXELS};
+use taxel_suite::kernel::Kernel;
 use taxel_suite::pattern::Pattern;
 
 /// Frames of the tare.
 const TARE: u16 = 16;
 /// Frames before those that are measured: contacts are followed by then, and the images are differences.
-pub const WARM: usize = 8;
+const WARM: usize = 8;
 /// Frames that are measured.
 pub const MEASURED: usize = 16;
 
@@ -29,6 +30,8 @@ pub enum Step {
     Receive(Vec<u8>),
     /// A scan of these codes is done.
     Scan(Vec<Code>),
+    /// A kernel is run on these codes.
+    Kernel(Kernel, Box<[Code; TAXELS]>),
 }
 
 /// One row of the table of the whole chain.

@@ -1,0 +1,168 @@
+//! Kernels beside the chain: reading alone, the plain chain, and formats of numbers, with their errors against f64.
+
+use super::case::Step;
+use super::error::Error;
+use super::row::Cost;
+use serde_json::{Value, json};
+use std::f64::consts::PI;
+use taxel_core::format::Code;
+use taxel_suite::activation::{Activation, CONCEPTS, Maps};
+use taxel_suite::chain::TAXELS;
+use taxel_suite::kernel::Kernel;
+use taxel_suite::measure::Measure;
+use taxel_suite::pattern::Pattern;
+use taxel_suite::windows::{self, AREA, SIDE, WINDOWS};
+
+/// Rounds of windows or states whose cost is measured, and whose error.
+const MEASURED: u32 = 4;
+const COMPARED: u32 = 250;
+
+/// One kernel on one kind of input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Form {
+    /// What is done.
+    pub what: &'static str,
+    /// In which scene, or in which format.
+    pub form: &'static str,
+    kernel: Kernel,
+    pattern: Option<Pattern>,
+}
+
+impl Form {
+    /// All of them.
+    pub fn all() -> Vec<Form> {
+        let of = |what, pattern: Pattern, kernel| Form {
+            what,
+            form: pattern.name(),
+            kernel,
+            pattern: Some(pattern),
+        };
+        let scenes = [Pattern::Empty, Pattern::Five, Pattern::Texture];
+        let mut all = vec![
+            of("read each code", Pattern::Five, Kernel::Read),
+            of("read and compare", Pattern::Five, Kernel::Compare),
+        ];
+        all.extend(scenes.map(|pattern| of("dense chain", pattern, Kernel::Dense)));
+        all.extend(Measure::ALL.map(|measure| Form {
+            what: "measure",
+            form: measure.name(),
+            kernel: Kernel::Measure(measure),
+            pattern: None,
+        }));
+        all.extend(Activation::ALL.map(|activation| Form {
+            what: "map, one step",
+            form: activation.name(),
+            kernel: Kernel::Activate(activation),
+            pattern: None,
+        }));
+        all
+    }
+
+    /// What is measured, one after the other.
+    pub fn steps(&self) -> Vec<Step> {
+        let codes = |round| {
+            let mut codes = [Code(0); TAXELS];
+            match self.pattern {
+                Some(pattern) => pattern.codes(round, &mut codes),
+                None => windows::fill(round, &mut codes),
+            }
+            Step::Kernel(self.kernel, Box::new(codes))
+        };
+        (1..=MEASURED).map(codes).collect()
+    }
+
+    /// Costs of the steps, for one frame, contact or step of the map.
+    pub fn row(self, costs: &[Cost]) -> FormRow {
+        let each = if matches!(self.kernel, Kernel::Measure(_)) { WINDOWS } else { 1 };
+        let sum: u64 = costs.iter().flat_map(|cost| cost.stages).sum();
+        FormRow {
+            form: self,
+            cost: sum / (costs.len().max(1) * each) as u64,
+            stack: costs.iter().filter_map(|cost| cost.stack).max(),
+            errors: match self.kernel {
+                Kernel::Measure(measure) => measured(measure),
+                Kernel::Activate(activation) => activated(activation),
+                _ => Vec::new(),
+            },
+        }
+    }
+}
+
+/// What a kernel costs, and how far off it is.
+#[derive(Debug, Clone)]
+pub struct FormRow {
+    /// Which.
+    pub form: Form,
+    /// Of one frame, contact or step.
+    pub cost: u64,
+    /// Bytes of stack.
+    pub stack: Option<u64>,
+    /// By quantity and unit.
+    pub errors: Vec<(&'static str, Error)>,
+}
+
+impl FormRow {
+    /// For other programs.
+    pub fn json(&self) -> Value {
+        let errors = self.errors.iter().map(|(what, error)| (what.to_string(), error.json()));
+        json!({
+            "what": self.form.what,
+            "form": self.form.form,
+            "cost": self.cost,
+            "stack_bytes": self.stack,
+            "errors": errors.collect::<serde_json::Map<String, Value>>(),
+        })
+    }
+}
+
+/// Errors of centroid, NMI and azimuth over many windows.
+fn measured(measure: Measure) -> Vec<(&'static str, Error)> {
+    let mut errors = [Error::default(); 3];
+    let mut codes = [Code(0); TAXELS];
+    for round in 1..=COMPARED {
+        windows::fill(round, &mut codes);
+        for window in codes.chunks(AREA) {
+            let exact = exact(window);
+            let found = measure.values(measure.of(window));
+            errors[0].add((found[0] - exact[0]).hypot(found[1] - exact[1]));
+            errors[1].add(found[2] / exact[2] - 1.0);
+            // An axis has no direction.
+            let turn = (found[3] - exact[3]).rem_euclid(PI);
+            errors[2].add(turn.min(PI - turn));
+        }
+    }
+    ["centroid_taxel", "nmi_relative", "azimuth_rad"].into_iter().zip(errors).collect()
+}
+
+/// Column, row, NMI, azimuth from the definition: integers, then f64.
+fn exact(window: &[Code]) -> [f64; 4] {
+    let [mut m, mut sx, mut sy, mut sxx, mut syy, mut sxy] = [0i64; 6];
+    for (taxel, code) in window.iter().enumerate() {
+        let (x, y, f) = ((taxel % SIDE) as i64, (taxel / SIDE) as i64, i64::from(code.0));
+        (m, sx, sy) = (m + f, sx + x * f, sy + y * f);
+        (sxx, syy, sxy) = (sxx + x * x * f, syy + y * y * f, sxy + x * y * f);
+    }
+    let (a, b, c) = (m * sxx - sx * sx, m * syy - sy * sy, m * sxy - sx * sy);
+    let mass = m as f64;
+    let azimuth = 0.5 * (2.0 * c as f64).atan2((a - b) as f64);
+    [sx as f64 / mass, sy as f64 / mass, ((a + b) as f64).sqrt() / mass, azimuth]
+}
+
+/// Errors of one step of the map from many states.
+fn activated(activation: Activation) -> Vec<(&'static str, Error)> {
+    let maps = Maps::shipped().expect("what ships is a map");
+    let (weights, lambda) = maps.plain();
+    let mut error = Error::default();
+    let mut random = fastrand::Rng::with_seed(1);
+    for _ in 0..COMPARED * WINDOWS as u32 {
+        let state: [i32; CONCEPTS] = std::array::from_fn(|_| random.i32(-32768..=32768));
+        let next = activation.step(&maps, &state);
+        for (raw, weights) in next.iter().zip(weights).filter(|(_, w)| w.iter().any(|w| *w != 0.0)) {
+            // The weights are hundredths, whatever their f32 is.
+            let hundredths = weights.iter().map(|w| (f64::from(*w) * 100.0).round() / 100.0);
+            let sum: f64 = hundredths.zip(&state).map(|(w, y)| w * f64::from(*y) / 32768.0).sum();
+            error.add(activation.value(*raw) - (f64::from(lambda) * sum).tanh());
+        }
+    }
+    vec![("activation", error)]
+}

@@ -1,0 +1,112 @@
+//! A row of the table: what a case costs, and how far off its contacts are.
+
+use super::case::{Case, MEASURED, Variant};
+use super::error::{Error, Truth};
+use super::twin::{STAGES, Told};
+use serde_json::{Value, json};
+use taxel_core::pipeline::Stage;
+
+/// Cost of a step by stage, and the stack that it took, where that is known.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Cost {
+    /// Cycles or nanoseconds.
+    pub stages: [u64; STAGES],
+    /// Bytes below the frame of whoever asked.
+    pub stack: Option<u64>,
+}
+
+impl Cost {
+    /// Everything but the map.
+    fn whole(&self) -> u64 {
+        self.stages.iter().sum::<u64>() - self.stages[Stage::Intent as usize]
+    }
+}
+
+/// What a case costs.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The scene.
+    pub name: &'static str,
+    /// How the chain differs from what ships.
+    pub variant: Variant,
+    /// Mean cost of a frame, by stage.
+    stages: [u64; STAGES],
+    /// Cost of the dearest frame, without the map.
+    pub largest: u64,
+    /// Mean bytes on the wire a frame.
+    pub bytes: u64,
+    /// Bytes of stack that were used at most.
+    pub stack: Option<u64>,
+    /// Contacts in the last frame, and how many could not be followed.
+    pub contacts: [u64; 2],
+    /// How far off place and NMI are, where the truth is known.
+    pub error: Option<[Error; 2]>,
+}
+
+impl Row {
+    /// From the steps of a case, of which the last are the measured frames.
+    pub fn of(case: &Case, costs: &[Cost], told: &[Told]) -> Row {
+        let costs = costs.get(costs.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
+        let told = told.get(told.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
+        let frames = costs.len().max(1) as u64;
+        let mut truth = Truth::default();
+        if let Some(pattern) = case.pattern {
+            let frames = told.iter().enumerate().filter(|(_, told)| !told.contacts.is_empty());
+            frames.for_each(|(n, told)| truth.compare(pattern, Case::number(n), &told.contacts));
+        }
+        let last = told.last();
+        let present = |t: &Told| t.contacts.iter().filter(|c| c.contact.total > 0).count() as u64;
+        Row {
+            name: case.name,
+            variant: case.variant,
+            stages: std::array::from_fn(|stage| costs.iter().map(|c| c.stages[stage]).sum::<u64>() / frames),
+            largest: costs.iter().map(Cost::whole).max().unwrap_or(0),
+            bytes: told.iter().map(|t| u64::from(t.said.bytes)).sum::<u64>() / frames,
+            stack: costs.iter().filter_map(|c| c.stack).max(),
+            contacts: [last.map_or(0, present), last.map_or(0, |t| t.dropped.into())],
+            error: truth.errors(),
+        }
+    }
+
+    /// Cost of a stage.
+    pub const fn stage(&self, stage: Stage) -> u64 {
+        self.stages[stage as usize]
+    }
+
+    /// From condition to reaction, without the map.
+    pub fn perceive(&self) -> u64 {
+        let stages = [Stage::Condition, Stage::Contact, Stage::Shape, Stage::Symbol, Stage::React];
+        stages.into_iter().map(|stage| self.stage(stage)).sum()
+    }
+
+    /// Everything after the scan, without the map.
+    pub fn whole(&self) -> u64 {
+        self.perceive() + self.stage(Stage::Idle) + self.stage(Stage::Encode)
+    }
+
+    /// For other programs.
+    pub fn json(&self) -> Value {
+        let error = |which: usize| self.error.as_ref().map(|errors| errors[which].json());
+        json!({
+            "scene": self.name,
+            "variant": self.variant.name(),
+            "condition": self.stage(Stage::Condition),
+            "contact": self.stage(Stage::Contact),
+            "shape": self.stage(Stage::Shape),
+            "symbol": self.stage(Stage::Symbol),
+            "react": self.stage(Stage::React),
+            "encode": self.stage(Stage::Encode),
+            "rest": self.stage(Stage::Idle),
+            "perceive": self.perceive(),
+            "all": self.whole(),
+            "largest": self.largest,
+            "map": self.stage(Stage::Intent),
+            "wire_bytes": self.bytes,
+            "stack_bytes": self.stack,
+            "contacts": self.contacts[0],
+            "dropped": self.contacts[1],
+            "centroid_taxel": error(0),
+            "nmi_relative": error(1),
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! The chain on this machine: what it says, what it takes, and the contacts that it tells of.
+
+use super::case::Step;
+use std::time::Instant;
+use taxel_core::body::Placed;
+use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::wire::{Receiver, Report, decode};
+use taxel_suite::chain::{Chain, Said};
+use taxel_suite::kernel::Bench;
+
+/// Stages, by their numbers in the marks.
+pub const STAGES: usize = Stage::Scan as usize;
+
+/// The longest frame that the board sends, and more.
+const LONGEST: usize = 8192;
+
+/// A board on this machine.
+pub struct Twin {
+    chain: Box<Chain>,
+    bench: Box<Bench>,
+    receiver: Box<Receiver<LONGEST>>,
+}
+
+/// What it did in a step.
+#[derive(Debug, Clone, Default)]
+pub struct Told {
+    /// What it said.
+    pub said: Said,
+    /// Nanoseconds by stage.
+    pub spent: [u64; STAGES],
+    /// The contacts, if it told of any.
+    pub contacts: Vec<Placed>,
+    /// Contacts that it could not follow.
+    pub dropped: u16,
+}
+
+/// Sums the time of each stage.
+#[derive(Debug, Default)]
+struct Watch {
+    spent: [u64; STAGES],
+    under_way: Option<(usize, Instant)>,
+}
+
+impl Probe for Watch {
+    fn begin(&mut self, stage: Stage) {
+        let now = Instant::now();
+        if let Some((stage, since)) = self.under_way.replace((stage as usize, now))
+            && let Some(spent) = self.spent.get_mut(stage)
+        {
+            *spent += (now - since).as_nanos() as u64;
+        }
+    }
+}
+
+impl Default for Twin {
+    fn default() -> Twin {
+        let setup = Chain::setup().expect("what ships fits");
+        let receiver = Box::new(Receiver::new());
+        Twin { chain: Box::new(Chain::with(setup)), bench: Box::new(Bench::default()), receiver }
+    }
+}
+
+impl Twin {
+    /// Does a step.
+    pub fn perform(&mut self, step: &Step) -> Told {
+        let (mut told, mut watch, mut sent) = (Told::default(), Watch::default(), Vec::new());
+        told.said = match step {
+            Step::Receive(bytes) => bytes.iter().fold(told.said, |_, byte| self.chain.receive(&[*byte])),
+            Step::Scan(codes) => self.chain.scanned(codes, &mut watch, |bytes| sent.extend_from_slice(bytes)),
+            Step::Kernel(kernel, codes) => {
+                Said { bytes: 0, digest: kernel.run(&mut self.bench, codes, &mut watch) }
+            }
+        };
+        told.spent = watch.spent;
+        for byte in sent {
+            let Some(body) = self.receiver.push(byte) else { continue };
+            let (_, report) = decode::<(u32, Report<'_>)>(body.expect("a whole frame")).expect("a message");
+            if let Report::Contacts(list) = report {
+                told.contacts = list.contacts.iter().cloned().collect();
+                told.dropped = list.dropped;
+            }
+        }
+        told
+    }
+}

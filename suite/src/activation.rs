@@ -1,0 +1,90 @@
+//! One step of the map that ships in several formats of numbers.
+
+use micromath::F32Ext;
+use taxel_core::intent::{Map, MapConfig, tactile};
+
+/// Concepts of a map of the board.
+pub const CONCEPTS: usize = taxel_core::intent::CONCEPTS;
+
+/// How it is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Activation {
+    /// As the core does.
+    Q15,
+    /// f32, the exponential by micromath.
+    Micromath,
+    /// f32, the hyperbolic tangent by libm.
+    Libm,
+}
+
+/// The map in both forms.
+pub struct Maps {
+    map: Map<CONCEPTS>,
+    weights: [[f32; CONCEPTS]; CONCEPTS],
+    lambda: f32,
+}
+
+impl Maps {
+    /// The map that ships: rule kosko, tanh, inputs held.
+    pub fn shipped() -> Option<Maps> {
+        let config: MapConfig = tactile();
+        let mut weights = [[0.0; CONCEPTS]; CONCEPTS];
+        let step = (0..config.decimals).fold(1.0f32, |step, _| step * 10.0);
+        for edge in &config.edges {
+            let row = weights.get_mut(usize::from(edge.to))?;
+            *row.get_mut(usize::from(edge.from))? = f32::from(edge.weight) / step;
+        }
+        Some(Maps { map: Map::build(&config).ok()?, weights, lambda: f32::from(config.lambda) / 1000.0 })
+    }
+
+    /// The weights by effect and cause, and the steepness.
+    pub const fn plain(&self) -> (&[[f32; CONCEPTS]; CONCEPTS], f32) {
+        (&self.weights, self.lambda)
+    }
+}
+
+impl Activation {
+    /// All of them.
+    pub const ALL: [Activation; 3] = [Activation::Q15, Activation::Micromath, Activation::Libm];
+
+    /// What tables call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Activation::Q15 => "Q15",
+            Activation::Micromath => "f32 micromath",
+            Activation::Libm => "f32 libm",
+        }
+    }
+
+    /// The next state (Q15, or the bits of f32) from one in Q15.
+    #[inline(never)]
+    pub fn step(self, maps: &Maps, state: &[i32; CONCEPTS]) -> [u32; CONCEPTS] {
+        match self {
+            Activation::Q15 => maps.map.step(state).map(|value| value as u32),
+            // tanh z = 1 - 2 / (e^(2 z) + 1)
+            Activation::Micromath => plain(maps, state, |z| 1.0 - 2.0 / (F32Ext::exp(2.0 * z) + 1.0)),
+            Activation::Libm => plain(maps, state, libm::tanhf),
+        }
+    }
+
+    /// The number: -1 to 1.
+    pub fn value(self, raw: u32) -> f64 {
+        match self {
+            Activation::Q15 => f64::from(raw as i32) / 32768.0,
+            _ => f64::from(f32::from_bits(raw)),
+        }
+    }
+}
+
+fn plain(maps: &Maps, state: &[i32; CONCEPTS], transfer: fn(f32) -> f32) -> [u32; CONCEPTS] {
+    let state = state.map(|value| value as f32 / 32768.0);
+    let mut next = state;
+    for (value, weights) in next.iter_mut().zip(&maps.weights) {
+        // What nothing causes is held.
+        if weights.iter().any(|weight| *weight != 0.0) {
+            let sum = weights.iter().zip(&state).map(|(weight, y)| weight * y).sum::<f32>();
+            *value = transfer(maps.lambda * sum);
+        }
+    }
+    next.map(f32::to_bits)
+}

@@ -1,0 +1,109 @@
+//! What is measured besides the chain, by number: kernels that take 2,048 codes and give a few words.
+
+use crate::activation::{Activation, CONCEPTS, Maps};
+use crate::chain::TAXELS;
+use crate::dense::Dense;
+use crate::measure::Measure;
+use crate::windows::{AREA, WINDOWS};
+use core::hint::black_box;
+use taxel_core::format::Code;
+use taxel_core::pipeline::{Probe, Stage};
+
+/// A kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kernel {
+    /// Each code is read.
+    Read,
+    /// Each code is read and compared with one limit.
+    Compare,
+    /// The plain chain.
+    Dense,
+    /// Eight windows in a format of numbers.
+    Measure(Measure),
+    /// One step of the map in a format of numbers.
+    Activate(Activation),
+}
+
+/// What a kernel works with.
+pub struct Bench {
+    dense: Dense,
+    maps: Option<Maps>,
+}
+
+impl Default for Bench {
+    fn default() -> Bench {
+        Bench { dense: Dense::new(), maps: Maps::shipped() }
+    }
+}
+
+impl Kernel {
+    /// All of them; the emulated board is told their places in this order.
+    pub fn all() -> impl Iterator<Item = Kernel> {
+        let plain = [Kernel::Read, Kernel::Compare, Kernel::Dense];
+        let measures = Measure::ALL.map(Kernel::Measure);
+        let activations = Activation::ALL.map(Kernel::Activate);
+        plain.into_iter().chain(measures).chain(activations)
+    }
+
+    /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`] and [`Stage::Scan`].
+    pub fn run(self, bench: &mut Bench, codes: &[Code; TAXELS], probe: &mut impl Probe) -> u32 {
+        probe.begin(Stage::Idle);
+        match self {
+            Kernel::Read => {
+                let sum = read(codes);
+                probe.begin(Stage::Scan);
+                sum
+            }
+            Kernel::Compare => {
+                let over = compare(codes, black_box(200));
+                probe.begin(Stage::Scan);
+                u32::from(over)
+            }
+            Kernel::Dense => {
+                let contacts = bench.dense.process(codes);
+                probe.begin(Stage::Scan);
+                let words = contacts.iter().flat_map(|c| {
+                    let ([x, y], [xx, yy, xy]) = (c.first, c.second);
+                    [c.m, x, y, xx, yy, xy]
+                });
+                fold(words.map(|word| word as u32))
+            }
+            Kernel::Measure(measure) => {
+                let mut found = [[0; 4]; WINDOWS];
+                for (raw, window) in found.iter_mut().zip(codes.chunks(AREA)) {
+                    *raw = measure.of(window);
+                }
+                probe.begin(Stage::Scan);
+                fold(found.into_iter().flatten())
+            }
+            Kernel::Activate(activation) => {
+                let mut state = [0; CONCEPTS];
+                for (value, code) in state.iter_mut().zip(codes) {
+                    *value = i32::from(code.0) << 3;
+                }
+                let Some(maps) = &bench.maps else { return 0 };
+                let next = activation.step(maps, &state);
+                probe.begin(Stage::Scan);
+                fold(next.into_iter())
+            }
+        }
+    }
+}
+
+/// Reads every code: the least that a frame costs.
+#[inline(never)]
+fn read(codes: &[Code]) -> u32 {
+    codes.iter().fold(0, |sum, code| sum | u32::from(code.0))
+}
+
+/// Whether any code is above a limit.
+#[inline(never)]
+fn compare(codes: &[Code], limit: u16) -> bool {
+    let limit = i32::from(limit);
+    codes.iter().fold(0, |over, code| over | (limit - i32::from(code.0))) < 0
+}
+
+/// FNV-1a by words.
+fn fold(words: impl Iterator<Item = u32>) -> u32 {
+    words.fold(0x811c_9dc5, |hash, word| (hash ^ word).wrapping_mul(0x0100_0193))
+}

@@ -1,0 +1,109 @@
+//! What the chain may cost on the emulated board, and the tables that were last written.
+
+use serde_json::{Value, json};
+use std::path::Path;
+use taxel::bench::stages::case::Variant;
+use taxel::bench::stages::row::Row;
+use taxel::bench::stages::table::Table;
+
+/// What a scene may cost, in cycles.
+struct Bar {
+    scene: &'static str,
+    what: &'static str,
+    most: u64,
+    of: fn(&Row) -> u64,
+}
+
+/// Of what ships.
+const BARS: [Bar; 4] = [
+    Bar { scene: "empty", what: "all", most: 60_000, of: Row::whole },
+    Bar { scene: "5 contacts", what: "all", most: 150_000, of: Row::whole },
+    Bar { scene: "saturated", what: "perceive", most: 400_000, of: Row::perceive },
+    Bar { scene: "saturated", what: "all", most: 480_000, of: Row::whole },
+];
+
+/// How far a figure may be from the one that was written, in percent, and in cycles where it is small.
+const TOLERANCE: u64 = 10;
+const SMALL: u64 = 500;
+
+/// The bars and what is measured against them.
+fn bars(table: &Table) -> impl Iterator<Item = (&'static Bar, u64)> {
+    BARS.iter().filter_map(|bar| {
+        let row = table.rows.iter().find(|r| r.name == bar.scene && r.variant == Variant::Shipped);
+        row.map(|row| (bar, (bar.of)(row)))
+    })
+}
+
+/// Cycles that it takes to read each code once.
+fn reading(table: &Table) -> u64 {
+    table.forms.first().map_or(1, |row| row.cost.max(1))
+}
+
+/// The bars for people, each beside the cost of merely reading each taxel.
+pub fn text(table: &Table) -> String {
+    let line = |(bar, cost): (&Bar, u64)| {
+        let (share, times) = (cost * 100 / bar.most, cost as f64 / reading(table) as f64);
+        let Bar { scene, what, most, .. } = bar;
+        format!(
+            "{scene}, {what}: {cost} of at most {most} cycles ({share} %), {times:.1} times reading each code once\n"
+        )
+    };
+    let stack = table.rows.iter().filter_map(|row| row.stack).max().unwrap_or(0);
+    bars(table).map(line).collect::<String>() + &format!("deepest stack of a frame: {stack} bytes\n")
+}
+
+/// Every scene within its bar.
+pub fn check(table: &Table) -> Result<(), String> {
+    let over: Vec<String> = bars(table)
+        .filter(|(bar, cost)| *cost > bar.most)
+        .map(|(bar, cost)| format!("{}, {}: {cost} cycles, at most {}", bar.scene, bar.what, bar.most))
+        .collect();
+    if over.is_empty() { Ok(()) } else { Err(over.join("; ")) }
+}
+
+/// For other programs.
+pub fn json(table: &Table) -> String {
+    let bars = bars(table)
+        .map(|(bar, cost)| json!({ "scene": bar.scene, "what": bar.what, "cycles": cost, "most": bar.most }));
+    let mut value = table.json();
+    value["bars"] = bars.collect();
+    serde_json::to_string_pretty(&value).unwrap_or_default()
+}
+
+/// Writes the tables and the chart.
+pub fn write(table: &Table, folder: &Path) -> Result<(), String> {
+    let fail = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let write = |name: &str, text: String| std::fs::write(folder.join(name), text).map_err(fail);
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    write("cycles.txt", format!("{table}\n{}", text(table)))?;
+    write("cycles.svg", table.chart().svg())?;
+    write("cycles.json", format!("{}\n", json(table)))
+}
+
+/// No figure is far from the one that was written.
+pub fn compare(table: &Table, folder: &Path) -> Result<(), String> {
+    const RENEW: &str = "`cargo xtask cycles --write` renews the table";
+    let text = std::fs::read_to_string(folder.join("cycles.json"))
+        .map_err(|error| format!("{}: {error}; {RENEW}", folder.display()))?;
+    let written: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let now: Value = serde_json::from_str(&json(table)).map_err(|error| error.to_string())?;
+    for (list, names, figures) in [
+        ("rows", ["scene", "variant"], &["perceive", "encode", "all", "largest"][..]),
+        ("forms", ["what", "form"], &["cost"][..]),
+    ] {
+        for row in now[list].as_array().into_iter().flatten() {
+            let called = names.map(|name| row[name].as_str().unwrap_or_default());
+            let mut old = written[list].as_array().into_iter().flatten();
+            let old = old.find(|old| names.map(|name| old[name].as_str().unwrap_or_default()) == called);
+            let old = old.ok_or(format!("{} is not written yet; {RENEW}", called.join(", ")))?;
+            for figure in figures {
+                let [cost, before] = [row, old].map(|row| row[figure].as_u64().unwrap_or(0));
+                if cost.abs_diff(before) > (before * TOLERANCE / 100).max(SMALL) {
+                    let called = called.join(", ");
+                    return Err(format!("{called}, {figure}: {cost} cycles, {before} were written; {RENEW}"));
+                }
+            }
+        }
+    }
+    Ok(())
+}
