@@ -58,6 +58,7 @@ const FCM: &str = "Example:
   taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json";
 
 const BENCH: &str = "Examples:
+  taxel bench
   taxel bench acquisition
   taxel bench nmi --json";
 

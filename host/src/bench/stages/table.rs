@@ -43,7 +43,9 @@ impl Table {
             .map(|quantity| {
                 let of = |row: &FormRow| {
                     let (_, error) = row.errors.iter().find(|(what, _)| *what == quantity)?;
-                    Some((row.cost as f64, error.largest, row.form.form.to_string()))
+                    let named =
+                        format!("{}: {} {}, {:.1e}", row.form.form, row.cost, self.unit, error.largest);
+                    Some((row.cost as f64, error.largest, named))
                 };
                 let name = quantity.replace('_', ", ");
                 Series { name, points: self.forms.iter().filter_map(of).collect() }
@@ -52,7 +54,9 @@ impl Table {
         let variants = self.rows.iter().filter(|row| row.name == Pattern::Five.name());
         let of = |row: &Row| {
             let [place, _] = row.error.as_ref()?;
-            Some((row.whole() as f64, place.largest, row.variant.name().to_string()))
+            let named =
+                format!("{}: {} {}, {:.1e}", row.variant.name(), row.whole(), self.unit, place.largest);
+            Some((row.whole() as f64, place.largest, named))
         };
         let points = variants.filter_map(of).collect();
         series.push(Series { name: "chain: centroid, taxel".into(), points });
@@ -60,6 +64,7 @@ impl Table {
             title: format!("Error over cost: {}", self.place),
             x: Axis::new(&format!("{} a contact, a step of the map, a frame", self.unit), Better::Less),
             y: Axis::new("largest error", Better::Less),
+            named: true,
             series,
         }
     }
