@@ -97,7 +97,8 @@ fn exact(window: &[Code]) -> Raw {
     let sums = moments(window);
     let mass = Inverse::of(sums.m as u32);
     let [x, y] = [sums.sx, sums.sy].map(|sum| mass.nearest(sum << 16) as u32);
-    let nmi = Scaled::from_u64(sums.jm()).sqrt().over(Scaled::from_u64(sums.m)).to_fixed24().0;
+    let inverse = Scaled::from_u64(1).over(Scaled::from_u64(sums.m));
+    let nmi = Scaled::from_u64(sums.jm()).times(inverse).sqrt().times(inverse).to_fixed24().0;
     let area = window.iter().filter(|code| code.0 > 0).count() as u32;
     let azimuth = axis(&sums.central(), area).azimuth.unwrap_or_default().0 as u32;
     [x, y, nmi, azimuth]
@@ -184,5 +185,5 @@ impl Sums {
 
 fn finish(sums: &Sums, root: fn(f32) -> f32, arctangent: fn(f32, f32) -> f32) -> Raw {
     let Sums { m, sx, sy, a, b, c } = *sums;
-    [sx / m, sy / m, root(a + b) / m, 0.5 * arctangent(2.0 * c, a - b)].map(f32::to_bits)
+    [sx / m, sy / m, root((a + b) / m) / m, 0.5 * arctangent(2.0 * c, a - b)].map(f32::to_bits)
 }

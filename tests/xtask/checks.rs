@@ -151,7 +151,10 @@ fn firmware_clippy(log: &Path) -> Result<Result<(), String>, String> {
         install::packages(install::CROSS)?;
     }
     let mut command = toolchain.cargo("clippy", &paths::firmware());
-    Ok(process::run_into(command.args(["--bins", "--examples", "--", "--deny", "warnings"]), log))
+    Ok(process::run_into(
+        command.args(["--bins", "--examples", "--features", "bench", "--", "--deny", "warnings"]),
+        log,
+    ))
 }
 
 fn emulator_units(log: &Path) -> Result<Result<(), String>, String> {
