@@ -127,9 +127,9 @@ fn q15(window: &[Code]) -> Raw {
         for (column, code) in codes.iter().enumerate() {
             let dx = ((column as i32) << 15).wrapping_sub(x as i32) >> 7;
             let weight = weight(code) as i32;
-            a = a.wrapping_add(weight * (dx * dx >> 8));
-            b = b.wrapping_add(weight * (dy * dy >> 8));
-            c = c.wrapping_add(weight * (dx * dy >> 8));
+            a = a.wrapping_add(weight * ((dx * dx) >> 8));
+            b = b.wrapping_add(weight * ((dy * dy) >> 8));
+            c = c.wrapping_add(weight * ((dx * dy) >> 8));
         }
     }
     let spread = (a.wrapping_add(b) as u32) << 1;

@@ -155,7 +155,7 @@ impl Pattern {
 fn small(row: usize, column: usize) -> u16 {
     let field = row / 4 * 4 + column / 4;
     let (wide, high) = (2 + field % 2, 2 + field / 3 % 2);
-    let inside = field % 3 == 0 && field < 120 && row % 4 < high && column % 4 < wide;
+    let inside = field.is_multiple_of(3) && field < 120 && row % 4 < high && column % 4 < wide;
     if inside { 300 + field as u16 * 8 } else { 0 }
 }
 
