@@ -1,0 +1,187 @@
+//! Images that are hard on moments, and their moments by the plain definition in 128 bits.
+
+use std::ops::RangeInclusive;
+use taxel_core::contact::{Central, Moments};
+
+/// Columns of the panel that most images lie on; it has 64 rows.
+pub const COLUMNS: usize = 32;
+const ROWS: usize = 64;
+
+/// Taxels of one touch: x, y, counts.
+pub type Taxels = Vec<(u32, u32, u16)>;
+
+/// Sums by their definition.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Plain {
+    pub m: i128,
+    pub sx: i128,
+    pub sy: i128,
+    pub sxx: i128,
+    pub syy: i128,
+    pub sxy: i128,
+    pub s2: i128,
+    pub peak: u16,
+    pub area: u32,
+}
+
+impl Plain {
+    pub fn of(taxels: &Taxels) -> Plain {
+        let mut sum = Plain::default();
+        for (x, y, f) in taxels {
+            let (x, y, f) = (i128::from(*x), i128::from(*y), i128::from(*f));
+            sum.m += f;
+            sum.sx += x * f;
+            sum.sy += y * f;
+            sum.sxx += x * x * f;
+            sum.syy += y * y * f;
+            sum.sxy += x * y * f;
+            sum.s2 += f * f;
+        }
+        sum.peak = taxels.iter().map(|t| t.2).max().unwrap_or(0);
+        sum.area = taxels.iter().filter(|t| t.2 > 0).count() as u32;
+        sum
+    }
+
+    /// Second moments about the centroid, times the mass: A, B, C.
+    pub fn central(&self) -> [i128; 3] {
+        let Plain { m, sx, sy, sxx, syy, sxy, .. } = *self;
+        [m * sxx - sx * sx, m * syy - sy * sy, m * sxy - sx * sy]
+    }
+
+    /// J m
+    pub fn jm(&self) -> i128 {
+        let [a, b, _] = self.central();
+        a + b
+    }
+
+    /// Whether the core's sums are the same, to the last bit.
+    pub fn agrees(&self, moments: &Moments) -> bool {
+        let [a, b, c] = self.central();
+        let Central { a: ma, b: mb, c: mc } = moments.central();
+        let Moments { m, sx, sy, sxx, syy, sxy, s2 } = *moments;
+        let unsigned = [m, sxx, syy, s2, ma, mb, moments.jm()].map(i128::from);
+        unsigned == [self.m, self.sxx, self.syy, self.s2, a, b, a + b]
+            && [sx, sy, sxy, mc].map(i128::from) == [self.sx, self.sy, self.sxy, c]
+    }
+}
+
+/// The core's sums: of each run of taxels that follow each other in a row.
+pub fn moments(taxels: &Taxels) -> Moments {
+    let mut sum = Moments::default();
+    for run in taxels.chunk_by(|a, b| a.1 == b.1 && a.0 + 1 == b.0) {
+        let values: Vec<u16> = run.iter().map(|taxel| taxel.2).collect();
+        sum.add(&Moments::of_run(run[0].0, run[0].1, &values));
+    }
+    sum
+}
+
+/// A small generator.
+pub struct Noise(pub u64);
+
+impl Noise {
+    pub fn below(&mut self, limit: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd) >> 16;
+        mixed % limit
+    }
+}
+
+fn filled(columns: RangeInclusive<u32>, rows: RangeInclusive<u32>, value: u16) -> Taxels {
+    rows.flat_map(|y| columns.clone().map(move |x| (x, y, value))).collect()
+}
+
+const LAST: (u32, u32) = (COLUMNS as u32 - 1, ROWS as u32 - 1);
+const FULL: [u16; 3] = [1, 4095, u16::MAX];
+
+/// Every rectangle of even pressure in the far corner, squares and lines among them, at 1 count, 12 and 16 bits.
+pub fn rectangles() -> impl Iterator<Item = Taxels> {
+    let sizes = (1..=LAST.0 + 1).flat_map(|w| (1..=LAST.1 + 1).map(move |h| (w, h)));
+    sizes.flat_map(|(w, h)| FULL.map(|value| filled(LAST.0 + 1 - w..=LAST.0, LAST.1 + 1 - h..=LAST.1, value)))
+}
+
+/// Every square of even pressure in the far corner with one taxel that is a count less: almost without direction.
+pub fn almost_isotropic() -> impl Iterator<Item = Taxels> {
+    let squares = (2..=32u32).flat_map(|side| FULL.into_iter().skip(1).map(move |value| (side, value)));
+    squares.flat_map(|(side, value)| {
+        let square = filled(LAST.0 + 1 - side..=LAST.0, LAST.1 + 1 - side..=LAST.1, value);
+        [0, 1, square.len() / 2, square.len() - 1].map(|index| {
+            let mut square = square.clone();
+            square[index].2 -= 1;
+            square
+        })
+    })
+}
+
+/// All 2 x 2 touches with values of 0 to 7 in the far corner, and the same next to full scale.
+pub fn four_taxels() -> impl Iterator<Item = Taxels> {
+    (1u16..4096).flat_map(|code| {
+        let taxels = |base: u16| {
+            let value = |index: u32| match code >> (3 * index) & 7 {
+                0 => 0,
+                some => base + some,
+            };
+            (0..4).map(|i| (LAST.0 - 1 + i % 2, LAST.1 - 1 + i / 2, value(i))).collect::<Taxels>()
+        };
+        [taxels(0), taxels(4088), taxels(65528)]
+    })
+}
+
+/// A taxel of 1 and one of anything, at every distance.
+pub fn pairs() -> impl Iterator<Item = Taxels> {
+    let places = (0..=LAST.1).flat_map(|y| (0..=LAST.0).map(move |x| (x, y)));
+    places.skip(1).flat_map(|(x, y)| [1, 2, 4095, u16::MAX].map(|f| vec![(0, 0, 1), (x, y, f)]))
+}
+
+/// Random blobs of 2 to 25 taxels anywhere, from faint to full.
+pub fn blobs(count: usize) -> impl Iterator<Item = Taxels> {
+    let mut noise = Noise(3);
+    (0..count).map(move |_| {
+        let (w, h) = (1 + noise.below(5) as u32, 1 + noise.below(5) as u32);
+        let left = noise.below(u64::from(LAST.0 + 2 - w)) as u32;
+        let top = noise.below(u64::from(LAST.1 + 2 - h)) as u32;
+        let full = [3, 300, 4095, 65535][noise.below(4) as usize];
+        let mut blob = filled(left..=left + w - 1, top..=top + h - 1, 0);
+        blob.iter_mut().for_each(|taxel| taxel.2 = 1 + noise.below(full) as u16);
+        blob
+    })
+}
+
+/// The whole panel under a random texture of 11 bits above a threshold, and of 16 bits.
+pub fn textures(count: usize) -> impl Iterator<Item = Taxels> {
+    let mut noise = Noise(4);
+    (0..count).map(move |index| {
+        let mut panel = filled(0..=LAST.0, 0..=LAST.1, 0);
+        let (base, full) = if index % 2 == 0 { (120, 2048) } else { (0, 65536) };
+        panel.iter_mut().for_each(|taxel| taxel.2 = base + noise.below(full) as u16);
+        panel
+    })
+}
+
+/// Lines one taxel wide at every slope through the panel.
+pub fn lines() -> impl Iterator<Item = Taxels> {
+    let ends = (0..=LAST.0).map(|x| (x, LAST.1)).chain((0..=LAST.1).map(|y| (LAST.0, y)));
+    ends.flat_map(|(x, y)| {
+        let steps = x.max(y).max(1);
+        FULL.map(|value| (0..=steps).map(|i| (x * i / steps, y * i / steps, value)).collect::<Taxels>())
+    })
+}
+
+/// Strips of even pressure at every angle, cut at the borders.
+pub fn strips() -> impl Iterator<Item = Taxels> {
+    (0..500u32).map(|step| {
+        let (s, c) = (f64::from(step) * 0.0137).sin_cos();
+        let half = 1.0 + f64::from(step % 17) * 0.3;
+        let mut panel = filled(0..=LAST.0, 0..=LAST.1, 1000);
+        panel.retain(|(x, y, _)| {
+            let (x, y) = (f64::from(*x) - 15.0, f64::from(*y) - 31.0);
+            (x * c + y * s).abs() < 28.0 && (y * c - x * s).abs() < half
+        });
+        panel
+    })
+}
+
+/// All of the above.
+pub fn all() -> impl Iterator<Item = Taxels> {
+    let small = four_taxels().chain(pairs()).chain(blobs(10_000)).chain(lines()).chain(strips());
+    rectangles().chain(almost_isotropic()).chain(small).chain(textures(200))
+}
