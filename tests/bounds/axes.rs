@@ -1,7 +1,8 @@
 //! Azimuth, anisotropy and breadth against 60 digits.
 
 use crate::exact::{Real, pi};
-use crate::images::{self, Noise, Plain, moments};
+use crate::images::{self, Noise, moments};
+use crate::plain::Plain;
 use crate::table::bound;
 use num_bigint::BigInt;
 use taxel_core::contact::{Axis, Central, Moments, axis, breadth};

@@ -8,6 +8,8 @@ mod images;
 mod map;
 mod nmi;
 mod numbers;
+#[path = "../plain.rs"]
+mod plain;
 mod stability;
 mod sums;
 mod table;

@@ -1,7 +1,8 @@
 //! NMI and its forms against 60 digits.
 
 use crate::exact::Real;
-use crate::images::{self, Plain, Taxels, moments};
+use crate::images::{self, Taxels, moments};
+use crate::plain::Plain;
 use crate::table::bound;
 use taxel_core::contact::Moments;
 use taxel_core::format::Fixed24;

@@ -1,6 +1,7 @@
 //! What becomes of the same touches in the arithmetic that is usual for them: raw moments in f32, and in Q16.16.
 
-use crate::images::{self, Noise, Plain, Taxels, moments};
+use crate::images::{self, Noise, Taxels, moments};
+use crate::plain::Plain;
 use taxel_core::contact::axis;
 
 /// Variances along x and y and the covariance, each as its arithmetic gives it.

@@ -1,9 +1,10 @@
 //! Sums and the centroid: exact, and rounded once.
 
-use crate::images::{self, Plain, Taxels, moments};
+use crate::images::{self, moments};
+use crate::plain::Plain;
 use crate::table::bound;
 use taxel_core::condition::{Image, Rows};
-use taxel_core::contact::{ContactConfig, ContactState, Moments};
+use taxel_core::contact::{ContactConfig, ContactState};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
 
@@ -18,21 +19,6 @@ fn sums_are_exact() {
     }
     println!("{count} images");
     assert!(count > 35_000);
-}
-
-/// The largest strip that a layout accepts, and the largest panel, saturated: `J m` needs all of its 64 bits.
-#[test]
-fn sums_are_exact_up_to_the_largest_layout() {
-    for (columns, rows, value) in
-        [(476u32, 1u32, u16::MAX), (1, 476, u16::MAX), (1904, 1, 4095), (53, 53, u16::MAX)]
-    {
-        let taxels: Taxels = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y, value))).collect();
-        let plain = Plain::of(&taxels);
-        assert!(plain.agrees(&moments(&taxels)), "{columns} x {rows}");
-        let image = vec![value; taxels.len()];
-        assert!(plain.agrees(&Moments::of_image(&image, columns as usize)), "{columns} x {rows}");
-        println!("{columns} x {rows}: J m has {} bits", 128 - plain.jm().leading_zeros());
-    }
 }
 
 /// Through the whole stage, because the centroid is rounded there: every image that is one contact.

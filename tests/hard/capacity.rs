@@ -1,6 +1,7 @@
 //! More contacts than there is room for, images that are too short, memory.
 
 use crate::rig::{Rig, taxels};
+use std::sync::Mutex;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Phase};
 use taxel_core::format::Micros;
@@ -24,6 +25,28 @@ fn checkerboard_of_dots() {
     rig.clear().draw(|x, y| (x + y) % 2 == 0, 1000);
     let contact = rig.only();
     assert_eq!((contact.area, contact.total), (1024, 1_024_000));
+}
+
+/// With room for all of them, the 512 dots are 512 contacts, each itself, and in the next frame each is the same again.
+#[test]
+fn every_label_of_a_checkerboard() {
+    let layout = Layout::build(&Garment::mat(), 2048, u16::MAX).unwrap();
+    let dot = |i: u16| i % 32 % 2 == 0 && i / 32 % 2 == 0;
+    let values: Vec<u16> = (0..2048).map(|i| if dot(i) { 500 + i } else { 0 }).collect();
+    // A megabyte, for the distances of each from each: not on the stack of a test.
+    static STATE: Mutex<ContactState<512, 512>> = Mutex::new(ContactState::new());
+    let mut state = STATE.lock().unwrap();
+    let stage = ContactConfig::default().build().unwrap();
+    let image = Image { values: &values, rows: &Rows::of(&layout, &values) };
+    for (frame, phase) in [Phase::Onset, Phase::Held].into_iter().enumerate() {
+        let touches = stage.process(&mut state, &layout, &image, Micros(5128 * frame as u64));
+        assert_eq!((touches.present.len(), touches.dropped, touches.overflow), (512, 0, 0));
+        for ((contact, id), i) in touches.present.iter().zip(1..).zip((0..2048).filter(|i| dot(*i))) {
+            assert_eq!((contact.id, contact.phase), (id, phase));
+            assert_eq!((contact.x.0, contact.y.0), (i32::from(i % 32) << 16, i32::from(i / 32) << 16));
+            assert_eq!((contact.total, contact.area), (500 + u32::from(i), 1));
+        }
+    }
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Contacts of every form on one panel: nothing, everything, combs, spirals.
 
+use crate::plain::Plain;
 use crate::rig::{Rig, taxels};
 use taxel_core::contact::{Contact, Moments, Phase};
-use taxel_core::garment::{Place, Rect};
+use taxel_core::format::Q15;
+use taxel_core::garment::{Garment, Place, Rect};
 
 #[test]
 fn no_taxel() {
@@ -133,4 +135,87 @@ fn draw_spiral(rig: &mut Rig) -> u16 {
         }
     }
     area
+}
+
+/// Squares of every side and discs of every radius that the mat holds, anywhere: no direction, to the last step.
+#[test]
+fn discs_and_squares_have_no_direction() {
+    let mut rig = Rig::mat();
+    for size in 1..=32i32 {
+        for (left, top) in [(0, 0), (32 - size, 64 - size), ((32 - size) / 2, 7)] {
+            let [column, row] = [left, top].map(|first| [first as u16, (first + size - 1) as u16]);
+            rig.state.reset();
+            let square = rig.clear().fill(row, column, 4095).only();
+            assert_eq!((square.azimuth, square.anisotropy), (None, Q15(0)), "side {size}");
+            let middle = |first: i32| (2 * first + size - 1) << 15;
+            assert_eq!((square.x.0, square.y.0), (middle(left), middle(top)));
+            // A strip as broad as itself.
+            assert_eq!(square.breadth, 100 * size as u32);
+            // Of the taxels within the radius, as a circle is drawn: alike under quarter turns.
+            let (x0, y0) = (2 * left + size - 1, 2 * top + size - 1);
+            rig.state.reset();
+            let inside = |x: i32, y: i32| (2 * x - x0).pow(2) + (2 * y - y0).pow(2) <= size * size;
+            let disc = rig.clear().draw(inside, 777).only();
+            assert_eq!((disc.azimuth, disc.anisotropy), (None, Q15(0)), "diameter {size}");
+            assert_eq!((disc.x.0, disc.y.0), (middle(left), middle(top)));
+        }
+    }
+}
+
+/// What is a square in taxels is none in millimetres: the azimuth is that of the taxels, the breadth that of the cloth.
+#[test]
+fn unequal_pitch() {
+    let mut garment = Garment::mat();
+    for (pitch, size, breadth) in [
+        ([12_000, 10_000], [6, 6], 600),
+        ([10_000, 12_000], [6, 6], 600),
+        // 5 x 12 mm across 6 x 10 mm: the variance along x is 144 * 24, that along y 100 * 35.
+        ([12_000, 10_000], [5, 6], 600),
+        ([12_000, 10_000], [7, 8], 800),
+        ([30_000, 7_500], [2, 20], 600),
+        ([0, 0], [3, 9], 300),
+    ] {
+        garment.panels[0].pitch_um = pitch;
+        let mut rig = Rig::new(&garment);
+        let [columns, rows] = size;
+        let contact = rig.fill([10, 9 + rows], [4, 3 + columns], 1000).only();
+        assert_eq!(contact.breadth, breadth, "{pitch:?} {size:?}");
+        let (w, h) = (i32::from(columns), i32::from(rows));
+        assert_eq!((contact.x.0, contact.y.0), ((7 + w) << 15, (19 + h) << 15), "in taxels");
+        let (along_x, along_y) = ((w * w - 1) as u64, (h * h - 1) as u64);
+        assert_eq!(contact.anisotropy, Q15::ratio(along_y - along_x, along_x + along_y));
+    }
+}
+
+/// Forms that hang together by corners and corridors, at 16 bits and no two taxels alike: every sum, exactly.
+#[test]
+fn every_form_has_its_exact_sums() {
+    type Form = fn(i32, i32) -> bool;
+    let forms: [(&str, Form); 9] = [
+        ("panel", |_, _| true),
+        ("checkerboard", |x, y| (x + y) % 2 == 0),
+        ("comb", |x, y| x % 2 == 0 || y == 63),
+        ("comb on its side", |x, y| y % 2 == 0 || x == 31),
+        ("staircase", |x, y| x == y || x == y + 1),
+        ("diagonal", |x, y| x + y == 31),
+        ("zigzag", |x, y| (y % 62 - 31).abs() == x),
+        ("frame", |x, y| x == 0 || y == 0 || x == 31 || y == 63),
+        ("nested frames", |x, y| x.min(31 - x).min(y).min(63 - y) % 2 == 0 || (x == 15 && y < 32)),
+    ];
+    for (name, inside) in forms {
+        let mut rig = Rig::mat();
+        let mut drawn = Vec::new();
+        for (x, y) in (0..64).flat_map(|y| (0..32).map(move |x| (x, y))).filter(|(x, y)| inside(*x, *y)) {
+            let value = u16::MAX - (x * 331 + y * 97) as u16;
+            rig.set(0, y as u16, x as u16, value);
+            drawn.push((x, y, value));
+        }
+        let plain = Plain::of(&drawn);
+        let frame = rig.frame();
+        assert_eq!(frame.present.len(), 1, "{name}");
+        assert!(plain.agrees(&frame.moments[0]), "{name}");
+        let contact = &frame.present[0];
+        assert_eq!((u32::from(contact.area), contact.peak), (plain.area, plain.peak), "{name}");
+        assert_eq!(i128::from(contact.total), plain.m, "{name}");
+    }
 }

@@ -3,7 +3,13 @@
 mod capacity;
 mod flood;
 mod forms;
+mod gaps;
+mod layouts;
+#[path = "../plain.rs"]
+mod plain;
 mod rig;
 mod seams;
+mod sewn;
 mod symmetry;
+mod thresholds;
 mod tracks;
