@@ -23,13 +23,15 @@ impl Placed {
         Placed { contact, shape, region }
     }
 
-    /// Speed over the surface in 0.1 mm/s, rounded down; at 10 mm pitch where the panel gives none. Each axis is held
-    /// below 2^15 taxels/s, and the larger part counts with half of the smaller (at most 12 % above the true speed).
+    /// Speed over the surface in 0.1 mm/s, saturating; at 10 mm pitch where the panel gives none, and with the pitch cut to
+    /// 0.1 mm. Each axis is held below 2^15 taxels/s and rounded down, and the larger part counts with half of the smaller: at
+    /// most 11.81 % above the true speed, and 2 steps off.
     pub fn speed(&self, layout: &Layout) -> u32 {
         let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
         let along = |velocity: i32, pitch: u32| {
             let pitch = if pitch == 0 { 10_000 } else { pitch };
-            ((u64::from(velocity.unsigned_abs()) * u64::from(pitch / 100)) >> 16) as u32
+            let speed = (u64::from(velocity.unsigned_abs()) * u64::from(pitch / 100)) >> 16;
+            speed.min(u32::MAX.into()) as u32
         };
         let x = along(self.contact.vx.0, pitch[0]);
         let y = along(self.contact.vy.0, pitch[1]);

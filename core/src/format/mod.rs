@@ -11,6 +11,9 @@
 //! | NMI and its forms | [`Fixed24`] | see `shape::nmi` | 0 ..< 256 | 2^-24 (6.0e-8) |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
+//! Largest errors of what the core tells are in `docs/bounds.md`, each with the test that asserts it. No function of this folder can
+//! fail: each says what it gives outside the range that it is for.
+//!
 //! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests and set-up code; no function of the
 //! per-frame path calls them.
 
@@ -128,7 +131,7 @@ impl Q15 {
         f64::from(self.0) / 32768.0
     }
 
-    /// `part / whole` rounded to the nearest, in 0 ..= 1; 0 where `whole` is 0.
+    /// `part / whole` rounded to the nearest, half a step and 1e-9 off at most; 1 from `part = whole` on, and 0 where `whole` is 0.
     pub const fn ratio(part: u64, whole: u64) -> Q15 {
         if whole == 0 {
             return Q15(0);

@@ -7,7 +7,8 @@
 //! | [`Scaled::over`] | 2^-31 |
 //! | [`Scaled::sqrt`] | 2^-31 |
 //!
-//! The exponent saturates; the values of the core stay within 2^-130 ..= 2^130.
+//! The exponent saturates, and beyond it the size is wrong and nothing else; the values of the core stay within
+//! 2^-130 ..= 2^130, far from there.
 
 use super::product::wide;
 use super::{Fixed24, Inverse, Q15, root};

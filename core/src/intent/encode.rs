@@ -6,7 +6,7 @@ use crate::format::Q15;
 
 impl<const N: usize> Map<N> {
     /// The start of an inference: each input concept encoded, every other concept 0. `host` holds the values the host
-    /// feeds, by slot. Total.
+    /// feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
     pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
         let mut state = [0; N];
         for input in &self.inputs {

@@ -5,6 +5,7 @@
 //! | input | `[i32; N]`, 1.0 = `map.one()`, clamped to -1 ..= 1 |
 //! | output | the same unit |
 //! | saturation | none inside: `build` proves that every sum fits 32 bits |
+//! | error | one step: sigmoid 0.8, tanh 1.1 steps of 2^-15, thresholds none; settled, the shipped map: 4e-4 |
 //! | latency | within the call |
 //! | RAM | 3 states of 4 N bytes on the stack |
 //! | M0+ cycles | one step about 12 for each pair of a free concept and a cause, 100 for each free concept, 400 (read off the disassembly, not measured): the shipped map under 2,000, settled within six steps |
@@ -43,7 +44,7 @@ pub struct Inference<const N: usize> {
 
 impl<const N: usize> Map<N> {
     /// Runs the map from `start` (the first of the N + 1 states of a trajectory) for at most `steps` steps, and
-    /// stops where it settles. Total and bounded: memory does not depend on `steps`.
+    /// stops where it settles. Total and bounded: memory does not depend on `steps`; after no step it is unsettled.
     ///
     /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The period is
     /// exact; a cycle is noticed after at most three times the steps it took to enter and go round it once.

@@ -95,7 +95,8 @@ impl<const N: usize> Map<N> {
         self.concepts.iter().position(|name| name == concept)
     }
 
-    /// A value of a state as Q15, rounded to the nearest.
+    /// A value of a state, which is within +-[`Map::one`], as Q15, rounded to the nearest. Total: beyond that, a smooth map gives
+    /// the value as it is, a threshold map its nearer end.
     pub fn q15(&self, value: i32) -> Q15 {
         match core::num::NonZeroU32::new(self.one.unsigned_abs()) {
             Some(one) if self.one != Q15::ONE.0 => {
