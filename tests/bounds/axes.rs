@@ -5,8 +5,10 @@ use crate::images::{self, Noise, moments};
 use crate::plain::Plain;
 use crate::table::bound;
 use num_bigint::BigInt;
+use proptest::prelude::*;
 use taxel_core::contact::{Axis, Central, Moments, axis, breadth};
 use taxel_core::format::{Q15, Turn};
+use taxel_core::shape::{Nmi, nmi};
 
 /// `sqrt((A - B)^2 + 4 C^2)` and `A + B`.
 fn spread([a, b, c]: [i128; 3]) -> (Real, i128) {
@@ -142,43 +144,49 @@ fn eccentricity_follows_from_the_anisotropy() {
 const PITCHES: [[u32; 2]; 6] =
     [[10_000, 10_000], [12_000, 10_000], [2_000, 2_000], [2_000, 8_000], [30_000, 7_500], [29_900, 30_000]];
 
-/// `w^2 = 12 variance across + pixel^2`, in 0.1 mm. None where the direction itself is not defined to 2^-13.
-fn exact_breadth(plain: &Plain, [px, py]: [i128; 2]) -> Option<Real> {
+/// `w^2 = 12 variance across + pixel^2`, in 0.1 mm, and whether the direction is clear: where the anisotropy is below 2^-13 it
+/// is lost among the bits that are cut, if there is one at all.
+fn exact_breadth(plain: &Plain, [px, py]: [i128; 2]) -> (Real, bool) {
     let [a, b, c] = plain.central();
     let central = [a * px * px, b * py * py, c * px * py];
     let (d, sum) = spread(central);
     let (square, skew) = (px * px + py * py, px * px - py * py);
-    let lean = if sum == 0 {
-        Real::whole(0)
-    } else if Real::whole(8192) * d.clone() < Real::whole(sum) && skew != 0 {
-        return None;
-    } else if d == Real::whole(0) {
+    let lean = if d == Real::whole(0) {
         Real::whole(0)
     } else {
         Real::whole(BigInt::from(skew) * (central[0] - central[1])) / d.clone()
     };
-    let pixel = Real::whole(square) - lean;
+    let clear = Real::whole(8192) * d.clone() >= Real::whole(sum);
     let strip = Real::whole(12) * (Real::whole(sum) - d) / Real::whole(BigInt::from(plain.m) * plain.m);
-    Some(((strip + pixel) / Real::whole(2)).sqrt())
+    (((strip + Real::whole(square) - lean) / Real::whole(2)).sqrt(), clear)
 }
 
 #[test]
 fn breadth_is_within_its_bound() {
     let stated = bound("breadth", "breadth_is_within_its_bound");
-    let (mut count, mut skipped, mut worst) = (0, 0, 0f64);
-    for (taxels, pitch) in images::all().zip(PITCHES.into_iter().cycle()) {
+    let (mut count, mut unclear, mut worst, mut worst_unclear) = (0, 0, 0f64, 0f64);
+    let crosses = images::crosses().map(|cross| (cross, [12_000, 10_000]));
+    for (taxels, pitch) in images::all().zip(PITCHES.into_iter().cycle()).chain(crosses) {
         let plain = Plain::of(&taxels);
-        let Some(want) = exact_breadth(&plain, pitch.map(|p| i128::from(p / 100))) else {
-            skipped += 1;
-            continue;
-        };
+        let (want, clear) = exact_breadth(&plain, pitch.map(|p| i128::from(p / 100)));
         let error = (Real::whole(breadth(&moments(&taxels), pitch)) - want).abs().to_f64();
-        assert!(error <= stated.absolute, "{error} {pitch:?} {taxels:?}");
-        worst = worst.max(error);
         count += 1;
+        if clear || pitch[0] == pitch[1] {
+            assert!(error <= stated.absolute, "{error} {pitch:?} {taxels:?}");
+            worst = worst.max(error);
+        } else {
+            assert!(
+                error <= stated.absolute + f64::from(pitch[0].abs_diff(pitch[1]) / 100),
+                "{error} {taxels:?}"
+            );
+            worst_unclear = worst_unclear.max(error);
+            unclear += 1;
+        }
     }
-    println!("{count} contacts ({skipped} without direction), largest error {worst:.5} of 0.1 mm");
-    assert!(count > 30_000);
+    println!(
+        "{count} contacts, largest error {worst:.5} of 0.1 mm; {unclear} without direction, {worst_unclear:.2}"
+    );
+    assert!(count > 38_000 && unclear > 100);
 }
 
 #[test]
@@ -188,4 +196,25 @@ fn breadth_outside_its_range() {
     let of = |pitch: u32| breadth(&one, [pitch, pitch]);
     assert_eq!([of(0), of(1), of(99), of(u32::MAX), of(12_399)], [100, 1, 1, 6553, 123]);
     assert_eq!(breadth(&Moments::default(), [0, 0]), 100);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    /// Whatever the numbers are, sums that wrapped too: these tests are built with checks of overflow.
+    #[test]
+    fn axes_are_total(
+        bits in 0..64u32,
+        a: u64, b: u64, c: i64, m: u64, sx: i64, sy: i64, sxx: u64, syy: u64, sxy: i64,
+        area: u32,
+        pitch: [u32; 2],
+    ) {
+        let Axis { azimuth, anisotropy } = axis(&Central { a: a >> bits, b: b >> bits, c: c >> bits }, area);
+        prop_assert!((0..=32768).contains(&anisotropy.0));
+        prop_assert!(azimuth.is_none_or(|a| a.0 > -(1 << 30) && a.0 <= 1 << 30));
+        let any = Moments { m: m >> bits, sx, sy, sxx, syy, sxy, s2: a };
+        breadth(&any, pitch);
+        let forms = nmi(&any, area as u16);
+        prop_assert!(any.m > 0 || forms == Nmi::default());
+    }
 }

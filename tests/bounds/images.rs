@@ -125,7 +125,22 @@ pub fn strips() -> impl Iterator<Item = Taxels> {
     })
 }
 
-/// All of the above.
+/// Crosses that are isotropic on a cloth of 12 x 10 mm, or all but: 144 times the one arm against 100 times the other.
+pub fn crosses() -> impl Iterator<Item = Taxels> {
+    let sizes = (1..=15u32).flat_map(|arm| (1..=455u32).step_by(7).map(move |k| (arm, k)));
+    sizes.flat_map(|(arm, k)| {
+        [0, 1, 2].map(|more| {
+            let (along_x, along_y) = ((100 * k + more) as u16, (144 * k) as u16);
+            let arms = (1..=arm).flat_map(|i| {
+                let x = [(16 - i, 40, along_x), (16 + i, 40, along_x)];
+                x.into_iter().chain([(16, 40 - i, along_y), (16, 40 + i, along_y)])
+            });
+            arms.collect::<Taxels>()
+        })
+    })
+}
+
+/// All of the above but the crosses.
 pub fn all() -> impl Iterator<Item = Taxels> {
     let small = four_taxels().chain(pairs()).chain(blobs(10_000)).chain(lines()).chain(strips());
     rectangles().chain(almost_isotropic()).chain(small).chain(textures(200))

@@ -10,6 +10,7 @@ mod nmi;
 mod numbers;
 #[path = "../plain.rs"]
 mod plain;
+mod speed;
 mod stability;
 mod sums;
 mod table;

@@ -4,8 +4,10 @@ use crate::exact::Real;
 use crate::images::Noise;
 use crate::table::bound;
 use num_bigint::BigInt;
-use taxel_core::format::name;
-use taxel_core::intent::{Edge, Inference, Map, MapConfig, Outcome, Rule, Transfer, tactile};
+use taxel_core::format::{Q15, name};
+use taxel_core::intent::{
+    Edge, Inference, Input, Map, MapConfig, Outcome, Rule, Source, Touch, Transfer, tactile,
+};
 
 /// A map of `n` concepts, each driven by all others, with weights in steps of 10^-decimals.
 fn random(n: u8, decimals: u8, rule: Rule, transfer: Transfer, noise: &mut Noise) -> MapConfig {
@@ -118,7 +120,34 @@ fn states_outside_their_range_are_clamped() {
             let inside = ends.map(|v| v.clamp(-map.one(), map.one()));
             assert_eq!(map.step(&ends), map.step(&inside));
             assert_eq!(map.infer(&ends, 50), map.infer(&inside, 50));
+            let none = map.infer(&ends, 0);
+            assert_eq!((none.state, none.steps, none.outcome), (inside, 0, Outcome::Unsettled));
             assert_eq!(map.q15(i32::MAX).0, if map.one() == 32768 { i32::MAX } else { 32768 });
         }
     }
+}
+
+/// Measures beyond the ramps, and slots that are not there.
+#[test]
+fn measures_outside_their_ramp_are_held_at_its_ends() {
+    let map = Map::<10>::build(&tactile()).unwrap();
+    let of = |press, friendliness| {
+        let touch = Touch { press, breadth: press, friendliness, duration_ms: press, speed: press };
+        let state = map.encode(Some(&touch), &[]);
+        [state[0], state[1], state[2], state[3]]
+    };
+    assert_eq!(of(0, i8::MIN), [0, 0, -32768, 0]);
+    assert_eq!(of(u32::MAX, i8::MAX), [32768; 4]);
+    let mut config: MapConfig =
+        MapConfig { name: name("fed"), decimals: 1, lambda: 1000, ..MapConfig::default() };
+    config.concepts.push(name("fed")).unwrap();
+    let source = Source::Host(3);
+    config
+        .inputs
+        .push(Input { concept: 0, source, low: -32768, high: 32768, at_low: -10, at_high: 10 })
+        .unwrap();
+    let map = Map::<10>::build(&config).unwrap();
+    let fed = |value| map.encode(None, &[Q15(0), Q15(0), Q15(0), Q15(value)])[0];
+    assert_eq!([i32::MIN, -32768, 7, 32768, i32::MAX].map(fed), [-32768, -32768, 7, 32768, 32768]);
+    assert_eq!(map.encode(None, &[Q15(9); 3])[0], 0, "no such slot");
 }

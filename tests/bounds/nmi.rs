@@ -4,9 +4,11 @@ use crate::exact::Real;
 use crate::images::{self, Taxels, moments};
 use crate::plain::Plain;
 use crate::table::bound;
-use taxel_core::contact::Moments;
-use taxel_core::format::Fixed24;
-use taxel_core::shape::{Nmi, nmi};
+use taxel_core::condition::{Image, Rows};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::format::{Fixed24, Micros, Q15};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::shape::{Nmi, features, nmi};
 
 const FORMS: usize = 5;
 
@@ -87,4 +89,28 @@ fn outside_their_range_forms_are_none_or_saturate() {
     let pair = moments(&vec![(0, 0, 5), (9, 0, 5)]);
     assert_eq!((nmi(&pair, 0).peak, nmi(&pair, 0).peak_sheppard), (Fixed24(0), Fixed24(0)));
     assert!(nmi(&pair, 0).published.0 > 0);
+}
+
+/// Any contact.
+pub fn contact() -> Contact {
+    let layout = Layout::build(&Garment::recorded(1, 1), 1, u16::MAX).unwrap();
+    let mut state: ContactState<1, 1> = ContactState::new();
+    let image = Image { values: &[500], rows: &Rows::ALL };
+    let stage = ContactConfig::default().build().unwrap();
+    stage.process(&mut state, &layout, &image, Micros(0)).present[0].clone()
+}
+
+/// What goes to the nearest neighbours is held within 16 bits.
+#[test]
+fn features_outside_their_range_saturate() {
+    let mut any = contact();
+    let ends = |nmi: Fixed24, anisotropy: i32, area: u16, contact: &mut Contact| {
+        (contact.anisotropy, contact.area) = (Q15(anisotropy), area);
+        features(&Nmi { s2_sheppard: nmi, peak_sheppard: nmi, ..Nmi::default() }, contact)
+    };
+    assert_eq!(ends(Fixed24(0), -5, 0, &mut any), [0, 0, 0, 0]);
+    assert_eq!(ends(Fixed24(u32::MAX), i32::MAX, u16::MAX, &mut any), [32767, 32767, 1024, 1023]);
+    // Just below 4 and 8, nothing is lost but what is cut.
+    assert_eq!(ends(Fixed24((4 << 24) - 1), 32768, 2048, &mut any), [32767, 16383, 1024, 704]);
+    assert_eq!(ends(Fixed24((8 << 24) - 1), 16384, 3, &mut any), [32767, 32767, 512, 96]);
 }

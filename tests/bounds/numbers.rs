@@ -2,7 +2,7 @@
 
 use crate::images::Noise;
 use crate::table::bound;
-use taxel_core::format::{Fixed16, Inverse, Micros, Q15};
+use taxel_core::format::{Fixed16, Inverse, Micros, Q15, Scaled};
 
 #[test]
 fn a_ratio_is_rounded_to_nearest() {
@@ -46,4 +46,24 @@ fn numbers_outside_their_range_saturate() {
     assert_eq!([ms(999), ms(1000), ms(u64::MAX)], [0, 1, u32::MAX]);
     assert_eq!([ms(u64::from(u32::MAX) * 1000 + 999), ms((1 << 32) * 1000)], [u32::MAX; 2]);
     assert_eq!(Inverse::of(0).nearest(-1), i32::MIN);
+}
+
+/// Far beyond any number of the core the exponent saturates: no panic, and what is nothing stays nothing.
+#[test]
+fn soft_floats_are_total() {
+    let one = Scaled::from_u64(1);
+    let (great, small) = (one.shifted(i16::MAX), one.shifted(i16::MIN));
+    let all = [Scaled::ZERO, Scaled::MAX, one, great, small, Scaled::from_u64(u64::MAX)];
+    for (a, b) in all.into_iter().flat_map(|a| all.map(|b| (a, b))) {
+        for value in [a.times(b), a.over(b), a.times(b).sqrt(), a.over(b).shifted(i16::MIN)] {
+            for bits in [i16::MIN, -1, 0, 24, i16::MAX] {
+                let (fixed, wide) = (value.to_fixed(bits), value.to_wide(bits));
+                assert!(value != Scaled::ZERO || (fixed, wide) == (0, 0));
+            }
+            assert!(value.to_q15().0 >= 0 && value.to_f64() >= 0.0);
+        }
+    }
+    assert_eq!([great.to_fixed(0), great.to_fixed24().0, small.to_fixed(31)], [u32::MAX, u32::MAX, 0]);
+    assert_eq!([great.to_wide(0), small.to_wide(0)], [u64::MAX, 0]);
+    assert_eq!(great.to_q15(), Q15(i32::MAX));
 }

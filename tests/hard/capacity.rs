@@ -31,7 +31,7 @@ fn checkerboard_of_dots() {
 #[test]
 fn every_label_of_a_checkerboard() {
     let layout = Layout::build(&Garment::mat(), 2048, u16::MAX).unwrap();
-    let dot = |i: u16| i % 32 % 2 == 0 && i / 32 % 2 == 0;
+    let dot = |i: u16| ((i % 32) | (i / 32)) & 1 == 0;
     let values: Vec<u16> = (0..2048).map(|i| if dot(i) { 500 + i } else { 0 }).collect();
     // A megabyte, for the distances of each from each: not on the stack of a test.
     static STATE: Mutex<ContactState<512, 512>> = Mutex::new(ContactState::new());
