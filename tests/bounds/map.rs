@@ -6,20 +6,20 @@ use crate::table::bound;
 use num_bigint::BigInt;
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::{
-    Edge, Inference, Input, Map, MapConfig, Outcome, Rule, Source, Touch, Transfer, tactile,
+    CONCEPTS, Edge, Inference, Input, Map, MapConfig, Outcome, Rule, Source, Touch, Transfer, tactile,
 };
 
-/// A map of `n` concepts, each driven by all others, with weights in steps of 10^-decimals.
+/// A map of `n` concepts, of which as many as there may be edges for are driven by all, with weights in steps of 10^-decimals.
 fn random(n: u8, decimals: u8, rule: Rule, transfer: Transfer, noise: &mut Noise) -> MapConfig {
     let mut config = MapConfig { name: name("any"), decimals, rule, transfer, ..MapConfig::default() };
     let step = 10i64.pow(decimals.into());
     let mut within = |limit: i64| noise.below(2 * limit as u64 + 1) as i64 - limit;
-    config.lambda = [100, 500, 1000, 2500, 3500, 5000][(within(1000) + 1000) as usize % 6];
+    config.lambda = [100, 500, 1000, 2500, 3500, 5000, 20_000, u16::MAX][(within(1000) + 1000) as usize % 8];
     config.threshold = within(step) as i16;
     for concept in 0..n {
         config.concepts.push(name(&concept.to_string())).unwrap();
     }
-    for (from, to) in (0..n).flat_map(|from| (0..n).map(move |to| (from, to))) {
+    for (from, to) in (0..n).flat_map(|to| (0..n).map(move |from| (from, to))) {
         let _ = config.edges.push(Edge { from, to, weight: within(step) as i16 });
     }
     config
@@ -55,11 +55,11 @@ fn one_step_is_within_its_bound() {
         let (mut count, mut worst) = (0, 0f64);
         for round in 0..900u32 {
             let rule = [Rule::Kosko, Rule::Mkosko, Rule::Rescaled][round as usize % 3];
-            let (n, decimals) = (1 + (round % 8) as u8, 1 + (round % 4) as u8);
+            let (n, decimals) = (1 + (round % 16) as u8, 1 + (round / 16 % 4) as u8);
             let config = random(n, decimals, rule, transfer, &mut noise);
-            let map = Map::<10>::build(&config).unwrap();
+            let map = Map::<CONCEPTS>::build(&config).unwrap();
             for _ in 0..4 {
-                let mut state = [0i32; 10];
+                let mut state = [0i32; CONCEPTS];
                 let value = |noise: &mut Noise| noise.below(65_537) as i32 - 32_768;
                 state.iter_mut().take(n.into()).for_each(|v| *v = value(&mut noise));
                 let have = map.step(&state);

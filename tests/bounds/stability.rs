@@ -53,13 +53,13 @@ fn single(taxels: &Taxels) -> Central {
     Central { xx, yy, xy }
 }
 
-/// The same in Q16.16, which is what a fixed-point library makes of it; none where a sum does not fit.
+/// E[x^2] - E[x]^2 in Q16.16, as a fixed-point library makes it, with 4096 counts for 1; none where a sum does not fit.
 fn fixed(taxels: &Taxels) -> Option<Central> {
     let mut sums = [0i32; 6];
     for (x, y, f) in taxels {
         let (x, y, f) = (i64::from(*x), i64::from(*y), i64::from(*f));
         for (sum, term) in sums.iter_mut().zip([f, x * f, y * f, x * x * f, y * y * f, x * y * f]) {
-            *sum = sum.checked_add(i32::try_from(term << 16).ok()?)?;
+            *sum = sum.checked_add(i32::try_from(term << 4).ok()?)?;
         }
     }
     let [m, sx, sy, sxx, syy, sxy] = sums.map(i64::from);
@@ -146,9 +146,9 @@ fn saturated_squares() -> impl Iterator<Item = Taxels> {
 fn usual_arithmetic_fails_where_the_core_is_exact() {
     let head = ["touches", "numbers", "count", "overflow", "negative", "invented", "variance", "azimuth"];
     let [kind, numbers, count, overflow, negative, invented, variance, azimuth] = head;
-    println!(
+    let mut lines = vec![format!(
         "{kind:24} {numbers:8} {count:>7} {overflow:>10} {negative:>10} {invented:>10} {variance:>9} {azimuth:>9}"
-    );
+    )];
     let mut records = Vec::new();
     let kinds: [(&str, Box<dyn Iterator<Item = Taxels>>); 4] = [
         ("small, in the far corner", Box::new(small_and_far())),
@@ -164,10 +164,15 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
             record.iter_mut().zip(forms).for_each(|(record, have)| record.take(have, &exact));
         }
         for (record, arithmetic) in record.iter().zip(["f32", "Q16.16", "core"]) {
-            println!("{}", record.line(kind, arithmetic));
+            lines.push(record.line(kind, arithmetic));
         }
         records.push(record);
     }
+    println!("{}", lines.join("\n"));
+    assert!(
+        include_str!("../../docs/bounds.md").contains(&lines.join("\n")),
+        "docs/bounds.md has another table"
+    );
     for [_, _, core] in &records {
         assert_eq!((core.overflows, core.negative, core.invented), (0, 0, 0));
         assert!(core.variance < 1e-14 && core.azimuth < 1e-9, "{core:?}");
@@ -181,7 +186,7 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
     assert!(squares[1].overflows == squares[1].touches && full[1].overflows == full[1].touches);
 }
 
-/// A square has no direction: f32 gives it one, and the ninth saturated taxel is more than Q16.16 can count.
+/// A square has no direction: f32 gives it one, and the ninth saturated taxel of the last row is more than Q16.16 can hold.
 #[test]
 fn an_isotropic_square_and_the_ninth_taxel() {
     let by_anisotropy =
@@ -192,7 +197,7 @@ fn an_isotropic_square_and_the_ninth_taxel() {
     assert!(wrong.anisotropy() > 0.0);
     let axis = axis(&moments(&square).central(), square.len() as u32);
     assert_eq!((axis.azimuth, axis.anisotropy.0), (None, 0));
-    // 4095 n < 2^15 up to n = 8, with all of them at the origin, where no other sum is larger.
-    let origin = |n: usize| vec![(0, 0, 4095); n];
-    assert!(fixed(&origin(8)).is_some() && fixed(&origin(9)).is_none());
+    // 63^2 n < 2^15 up to n = 8.
+    let row = |n: u32| (0..n).map(|x| (x, 63, 4095)).collect();
+    assert!(fixed(&row(8)).is_some() && fixed(&row(9)).is_none());
 }

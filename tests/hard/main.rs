@@ -13,3 +13,4 @@ mod sewn;
 mod symmetry;
 mod thresholds;
 mod tracks;
+mod words;
