@@ -334,3 +334,17 @@ fn jobs_that_fail_are_told() {
     assert_eq!(told, ["10 no flash", "scan: converter input on pin 26 gave no sample (at taxel 5)"]);
     assert!(matches!(bench.tick(), Some(Job::Scan(_))), "a failed scan is followed by the next");
 }
+
+#[test]
+fn what_waits_to_be_done_keeps_no_pin_from_being_driven() {
+    let mut bench = Bench::new(Scene::shipped());
+    let scene = postcard::to_allocvec(&Scene::shipped()).expect("it fits");
+    for _ in 0..20 {
+        bench.ask(&Request::SelfTest);
+        bench.ask(&Request::SetScene(&scene));
+    }
+    let jobs: Vec<Job> = std::iter::from_fn(|| bench.tick()).take(7).collect();
+    assert_eq!(jobs[..2], [Job::Drive(18, false), Job::Drive(19, false)]);
+    assert_eq!(jobs[2..6], [Job::Start(Work::SelfTest); 4]);
+    assert!(matches!(jobs[6], Job::Scan(_)));
+}

@@ -2,6 +2,7 @@
 //! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
 
 mod outbox;
+mod outputs;
 mod pace;
 mod request;
 mod setup;
@@ -18,6 +19,7 @@ use crate::scene::Scene;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
 use heapless::{Deque, String, Vec};
 use outbox::{Outbox, Refusal};
+use outputs::Outputs;
 use pace::Pace;
 
 /// What happened.
@@ -44,12 +46,6 @@ pub enum Job {
     Start(Work),
 }
 
-impl Job {
-    fn drives(&self, wanted: u8) -> bool {
-        matches!(self, Job::Drive(pin, _) if *pin == wanted)
-    }
-}
-
 /// Work beyond scanning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
@@ -66,7 +62,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     state: PipelineState<TAXELS, RUNS>,
     inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
     outbox: Outbox<TAXELS>,
-    jobs: Jobs,
+    outputs: Outputs,
+    works: Deque<Work, 4>,
     scans: Pace,
     scanning: bool,
     health: Health,
@@ -93,7 +90,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             state: at_rest(&info, &setup),
             inbox: Receiver::new(),
             outbox: Outbox::new(&setup.scene.stream),
-            jobs: put_to_rest(&setup),
+            outputs: Outputs::at_rest(setup.pipeline.reactions()),
+            works: Deque::new(),
             scanning: false,
             health: Health::default(),
             scanned: None,
@@ -120,9 +118,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.state.forget();
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
-        for job in put_to_rest(&self.setup) {
-            let _ = self.jobs.push_back(job);
-        }
+        self.outputs.follow(Outputs::at_rest(self.setup.pipeline.reactions()));
     }
 
     /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
@@ -149,8 +145,11 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.health.process_us = now.since(scanned).min(u64::from(u32::MAX)) as u32;
         }
         self.outbox.tick(now);
-        if let Some(job) = self.jobs.pop_front() {
-            return Some(job);
+        if let Some((pin, level)) = self.outputs.next() {
+            return Some(Job::Drive(pin, level));
+        }
+        if let Some(work) = self.works.pop_front() {
+            return Some(Job::Start(work));
         }
         if self.scanning || !self.scans.due(now) {
             return None;
@@ -176,7 +175,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
         for change in percept.reactions.changes() {
             if let Some(line) = pipeline.reactions().output(change.index) {
-                let _ = self.jobs.push_back(Job::Drive(line.pin, change.active != line.inverted));
+                self.outputs.set(line.pin, change.active != line.inverted);
             }
         }
         self.outbox.note(self.frame, time, &percept, &mut self.health);
@@ -230,18 +229,6 @@ fn at_rest<const TAXELS: usize, const RUNS: usize>(
     state.reset(&setup.layout, setup.circuit.falling(), info.full_scale);
     state
 }
-
-/// Drives the outputs of all reactions to where they are when nothing happens.
-fn put_to_rest(setup: &Setup) -> Jobs {
-    let mut jobs = Jobs::new();
-    for line in setup.pipeline.reactions().outputs() {
-        let _ = jobs.push_back(Job::Drive(line.pin, line.inverted));
-    }
-    jobs
-}
-
-/// What is to be done between two scans.
-type Jobs = Deque<Job, 16>;
 
 /// A sentence of the board, cut where it gets too long.
 type Sentence = String<112>;

@@ -1,7 +1,8 @@
 //! What the host asks for.
 
 use super::outbox::Refusal;
-use super::{Board, Job, Work};
+use super::outputs::Outputs;
+use super::{Board, Work};
 use crate::format::{Micros, Q15};
 use crate::garment::Garment;
 use crate::scene::Scene;
@@ -85,15 +86,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let scene: Scene = decode(bytes).map_err(Refusal::of)?;
-        let before = super::put_to_rest(&self.setup);
+        let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
         // What the new scene does not drive must not stay where the old one left it.
-        for job in before {
-            let kept = self.setup.pipeline.reactions().outputs().any(|line| job.drives(line.pin));
-            if !kept {
-                let _ = self.jobs.push_back(job);
-            }
-        }
+        self.outputs.follow(before);
         self.used();
         Ok(())
     }
@@ -132,7 +128,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     fn start(&mut self, work: Work) {
-        if self.jobs.push_back(Job::Start(work)).is_err() {
+        if self.works.push_back(work).is_err() {
             self.outbox.answer(number_of(work), Some(Refusal::of("too much is waiting to be done")));
         }
     }
@@ -141,7 +137,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::board::{BoardInfo, Input};
+    use crate::board::{BoardInfo, Input, Job};
     use crate::garment::Pins;
     use crate::wire::encode;
 

@@ -1,0 +1,65 @@
+//! The pins that reactions assert: where each is to stand, and whether it was told so.
+
+use crate::react::Reactions;
+
+/// Levels to be driven. There is one for each pin, the newest: however many change before the next tick, none is lost.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Outputs {
+    /// Bit `i`: GPIO `i` is to be driven.
+    due: u64,
+    /// Its level.
+    high: u64,
+}
+
+impl Outputs {
+    /// The outputs of all reactions where they are when nothing happens.
+    pub fn at_rest(reactions: &Reactions) -> Outputs {
+        let mut outputs = Outputs::default();
+        for line in reactions.outputs() {
+            outputs.set(line.pin, line.inverted);
+        }
+        outputs
+    }
+
+    /// A pin is to be driven; below 64, as the setup has checked.
+    pub fn set(&mut self, pin: u8, level: bool) {
+        let bit = 1u64.checked_shl(pin.into()).unwrap_or(0);
+        self.due |= bit;
+        self.high = if level { self.high | bit } else { self.high & !bit };
+    }
+
+    /// Takes over all that `later` is to drive.
+    pub fn follow(&mut self, later: Outputs) {
+        self.due |= later.due;
+        self.high = (self.high & !later.due) | (later.high & later.due);
+    }
+
+    /// The next pin to drive, and its level.
+    pub fn next(&mut self) -> Option<(u8, bool)> {
+        let rest = self.due.checked_sub(1)?;
+        let bit = self.due & !rest;
+        self.due &= rest;
+        Some((bit.trailing_zeros() as u8, self.high & bit != 0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Outputs;
+
+    #[test]
+    fn each_pin_is_driven_once_to_its_newest_level() {
+        let mut outputs = Outputs::default();
+        for pin in 0..64 {
+            outputs.set(pin, pin % 2 == 0);
+        }
+        let mut later = Outputs::default();
+        (later.set(3, true), later.set(63, true), later.set(63, false));
+        outputs.follow(later);
+        outputs.set(4, false);
+        for pin in 0..64 {
+            assert_eq!(outputs.next(), Some((pin, pin == 3 || (pin % 2 == 0 && pin != 4))));
+        }
+        assert_eq!(outputs.next(), None);
+    }
+}
