@@ -76,6 +76,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.outbox.answer(number, result.err());
     }
 
+    // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
+    #[inline(never)]
     fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let garment: Garment = decode(bytes).map_err(Refusal::of)?;
         let scene = self.setup.scene.clone();
@@ -84,6 +86,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         Ok(())
     }
 
+    #[inline(never)]
     fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let scene: Scene = decode(bytes).map_err(Refusal::of)?;
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
