@@ -54,7 +54,9 @@ mod tests {
             outputs.set(pin, pin % 2 == 0);
         }
         let mut later = Outputs::default();
-        (later.set(3, true), later.set(63, true), later.set(63, false));
+        for (pin, level) in [(3, true), (63, true), (63, false)] {
+            later.set(pin, level);
+        }
         outputs.follow(later);
         outputs.set(4, false);
         for pin in 0..64 {
