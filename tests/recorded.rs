@@ -3,8 +3,12 @@
 //! Reads the folder that TAXEL_DATA names, else `../shared/data` beside the checkout. By default pmatdata and smart_garment;
 //! with TAXEL_RECORDED=all every folder.
 
+mod dense;
+
+use dense::Dense;
 use std::path::{Path, PathBuf};
 use taxel::arrays::{self, Frames};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
@@ -72,6 +76,42 @@ fn folder(name: &str, full_scale: u16) {
     }
     println!("{name}: {frames} frames, {contacts} contacts");
     assert!(frames > 0 && contacts > 0, "{name} holds touches");
+}
+
+/// Conditions frames of a recording, at most 100 of them, with and without leaving out what is quiet: the first is the baseline.
+fn condition(frames: &Frames, filter: Filter, what: &str) {
+    let top = frames.values.iter().copied().max().unwrap_or(1).max(1);
+    let layout = Layout::build(&Garment::recorded(frames.rows, frames.columns), TAXELS, top).expect(what);
+    let config = ConditionConfig { floor: top / 100 + 1, filter, track_baseline: true };
+    let stage = config.build().expect("settings in range");
+    let mut state = Box::new(ConditionState::<TAXELS>::new());
+    state.reset(&layout, Code(0));
+    let mut dense = Dense::new(&layout, config, false, 0);
+    for (number, frame) in frames.iter().step_by(frames.count / 100 + 1).enumerate() {
+        let codes: Vec<Code> = frame.iter().map(|value| Code(*value)).collect();
+        if number == 0 {
+            codes.iter().enumerate().for_each(|(taxel, code)| assert!(state.set_baseline(taxel, *code)));
+            dense.rest = frame.to_vec();
+            dense.tared = true;
+        }
+        let image = stage.process(&mut state, &layout, &codes, false, 1, &Feedback::<1>::new());
+        assert_eq!(
+            image.values,
+            dense.process(&layout, &codes, 1, &[]),
+            "{what}, {filter:?}, frame {number}"
+        );
+    }
+}
+
+#[test]
+fn sparse_is_dense() {
+    for file in files("pmatdata").into_iter().chain(files("smart_garment")) {
+        for (array, recording) in arrays::read_all(&file).expect("a readable recording") {
+            for filter in [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square] {
+                condition(&recording, filter, &format!("{} {array}", file.display()));
+            }
+        }
+    }
 }
 
 #[test]

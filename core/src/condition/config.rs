@@ -27,6 +27,10 @@ pub enum Filter {
     Conservative,
     /// The exact median of nine, the border replicated (as OpenCV and imageproc do).
     Median,
+    /// Clamps a taxel to the greatest mean of the four squares of 2x2 taxels that it belongs to. It keeps fingers of two by two
+    /// taxels, edges and right corners, halves lines one taxel wide and quarters impulses: for noise that is so strong that no
+    /// taxel alone tells it from a touch (`Scene::against_noise`).
+    Square,
 }
 
 impl Default for ConditionConfig {

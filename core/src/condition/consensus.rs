@@ -32,7 +32,7 @@ impl Consensus {
 
     /// Begins anew, since baselines have been set.
     pub fn forget(&mut self) {
-        self.0.iter_mut().for_each(|panel| panel.begun = false);
+        self.0.iter_mut().for_each(|panel| (panel.begun, panel.step) = (false, 0));
     }
 
     /// What the taxels of a panel that stand still are to move by.

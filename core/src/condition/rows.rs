@@ -121,8 +121,9 @@ pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
         return 0..0;
     }
     let grain = grain(area);
-    let end = (u16::BITS - groups.leading_zeros()) << grain;
-    (groups.trailing_zeros() << grain) as u16..end.min(area.columns.into()) as u16
+    // Rows that share an entry may be longer than this one.
+    let columns = |end: u32| (end << grain).min(area.columns.into()) as u16;
+    columns(groups.trailing_zeros())..columns(u16::BITS - groups.leading_zeros())
 }
 
 /// Groups that follow each other: as groups, and as columns of a row.
