@@ -1,27 +1,6 @@
-//! Identity, speed and slip.
+//! Speed and slip; `tests/tracking` has more.
 
-use crate::rig::{Frame, Rig};
-
-#[test]
-fn identity_survives_motion_merging_and_splitting() {
-    let mut rig = Rig::mat();
-    rig.fill([10, 12], [2, 4], 800).frame();
-    rig.fill([10, 13], [20, 23], 900);
-    let ids = |frame: &Frame| frame.present.iter().map(|c| c.id).collect::<Vec<_>>();
-    assert_eq!(ids(&rig.frame()), [1, 2]);
-    // The old small one walks into the young large one.
-    for left in 3..=16 {
-        rig.clear().fill([10, 13], [20, 23], 900).fill([10, 12], [left, left + 2], 800);
-        assert_eq!(ids(&rig.frame()), [1, 2], "{left}");
-    }
-    let frame = rig.clear().fill([10, 13], [20, 23], 900).fill([10, 12], [17, 19], 800).frame();
-    assert_eq!((ids(&frame), frame.released.len()), (vec![1], 1), "the older one survives");
-    assert_eq!(frame.released[0].id, 2);
-    // And apart again: one keeps the id, the other is new.
-    let frame = rig.clear().fill([10, 13], [20, 23], 900).fill([10, 12], [16, 18], 800).frame();
-    assert_eq!(ids(&frame), [1, 3]);
-    assert_eq!(frame.present[0].x.to_f64(), 21.5, "the nearest part of what it was");
-}
+use crate::rig::Rig;
 
 #[test]
 fn speed_and_slip() {

@@ -18,9 +18,13 @@ pub struct ContactConfig {
     pub gate: u16,
     /// Time constant of the velocity, in ms; 0 takes it from one frame to the next.
     pub smoothing_ms: u16,
-    /// Speed from which a contact slips, in 1/16 taxel/s. It also has to have moved by half a taxel.
+    /// Speed from which a contact slips, in 1/16 taxel/s. With [`NO_SLIP`] none does, and the pattern inside contacts is not
+    /// followed, which saves its cycles.
     pub slip_speed: u16,
 }
+
+/// The [`slip_speed`](ContactConfig::slip_speed) of a scene that does not ask for slip.
+pub const NO_SLIP: u16 = u16::MAX;
 
 impl Default for ContactConfig {
     /// The velocity of a still finger of 2 x 2 taxels at 1000 counts with a noise of 3 counts stays below 0.3 taxel/s, so 4

@@ -50,7 +50,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         layout: &Layout,
         now: Micros,
     ) {
-        let seconds = seconds(now.since(tracks.last));
+        let seconds = seconds(now.since(tracks.clock.last()));
         self.used = (tracks.contacts.len(), components.len());
         self.taken.fill(false);
         self.points.clear();

@@ -5,14 +5,27 @@
 //! | input | [`Image`](crate::condition::Image) (counts), time of the frame |
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
-//! | latency | none; slip needs three frames |
-//! | RAM | 540 + 4 C bytes for each of C contacts, 20 per run, and 4 KB |
+//! | latency | none; slip is told with the third frame of a motion |
+//! | RAM | 940 + 4 C bytes for each of C contacts, 20 per run, and 4.3 KB |
 //! | M0+ cycles | reference garment: 1.2 k where nothing touches; about 19 k for each contact of 4 to 9 taxels, 25 k of 29; 350 k if all 2,048 taxels are touched, 1.5 M as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
 //! one taxel of where a contact was one frame ago and goes on as that contact; a faint one begins nothing. A contact
 //! keeps its id from onset to release.
+//!
+//! Contacts and components are paired by distance, the nearest first, from where each contact should be by its velocity.
+//! Of two contacts that become one, that with the greater total goes on and the other is released; of equals the one that
+//! is nearer. Of one that comes apart, the part nearest to where it should be goes on, which is the greater one, and the other
+//! begins anew. One that has lost its component goes on as the one that covers its peak, if that is nobody else's. When contacts
+//! merge or part, or a quarter of the total comes or goes at once, the centroid leaps, and that counts neither as way nor as velocity.
+//!
+//! Motion is that of the centroid, or that of the pattern of pressure inside a contact where there is one (`pattern`): a flat
+//! thing that slides under a constant outline moves and slips. It takes 36 taxels that are two taxels clear of the outline (a
+//! contact of 10 x 10), structures of at least five taxels, and a step of less than half of one (in an outline just as
+//! large, less than one taxel). A slip begins when three steps in a row go the same way, together at the slip speed at least and
+//! three times the contact's own jitter (`slip`), and lasts as long as the velocity is above the slip speed.
+//! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it.
 //!
 //! The stage makes four passes: runs of each active row and their union (`run`, `label`); joins across seams
 //! (`join`); the choice of contacts; and the measures of the chosen ones only (`component`, `contour`). Then
@@ -22,18 +35,22 @@ mod axis;
 mod component;
 mod config;
 mod contour;
+mod flow;
 mod join;
 mod label;
 mod matching;
 mod moments;
+mod pattern;
 mod point;
 mod record;
 mod run;
+mod slip;
 mod stage;
 mod track;
+mod trail;
 
 pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
-pub use config::ContactConfig;
+pub use config::{ContactConfig, NO_SLIP};
 pub use moments::{Central, Moments};
 pub use record::{Contact, Phase};
 pub use stage::{ContactState, Contacts, Touches};

@@ -51,7 +51,8 @@ pub struct Contact {
     pub anisotropy: Q15,
     /// Width across the major axis in 0.1 mm, see [`breadth`](super::breadth); at 10 mm pitch where the panel gives none.
     pub breadth: u32,
-    /// Way since onset along x; follows the contact across seams.
+    /// Way since onset along x, of the centroid or of the pattern inside; follows the contact across seams. The leaps of
+    /// merging and parting do not count.
     pub dx: Fixed16,
     /// Way since onset along y.
     pub dy: Fixed16,
@@ -59,7 +60,7 @@ pub struct Contact {
     pub vx: Fixed16,
     /// Smoothed velocity along y.
     pub vy: Fixed16,
-    /// It has been faster than the slip speed for three frames, and has moved by half a taxel since onset.
+    /// It slips: see the [module](super).
     pub slip: bool,
     /// Time of its first frame.
     pub onset: Micros,

@@ -128,7 +128,7 @@ impl Contacts {
         components.feed_back(feedback);
         matching.assign(&self.config, tracks, &components.list, layout, now);
         tracks.merge(labels, layout);
-        tracks.update(&self.config, &components.list, layout, now);
+        tracks.update(&self.config, &components.list, layout, image, now);
         Touches {
             present: tracks.contacts(),
             moments: tracks.moments(),

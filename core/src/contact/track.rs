@@ -1,33 +1,17 @@
-//! Contacts over time: identity, way, velocity, slip.
-//!
-//! A contact that two become keeps the id of the older one, even if the younger is nearer: the older is known by the taxel
-//! that was its peak, or one beside it. Of a contact that falls apart the nearest part keeps the id.
+//! Contacts over time: who goes on as whom.
 
 use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::config::ContactConfig;
 use super::label::Labels;
 use super::moments::Moments;
-use super::point::{Point, nearest_way};
 use super::record::{Contact, Phase};
 use super::run::NONE;
-use crate::format::{Fixed16, Inverse, Micros, Q15};
-use crate::garment::{Layout, Place, Rect, Transform};
+use super::trail::{Clock, Scenery, Trail};
+use crate::condition::Image;
+use crate::format::{Fixed16, Micros, Q15};
+use crate::garment::{Layout, Place, Rect};
 use heapless::Vec;
-
-/// Consecutive frames above the slip speed that make a slip.
-const SLIP_FRAMES: u8 = 3;
-/// Way since onset that a slip needs: half a taxel.
-const SLIP_WAY: Fixed16 = Fixed16(1 << 15);
-
-/// What is remembered of a contact beside what is told.
-#[derive(Debug, Clone)]
-pub(super) struct Trail {
-    /// Index of its component in this frame, or [`NONE`].
-    pub component: u16,
-    /// Frames in a row above the slip speed.
-    fast: u8,
-}
 
 /// All contacts, in the order of their onset.
 #[derive(Debug, Clone)]
@@ -37,8 +21,7 @@ pub(super) struct Tracks<const CONTACTS: usize> {
     moments: Vec<Moments, CONTACTS>,
     released: Vec<Contact, CONTACTS>,
     id: u32,
-    /// Time of the last frame.
-    pub last: Micros,
+    pub clock: Clock,
 }
 
 impl<const CONTACTS: usize> Tracks<CONTACTS> {
@@ -49,7 +32,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             moments: Vec::new(),
             released: Vec::new(),
             id: 0,
-            last: Micros(0),
+            clock: Clock::new(),
         }
     }
 
@@ -77,18 +60,25 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.trails.iter().position(|trail| trail.component == component)
     }
 
-    /// Contacts that found no component, but whose last peak lies in one or beside it, take it over from a younger contact.
+    /// Contacts that found no component, but whose last peak lies in one or beside it: they go on as it if nobody else does, and
+    /// where it is another's, whichever had the greater total; of equals the one that is nearer.
     pub fn merge<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout) {
         for index in 0..self.contacts.len() {
             let lost = self.trails.get(index).is_some_and(|trail| trail.component == NONE);
             let Some(contact) = self.contacts.get(index).filter(|_| lost) else { continue };
             let Some(component) = beside(labels, layout, contact.peak_at) else { continue };
-            match self.index_of(component) {
-                Some(owner) if owner < index => continue,
+            let owner = self.index_of(component);
+            let rival = owner.and_then(|owner| self.contacts.get(owner));
+            let stays = rival.is_some_and(|rival| rival.total >= contact.total);
+            match owner {
+                Some(owner) if stays => self.leap(owner),
                 Some(owner) => self.set_component(owner, NONE),
                 None => {}
             }
-            self.set_component(index, component);
+            if !stays {
+                self.set_component(index, component);
+                self.leap(index);
+            }
         }
     }
 
@@ -98,15 +88,30 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
+    fn leap(&mut self, index: usize) {
+        if let Some(trail) = self.trails.get_mut(index) {
+            trail.leaps = true;
+        }
+    }
+
     /// Brings all contacts up to date.
-    pub fn update(&mut self, config: &ContactConfig, components: &[Component], layout: &Layout, now: Micros) {
-        let pace = Pace::of(config, now.since(self.last));
-        self.last = now;
+    pub fn update(
+        &mut self,
+        config: &ContactConfig,
+        components: &[Component],
+        layout: &Layout,
+        image: &Image,
+        now: Micros,
+    ) {
+        let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
+        self.part(config, components);
         self.released.clear();
         for (contact, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
-                    follow(contact, trail, component, config, layout, &pace);
+                    trail.follow(contact, component, &scenery);
+                    describe(contact, component, layout);
+                    contact.phase = Phase::Held;
                     contact.duration_ms = now.millis_since(contact.onset);
                 }
                 None => {
@@ -125,8 +130,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         });
         self.trails.retain(|trail| trail.component != NONE);
         for (index, component) in (0u16..).zip(components) {
-            // A faint one goes on as what it was, but begins nothing: it is a splinter of a contact that lifts.
-            if component.peak >= config.high && self.index_of(index).is_none() {
+            if self.is_new(config, index, component) {
                 self.begin(index, component, layout, now);
             }
         }
@@ -134,6 +138,24 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {
                 let _ = self.moments.push(component.moments);
+            }
+        }
+    }
+
+    /// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a splinter
+    /// of a contact that lifts.
+    fn is_new(&self, config: &ContactConfig, index: u16, component: &Component) -> bool {
+        component.peak >= config.high && self.index_of(index).is_none()
+    }
+
+    /// Contacts of which a part begins a life of its own: it peaks where they were.
+    fn part(&mut self, config: &ContactConfig, components: &[Component]) {
+        for (index, component) in (0u16..).zip(components) {
+            let Some(at) = component.peak_at.filter(|_| self.is_new(config, index, component)) else {
+                continue;
+            };
+            for (contact, trail) in self.contacts.iter().zip(&mut self.trails) {
+                trail.leaps |= contact.bounds.holds(at.panel, at.row, at.column, 0);
             }
         }
     }
@@ -169,7 +191,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         describe(&mut contact, component, layout);
         // There are no more contacts than components, and both lists have the same capacity.
         if self.contacts.push(contact).is_ok() {
-            let _ = self.trails.push(Trail { component: index, fast: 0 });
+            let _ = self.trails.push(Trail::new(index));
         }
     }
 }
@@ -205,63 +227,4 @@ fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     if component.total >= contact.peak_total {
         (contact.peak_total, contact.peak_breadth) = (component.total, contact.breadth);
     }
-}
-
-/// What it tells together with the last one.
-fn follow(
-    contact: &mut Contact,
-    trail: &mut Trail,
-    component: &Component,
-    config: &ContactConfig,
-    layout: &Layout,
-    pace: &Pace,
-) {
-    let from = Point::of(contact.panel, contact.x, contact.y);
-    let to = Point::of(component.bounds.panel, component.x, component.y);
-    let way = nearest_way(layout, from, to).and_then(|(way, _)| way).unwrap_or(Transform::IDENTITY);
-    let carried = |x: Fixed16, y: Fixed16, one| way.apply(x.0.into(), y.0.into(), one);
-    let (x, y) = carried(contact.x, contact.y, 1 << 16);
-    let (dx, dy) = carried(contact.dx, contact.dy, 0);
-    let (vx, vy) = carried(contact.vx, contact.vy, 0);
-    let (step_x, step_y) = (i64::from(component.x.0) - x, i64::from(component.y.0) - y);
-    describe(contact, component, layout);
-    contact.phase = Phase::Held;
-    (contact.dx, contact.dy) = (Fixed16::saturating(dx + step_x), Fixed16::saturating(dy + step_y));
-    contact.vx = pace.velocity(vx, step_x);
-    contact.vy = pace.velocity(vy, step_y);
-    let fast = length_squared(contact.vx, contact.vy, 12) >= u64::from(config.slip_speed).pow(2);
-    trail.fast = if fast { trail.fast.saturating_add(1) } else { 0 };
-    let away = length_squared(contact.dx, contact.dy, 8) >= length_squared(SLIP_WAY, Fixed16(0), 8);
-    contact.slip = trail.fast >= SLIP_FRAMES && away;
-}
-
-/// How a step becomes a velocity in this frame.
-struct Pace {
-    /// Time constant, us; below 2^26.
-    tau: i64,
-    /// Of `tau` and the time since the last frame; none where no time went by.
-    inverse: Option<Inverse>,
-}
-
-impl Pace {
-    fn of(config: &ContactConfig, elapsed: u64) -> Pace {
-        let tau = u32::from(config.smoothing_ms) * 1000;
-        let inverse = (elapsed > 0).then(|| Inverse::of(tau + elapsed.min(1 << 31) as u32));
-        Pace { tau: tau.into(), inverse }
-    }
-
-    /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over the real time
-    /// between the frames.
-    fn velocity(&self, v: i64, step: i64) -> Fixed16 {
-        match self.inverse {
-            // 32 + 26 bits and 34 + 20 bits: no overflow.
-            Some(inverse) => Fixed16(inverse.nearest(v * self.tau + step * 1_000_000)),
-            None => Fixed16::saturating(v),
-        }
-    }
-}
-
-fn length_squared(x: Fixed16, y: Fixed16, shift: u32) -> u64 {
-    let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> shift).pow(2);
-    square(x) + square(y)
 }

@@ -1,0 +1,47 @@
+//! Whether a contact slips.
+
+use super::pattern::Way;
+
+/// Steps in a row that make a slip.
+pub(super) const SLIP_STEPS: usize = 3;
+
+/// What a contact's last steps say, in 2^-12 taxel.
+#[derive(Debug, Clone)]
+pub(super) struct Slip {
+    /// The last two steps, the older first.
+    steps: [Way; SLIP_STEPS - 1],
+    /// Mean size of the change from one step to the next, in 2^-16 taxel: the contact's own noise, whatever its speed.
+    jitter: i32,
+}
+
+/// Before anything is known: 1/8 taxel.
+const JITTER: i32 = 1 << 13;
+/// The jitter is a mean over about so many frames, as a power of two.
+const MEMORY: u32 = 4;
+/// A longer step counts as two taxels; a greater change as half a taxel.
+const LONGEST: i32 = 2 << 12;
+const GREATEST: i32 = 1 << 11;
+
+impl Slip {
+    pub const fn new() -> Self {
+        Slip { steps: [[0; 2]; SLIP_STEPS - 1], jitter: JITTER }
+    }
+
+    /// Takes the step since the last frame. Whether a slip begins: three steps together are at least `limit` (in 2^-12
+    /// taxel) and three times the jitter, and none of them is behind the others by more than half.
+    pub fn begins(&mut self, step: Way, limit: u32) -> bool {
+        let step = step.map(|way| (way >> 4).clamp(-LONGEST, LONGEST));
+        let [first, second] = self.steps;
+        self.steps = [second, step];
+        let change = (step[0] - second[0]).abs() + (step[1] - second[1]).abs();
+        let clear = (self.jitter * 3 >> 4).unsigned_abs();
+        self.jitter += ((change.min(GREATEST) << 4) - self.jitter) >> MEMORY;
+        let way = [first[0] + second[0] + step[0], first[1] + second[1] + step[1]];
+        let along = |step: Way| step[0] * way[0] + step[1] * way[1];
+        // Three steps of two taxels along both axes: 31 bits.
+        let square = along(way);
+        let least = limit.max(clear).min(1 << 15);
+        square.unsigned_abs() >= least * least
+            && [first, second, step].into_iter().all(|step| along(step) >= square / 6)
+    }
+}

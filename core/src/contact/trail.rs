@@ -1,0 +1,138 @@
+//! What is remembered of a contact beside what is told, and how its motion follows from it.
+
+use super::component::Component;
+use super::config::{ContactConfig, NO_SLIP};
+use super::pattern::{Pattern, Way};
+use super::point::{Point, nearest_way};
+use super::record::Contact;
+use super::slip::{SLIP_STEPS, Slip};
+use crate::condition::Image;
+use crate::format::{Fixed16, Inverse, Micros};
+use crate::garment::{Layout, Transform};
+
+/// What is remembered of a contact.
+#[derive(Debug, Clone)]
+pub(super) struct Trail {
+    /// Index of its component in this frame, or [`NONE`](super::run::NONE).
+    pub component: u16,
+    /// It has merged or come apart in this frame: its centroid leaps, and that is no motion.
+    pub leaps: bool,
+    pattern: Pattern,
+    slip: Slip,
+}
+
+/// What the frame is.
+pub(super) struct Scenery<'a> {
+    pub config: &'a ContactConfig,
+    pub layout: &'a Layout,
+    pub image: &'a Image<'a>,
+    pub pace: Pace,
+}
+
+impl Trail {
+    pub const fn new(component: u16) -> Self {
+        Trail { component, leaps: false, pattern: Pattern::new(), slip: Slip::new() }
+    }
+
+    /// Carries a contact's way and velocity on to its component, of which the rest is still to be told.
+    pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
+        let Scenery { config, layout, image, pace } = scenery;
+        let from = Point::of(contact.panel, contact.x, contact.y);
+        let to = Point::of(component.bounds.panel, component.x, component.y);
+        if let Some((Some(way), _)) = nearest_way(layout, from, to) {
+            carry(contact, &way);
+        }
+        let step = [component.x.0.saturating_sub(contact.x.0), component.y.0.saturating_sub(contact.y.0)];
+        // Motion leaves the pressure as it is; what adds or takes a quarter of it at once, moves the centroid otherwise.
+        let change = component.total.abs_diff(contact.total);
+        let leaps = self.leaps || change > contact.total / 4;
+        let step = if leaps { [0; 2] } else { step };
+        let step = match layout.areas().get(usize::from(component.bounds.panel)) {
+            Some(area) if config.slip_speed != NO_SLIP => {
+                if leaps {
+                    self.pattern.forget();
+                }
+                self.pattern.follow(component, area, image, config.low, step)
+            }
+            _ => step,
+        };
+        self.leaps = false;
+        contact.dx = Fixed16(contact.dx.0.saturating_add(step[0]));
+        contact.dy = Fixed16(contact.dy.0.saturating_add(step[1]));
+        contact.vx = pace.velocity(contact.vx, step[0]);
+        contact.vy = pace.velocity(contact.vy, step[1]);
+        // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders with it.
+        let sliding = if change > contact.total / 16 { [0; 2] } else { step };
+        contact.slip = config.slip_speed != NO_SLIP && self.slips(contact, sliding, config, pace);
+    }
+
+    /// A slip begins with its steps, and lasts as long as the contact is fast.
+    fn slips(&mut self, contact: &Contact, step: Way, config: &ContactConfig, pace: &Pace) -> bool {
+        let begins = self.slip.begins(step, pace.limit);
+        let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> 12).pow(2);
+        let fast = square(contact.vx) + square(contact.vy) >= u64::from(config.slip_speed).pow(2);
+        begins || (contact.slip && fast)
+    }
+}
+
+/// Takes what a contact has from one panel to another.
+fn carry(contact: &mut Contact, way: &Transform) {
+    let carried = |x: &mut Fixed16, y: &mut Fixed16, one| {
+        let moved = way.apply(x.0.into(), y.0.into(), one);
+        (*x, *y) = (Fixed16::saturating(moved.0), Fixed16::saturating(moved.1));
+    };
+    carried(&mut contact.x, &mut contact.y, 1 << 16);
+    carried(&mut contact.dx, &mut contact.dy, 0);
+    carried(&mut contact.vx, &mut contact.vy, 0);
+}
+
+/// How a step becomes a velocity in this frame, and what counts as a slip.
+pub(super) struct Pace {
+    /// Time constant, us; below 2^26.
+    tau: i64,
+    /// Of `tau` and the time since the last frame; none where no time went by.
+    inverse: Option<Inverse>,
+    /// Way of the slip speed in the time of [`SLIP_STEPS`] steps, in 2^-12 taxel.
+    limit: u32,
+}
+
+/// Times of the last frames.
+#[derive(Debug, Clone)]
+pub(super) struct Clock([Micros; SLIP_STEPS]);
+
+impl Clock {
+    pub const fn new() -> Self {
+        Clock([Micros(0); SLIP_STEPS])
+    }
+
+    /// Time of the last frame.
+    pub const fn last(&self) -> Micros {
+        self.0[0]
+    }
+
+    /// A new frame.
+    pub fn tick(&mut self, config: &ContactConfig, now: Micros) -> Pace {
+        let [last, second, third] = self.0;
+        self.0 = [now, last, second];
+        let elapsed = now.since(last);
+        let tau = u32::from(config.smoothing_ms) * 1000;
+        let inverse = (elapsed > 0).then(|| Inverse::of(tau + elapsed.min(1 << 31) as u32));
+        // 16 + 32 + 8 bits; 256 = 2^12 / 16.
+        let way = u64::from(config.slip_speed) * now.since(third).min(u32::MAX.into()) * 256;
+        Pace { tau: tau.into(), inverse, limit: Inverse::of(1_000_000).quotient(way) }
+    }
+}
+
+impl Pace {
+    /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over the real time
+    /// between the frames.
+    fn velocity(&self, v: Fixed16, step: i32) -> Fixed16 {
+        match self.inverse {
+            // 32 + 26 bits and 32 + 20 bits: no overflow.
+            Some(inverse) => {
+                Fixed16(inverse.nearest(i64::from(v.0) * self.tau + i64::from(step) * 1_000_000))
+            }
+            None => v,
+        }
+    }
+}
