@@ -34,7 +34,7 @@ impl Slip {
         let [first, second] = self.steps;
         self.steps = [second, step];
         let change = (step[0] - second[0]).abs() + (step[1] - second[1]).abs();
-        let clear = (self.jitter * 3 >> 4).unsigned_abs();
+        let clear = ((self.jitter * 3) >> 4).unsigned_abs();
         self.jitter += ((change.min(GREATEST) << 4) - self.jitter) >> MEMORY;
         let way = [first[0] + second[0] + step[0], first[1] + second[1] + step[1]];
         let along = |step: Way| step[0] * way[0] + step[1] * way[1];
