@@ -233,7 +233,7 @@ impl Symbols {
         let strength = word(contact.peak_total, &self.config.strength, before.map(|w| w.strength as usize));
         let limits = self.config.extent.map(u32::from);
         let largest = before.map_or(0, |w| w.extent as usize);
-        let extent = word(contact.area.into(), &limits, Some(largest)).max(largest);
+        let extent = word(contact.area.into(), &limits, before.map(|w| w.extent as usize)).max(largest);
         let span = word(contact.duration_ms, &self.config.span_ms, None);
         Words {
             strength: match strength {
