@@ -4,6 +4,7 @@ use crate::exact::Real;
 use crate::images::{self, Taxels, moments};
 use crate::plain::Plain;
 use crate::table::bound;
+use proptest::prelude::*;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
 use taxel_core::format::{Fixed24, Micros, Q15};
@@ -89,6 +90,20 @@ fn outside_their_range_forms_are_none_or_saturate() {
     let pair = moments(&vec![(0, 0, 5), (9, 0, 5)]);
     assert_eq!((nmi(&pair, 0).peak, nmi(&pair, 0).peak_sheppard), (Fixed24(0), Fixed24(0)));
     assert!(nmi(&pair, 0).published.0 > 0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    /// Whatever the numbers are, sums that wrapped too: these tests are built with checks of overflow.
+    #[test]
+    fn nmi_is_total(bits in 0..64u32, m: u64, sx: i64, sy: i64, sums: [u64; 3], sxy: i64, peak: u16) {
+        let [sxx, syy, s2] = sums;
+        let any = Moments { m: m >> bits, sx, sy, sxx, syy, sxy, s2 };
+        let forms = nmi(&any, peak);
+        prop_assert!(any.m > 0 || forms == Nmi::default());
+        prop_assert!(peak > 0 || forms.peak == Fixed24(0));
+    }
 }
 
 /// Any contact.

@@ -37,15 +37,15 @@ impl Normal {
 
     /// `A - B`, `2 C` and `sqrt((A - B)^2 + 4 C^2)`.
     fn spread(&self) -> (i64, i64, u64) {
-        let (difference, mixed) = (self.a as i64 - self.b as i64, self.c * 2);
+        let (difference, mixed) = ((self.a as i64).wrapping_sub(self.b as i64), self.c.wrapping_mul(2));
         let (x, y) = (difference.unsigned_abs(), mixed.unsigned_abs());
         // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
-        (difference, mixed, root(product(x, x) + product(y, y)).into())
+        (difference, mixed, root(product(x, x).wrapping_add(product(y, y))).into())
     }
 
     fn axis(&self, area: u32) -> Axis {
         let (difference, mixed, d) = self.spread();
-        let anisotropy = Q15::ratio(d, self.a + self.b);
+        let anisotropy = Q15::ratio(d, self.a.wrapping_add(self.b));
         // Not below 32768 / area, rounded down, without the division.
         let share = anisotropy.0 as u32;
         let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
@@ -63,22 +63,25 @@ impl Normal {
         });
         let pixel = px * px + py * py;
         let c = product(self.c.unsigned_abs(), px * py) as i64;
-        let c = if self.c < 0 { -c } else { c };
+        let c = if self.c < 0 { c.wrapping_neg() } else { c };
         let normal = Normal::of(product(self.a, px * px), product(self.b, py * py), c);
         let (difference, _, d) = normal.spread();
         // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
         let skew = (px * px) as i64 - (py * py) as i64;
-        let lean =
-            if d == 0 || skew == 0 { 0 } else { i64::from(Inverse::of(d as u32).nearest(skew * difference)) };
+        let lean = if d == 0 || skew == 0 {
+            0
+        } else {
+            i64::from(Inverse::of(d as u32).nearest(skew.wrapping_mul(difference)))
+        };
         let pixel2 = (pixel as i64 - lean).max(0) as u64;
         // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
-        let minor = (normal.a + normal.b).saturating_sub(d);
+        let minor = normal.a.wrapping_add(normal.b).saturating_sub(d);
         let exponent = self.exponent + normal.exponent;
         let strip = if m == 0 {
             Scaled::ZERO
         } else {
             let inverse = Scaled::from_u64(1).over(Scaled::from_u64(m));
-            Scaled::from_u64(minor * 12).times(inverse).times(inverse).shifted(exponent)
+            Scaled::from_u64(minor.wrapping_mul(12)).times(inverse).times(inverse).shifted(exponent)
         };
         // Eight fraction bits, which a width of one pixel needs.
         let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
@@ -86,7 +89,10 @@ impl Normal {
     }
 }
 
-/// Azimuth and anisotropy of a contact of `area` taxels.
+/// Azimuth and anisotropy of a contact of `area` taxels (0 counts as 1).
+///
+/// For moments of a contact: `A + B < 2^64`, which `Layout::build` asserts, and `|2 C| <= A + B`. Where these do not hold, as
+/// for sums that wrapped, the result means nothing; the function is total all the same.
 pub fn axis(central: &Central, area: u32) -> Axis {
     Normal::of(central.a, central.b, central.c).axis(area)
 }
@@ -112,8 +118,12 @@ fn half_angle(y: i64, x: i64) -> Turn {
 
 /// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
 /// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
-/// taken to millimetres first, so that a pitch that differs along the axes is honoured. A pitch that is 0 counts as 10 mm.
-/// Rounded to the nearest: 0.501 steps off at most.
+/// taken to millimetres first, so that a pitch that differs along the axes is honoured.
+///
+/// A pitch that is 0 counts as 10 mm, and every other is cut to 0.1 mm and held within 0.1 and 655.3 mm. At pitches of 2 to 30 mm
+/// that differ by a factor of 4 at most, the result is rounded to the nearest: 0.501 steps off at most. A contact that is all but
+/// isotropic on the cloth (anisotropy below 2^-13) has no direction along which to see the pixel, so that the difference of the
+/// two pitches comes on top. As [`axis`], it is total, and means nothing for sums that wrapped.
 pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     let central = moments.central();
     Normal::of(central.a, central.b, central.c).breadth(moments.m, pitch_um)
