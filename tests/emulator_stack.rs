@@ -29,7 +29,7 @@ struct Random(u32);
 impl Random {
     fn below(&mut self, end: u16) -> u16 {
         self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        ((self.0 >> 16) * u32::from(end) >> 16) as u16
+        (((self.0 >> 16) * u32::from(end)) >> 16) as u16
     }
 }
 
@@ -46,7 +46,7 @@ fn codes() -> Vec<u16> {
             REST + if touched { 800 + random.below(200) } else { random.below(6) }
         }));
         codes.extend((0..TAXELS).map(|taxel| {
-            let touched = (taxel / COLUMNS + taxel) % 2 == 0;
+            let touched = (taxel / COLUMNS + taxel).is_multiple_of(2);
             REST + if touched { 900 + random.below(200) } else { 0 }
         }));
     }
@@ -88,7 +88,8 @@ fn greatest_garment() -> Garment {
     // Along both flanks of two panels, as on the torso.
     let edge = |panel, side| Edge { panel, side, start: 0 };
     let seam = |index: u8| {
-        let (one, other) = if index % 2 == 0 { (Side::Left, Side::Right) } else { (Side::Right, Side::Left) };
+        let (one, other) =
+            if index.is_multiple_of(2) { (Side::Left, Side::Right) } else { (Side::Right, Side::Left) };
         let panel = index / 2 * 2;
         Seam { a: edge(panel, one), b: edge(panel + 1, other), length: 16, reversed: false }
     };

@@ -68,8 +68,11 @@ fn measure() -> Result<Table, String> {
     Ok(Table { place: "emulated RP2040 (Cortex-M0+, 125 MHz)", unit: "cycles", rows, forms })
 }
 
-/// The costs on the board and what this machine did, by groups of steps.
-fn together(groups: &[Vec<Step>]) -> Result<Vec<(Vec<Cost>, Vec<Told>)>, String> {
+/// What a group of steps costs on the board, and what this machine did.
+type Group = (Vec<Cost>, Vec<Told>);
+
+/// Both by groups of steps.
+fn together(groups: &[Vec<Step>]) -> Result<Vec<Group>, String> {
     let mut answers = board::run(&groups.concat())?.into_iter();
     let mut twin = Twin::default();
     let mut done = Vec::new();

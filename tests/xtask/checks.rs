@@ -106,8 +106,13 @@ fn fmt(log: &Path) -> Result<Result<(), String>, String> {
 }
 
 fn clippy(log: &Path) -> Result<Result<(), String>, String> {
-    let args = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
-    Ok(process::run_into(&mut cargo(&args, paths::root()), log))
+    let run = |which: &[&str]| {
+        let args = [&["clippy"], which, &["--", "--deny", "warnings"]].concat();
+        process::run_into(&mut cargo(&args, paths::root()), log)
+    };
+    let apart: Vec<&str> = targets::APART.iter().flat_map(|name| ["--test", *name]).collect();
+    let apart = [&["--package", "taxel-tests"], apart.as_slice()].concat();
+    Ok(run(&["--workspace", "--all-targets"]).and_then(|()| run(&apart)))
 }
 
 fn compare_locks(_: &Path) -> Result<Result<(), String>, String> {
