@@ -135,7 +135,7 @@ fn held_under_drift_within_two_percent_and_gone_ten_frames_after_release() {
 #[test]
 fn frozen_taxels_follow_the_median_not_the_mean() {
     // A third of the panel is stuck; a mean would fall behind by a third of the drift, 91 of 1,000 counts.
-    let stuck = |taxel: usize| taxel % 3 == 0 && !held(taxel);
+    let stuck = |taxel: usize| taxel.is_multiple_of(3) && !held(taxel);
     let worst = hold(HOUR / 3, 0.2 * FULL_SCALE / f64::from(HOUR), |taxel| !stuck(taxel));
     println!("largest error {:.3} %", worst * 100.0);
     assert!(worst <= 0.02);

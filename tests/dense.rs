@@ -87,7 +87,7 @@ impl Dense {
 
     /// Sixteen witnesses, an odd distance apart: the sign of the median of what they have drifted further than the panel.
     fn vote(&mut self, panel: usize, base: usize, taxels: usize) {
-        let place = |witness: usize| base + witness * (taxels / 16 | 1) % taxels;
+        let place = |witness: usize| base + witness * ((taxels / 16) | 1) % taxels;
         let now: Vec<u16> = (0..16).map(|witness| self.rest[place(witness)]).collect();
         let (first, drift, step) = self.panels[panel].get_or_insert_with(|| (now.clone(), 0, 0));
         let asked = (0..16).filter(|witness| self.gain[place(*witness)] != 0);
