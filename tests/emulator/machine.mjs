@@ -2,7 +2,9 @@
 
 import { RP2040 } from 'rp2040js';
 import { Adc } from './adc.mjs';
+import { mendDma } from './dma.mjs';
 import { Marks } from './marks.mjs';
+import { Pio } from './pio.mjs';
 import { Rom } from './rom.mjs';
 import { Rtt } from './rtt.mjs';
 import { Stack } from './stack.mjs';
@@ -11,9 +13,9 @@ import { Uart } from './uart.mjs';
 const VECTOR_TABLE = 0x10000100;
 const NANOS_PER_CYCLE = 8; // 125 MHz
 const RAM_START = 0x20000000, RAM_END = 0x20042000;
-const SIO_START = 0xd0000000;
 const UART0_IRQ = 20, UART0_DREQ = { tx: 20, rx: 21 };
-const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058;
+const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058, PIO_BASES = [0x50200, 0x50300];
+const PIO_IRQS = [7, 9];
 const WATCHDOG_FORCED = 2;
 
 /** Stops a run; the message says what the firmware or the emulator did wrong. */
@@ -33,6 +35,9 @@ export class Machine {
     this.sample = () => 0;
     chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
     chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
+    PIO_BASES.forEach((base, i) => {
+      chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);
+    });
     for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
     this.rom = new Rom(chip);
     this.guard();
@@ -77,15 +82,9 @@ export class Machine {
     };
     const watchdog = chip.peripherals[WATCHDOG_BASE];
     watchdog.onWatchdogTrigger = () => this.reset(watchdog.reason === WATCHDOG_FORCED);
-    for (const channel of chip.dma.channels) {
-      const { transfer } = channel;
-      channel.transferAlarm.callback = () => {
-        if (channel.writeAddr >>> 0 >= SIO_START || channel.readAddr >>> 0 >= SIO_START) {
-          throw new BoardError(`DMA channel ${channel.index} reaches for the core's own ports, which silicon forbids`);
-        }
-        transfer();
-      };
-    }
+    mendDma(chip, (channel) => {
+      throw new BoardError(`DMA channel ${channel} reaches for the core's own ports, which silicon forbids`);
+    });
   }
 
   reset(forced) {
