@@ -1,13 +1,17 @@
 //! Reading the garment: a scan plan goes in, a frame of raw codes by taxel number comes out.
 //!
 //! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
-//! board with DMA brings its own.
+//! board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a [`Ring`].
 
 mod mux;
 mod plan;
+mod ring;
+mod sweep;
 
 pub use mux::{Adc, Clock, Lines, MuxScan};
 pub use plan::{Depth, Plan};
+pub use ring::{Lent, PLACES, Ring};
+pub use sweep::{SWEEP_INPUTS, Stretch, Sweep, Unfit};
 
 use crate::format::{Code, Micros};
 use crate::garment::Circuit;

@@ -234,12 +234,8 @@ where
         self.rewire(circuit)?;
         let columns = column_changes(circuit);
         let start = self.clock.now();
-        let mut rest = circuit.sites();
-        while let Some(first) = rest.first() {
-            let count = rest.iter().take_while(|s| s.select == first.select).count();
-            let (now, later) = rest.split_at_checked(count).unwrap_or((rest, &[]));
-            self.scan_select(circuit, plan, &columns, now)?;
-            rest = later;
+        for sites in circuit.selects() {
+            self.scan_select(circuit, plan, &columns, sites)?;
         }
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
         Ok(Scan { codes: &self.codes, report: ScanReport { start, duration_us, overruns: 0 } })

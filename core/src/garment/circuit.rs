@@ -162,6 +162,11 @@ impl Circuit {
         &self.sites
     }
 
+    /// The blocks by select code: those of one code are read together.
+    pub fn selects(&self) -> impl Iterator<Item = &[Site]> {
+        self.sites.chunk_by(|a, b| a.select == b.select)
+    }
+
     /// Electrical levels of all lines that select a block, row and column.
     pub fn word(&self, select: u16, row: u8, column: u8) -> u32 {
         let mut word = self.enabled;

@@ -1,0 +1,61 @@
+//! Places for frames that a converter fills one after the other while one of them is being read.
+
+use crate::format::Micros;
+
+/// Places of a ring: one that is read, one that is complete, one that is being filled, and one that comes next, which has
+/// to be known before the converter gets there.
+pub const PLACES: usize = 4;
+
+/// A complete frame that nobody overwrites until the next one is lent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lent {
+    /// Where it is.
+    pub place: u8,
+    /// When its first address was selected.
+    pub start: Micros,
+    /// Time from then to the first address of the frame after it, microseconds.
+    pub duration_us: u32,
+    /// Frames before it, since the one that was lent last, that were overwritten unseen.
+    pub missed: u32,
+}
+
+/// Which frame is where. Whoever calls [`Ring::complete`] may interrupt whoever calls [`Ring::lend`] at any time, but not
+/// in the midst of it.
+#[derive(Debug, Clone)]
+pub struct Ring {
+    filling: u8,
+    next: u8,
+    started: Micros,
+    lent: Option<u8>,
+    fresh: Option<Lent>,
+}
+
+impl Ring {
+    /// The converter begins with place 0, at `now`, and goes on with [`Ring::next`].
+    pub const fn new(now: Micros) -> Ring {
+        Ring { filling: 0, next: 1, started: now, lent: None, fresh: None }
+    }
+
+    /// The place that the converter fills after the present one.
+    pub const fn next(&self) -> u8 {
+        self.next
+    }
+
+    /// The converter has gone on, at `now`: what comes after that is in [`Ring::next`].
+    pub fn complete(&mut self, now: Micros) {
+        let duration_us = now.since(self.started).min(u64::from(u32::MAX)) as u32;
+        let missed = self.fresh.map_or(0, |unseen| unseen.missed.saturating_add(1));
+        let done = Lent { place: self.filling, start: self.started, duration_us, missed };
+        (self.fresh, self.filling, self.started) = (Some(done), self.next, now);
+        let taken = [Some(done.place), Some(self.filling), self.lent];
+        // Three of four places at most are taken.
+        self.next = (0..PLACES as u8).find(|place| !taken.contains(&Some(*place))).unwrap_or(0);
+    }
+
+    /// Lends the latest complete frame, once, and takes back the one before.
+    pub fn lend(&mut self) -> Option<Lent> {
+        let lent = self.fresh.take()?;
+        self.lent = Some(lent.place);
+        Some(lent)
+    }
+}
