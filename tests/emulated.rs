@@ -32,8 +32,8 @@ pub struct Emulated {
 
 impl Emulated {
     /// Runs the image that TAXEL_FIRMWARE_ELF names with `garment` on its pins. The taxels show `rest` until `play`, then
-    /// the frames of `codes`.
-    pub fn start(garment: &Garment, codes: &[u16], rest: u16) -> Emulated {
+    /// the frames of `codes`. `options` are further ones of the harness.
+    pub fn start(garment: &Garment, codes: &[u16], rest: u16, options: &[&str]) -> Emulated {
         let image = std::env::var_os("TAXEL_FIRMWARE_ELF")
             .expect("TAXEL_FIRMWARE_ELF names no image: run this by `cargo xtask test --only emulator`");
         let layout = Layout::build(garment, 2048, 4095).unwrap();
@@ -45,6 +45,7 @@ impl Emulated {
             .arg("--image")
             .arg(image)
             .args(["--port", "0", "--hold", "--idle", &rest.to_string()])
+            .args(options)
             .arg("--wiring")
             .arg(file(&format!("{}.json", garment.name), wiring.as_bytes()))
             .arg("--codes")

@@ -56,7 +56,7 @@ impl Images {
 #[test]
 fn five_moving_contacts() {
     let garment = Garment::reference();
-    let mut board = Emulated::start(&garment, &codes(&garment), 90);
+    let mut board = Emulated::start(&garment, &codes(&garment), 90, &[]);
     let played = board.play();
     board.obey(&Request::Tare { frames: 16 });
     board.obey(&Request::Start);

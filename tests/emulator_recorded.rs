@@ -142,7 +142,7 @@ fn recorded_people() {
     let garment = postcard::to_allocvec(&Garment::mat()).unwrap();
     let scene = postcard::to_allocvec(&scene()).unwrap();
     let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
-    let mut board = Emulated::start(&Garment::mat(), &codes, 0);
+    let mut board = Emulated::start(&Garment::mat(), &codes, 0, &[]);
     let mut twin = Twin::new();
     requests.iter().for_each(|request| board.obey(request));
     let played = board.play();

@@ -187,7 +187,7 @@ fn the_stack_has_room() {
     let garment = postcard::to_allocvec(&greatest_garment()).unwrap();
     let scene = postcard::to_allocvec(&greatest_scene()).unwrap();
     let shipped = postcard::to_allocvec(&Scene::shipped()).unwrap();
-    let mut board = Emulated::start(&Garment::reference(), &codes(), REST);
+    let mut board = Emulated::start(&Garment::reference(), &codes(), REST, &[]);
     let mut worst = 0;
     let mut free = |board: &mut Emulated, during: &str| {
         let seen = board.look("stack");

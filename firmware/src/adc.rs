@@ -1,7 +1,8 @@
-//! The converter: one 12-bit sample at a time, of the input that is asked for.
+//! The converter: one 12-bit sample at a time, of the input that is asked for, or one after the other by itself.
 
 use embassy_rp::adc::{Adc, Blocking, Channel};
 use rp_pac::ADC;
+use taxel_core::acquire::ScanError;
 
 /// GPIO number of the converter's first input.
 pub const FIRST_INPUT: u8 = 26;
@@ -57,4 +58,60 @@ impl<const INPUTS: usize> taxel_core::acquire::Adc for Converter<INPUTS> {
         };
         if status.err() { Err(ConverterError::Conversion(input)) } else { Ok(ADC.result().read().result()) }
     }
+}
+
+/// The converter's channel of the thermometer.
+const THERMOMETER: u8 = 4;
+
+/// Clocks of a conversion: 2 us.
+const CONVERSION_CLOCKS: u32 = 96;
+
+/// The converter's channel of an input.
+pub const fn channel(input: u8) -> usize {
+    (input.wrapping_sub(FIRST_INPUT) & 3) as usize
+}
+
+/// Converts the thermometer and these inputs in turn until [`halt`], and asks for DMA. The select lines settle while the
+/// thermometer is converted: for 2 us, or for as many whole conversions as the garment's settling time has. Where that
+/// is more than one, all conversions are so much slower.
+pub fn run(inputs: &[u8], settle_ns: u32) {
+    let slots = (settle_ns / 2_000).max(1);
+    // From the end of the last input's conversion to the start of the first one's: two periods but for one conversion.
+    let period = (slots + 1) * CONVERSION_CLOCKS / 2;
+    ADC.div().write(|w| w.set_int(if slots == 1 { 0 } else { (period - 1).min(u32::from(u16::MAX)) as u16 }));
+    while ADC.fcs().read().level() > 0 {
+        ADC.fifo().read();
+    }
+    ADC.fcs().write(|w| {
+        w.set_en(true);
+        w.set_dreq_en(true);
+        w.set_thresh(1);
+        // Cleared by writing them.
+        w.set_over(true);
+        w.set_under(true);
+    });
+    ADC.cs().write(|w| {
+        w.set_en(true);
+        w.set_ts_en(true);
+        w.set_err_sticky(true);
+        w.set_ainsel(THERMOMETER);
+        w.set_rrobin(inputs.iter().fold(1 << THERMOMETER, |mask, input| mask | 1 << channel(*input)));
+        w.set_start_many(true);
+    });
+}
+
+/// Whether all conversions since [`run`] went well and were fetched.
+pub fn check() -> Result<(), ScanError> {
+    if ADC.fcs().read().over() {
+        return Err(ScanError::OutOfStep);
+    }
+    if ADC.cs().read().err_sticky() { Err(ScanError::Conversion) } else { Ok(()) }
+}
+
+/// Ends [`run`] with the conversion that is under way.
+pub fn halt() {
+    ADC.cs().write(|w| w.set_en(true));
+    while !ADC.cs().read().ready() {}
+    ADC.fcs().write(|_| {});
+    ADC.div().write(|_| {});
 }

@@ -10,6 +10,7 @@ mod mark;
 mod panic;
 mod pins;
 mod platform;
+mod scan;
 
 use defmt_rtt as _;
 use embassy_executor::Spawner;
@@ -30,23 +31,14 @@ const FULL_SCALE: u16 = 4095;
 const BITS_PER_BYTE: u32 = 10;
 
 type Pool = Lines<pins::Line, { board::LINES }>;
-type Scanner = MuxScan<
-    'static,
-    pins::Line,
-    platform::Settle,
-    adc::Converter<{ board::INPUTS }>,
-    platform::Timer,
-    { board::LINES },
-    TAXELS,
->;
 
 // What is large is static and not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
-static SCANNER: StaticCell<Scanner> = StaticCell::new();
+static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
-    let board::Parts { lines, converter, mut wire, led, watchdog } = board::take();
+    let board::Parts { lines, converter, chain, mut wire, led, watchdog } = board::take();
     let mut platform = platform::Board::start(watchdog, led);
     let lines = LINES.init_with(|| Lines::new(lines));
     let info = BoardInfo {
@@ -55,8 +47,10 @@ async fn main(_spawner: Spawner) {
         full_scale: FULL_SCALE,
         link_bytes_per_s: link::BAUD / BITS_PER_BYTE,
     };
-    let scanner =
-        SCANNER.init_with(|| MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer));
+    let scanner = SCANNER.init_with(|| {
+        let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
+        scan::Scanner::new(processor, chain)
+    });
     let mut board: Board<TAXELS, RUNS> =
         match Setup::build(&info, Garment::reference(), Scene::shipped(), TAXELS) {
             Ok(setup) => Board::with(info, setup),

@@ -1,8 +1,9 @@
 // DMA as on the RP2040: a transfer takes its time, the pacing timers run at X/Y of the system clock, and the core's own
-// ports are out of reach. rp2040js transfers in no time, has X and Y swapped and timer 3 at the wrong bits, and lets DMA
-// write anywhere.
+// ports are out of reach. rp2040js transfers in no time, has X and Y swapped and timer 3 at the wrong bits, cannot say that
+// an abort is over, and lets DMA write anywhere.
 
 const SIO_START = 0xd0000000;
+const CHAN_ABORT = 0x444;
 const TIMER0 = 59, TIMER3 = 62, PERMANENT = 63;
 /** From the request, or the trigger, to the next one in a chain: read address, read data, write address, write data. */
 export const CYCLES_PER_TRANSFER = 4;
@@ -16,6 +17,8 @@ export function mendDma(rp2040, forbidden) {
     const [x, y] = [timer >>> 16, timer & 0xffff];
     return x === 0 ? Infinity : Math.max(1, y / x) * nanosPerCycle();
   };
+  const readUint32 = dma.readUint32.bind(dma);
+  dma.readUint32 = (offset) => (offset === CHAN_ABORT ? 0 : readUint32(offset));
   for (const channel of dma.channels) {
     const { transfer, transferAlarm } = channel;
     channel.scheduleTransfer = () => {

@@ -96,6 +96,17 @@ test('timers run at X/Y of the system clock', () => {
   }
 });
 
+test('an aborted channel stands still, and says so', () => {
+  const { chip, channel, fill, words, advance } = dma();
+  fill(0, [1, 2, 3]);
+  channel(0, RAM, RAM + 64, 3, EN | WORD | INCR_READ | INCR_WRITE | chain(0) | ALWAYS);
+  advance(CYCLES_PER_TRANSFER * CYCLE);
+  chip.writeUint32(DMA + 0x444, 1);
+  assert.equal(chip.readUint32(DMA + 0x444), 0);
+  advance(1000);
+  assert.deepEqual(words(64, 2), [1, 0]);
+});
+
 test('the core\'s own ports are out of reach', () => {
   const { channel, advance, forbidden } = dma();
   channel(3, RAM, 0xd0000010, 1, EN | WORD | chain(3) | ALWAYS);

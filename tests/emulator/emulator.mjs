@@ -6,6 +6,7 @@ import { createInterface } from 'node:readline';
 import { parseArgs } from 'node:util';
 import { setImmediate, setTimeout } from 'node:timers/promises';
 import { allowed } from './allow.mjs';
+import { Check } from './check.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
@@ -19,7 +20,7 @@ const { values: options } = parseArgs({
   options: {
     image: { type: 'string' }, port: { type: 'string' }, wiring: { type: 'string' }, codes: { type: 'string' },
     idle: { type: 'string', default: '0' }, loop: { type: 'boolean', default: false },
-    hold: { type: 'boolean', default: false }, seconds: { type: 'string', default: 'Infinity' },
+    hold: { type: 'boolean', default: false }, dwell: { type: 'string', default: '1' }, seconds: { type: 'string', default: 'Infinity' },
     'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
     stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
   },
@@ -37,11 +38,13 @@ function attachGarment(machine) {
   const wiring = readWiring(options.wiring);
   const garment = new Garment({
     wiring, frames: options.codes === undefined ? [] : readFrames(options.codes, wiring.count),
-    idle: Number(options.idle), loop: options.loop, playing: !options.hold,
+    idle: Number(options.idle), loop: options.loop, dwell: Number(options.dwell), playing: !options.hold,
     readPin: (pin) => machine.readPin(pin), now: () => machine.clock.nanosCounter,
-    onPlay: (scan) => say({ play: { scan } }),
+    onPlay: (scan) => say({ play: { scan, us: machine.micros } }),
   });
   machine.sample = (channel) => garment.sample(channel);
+  garment.check = new Check(garment, machine);
+  machine.onLent = (address) => garment.check.lent(address);
   return garment;
 }
 
@@ -53,7 +56,7 @@ function statistics(machine, garment, link, started) {
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, uart: { sent: link.sent, dropped: link.dropped, received: link.received,
       overruns: machine.uart.overruns }, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
-    marks: machine.marks,
+    marks: machine.marks, check: garment?.check,
   };
 }
 

@@ -32,13 +32,14 @@ export function readFrames(path, count) {
 export class Garment {
   /**
    * `readPin(number)` is the level a pin drives, or undefined when it does not drive; `now()` is the board's time in ns.
-   * `playing`: whether the frames run from the first scan on, or wait for `play()` and show `idle` until then.
+   * Each frame is shown by `dwell` scans. `playing`: whether the frames run from the first scan on, or wait for `play()` and show `idle` until then.
    */
-  constructor({ wiring, frames = [], idle = 0, loop = false, playing = true, readPin, now = () => 0, onPlay = () => {} }) {
-    Object.assign(this, { frames, idle, loop, readPin, now, onPlay });
+  constructor({ wiring, frames = [], idle = 0, loop = false, dwell = 1, playing = true, readPin, now = () => 0, onPlay = () => {} }) {
+    Object.assign(this, { frames, idle, loop, dwell, readPin, now, onPlay });
     this.lines = wiring.lines;
     this.table = tableOf(wiring);
     this.seen = new Int32Array(this.table.length).fill(-1);
+    this.shown = new Int32Array(wiring.count).fill(-1); // by taxel, the scan that read it last
     this.scan = 0;
     this.address = -1;
     this.last = 0;
@@ -63,9 +64,16 @@ export class Garment {
     if (address !== this.address || this.now() - this.last > SCAN_GAP_NANOS) this.moveTo(address);
     this.last = this.now();
     const taxel = channel < 4 ? this.table[(address << 2) | channel] : UNMAPPED;
-    const at = this.scan - this.firstPlayed;
-    if (taxel === UNMAPPED || this.frames.length === 0 || at < 0) return this.idle;
-    return this.frames[this.loop ? at % this.frames.length : Math.min(at, this.frames.length - 1)][taxel];
+    if (taxel === UNMAPPED) return this.idle;
+    this.shown[taxel] = this.scan;
+    return this.frameOf(this.scan)?.[taxel] ?? this.idle;
+  }
+
+  /** The frame that a scan shows; undefined before the frames begin. */
+  frameOf(scan) {
+    const at = Math.floor((scan - this.firstPlayed) / this.dwell);
+    if (this.frames.length === 0 || at < 0) return undefined;
+    return this.frames[this.loop ? at % this.frames.length : Math.min(at, this.frames.length - 1)];
   }
 
   /**

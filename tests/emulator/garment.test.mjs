@@ -49,6 +49,11 @@ test('frames repeat when asked to', () => {
   assert.equal(it.played, 4);
 });
 
+test('a frame is shown by as many scans as asked for', () => {
+  const { scan } = garment({ dwell: 2 });
+  assert.deepEqual([1, 2, 3, 4, 5].map(() => scan()[0]), [100, 100, 200, 200, 300]);
+});
+
 test('averaging at one address stays in the scan', () => {
   const { sample } = garment();
   assert.deepEqual([sample(0, 0), sample(0, 0), sample(1, 0), sample(1, 0)], [100, 100, 101, 101]);

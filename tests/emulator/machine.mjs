@@ -33,6 +33,7 @@ export class Machine {
     };
     chip.logger = { debug() {}, info() {}, warn: complain, error: complain };
     this.sample = () => 0;
+    this.onLent = () => {};
     chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
     chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
     PIO_BASES.forEach((base, i) => {
@@ -91,15 +92,18 @@ export class Machine {
     throw new BoardError(`the board reset itself (${forced ? 'a panic' : 'the watchdog was not fed'}) at ${this.where()}`);
   }
 
-  /** Memory first: most accesses go there, and rp2040js would look for a peripheral before. Also where marks are seen. */
+  /** Memory first: most accesses go there, and rp2040js would look for a peripheral before. Also where marks are seen, and
+   * frames that are about to be perceived. */
   tapMemory() {
     const { chip, core, marks } = this;
     const ram = chip.sramView;
     const mark = this.symbols.get('TAXEL_MARK')?.address;
+    const lent = this.symbols.get('TAXEL_LENT')?.address;
     core.writeUint32 = (address, value) => {
       if (address >= RAM_START && address < RAM_END - 3) {
         ram.setUint32(address - RAM_START, value, true);
         if (address === mark) marks.enter(value, core.cycles);
+        else if (address === lent) this.onLent(value);
       } else {
         chip.writeUint32(address, value);
       }

@@ -5,6 +5,7 @@
 import { RPPIO } from 'rp2040js';
 
 const WAIT_FOR_PIN = 1;
+const SHIFTCTRL = 0xd0, MACHINE_REGISTERS = 0x18, JOINTS = 3 << 30;
 
 export class Pio extends RPPIO {
   constructor(rp2040, name, firstIrq, index) {
@@ -25,6 +26,8 @@ export class Pio extends RPPIO {
   }
 
   writeUint32(offset, value) {
+    const machine = this.machines[(offset - SHIFTCTRL) / MACHINE_REGISTERS];
+    if (machine !== undefined && (machine.shiftCtrl ^ value) & JOINTS) this.empty(machine);
     super.writeUint32(offset, value);
     this.checkChangedPins();
     this.wake();
@@ -36,6 +39,14 @@ export class Pio extends RPPIO {
       const idle = !machine.enabled || (machine.waiting && machine.waitType !== WAIT_FOR_PIN);
       if (!idle && !this.alarms[machine.index].scheduled) this.schedule(machine, 1);
     }
+  }
+
+  /** Queues that are joined or parted lose what they hold. */
+  empty(machine) {
+    machine.txFIFO.reset();
+    machine.rxFIFO.reset();
+    machine.updateDMATx();
+    machine.updateDMARx();
   }
 
   schedule(machine, ticks) {

@@ -73,6 +73,18 @@ test('words are requested while there is room, and none is lost', () => {
   assert.equal(requested(TX_DREQ), true);
 });
 
+test('queues that are joined and parted again are empty', () => {
+  const { it, advance, requested } = pio(SELECT);
+  it.writeUint32(TXF0, 0x801);
+  advance(10 * CYCLE);
+  it.writeUint32(CTRL, 0);
+  it.writeUint32(TXF0, 0x123);
+  it.writeUint32(SHIFTCTRL, (3 << 18) | (1 << 30));
+  it.writeUint32(SHIFTCTRL, 3 << 18);
+  assert.equal(requested(RX_DREQ), false);
+  assert.equal(it.readUint32(FSTAT) & 0x01000100, 0x01000100);
+});
+
 test('a disabled machine does nothing', () => {
   const { it, advance } = pio([0xe03f]); // set x, 31
   it.writeUint32(CTRL, 0);

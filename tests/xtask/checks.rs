@@ -26,6 +26,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("cycles", targets::cycles),
     ("emulator", targets::emulator),
     ("emulator-stack", targets::emulator_stack),
+    ("emulator-scan", targets::emulator_scan),
     ("recorded", targets::recorded),
     ("emulator-recorded", targets::emulator_recorded),
 ];

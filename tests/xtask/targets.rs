@@ -19,6 +19,11 @@ pub fn emulator_stack(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_stack", log)
 }
 
+/// The scan by DMA and PIO, every code checked.
+pub fn emulator_scan(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_scan", log)
+}
+
 /// Recordings on the emulated board and on this machine.
 pub fn emulator_recorded(log: &Path) -> Result<Result<(), String>, String> {
     recordings()?;

@@ -56,6 +56,10 @@ pub enum ScanError {
         /// number of the taxel that was being read
         taxel: u16,
     },
+    /// The converter, which runs by itself, reported a failed conversion.
+    Conversion,
+    /// Samples were lost, so that those after them belong to other taxels: the scan begins anew.
+    OutOfStep,
     /// The garment has no pin of that number on this board.
     NoPin(u8),
 }
@@ -70,6 +74,8 @@ impl fmt::Display for ScanError {
             ScanError::Converter { input, taxel } => {
                 write!(f, "converter input on pin {input} gave no sample (at taxel {taxel})")
             }
+            ScanError::Conversion => write!(f, "a conversion failed"),
+            ScanError::OutOfStep => write!(f, "samples were lost"),
             ScanError::NoPin(pin) => write!(f, "this board has no output pin {pin}"),
         }
     }

@@ -41,6 +41,11 @@ impl Ring {
         self.next
     }
 
+    /// The place that was lent last.
+    pub const fn lent(&self) -> Option<u8> {
+        self.lent
+    }
+
     /// The converter has gone on, at `now`: what comes after that is in [`Ring::next`].
     pub fn complete(&mut self, now: Micros) {
         let duration_us = now.since(self.started).min(u64::from(u32::MAX)) as u32;

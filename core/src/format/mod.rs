@@ -48,6 +48,7 @@ pub fn name(text: &str) -> Name {
 /// A raw code of the analog-to-digital converter, as read: 12 bits on the reference board.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
+#[repr(transparent)] // DMA writes it
 pub struct Code(pub u16);
 
 /// Microseconds of the board's clock since it started, 64 bits: it does not wrap within a robot's life.

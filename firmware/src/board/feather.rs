@@ -13,6 +13,7 @@ use crate::{
     adc::Converter,
     link::{BAUD, RING, Wire},
     pins::Line,
+    scan::{Begun, Chain},
 };
 use embassy_rp::{
     adc, bind_interrupts,
@@ -30,6 +31,7 @@ pub const INPUTS: usize = 4;
 pub const LINES: usize = 14;
 
 bind_interrupts!(struct Interrupts {
+    PIO0_IRQ_0 => Begun;
     UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
 });
 
@@ -61,6 +63,16 @@ pub fn take() -> Parts {
                 adc::Channel::new_pin(p.PIN_28, Pull::None),
                 adc::Channel::new_pin(p.PIN_29, Pull::None),
             ],
+        ),
+        chain: Chain::new(
+            (
+                p.PIO0,
+                (
+                    p.DMA_CH0, p.DMA_CH1, p.DMA_CH2, p.DMA_CH3, p.DMA_CH4, p.DMA_CH5, p.DMA_CH6, p.DMA_CH7,
+                    p.DMA_CH8, p.DMA_CH9,
+                ),
+            ),
+            Interrupts,
         ),
         wire: Wire::new({
             static TX: ConstStaticCell<[u8; RING]> = ConstStaticCell::new([0; RING]);

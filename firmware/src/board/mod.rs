@@ -4,7 +4,7 @@ mod feather;
 
 pub use feather::{INPUTS, LINES, take};
 
-use crate::{adc::Converter, link::Wire, pins::Line};
+use crate::{adc::Converter, link::Wire, pins::Line, scan::Chain};
 use embassy_rp::{gpio::Output, watchdog::Watchdog};
 
 /// What a board hands to the firmware.
@@ -13,6 +13,8 @@ pub struct Parts {
     pub lines: [(u8, Line); LINES],
     /// The converter inputs from GPIO 26 on.
     pub converter: Converter<INPUTS>,
+    /// DMA and PIO for the scan.
+    pub chain: Chain,
     /// The link to the host.
     pub wire: Wire,
     /// The heartbeat.

@@ -1,0 +1,160 @@
+//! The DMA channels that read the garment and trigger each other. Nothing here ends by itself.
+//!
+//! | channel | waits for | does | then |
+//! |---|---|---|---|
+//! | 0 - 3 | a sample | stores the code of the converter's input 0 - 3 | the next input's channel, after the last `Word` |
+//! | `Word` | | gives the next levels to the select lines | `Settle` |
+//! | `Settle` | a sample | drops the thermometer's | the first input's channel |
+//! | `Answer` | the answer to a word where a stretch begins | takes it away | `List` |
+//! | `List` | | finds the values for that stretch | `Target` |
+//! | `Target` | | tells `Value` the next register, or nothing at the end | |
+//! | `Value` | | writes the next value to that register | `Target` |
+//!
+//! The registers of a stretch are written while the thermometer is converted, when no other channel moves.
+
+use super::frames::{Begun, Frames};
+use super::select::Select;
+use super::tables;
+use crate::adc;
+use embassy_rp::Peri;
+use embassy_rp::interrupt::typelevel::{Binding, PIO0_IRQ_0};
+use embassy_rp::peripherals::{
+    DMA_CH0, DMA_CH1, DMA_CH2, DMA_CH3, DMA_CH4, DMA_CH5, DMA_CH6, DMA_CH7, DMA_CH8, DMA_CH9, PIO0,
+};
+use rp_pac::dma::regs::CtrlTrig;
+use rp_pac::dma::vals::{DataSize, TreqSel};
+use rp_pac::{ADC, DMA};
+use taxel_core::acquire::{Plan, SWEEP_INPUTS, Sweep, Unfit};
+use taxel_core::garment::Circuit;
+
+/// The chain's own channels, and the PIO block with the select lines' program.
+pub type Parts = (
+    Peri<'static, PIO0>,
+    (
+        Peri<'static, DMA_CH0>,
+        Peri<'static, DMA_CH1>,
+        Peri<'static, DMA_CH2>,
+        Peri<'static, DMA_CH3>,
+        Peri<'static, DMA_CH4>,
+        Peri<'static, DMA_CH5>,
+        Peri<'static, DMA_CH6>,
+        Peri<'static, DMA_CH7>,
+        Peri<'static, DMA_CH8>,
+        Peri<'static, DMA_CH9>,
+    ),
+);
+
+/// Numbers of the channels after those of the inputs.
+const WORD: usize = SWEEP_INPUTS;
+const SETTLE: usize = WORD + 1;
+const ANSWER: usize = WORD + 2;
+const LIST: usize = WORD + 3;
+const TARGET: usize = WORD + 4;
+const VALUE: usize = WORD + 5;
+const CHANNELS: u16 = (1 << (VALUE + 1)) - 1;
+
+/// The chain of DMA channels.
+pub struct Chain {
+    _parts: Parts,
+    sweep: Sweep<{ tables::ADDRESSES }, { tables::STRETCHES }>,
+    select: Option<Select>,
+}
+
+/// One transfer each time that the channel is triggered.
+struct Step {
+    read: u32,
+    write: u32,
+    control: CtrlTrig,
+}
+
+impl Step {
+    fn new(size: DataSize, read: u32, write: u32, when: TreqSel, then: usize) -> Step {
+        let mut control = CtrlTrig::default();
+        control.set_en(true);
+        control.set_data_size(size);
+        control.set_treq_sel(when);
+        control.set_chain_to(then as u8);
+        control.set_irq_quiet(true);
+        Step { read, write, control }
+    }
+
+    fn set_up(self, channel: usize) {
+        let channel = DMA.ch(channel);
+        channel.read_addr().write_value(self.read);
+        channel.write_addr().write_value(self.write);
+        channel.trans_count().write_value(1);
+        // Not the register that starts it.
+        channel.al1_ctrl().write_value(self.control.0);
+    }
+}
+
+impl Chain {
+    /// At rest.
+    pub fn new(parts: Parts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> Chain {
+        Chain { _parts: parts, sweep: Sweep::new(), select: None }
+    }
+
+    /// Reads a plan over and over, from now on.
+    pub fn start(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<(), Unfit> {
+        self.stop();
+        self.sweep.fill(circuit, plan)?;
+        let select = Select::take(circuit.lines());
+        self.select = Some(select);
+        let destinations = core::array::from_fn(|input| DMA.ch(input).write_addr().as_ptr() as u32);
+        let next_word = DMA.ch(WORD).read_addr().as_ptr() as u32;
+        tables::fill(&self.sweep, select, frames, destinations, next_word, Select::flags());
+        self.set_up();
+        trigger(1 << ANSWER);
+        trigger(1 << WORD);
+        frames.begin();
+        adc::run(self.sweep.inputs(), circuit.settle_ns());
+        Ok(())
+    }
+
+    fn set_up(&self) {
+        use DataSize::{SIZE_HALFWORD as CODE, SIZE_WORD};
+        use TreqSel::{ADC as SAMPLE, PERMANENT, PIO0_RX0};
+        let samples = ADC.fifo().as_ptr() as u32;
+        let channels = || self.sweep.inputs().iter().map(|input| adc::channel(*input));
+        for (index, channel) in channels().enumerate() {
+            let then = channels().nth(index + 1).unwrap_or(WORD);
+            let mut step = Step::new(CODE, samples, tables::nowhere(), SAMPLE, then);
+            step.control.set_incr_write(true);
+            step.set_up(channel);
+        }
+        let mut word = Step::new(SIZE_WORD, tables::words(), Select::words(), PERMANENT, SETTLE);
+        word.control.set_incr_read(true);
+        word.set_up(WORD);
+        let first = channels().next().unwrap_or(0);
+        Step::new(CODE, samples, tables::nowhere(), SAMPLE, first).set_up(SETTLE);
+        Step::new(SIZE_WORD, Select::answers(), tables::answer(), PIO0_RX0, LIST).set_up(ANSWER);
+        let values = DMA.ch(VALUE);
+        let (from, to) = (values.read_addr().as_ptr() as u32, values.al2_write_addr_trig().as_ptr() as u32);
+        Step::new(SIZE_WORD, tables::ahead(), from, PERMANENT, TARGET).set_up(LIST);
+        // `Answer` is ready again as soon as its answer is being followed.
+        let mut target = Step::new(SIZE_WORD, tables::targets(), to, PERMANENT, ANSWER);
+        target.control.set_incr_read(true);
+        target.control.set_ring_size((tables::TARGETS * size_of::<u32>()).trailing_zeros() as u8);
+        target.set_up(TARGET);
+        let mut value = Step::new(SIZE_WORD, 0, 0, PERMANENT, TARGET);
+        value.control.set_incr_read(true);
+        value.set_up(VALUE);
+    }
+
+    /// Stands still; the select lines and the converter are the processor's.
+    pub fn stop(&mut self) {
+        let Some(mut select) = self.select.take() else { return };
+        adc::halt();
+        // Switched off first, so that nothing that still ends triggers anything.
+        (0..=VALUE).for_each(|channel| DMA.ch(channel).al1_ctrl().write_value(0));
+        DMA.chan_abort().write(|w| w.set_chan_abort(CHANNELS));
+        while DMA.chan_abort().read().chan_abort() != 0 {}
+        select.release();
+    }
+}
+
+fn trigger(channels: u16) {
+    // What the tables and the frames hold is in memory before the first channel looks.
+    cortex_m::asm::dmb();
+    DMA.multi_chan_trigger().write(|w| w.set_multi_chan_trigger(channels));
+}

@@ -1,0 +1,114 @@
+//! Where the codes end up. The chain raises an interrupt where it begins a frame: the one before is complete then, and the
+//! place of the one after is chosen, so that the chain never meets a frame that is being read.
+
+use super::{select::Select, tables};
+use crate::{adc, mark, platform::Timer};
+use core::cell::RefCell;
+use core::future::poll_fn;
+use core::task::Poll;
+use embassy_rp::interrupt::typelevel::{Handler, Interrupt, PIO0_IRQ_0};
+use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
+use embassy_sync::waitqueue::AtomicWaker;
+use static_cell::ConstStaticCell;
+use taxel_core::acquire::{Clock, Lent, PLACES, Ring, ScanError};
+use taxel_core::format::{Code, Micros};
+
+/// The codes of one frame by taxel number.
+type Frame = [Code; crate::TAXELS];
+
+/// Which frame is where, and whether the chain went where it was not led.
+struct Beat {
+    ring: Ring,
+    astray: bool,
+}
+
+static BEAT: Mutex<CriticalSectionRawMutex, RefCell<Beat>> =
+    Mutex::new(RefCell::new(Beat { ring: Ring::new(Micros(0)), astray: false }));
+static COMPLETE: AtomicWaker = AtomicWaker::new();
+
+/// The interrupt at the beginning of each frame.
+pub struct Begun;
+
+impl Handler<PIO0_IRQ_0> for Begun {
+    #[allow(unsafe_code)] // SAFETY: nothing here is unsafe; the trait wants to be called by the interrupt alone
+    unsafe fn on_interrupt() {
+        let begun = Select::take_flags();
+        BEAT.lock(|beat| {
+            let Beat { ring, astray } = &mut *beat.borrow_mut();
+            let place = ring.next();
+            if begun == 1 << place {
+                ring.complete(Timer.now());
+                tables::lead(place, ring.next());
+            } else {
+                *astray = true;
+            }
+        });
+        COMPLETE.wake();
+    }
+}
+
+/// The memory of all frames, which the chain fills and [`Frames::next`] lends.
+pub struct Frames(*mut [Frame; PLACES]);
+
+impl Frames {
+    /// Must be called once.
+    pub fn take() -> Frames {
+        static FRAMES: ConstStaticCell<[Frame; PLACES]> =
+            ConstStaticCell::new([[Code(0); crate::TAXELS]; PLACES]);
+        Frames(FRAMES.take())
+    }
+
+    /// Where the code of a taxel goes in a place.
+    pub fn address(&self, place: usize, taxel: u16) -> u32 {
+        let offset = place * size_of::<Frame>() + usize::from(taxel) * size_of::<Code>();
+        self.0 as u32 + offset as u32
+    }
+
+    /// All places hold the same before the chain starts: what the frame that was lent last held, or nothing.
+    pub fn reset(&mut self, keep: bool) {
+        let last = BEAT.lock(|beat| beat.borrow().ring.lent()).filter(|_| keep);
+        #[allow(unsafe_code)]
+        // SAFETY: the memory is that of a static, taken once, and the chain stands still.
+        let codes = unsafe { &mut *self.0 }.as_flattened_mut();
+        let Some(last) = last else { return codes.fill(Code(0)) };
+        let from = usize::from(last).min(PLACES - 1) * crate::TAXELS;
+        (0..PLACES).for_each(|place| codes.copy_within(from..from + crate::TAXELS, place * crate::TAXELS));
+    }
+
+    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles.
+    pub fn begin(&self) {
+        while Select::take_flags() == 0 {}
+        BEAT.lock(|beat| *beat.borrow_mut() = Beat { ring: Ring::new(Timer.now()), astray: false });
+        tables::lead(0, 1);
+        Select::listen();
+        #[allow(unsafe_code)]
+        // SAFETY: no critical section is made of this interrupt's mask.
+        unsafe {
+            PIO0_IRQ_0::enable()
+        };
+    }
+
+    /// Waits for a frame that was not lent yet. It stays as it is until this is called again.
+    pub async fn next(&mut self) -> Result<(&mut Frame, Lent), ScanError> {
+        let lent = poll_fn(|context| {
+            COMPLETE.register(context.waker());
+            BEAT.lock(|beat| {
+                let Beat { ring, astray } = &mut *beat.borrow_mut();
+                match ring.lend() {
+                    _ if *astray => Poll::Ready(Err(ScanError::OutOfStep)),
+                    Some(lent) => Poll::Ready(Ok(lent)),
+                    None => Poll::Pending,
+                }
+            })
+        })
+        .await?;
+        adc::check()?;
+        let place = usize::from(lent.place).min(PLACES - 1);
+        #[allow(unsafe_code)]
+        // SAFETY: the place is within the memory of a static, taken once; the ring keeps the chain away from a lent
+        // place, and whoever holds the reference keeps the next one from being lent.
+        let frame = unsafe { &mut *self.0.cast::<Frame>().add(place) };
+        mark::lent(self.address(place, 0));
+        Ok((frame, lent))
+    }
+}

@@ -1,0 +1,111 @@
+//! Reading the garment on the RP2040: by DMA and PIO, at the converter's own speed and without the processor, wherever the
+//! garment's wiring allows that; else by the processor.
+//!
+//! | file | what |
+//! |---|---|
+//! | `chain.rs` | the DMA channels that trigger each other |
+//! | `tables.rs` | what they read: levels of the select lines, and where codes go |
+//! | `select.rs` | the PIO program that puts levels on the select lines |
+//! | `frames.rs` | where the codes end up, and who may read which frame |
+//!
+//! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then the next
+//! levels go out, and while the select lines settle the converter measures its own temperature. The inputs and the
+//! thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12 ms.
+
+mod chain;
+mod frames;
+mod select;
+mod tables;
+
+pub use chain::Chain;
+pub use frames::Begun;
+
+use crate::{adc, board, pins, platform};
+use frames::Frames;
+use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
+use taxel_core::garment::Circuit;
+
+/// The scan by the processor.
+pub type Processor = MuxScan<
+    'static,
+    pins::Line,
+    platform::Settle,
+    adc::Converter<{ board::INPUTS }>,
+    platform::Timer,
+    { board::LINES },
+    { crate::TAXELS },
+>;
+
+/// Who scans.
+enum By {
+    Nobody,
+    Chain,
+    Processor,
+}
+
+/// Reads the garment.
+pub struct Scanner {
+    processor: Processor,
+    chain: Chain,
+    frames: Frames,
+    by: By,
+    /// What is being scanned.
+    circuit: Option<Circuit>,
+    plan: Plan,
+}
+
+impl Scanner {
+    /// Over the processor's scan, of whose pins and converter the chain makes use.
+    pub fn new(processor: Processor, chain: Chain) -> Scanner {
+        Scanner {
+            processor,
+            chain,
+            frames: Frames::take(),
+            by: By::Nobody,
+            circuit: None,
+            plan: Plan::default(),
+        }
+    }
+
+    /// Begins to scan something else, or the same anew.
+    fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
+        self.chain.stop();
+        self.frames.reset(self.circuit.as_ref() == Some(circuit));
+        self.by = match self.chain.start(circuit, plan, &self.frames) {
+            Ok(()) => By::Chain,
+            Err(why) => {
+                defmt::info!("the processor scans this garment: {}", defmt::Display2Format(&why));
+                By::Processor
+            }
+        };
+        self.circuit = Some(circuit.clone());
+        self.plan = *plan;
+    }
+
+    /// The latest frame of the chain that was not read yet.
+    async fn next(&mut self) -> Result<Scan<'_>, ScanError> {
+        let (codes, lent) = self.frames.next().await.inspect_err(|_| self.by = By::Nobody)?;
+        if self.plan.depth == Depth::Eight {
+            codes.iter_mut().for_each(|code| code.0 = Depth::Eight.keep(code.0));
+        }
+        let report = ScanReport { start: lent.start, duration_us: lent.duration_us, overruns: lent.missed };
+        Ok(Scan { codes, report })
+    }
+}
+
+impl Acquire for Scanner {
+    async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
+        let same = self.plan == *plan && self.circuit.as_ref() == Some(circuit);
+        if !same || matches!(self.by, By::Nobody) {
+            self.begin(circuit, plan);
+        }
+        match self.by {
+            By::Processor => self.processor.scan(circuit, plan).await,
+            By::Chain | By::Nobody => self.next().await,
+        }
+    }
+
+    fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
+        self.processor.drive(pin, level)
+    }
+}

@@ -1,0 +1,108 @@
+//! The scan by DMA and PIO on the emulated board: every code of every frame, and how long it all takes.
+//! `cargo xtask test --only emulator-scan`.
+
+mod emulated;
+
+use emulated::Emulated;
+use serde_json::Value;
+use taxel_core::garment::Garment;
+use taxel_core::scene::Scene;
+use taxel_core::wire::Request;
+
+const TAXELS: usize = 2048;
+/// Frames that are shown in turn, no two of them alike.
+const FRAMES: usize = 61;
+/// Cycles of the processor in a second.
+const CLOCK: f64 = 125e6;
+
+/// An empty garment: a level for each taxel that no neighbour has, and a noise of 7 counts.
+fn codes() -> Vec<u16> {
+    let level = |taxel: usize| 100 + (taxel * 1367 % TAXELS) as u16;
+    let noise = |frame: usize, taxel: usize| ((frame * 7919 + taxel * 104_729) >> 3) as u16 % 7;
+    (0..FRAMES * TAXELS).map(|at| level(at % TAXELS) + noise(at / TAXELS, at % TAXELS)).collect()
+}
+
+/// A board that shows the codes of an empty garment, over and over, and knows it for empty.
+fn tared(scene: &Scene) -> Emulated {
+    let mut board = Emulated::start(&Garment::reference(), &codes(), 0, &["--loop"]);
+    let scene = postcard::to_allocvec(scene).unwrap();
+    // It hears nothing before it has started.
+    board.receive();
+    board.obey(&Request::SetScene(&scene));
+    board.play();
+    board.obey(&Request::Tare { frames: 16 });
+    board.obey(&Request::Start);
+    board
+}
+
+/// What was counted between two looks at a board.
+struct Spent {
+    frames: u64,
+    taxels: u64,
+    wrong: u64,
+    unseen: u64,
+    rate: f64,
+    /// Cycles of the stage that scans, per frame.
+    scan: u64,
+}
+
+/// Lets so many frames pass.
+fn measure(board: &mut Emulated, frames: u64) -> Spent {
+    let before = board.look("stats");
+    let mut after = before.clone();
+    let counted = |stats: &Value, what: &str| stats["check"][what].as_u64().unwrap();
+    let mut bytes = 0;
+    while counted(&after, "frames") < counted(&before, "frames") + frames {
+        bytes += board.receive().wire_bytes as u64;
+        after = board.look("stats");
+    }
+    let spent = |what| counted(&after, what) - counted(&before, what);
+    let scan = |what| {
+        let of = |stats: &Value| stats["marks"]["8"][what].as_u64().unwrap();
+        of(&after) - of(&before)
+    };
+    let us = spent("last_us") as f64;
+    let rate = spent("frames") as f64 * 1e6 / us;
+    println!(
+        "{rate:.2} frames/s over {} frames, {} codes wrong, {} scans unseen; {} cycles of scan and {} bytes sent \
+         per frame; {} s emulated in {} s",
+        spent("frames"),
+        counted(&after, "wrong"),
+        spent("unseen"),
+        scan("cycles") / scan("count"),
+        bytes / spent("frames"),
+        after["emulated_us"].as_u64().unwrap() / 1_000_000,
+        after["wall_ms"].as_u64().unwrap() / 1_000,
+    );
+    Spent {
+        frames: spent("frames"),
+        taxels: spent("taxels"),
+        wrong: counted(&after, "wrong"),
+        unseen: spent("unseen"),
+        rate,
+        scan: scan("cycles") / scan("count"),
+    }
+}
+
+#[test]
+fn the_whole_garment_at_the_limit_of_the_converter() {
+    let mut board = tared(&Scene::shipped());
+    let spent = measure(&mut board, 1000);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
+    assert!(spent.rate >= 195.0);
+    assert!((spent.scan as f64) < 0.01 * CLOCK / spent.rate);
+}
+
+#[test]
+fn one_panel_alone() {
+    let mut scene = Scene::shipped();
+    scene.plan.panels = 0b0100;
+    let mut board = tared(&scene);
+    let spent = measure(&mut board, 300);
+    board.end();
+    assert_eq!(spent.wrong, 0);
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64 / 4);
+    assert!(spent.rate * (spent.frames + spent.unseen) as f64 / spent.frames as f64 >= 480.0);
+}
