@@ -10,6 +10,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc;
 use std::time::Duration;
 use taxel::sim::wiring_json;
+use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::wire::{LONGEST_REQUEST, Receiver, Report, Request, decode, encode, frame_bound};
 
@@ -64,12 +65,10 @@ impl Emulated {
         Emulated { child, input, lines, link, receiver, messages, wire_bytes: 0, seq: None }
     }
 
-    /// Lets the frames begin; the number that the board gives to the first scan that shows them.
-    pub fn play(&mut self) -> u32 {
+    /// Lets the frames begin; when the first scan that shows them began.
+    pub fn play(&mut self) -> Micros {
         writeln!(self.input, "play").unwrap();
-        let scan = wait_for(&self.lines, "play")["play"]["scan"].as_u64().unwrap();
-        // The harness counts scans from 0, the board from 1.
-        scan as u32 + 1
+        Micros(wait_for(&self.lines, "play")["play"]["us"].as_f64().unwrap() as u64)
     }
 
     /// What the harness answers to a command: `stats`, what it has counted so far, or `stack`, how deep the stack was since

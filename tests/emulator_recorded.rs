@@ -4,7 +4,7 @@
 mod emulated;
 
 use emulated::Emulated;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use taxel::arrays::read_all;
 use taxel_core::acquire::{Scan, ScanReport};
@@ -18,8 +18,12 @@ use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 const FULL_SCALE: u16 = 4095;
 /// Of a recording, every so many frames.
 const STEP: usize = 16;
-/// Scans per second: the link carries everything of the fullest frame in time.
+/// Frames that are perceived per second: the link carries everything of the fullest one in time.
 const RATE_HZ: u16 = 20;
+/// Time from scan to scan, us, and how many of them show a frame: a little longer than from one perceived frame to the next,
+/// so that each is perceived.
+const SCAN_US: u64 = 5_120;
+const DWELL: u64 = 10;
 const TAXELS: usize = 2048;
 
 /// Reports that depend on the codes and their times alone, without `seq`, by the number of their scan.
@@ -74,19 +78,19 @@ fn keep(kept: &mut Reports, report: &Report<'_>) {
     kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));
 }
 
-/// What the board says of scans `played` to `last`, and when each scan began.
-fn from_board(board: &mut Emulated, played: u32, last: u32) -> (Reports, BTreeMap<u32, Micros>) {
+/// What the board says of frames that began at `from` and later, to the first of `to` and later, and when each began.
+fn from_board(board: &mut Emulated, from: Micros, to: Micros) -> (Reports, BTreeMap<u32, Micros>) {
     let (mut reports, mut times, mut bytes) = (Reports::new(), BTreeMap::new(), 0);
     let mut thinned = None;
-    // The image is the last report of a scan; the next health report tells whether one was left out.
-    while thinned.is_none() || !times.contains_key(&last) {
+    // The image is the last report of a frame; the next health report tells whether one was left out.
+    while thinned.is_none() {
         let message = board.receive();
         let report = message.report();
         bytes += message.wire_bytes;
         keep(&mut reports, &report);
         match report {
             Report::Frame(frame) => _ = times.insert(frame.frame, frame.time),
-            Report::Health(health) if times.contains_key(&last) => {
+            Report::Health(health) if times.values().any(|time| *time >= to) => {
                 thinned = Some((health.thinned_frames, health.thinned_contacts, health.lost, health.failed));
             }
             _ => {}
@@ -94,7 +98,7 @@ fn from_board(board: &mut Emulated, played: u32, last: u32) -> (Reports, BTreeMa
     }
     assert_eq!(thinned, Some((0, 0, 0, 0)), "too fast for the link");
     println!("{} bytes on the wire per frame", bytes / times.len());
-    reports.retain(|(frame, ..)| (played..=last).contains(frame));
+    reports.retain(|(frame, ..)| times.get(frame).is_some_and(|time| (from..to).contains(time)));
     (reports, times)
 }
 
@@ -142,27 +146,34 @@ fn recorded_people() {
     let garment = postcard::to_allocvec(&Garment::mat()).unwrap();
     let scene = postcard::to_allocvec(&scene()).unwrap();
     let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
-    let mut board = Emulated::start(&Garment::mat(), &codes, 0, &[]);
+    let mut board = Emulated::start(&Garment::mat(), &codes, 0, &["--dwell", &DWELL.to_string()]);
     let mut twin = Twin::new();
     requests.iter().for_each(|request| board.obey(request));
     let played = board.play();
-    let count = (codes.len() / TAXELS) as u32;
-    let last = played + count - 1;
-    let (reports, times) = from_board(&mut board, played, last);
+    let count = (codes.len() / TAXELS) as u64;
+    // The board takes the time of a scan some microseconds after its first address.
+    let from = Micros(played.0 - SCAN_US / 2);
+    let to = Micros(from.0 + count * DWELL * SCAN_US);
+    let (reports, times) = from_board(&mut board, from, to);
     let stats = board.look("stats");
     println!("{count} frames in {} us; stack {}", stats["emulated_us"], stats["stack"]);
+    assert_eq!(stats["check"]["wrong"], 0);
     board.end();
 
     // Before the requests the twin is shown the scans that the board did before it streamed.
     let first = *times.keys().next().unwrap();
     (1..first).for_each(|_| twin.scan(&[Code(0); TAXELS], Micros(0)));
     requests.iter().for_each(|request| twin.ask(request));
-    for (number, time) in times.range(..=last) {
-        let frame = number.checked_sub(played).and_then(|n| codes.chunks(TAXELS).nth(n as usize));
-        let codes: Vec<Code> = frame.unwrap_or(&[0; TAXELS]).iter().map(|code| Code(*code)).collect();
+    let mut perceived = BTreeSet::new();
+    for (_, time) in times.range(first..).take_while(|(_, time)| **time < to) {
+        let frame = (*time >= from).then(|| time.since(from) / (DWELL * SCAN_US));
+        perceived.extend(frame);
+        let shown = frame.and_then(|n| codes.chunks(TAXELS).nth(n as usize));
+        let codes: Vec<Code> = shown.unwrap_or(&[0; TAXELS]).iter().map(|code| Code(*code)).collect();
         twin.scan(&codes, *time);
     }
-    twin.reports.retain(|(frame, ..)| (played..=last).contains(frame));
+    assert_eq!(perceived.len() as u64, count, "each frame is perceived");
+    twin.reports.retain(|(frame, ..)| times.get(frame).is_some_and(|time| (from..to).contains(time)));
     compare(&reports, &twin.reports);
 }
 

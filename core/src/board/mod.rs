@@ -168,7 +168,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.scanned = Some(now);
         self.frame = self.frame.wrapping_add(1);
         self.health.scans = self.health.scans.wrapping_add(1);
-        self.health.overruns = self.health.overruns.wrapping_add(scan.report.overruns);
+        // A scene that wants fewer frames than the converter makes leaves the others on purpose.
+        if self.setup.scene.rate_hz == 0 {
+            self.health.overruns = self.health.overruns.wrapping_add(scan.report.overruns);
+        }
         self.health.scan_us = scan.report.duration_us;
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
