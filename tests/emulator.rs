@@ -98,7 +98,7 @@ fn five_moving_contacts() {
     assert_eq!((health.lost, health.failed, health.refused), (0, 0, 0));
     assert_eq!(spent["check"]["wrong"], 0);
     assert_eq!(health.scan_us, SCAN_US as u32);
-    assert!(rate >= 60.0);
+    assert!(rate >= 195.0);
     board.end();
 }
 

@@ -138,6 +138,7 @@ pub struct Percept<'a> {
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, RUNS> {
+    #[inline(never)] // its caller would make it on the stack, and move it
     fn default() -> Self {
         PipelineState {
             // Constants: written where they belong, without a copy on the stack.

@@ -59,6 +59,8 @@ pub enum Work {
 pub struct Board<const TAXELS: usize, const RUNS: usize> {
     info: BoardInfo,
     setup: Setup,
+    /// The stages remember what they should of a garment that was just put on.
+    begun: bool,
     state: PipelineState<TAXELS, RUNS>,
     inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
     outbox: Outbox<TAXELS>,
@@ -80,14 +82,15 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         Ok(Board::with(info, Setup::build(&info, garment, scene, TAXELS)?))
     }
 
-    /// A board with a setup built before. It is made where the caller keeps it, part by part: the stack of a microcontroller
-    /// has no room for the whole.
+    /// A board with a setup built before. It is made where the caller keeps it, part by part, and what its stages remember is
+    /// put to rest there when it begins: the stack of a microcontroller has no room for the whole.
     #[inline(never)]
     pub fn with(info: BoardInfo, setup: Setup) -> Self {
         Board {
             info,
             scans: Pace::new(setup.scan_rate()),
-            state: at_rest(&info, &setup),
+            begun: false,
+            state: PipelineState::default(),
             inbox: Receiver::new(),
             outbox: Outbox::new(&setup.scene.stream),
             outputs: Outputs::at_rest(setup.pipeline.reactions()),
@@ -102,9 +105,15 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
     }
 
+    /// Nothing is remembered of any frame.
+    fn reset(&mut self) {
+        let Setup { layout, circuit, .. } = &self.setup;
+        self.state.reset(layout, circuit.falling(), self.info.full_scale);
+    }
+
     /// The garment has changed: nothing that was known of the old one holds.
     fn worn(&mut self) {
-        self.state.reset(&self.setup.layout, self.setup.circuit.falling(), self.info.full_scale);
+        self.reset();
         self.outbox.renew();
         if core::mem::take(&mut self.taring) {
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
@@ -123,6 +132,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
     pub fn step(&mut self, now: Micros, input: Input<'_>, probe: &mut impl Probe) -> Option<Job> {
+        if !self.begun {
+            self.begun = true;
+            self.reset();
+        }
         match input {
             Input::Received(bytes) => self.receive(now, bytes),
             Input::Scanned(Ok(scan)) => self.perceive(now, &scan, probe),
@@ -220,17 +233,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     pub fn health(&self) -> &Health {
         &self.health
     }
-}
-
-/// What the stages remember of a garment that was just put on.
-#[inline(never)]
-fn at_rest<const TAXELS: usize, const RUNS: usize>(
-    info: &BoardInfo,
-    setup: &Setup,
-) -> PipelineState<TAXELS, RUNS> {
-    let mut state = PipelineState::default();
-    state.reset(&setup.layout, setup.circuit.falling(), info.full_scale);
-    state
 }
 
 /// A sentence of the board, cut where it gets too long.
