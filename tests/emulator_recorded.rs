@@ -148,6 +148,8 @@ fn recorded_people() {
     let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
     let mut board = Emulated::start(&Garment::mat(), &codes, 0, &["--dwell", &DWELL.to_string()]);
     let mut twin = Twin::new();
+    // It hears nothing before it has started.
+    board.receive();
     requests.iter().for_each(|request| board.obey(request));
     let played = board.play();
     let count = (codes.len() / TAXELS) as u64;

@@ -36,6 +36,22 @@ type Pool = Lines<pins::Line, { board::LINES }>;
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
+/// The board with what ships. A function of its own: the main task's stack would keep room for ever for what is only needed
+/// here.
+#[inline(never)]
+fn begin(info: BoardInfo) -> Board<TAXELS, RUNS> {
+    match Setup::build(&info, Garment::reference(), Scene::shipped(), TAXELS) {
+        Ok(setup) => Board::with(info, setup),
+        Err(error) => {
+            defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
+            // Nothing feeds the watchdog from here on, so the board starts again and says so again.
+            loop {
+                cortex_m::asm::wfe();
+            }
+        }
+    }
+}
+
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
     let board::Parts { lines, converter, chain, mut wire, led, watchdog } = board::take();
@@ -51,16 +67,6 @@ async fn main(_spawner: Spawner) {
         let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
         scan::Scanner::new(processor, chain)
     });
-    let mut board: Board<TAXELS, RUNS> =
-        match Setup::build(&info, Garment::reference(), Scene::shipped(), TAXELS) {
-            Ok(setup) => Board::with(info, setup),
-            Err(error) => {
-                // Nothing feeds the watchdog from here on, so the board starts again and says so again.
-                return defmt::error!(
-                    "what ships does not fit this board: {}",
-                    defmt::Display2Format(&error)
-                );
-            }
-        };
+    let mut board = begin(info);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;
 }
