@@ -5,6 +5,7 @@ mod emulated;
 
 use emulated::Emulated;
 use serde_json::Value;
+use taxel_core::format::name;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
@@ -22,12 +23,14 @@ fn codes() -> Vec<u16> {
     (0..FRAMES * TAXELS).map(|at| level(at % TAXELS) + noise(at / TAXELS, at % TAXELS)).collect()
 }
 
-/// A board that shows the codes of an empty garment, over and over, and knows it for empty.
-fn tared(scene: &Scene) -> Emulated {
-    let mut board = Emulated::start(&Garment::reference(), &codes(), 0, &["--loop"]);
+/// A board that wears an empty garment, whose codes are shown over and over, and knows it for empty.
+fn tared(garment: &Garment, scene: &Scene) -> Emulated {
+    let mut board = Emulated::start(garment, &codes(), 0, &["--loop"]);
+    let garment = postcard::to_allocvec(garment).unwrap();
     let scene = postcard::to_allocvec(scene).unwrap();
     // It hears nothing before it has started.
     board.receive();
+    board.obey(&Request::SetGarment(&garment));
     board.obey(&Request::SetScene(&scene));
     board.play();
     board.obey(&Request::Tare { frames: 16 });
@@ -86,7 +89,7 @@ fn measure(board: &mut Emulated, frames: u64) -> Spent {
 
 #[test]
 fn the_whole_garment_at_the_limit_of_the_converter() {
-    let mut board = tared(&Scene::shipped());
+    let mut board = tared(&Garment::reference(), &Scene::shipped());
     let spent = measure(&mut board, 1000);
     board.end();
     assert_eq!((spent.wrong, spent.unseen), (0, 0));
@@ -99,10 +102,24 @@ fn the_whole_garment_at_the_limit_of_the_converter() {
 fn one_panel_alone() {
     let mut scene = Scene::shipped();
     scene.plan.panels = 0b0100;
-    let mut board = tared(&scene);
+    let mut board = tared(&Garment::reference(), &scene);
     let spent = measure(&mut board, 300);
     board.end();
     assert_eq!(spent.wrong, 0);
     assert_eq!(spent.taxels, spent.frames * TAXELS as u64 / 4);
     assert!(spent.rate * (spent.frames + spent.unseen) as f64 / spent.frames as f64 >= 480.0);
+}
+
+#[test]
+fn a_wiring_that_no_chain_follows_is_scanned_by_the_processor() {
+    let mut garment = Garment::reference();
+    garment.name = name("mirrored arm");
+    garment.blocks.iter_mut().filter(|b| b.panel == 3).for_each(|b| b.orientation.mirror_x = true);
+    let mut board = tared(&garment, &Scene::shipped());
+    let spent = measure(&mut board, 50);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
+    // 2,048 conversions of 2 us and 512 times 3 us of settling.
+    assert!(spent.scan as f64 > 5.632e-3 * CLOCK);
 }

@@ -2,6 +2,7 @@
 //! compares the frame that it names with what the garment showed. On a board a mark is a store.
 
 use core::sync::atomic::{AtomicU32, Ordering};
+use taxel_core::format::Code;
 
 // The emulator finds the words by their names.
 #[allow(unsafe_code)] // SAFETY: no other symbol has this name
@@ -18,8 +19,8 @@ pub fn mark(stage: u32) {
     TAXEL_MARK.store(stage, Ordering::Relaxed);
 }
 
-/// Says that the frame at this address is complete and about to be perceived.
+/// Says that these codes are complete and about to be perceived.
 #[inline]
-pub fn lent(address: u32) {
-    TAXEL_LENT.store(address, Ordering::Relaxed);
+pub fn lent(codes: &[Code]) {
+    TAXEL_LENT.store(codes.as_ptr() as u32, Ordering::Relaxed);
 }

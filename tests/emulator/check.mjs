@@ -14,8 +14,10 @@ export class Check {
   /** The frame at this address of the board's memory is lent. */
   lent(address) {
     const { garment, machine, counts } = this;
-    // The scan before the one under way; the one before that, if the board has not heard yet that a scan has ended.
-    const candidates = [garment.scan - 1, garment.scan - 2].filter((scan) => this.last === undefined || scan > this.last);
+    // The scan before the one under way; or the one before that, if the board has not heard yet that a scan has ended; or the
+    // last one, if no other is under way.
+    const newest = garment.scan - (this.read(garment.scan) === this.read(garment.scan - 1) ? 0 : 1);
+    const candidates = [garment.scan - 1, garment.scan - 2, newest].filter((scan) => !(scan <= this.last));
     const compared = candidates.map((scan) => this.compare(scan, address)).filter((found) => found !== undefined);
     if (compared.length === 0) return;
     const best = compared.reduce((a, b) => (b.wrong < a.wrong ? b : a));
@@ -26,6 +28,11 @@ export class Check {
     counts.wrong += best.wrong;
     if (this.last !== undefined) counts.unseen += best.scan - this.last - 1;
     this.last = best.scan;
+  }
+
+  /** How many taxels a scan, or one after it, has read. */
+  read(scan) {
+    return this.garment.shown.reduce((count, last) => count + (last >= scan), 0);
   }
 
   compare(scan, address) {

@@ -30,6 +30,17 @@ test('a whole frame of the scan that has just ended is right', () => {
   assert.deepEqual(lend([0, 1, 2, 3]), { frames: 1, taxels: 4, wrong: 0, unseen: 0, first_us: 7, last_us: 7 });
 });
 
+test('a frame may be of the last scan, as long as no other is under way', () => {
+  const { scan, at, lend, it } = check();
+  scan();
+  assert.equal(lend([0, 1, 2, 3]).wrong, 0);
+  at(false);
+  assert.equal(lend([100, 1, 102, 3]).wrong, 0, 'nothing is complete');
+  assert.equal(it.counts.frames, 1);
+  at(true);
+  assert.equal(lend([100, 1, 102, 103]).wrong, 1);
+});
+
 test('taxels of another frame are wrong, whatever frame the rest is of', () => {
   const { scan, at, lend } = check();
   scan();

@@ -2,7 +2,7 @@
 //! place of the one after is chosen, so that the chain never meets a frame that is being read.
 
 use super::{select::Select, tables};
-use crate::{adc, mark, platform::Timer};
+use crate::{adc, platform::Timer};
 use core::cell::RefCell;
 use core::future::poll_fn;
 use core::task::Poll;
@@ -108,7 +108,6 @@ impl Frames {
         // SAFETY: the place is within the memory of a static, taken once; the ring keeps the chain away from a lent
         // place, and whoever holds the reference keeps the next one from being lent.
         let frame = unsafe { &mut *self.0.cast::<Frame>().add(place) };
-        mark::lent(self.address(place, 0));
         Ok((frame, lent))
     }
 }

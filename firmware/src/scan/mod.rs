@@ -20,7 +20,7 @@ mod tables;
 pub use chain::Chain;
 pub use frames::Begun;
 
-use crate::{adc, board, pins, platform};
+use crate::{adc, board, mark, pins, platform};
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
 use taxel_core::garment::Circuit;
@@ -99,10 +99,12 @@ impl Acquire for Scanner {
         if !same || matches!(self.by, By::Nobody) {
             self.begin(circuit, plan);
         }
-        match self.by {
+        let scan = match self.by {
             By::Processor => self.processor.scan(circuit, plan).await,
             By::Chain | By::Nobody => self.next().await,
-        }
+        }?;
+        mark::lent(scan.codes);
+        Ok(scan)
     }
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
