@@ -7,6 +7,7 @@
 //! | `tables.rs` | what they read: levels of the select lines, and where codes go |
 //! | `select.rs` | the PIO program that puts levels on the select lines |
 //! | `frames.rs` | where the codes end up, and who may read which frame |
+//! | `lent.rs` | tells the emulator which frame is read |
 //!
 //! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then the next
 //! levels go out, and while the select lines settle the converter measures its own temperature. The inputs and the
@@ -14,13 +15,14 @@
 
 mod chain;
 mod frames;
+mod lent;
 mod select;
 mod tables;
 
 pub use chain::Chain;
 pub use frames::Begun;
 
-use crate::{adc, board, mark, pins, platform};
+use crate::{adc, board, pins, platform};
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
 use taxel_core::garment::Circuit;
@@ -103,7 +105,7 @@ impl Acquire for Scanner {
             By::Processor => self.processor.scan(circuit, plan).await,
             By::Chain | By::Nobody => self.next().await,
         }?;
-        mark::lent(scan.codes);
+        lent::tell(scan.codes);
         Ok(scan)
     }
 
