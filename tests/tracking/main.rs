@@ -1,5 +1,6 @@
 //! Contacts over time: who stays who, how fast they are, and whether they slip.
 
+mod filters;
 mod identity;
 mod rig;
 mod slip;

@@ -48,7 +48,7 @@ struct Smooth {
 type Line = [Smooth; SIDE];
 
 /// Sums over the taxels that count: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t in 18ths (14
-/// bits). With 100 taxels none exceeds 31 bits.
+/// bits). None exceeds 31 bits, even if all 100 taxels inside count.
 #[derive(Debug, Default)]
 struct Sums {
     count: u32,
@@ -189,8 +189,9 @@ impl Sums {
 /// Two taxels, in w.
 const LONGEST: i32 = 3 << 11;
 
-/// The standard deviation that is allowed: a tenth of a taxel, which is 1/14 in w, and its square 1/196.
-const CLEAR: i64 = 196;
+/// The inverse of the variance of w that is allowed: a standard deviation of 0.135 taxel, 0.101 in w, by the taxels' own
+/// count.
+const CLEAR: i64 = 98;
 
 /// Sums, slopes and changes along one row; the first and the last taxel have none.
 fn smooth(before: &[u16], now: &[u16], out: &mut Line) {
@@ -207,5 +208,136 @@ fn smooth(before: &[u16], now: &[u16], out: &mut Line) {
             change: left.1 + 4 * here.1 + right.1,
         };
         (left, here) = (here, right);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::f64::consts::TAU;
+
+    type Picture = [[u16; SIDE]; SIDE];
+
+    /// All taxels but those of the border.
+    const INNER: [u16; SIDE] = {
+        let mut inner = [0x7fe; SIDE];
+        (inner[0], inner[SIDE - 1]) = (0, 0);
+        inner
+    };
+
+    fn picture(pressure: impl Fn(f64, f64) -> f64) -> Picture {
+        core::array::from_fn(|y| core::array::from_fn(|x| pressure(x as f64, y as f64).round() as u16))
+    }
+
+    fn pictures<'a>(before: &'a Picture, now: &'a Picture) -> Pictures<'a> {
+        let peak = before.iter().chain(now).flatten().copied().max().unwrap();
+        let now = now.each_ref().map(|row| &row[..]);
+        Pictures { before, now, rows: SIDE, columns: SIDE, inner: &INNER, peak }
+    }
+
+    /// Waves of `length` along both axes, moved by so many taxels.
+    fn waves(length: f64, [dx, dy]: [f64; 2], [unit, peak]: [f64; 2]) -> Picture {
+        let k = TAU / length;
+        picture(|x, y| peak * (0.5 + unit * ((k * (x - dx)).cos() + (k * (y - dy) + 1.0).cos())))
+    }
+
+    #[test]
+    fn a_wave_of_six_taxels_is_told_within_a_hundredth() {
+        for full in [255.0, 4095.0, 65535.0] {
+            for way in [[0.05, 0.0], [0.0, -0.1], [0.1, 0.1], [-0.2, 0.05]] {
+                let (before, now) = (waves(6.0, [0.0; 2], [0.2, full]), waves(6.0, way, [0.2, full]));
+                let Flow::Moved(told) = Flow::of(&pictures(&before, &now), [0; 2]) else { panic!("{way:?}") };
+                let told = told.map(|way| f64::from(way) / 65536.0);
+                let error = (told[0] - way[0]).hypot(told[1] - way[1]);
+                // Eight bits round to 1/255 of the peak.
+                let rounding = if full < 256.0 { 0.01 } else { 0.0 };
+                assert!(error < 0.015 * way[0].hypot(way[1]) + rounding, "{full} {way:?} {told:?}");
+            }
+        }
+        // Plain central differences tell sin(k) / k of the slope, 17 % less than there is.
+        let k = TAU / 6.0;
+        assert!((1.0 - k.sin() / k - 0.17).abs() < 0.005);
+        assert!((k.sin() / k / (2.0 / 3.0 + k.cos() / 3.0) - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn more_pressure_everywhere_is_no_way() {
+        let before = waves(7.0, [0.0; 2], [0.2, 4000.0]);
+        let now = before.map(|row| row.map(|value| value + 60));
+        let Flow::Moved(told) = Flow::of(&pictures(&before, &now), [0; 2]) else { panic!() };
+        assert!(told.iter().all(|way| way.abs() < 65536 / 500), "{told:?}");
+    }
+
+    #[test]
+    fn what_is_no_motion_is_told_apart() {
+        let flat = picture(|_, _| 2000.0);
+        assert_eq!(Flow::of(&pictures(&flat, &flat), [0; 2]), Flow::Flat);
+        let (one, other) = (waves(6.0, [0.0; 2], [0.2, 4000.0]), waves(4.0, [1.3, 0.7], [0.2, 4000.0]));
+        assert_eq!(Flow::of(&pictures(&one, &other), [0; 2]), Flow::Changed);
+        let missing = Pictures { rows: SIDE, now: [&[]; SIDE], ..pictures(&one, &one) };
+        assert_eq!(Flow::of(&missing, [0; 2]), Flow::Changed);
+    }
+
+    #[test]
+    fn along_a_ridge_the_way_is_the_expected_one() {
+        let ridge = |dx: f64| picture(|x, _| 2000.0 + 1000.0 * (TAU / 7.0 * (x - dx)).cos());
+        let (before, now) = (ridge(0.0), ridge(0.2));
+        let Flow::Moved([x, y]) = Flow::of(&pictures(&before, &now), [0, 30_000]) else { panic!() };
+        assert!((f64::from(x) / 65536.0 - 0.2).abs() < 0.005, "{x}");
+        assert!((y - 30_000).abs() <= 64, "{y}: a step of w");
+    }
+
+    #[test]
+    fn the_sums_of_any_picture_are_exact() {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            state >> 8
+        };
+        for round in 0..2000u32 {
+            // Extremes only, so that slopes and changes are as large as they can be; in stripes, columns and dots.
+            let extreme = [255u16, 4095, u16::MAX][round as usize % 3];
+            let [a, b, c] = [next(), next(), next()];
+            let make = |shift: u32| -> Picture {
+                core::array::from_fn(|y| {
+                    core::array::from_fn(|x| {
+                        let (x, y) = (x as u32 + shift, y as u32);
+                        let bit = (a >> ((x * (b % 3) / 2 + y * (c % 3) / 2) % 24)) & 1;
+                        if bit == 1 { extreme } else { 0 }
+                    })
+                })
+            };
+            let (before, now) = (make(0), make(round % 5));
+            let pictures = Pictures { peak: extreme, ..pictures(&before, &now) };
+            let sums = Sums::of(&pictures).unwrap();
+            let wide = wide(&before, &now, extreme);
+            let have = [sums.xx, sums.xy, sums.yy, sums.xt, sums.yt, sums.tt].map(i64::from);
+            assert_eq!((sums.count, have), (100, wide), "round {round}");
+            // And what follows from them does not overflow either.
+            Flow::of(&pictures, [i32::MAX, i32::MIN]);
+        }
+    }
+
+    /// The sums in 64 bits, from the definition.
+    fn wide(before: &Picture, now: &Picture, peak: u16) -> [i64; 6] {
+        let scale = (16 - peak.leading_zeros()).saturating_sub(8);
+        let half = 1i64 << scale >> 1;
+        let mut sums = [0; 6];
+        for (row, column) in (1..SIDE - 1).flat_map(|row| (1..SIDE - 1).map(move |column| (row, column))) {
+            let around = |weights: [[i64; 3]; 3], of: &dyn Fn(usize, usize) -> i64| -> i64 {
+                let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+                places.map(|(i, j)| weights[i][j] * of(row + i - 1, column + j - 1)).sum()
+            };
+            let sum = |y: usize, x: usize| i64::from(before[y][x]) + i64::from(now[y][x]);
+            let change = |y: usize, x: usize| i64::from(now[y][x]) - i64::from(before[y][x]);
+            let x = (around([[-1, 0, 1], [-4, 0, 4], [-1, 0, 1]], &sum) + half) >> scale;
+            let y = (around([[-1, -4, -1], [0, 0, 0], [1, 4, 1]], &sum) + half) >> scale;
+            let t = (around([[1, 4, 1], [4, 16, 4], [1, 4, 1]], &change) + 2 * half) >> scale >> 1;
+            for (sum, term) in sums.iter_mut().zip([x * x, x * y, y * y, x * t, y * t, t * t]) {
+                *sum += term;
+            }
+        }
+        sums
     }
 }
