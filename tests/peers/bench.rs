@@ -29,8 +29,8 @@ fn main() {
     for row in &rows {
         let number = |key: &str| row[key].as_f64();
         let show = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));
-        println!(
-            "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}",
+        text += &format!(
+            "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}\n",
             row["scene"].as_str().unwrap_or(""),
             number("taxel").map_or("-".into(), |value| format!("{value:.2}")),
             show(number("imageproc")),
@@ -40,8 +40,9 @@ fn main() {
         );
     }
     if rows.iter().all(|row| row["opencv"].is_null()) {
-        println!("OpenCV: not run, `python3 -c 'import cv2'` fails here");
+        text += "OpenCV: not run, `python3 -c 'import cv2'` fails here\n";
     }
+    text
 }
 
 fn row(scene: &Scene) -> Value {

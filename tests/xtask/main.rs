@@ -28,7 +28,8 @@ usage: cargo xtask COMMAND
   cycles [--json|--write]
                         what the chain costs on the emulated board, beside its error; --write renews docs/bench
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
-  peers [--json]        the core beside imageproc, and OpenCV where Python has it: microseconds per panel
+  peers [--json|--write]
+                        the core beside imageproc, and OpenCV where Python has it: microseconds per panel
   test [--only NAME] [--may-miss NAME]
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
