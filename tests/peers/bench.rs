@@ -15,18 +15,28 @@ use taxel_core::format::Code;
 const ROUNDS: usize = 31;
 const REPEATED: u32 = 200;
 
+/// The table as it was last written.
+const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench/peers.txt");
+
 fn main() {
-    let json = std::env::args().any(|arg| arg == "--json");
+    let asked = |option: &str| std::env::args().any(|arg| arg == option);
     let rows: Vec<Value> = scenes::all().iter().map(row).collect();
-    if json {
+    if asked("--json") {
         return println!("{}", json!({ "unit": "us per 32 x 64 panel", "rows": rows }));
     }
-    println!("Microseconds per panel of 32 x 64: median 3x3, Sobel, threshold, labels, moments");
-    println!(
-        "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}",
-        "scene", "taxel", "imageproc", "ratio", "OpenCV", "ratio"
+    let text = table(&rows);
+    print!("{text}");
+    if asked("--write") {
+        std::fs::write(WRITTEN, text).expect(WRITTEN);
+    }
+}
+
+fn table(rows: &[Value]) -> String {
+    let mut text = String::from(
+        "Microseconds per panel of 32 x 64: median 3x3, Sobel, threshold, labels, moments; one thread\n\
+         scene           taxel  imageproc   ratio   OpenCV   ratio\n",
     );
-    for row in &rows {
+    for row in rows {
         let number = |key: &str| row[key].as_f64();
         let show = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));
         text += &format!(
