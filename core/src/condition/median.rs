@@ -7,7 +7,8 @@ use core::ops::Range;
 /// Filters a panel where it may hold something, its border replicated; `out` is empty elsewhere.
 ///
 /// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
-/// median middle and the smallest high one (Smith 1996; 113 cycles per taxel on a Cortex-M0+ instead of 350).
+/// median middle and the smallest high one (Smith 1996): 195 cycles per taxel on a Cortex-M0+ where all are pressed, see
+/// `docs/bench/cycles.txt`.
 pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     let there = u32::MAX >> (31 - (u32::from(area.columns - 1) >> grain));
