@@ -1,9 +1,9 @@
 //! Codes to pressure: the taxels beyond their limit, and only those.
 
-use super::image::{panel_mut, panel_of};
-use super::limit::Terms;
 use super::rows::{Rows, grain};
+use super::slices::{panel_mut, panel_of};
 use super::state::ConditionState;
+use super::terms::Terms;
 use crate::format::Code;
 use crate::garment::Area;
 

@@ -1,6 +1,6 @@
 //! How the panels drift as a whole.
 
-use super::image::panel_of;
+use super::slices::panel_of;
 use crate::garment::{Area, PANELS};
 
 /// Taxels of a panel that are asked.

@@ -6,9 +6,9 @@
 //! are taken as they are.
 
 use super::feedback::Feedback;
-use super::image::{row_mut, row_of};
-use super::limit::Terms;
+use super::slices::{row_mut, row_of};
 use super::state::ConditionState;
+use super::terms::Terms;
 use crate::format::Code;
 use crate::garment::{Area, Layout};
 

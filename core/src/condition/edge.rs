@@ -1,6 +1,6 @@
 //! The Sobel operator, where it is asked for.
 
-use super::image::row_of;
+use super::slices::row_of;
 use crate::garment::Area;
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.

@@ -2,9 +2,9 @@
 
 use super::config::Filter;
 use super::conservative::conservative;
-use super::image::{panel_mut, panel_of};
 use super::median::median;
 use super::rows::grain;
+use super::slices::{panel_mut, panel_of};
 use super::square::square;
 use super::state::ConditionState;
 use crate::garment::Area;

@@ -33,10 +33,12 @@ mod limit;
 mod median;
 mod progress;
 mod rows;
+mod slices;
 mod square;
 mod stage;
 mod state;
 mod tare;
+mod terms;
 
 pub use config::{ConditionConfig, Filter};
 pub(crate) use edge::Neighbourhood;

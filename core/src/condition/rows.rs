@@ -1,6 +1,6 @@
 //! Which parts of an image are worth a look.
 
-use super::image::row_of;
+use super::slices::row_of;
 use crate::garment::{Area, Layout};
 use core::ops::Range;
 

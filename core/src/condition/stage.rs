@@ -3,9 +3,9 @@
 use super::config::{ConditionConfig, Filter};
 use super::feedback::Feedback;
 use super::image::Image;
-use super::limit::Terms;
 use super::state::ConditionState;
 use super::tare::areas_of;
+use super::terms::Terms;
 use crate::format::{Code, Invalid};
 use crate::garment::Layout;
 

@@ -1,10 +1,10 @@
 //! What the stage remembers: the calibration of every taxel and the last image.
 
 use super::consensus::Consensus;
-use super::image::row_mut;
-use super::limit::Terms;
 use super::progress::{Progress, Tare};
 use super::rows::Rows;
+use super::slices::row_mut;
+use super::terms::Terms;
 use crate::format::Code;
 use crate::garment::Layout;
 

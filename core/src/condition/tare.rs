@@ -3,9 +3,9 @@
 //! A tare needs no memory of its own: while it runs nothing else does, and the 32-bit sums lie in the arrays of the
 //! baseline (low halves) and of the calibrated image (high halves): 65535 frames of 65535 counts fit.
 
-use super::image::{row_mut, row_of};
 use super::progress::Tare;
 use super::rows::Rows;
+use super::slices::{row_mut, row_of};
 use super::state::ConditionState;
 use crate::format::Code;
 use crate::garment::{Area, Layout};
