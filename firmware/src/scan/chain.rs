@@ -102,7 +102,8 @@ impl Chain {
         self.select = Some(select);
         let destinations = core::array::from_fn(|input| DMA.ch(input).write_addr().as_ptr() as u32);
         let next_word = DMA.ch(WORD).read_addr().as_ptr() as u32;
-        tables::fill(&self.sweep, select, frames, destinations, next_word, Select::flags());
+        let code = |place, taxel| frames.address(place, taxel);
+        tables::fill(&self.sweep, select, code, destinations, next_word, Select::flags());
         self.set_up();
         trigger(1 << ANSWER);
         trigger(1 << WORD);

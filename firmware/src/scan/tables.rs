@@ -1,7 +1,7 @@
 //! What the chain reads and writes besides codes. The words are atomic because DMA reads and changes them; the chain stands
 //! still while they are filled, but for the one that says where the frame after the present one goes.
 
-use super::{frames::Frames, select::Select};
+use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 use taxel_core::acquire::{PLACES, SWEEP_INPUTS, Sweep};
 
@@ -67,12 +67,12 @@ pub fn nowhere() -> u32 {
     address(&NOWHERE)
 }
 
-/// Fills the tables. `registers` are those that take the destinations of the four inputs' codes, the address of the next
-/// word, and the flags of new frames.
+/// Fills the tables. `code` is where the code of a taxel goes in a place; then come the registers that take the destinations
+/// of the four inputs' codes, the address of the next word, and the flags of new frames.
 pub fn fill(
     sweep: &Sweep<ADDRESSES, STRETCHES>,
     select: Select,
-    frames: &Frames,
+    code: impl Fn(usize, u16) -> u32,
     destinations: [u32; SWEEP_INPUTS],
     word: u32,
     flag: u32,
@@ -90,7 +90,7 @@ pub fn fill(
             let set = |slot: usize, value| values.get(slot).into_iter().for_each(|v| v.store(value, Relaxed));
             (0..SWEEP_INPUTS).for_each(|channel| set(channel, nowhere()));
             for (input, taxel) in sweep.inputs().iter().zip(stretch.taxels) {
-                let destination = taxel.map_or(nowhere(), |taxel| frames.address(place, taxel));
+                let destination = taxel.map_or(nowhere(), |taxel| code(place, taxel));
                 set(crate::adc::channel(*input), destination);
             }
             set(WORD, WORDS.get(usize::from(stretch.first) + 1).map_or(0, address));
