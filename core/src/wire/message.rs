@@ -9,7 +9,7 @@ use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::symbol::{EVENTS, RegionState, Symbol};
 use heapless::Vec;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// First bytes of a `Hello`.
 pub const MAGIC: [u8; 4] = *b"TAXL";
@@ -96,11 +96,6 @@ pub struct Hello<'a> {
     pub calibration: &'a [u8],
 }
 
-/// The same bytes as a sequence of them, not one by one.
-fn at_once<S: Serializer>(bytes: &&[u8], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_bytes(bytes)
-}
-
 /// A conditioned image.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame<'a> {
@@ -113,7 +108,6 @@ pub struct Frame<'a> {
     /// [`image_sum`](super::image_sum) of the image.
     pub sum: u32,
     /// The image, see [`encode_image`](super::encode_image).
-    #[serde(serialize_with = "at_once")]
     pub data: &'a [u8],
 }
 
@@ -125,7 +119,6 @@ pub struct Raw<'a> {
     /// Start of the scan.
     pub time: Micros,
     /// The codes, coded as an image alone.
-    #[serde(serialize_with = "at_once")]
     pub data: &'a [u8],
 }
 
