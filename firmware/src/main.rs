@@ -61,7 +61,7 @@ async fn main(_spawner: Spawner) {
         firmware: concat!("taxel ", env!("CARGO_PKG_VERSION")),
         pins: Pins { outputs: lines.mask(), inputs: adc::mask(board::INPUTS) },
         full_scale: FULL_SCALE,
-        link_bytes_per_s: link::BAUD / BITS_PER_BYTE,
+        link_bytes_per_s: link::uart::BAUD / BITS_PER_BYTE,
     };
     let scanner = SCANNER.init_with(|| {
         let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);

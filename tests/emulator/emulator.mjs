@@ -18,7 +18,7 @@ const parent = process.ppid; // a harness that outlives its test would run for e
 
 const { values: options } = parseArgs({
   options: {
-    image: { type: 'string' }, port: { type: 'string' }, wiring: { type: 'string' }, codes: { type: 'string' },
+    image: { type: 'string' }, port: { type: 'string' }, link: { type: 'string', default: 'uart' }, wiring: { type: 'string' }, codes: { type: 'string' },
     idle: { type: 'string', default: '0' }, loop: { type: 'boolean', default: false },
     hold: { type: 'boolean', default: false }, dwell: { type: 'string', default: '1' }, seconds: { type: 'string', default: 'Infinity' },
     'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
@@ -54,8 +54,8 @@ function statistics(machine, garment, link, started) {
     emulated_us: Math.round(machine.micros), wall_ms: Math.round(wall * 1000), cycles: machine.cycles,
     mcycles_per_s: Number((machine.cycles / wall / 1e6).toFixed(1)), asleep_us: Math.round(machine.asleep / 1000),
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
-    floating: garment?.floating ?? 0, uart: { sent: link.sent, dropped: link.dropped, received: link.received,
-      overruns: machine.uart.overruns }, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
+    floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
+      overruns: machine.uart.overruns }, usb: machine.usb.packets, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
     marks: machine.marks, check: garment?.check,
   };
 }
@@ -80,8 +80,15 @@ async function run(machine, garment, link, started, control) {
 }
 
 async function main() {
-  const link = new Link((bytes) => machine.uart.receive(bytes));
-  const machine = new Machine(loadImage(options.image), { allowed, onByte: (byte) => link.push(byte) });
+  const overUsb = options.link === 'usb';
+  const link = overUsb
+    ? new Link((bytes) => machine.usb.send(bytes), (there) => machine.usb.open(there))
+    : new Link((bytes) => machine.uart.receive(bytes));
+  const machine = new Machine(loadImage(options.image), {
+    allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
+    onKnown: (usb) => say({ usb }),
+  });
+  if (overUsb) machine.usb.plug();
   const garment = attachGarment(machine);
   if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });
   const started = performance.now();
@@ -93,6 +100,8 @@ async function main() {
       say({ stack: machine.stack });
       machine.stack.paint(machine.core.SP);
     },
+    plug: () => machine.usb.plug(),
+    unplug: () => machine.usb.unplug(),
     quit: () => { control.quit = true; },
   };
   createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.());

@@ -1,12 +1,13 @@
-// The UART as a TCP server: one client at a time. Without a client the bytes are lost, as on a wire that ends nowhere.
+// A link of the board as a TCP server: one client at a time. Without a client the bytes are lost, as on a wire that ends
+// nowhere.
 
 import { createServer } from 'node:net';
 import { setTimeout } from 'node:timers/promises';
 
 export class Link {
-  /** `receive(bytes)` takes what the client sends. */
-  constructor(receive) {
-    this.receive = receive;
+  /** `receive(bytes)` takes what the client sends; `onClient(there)`: it has come, or gone. */
+  constructor(receive, onClient = () => {}) {
+    Object.assign(this, { receive, onClient });
     this.out = [];
     this.client = undefined;
     this.sent = this.dropped = this.received = 0;
@@ -27,12 +28,16 @@ export class Link {
       return;
     }
     this.client = socket;
+    this.onClient(true);
     socket.on('data', (bytes) => {
       this.received += bytes.length;
       this.receive(bytes);
     });
     socket.on('error', () => {});
-    socket.on('close', () => { this.client = undefined; });
+    socket.on('close', () => {
+      this.client = undefined;
+      this.onClient(false);
+    });
   }
 
   /** Takes a byte from the board. */

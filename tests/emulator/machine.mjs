@@ -9,12 +9,14 @@ import { Rom } from './rom.mjs';
 import { Rtt } from './rtt.mjs';
 import { Stack } from './stack.mjs';
 import { Uart } from './uart.mjs';
+import { Usb } from './usb.mjs';
+import { UsbHost } from './usb_host.mjs';
 
 const VECTOR_TABLE = 0x10000100;
 const NANOS_PER_CYCLE = 8; // 125 MHz
 const RAM_START = 0x20000000, RAM_END = 0x20042000;
 const UART0_IRQ = 20, UART0_DREQ = { tx: 20, rx: 21 };
-const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058, PIO_BASES = [0x50200, 0x50300];
+const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058, USB_BASE = 0x50110, PIO_BASES = [0x50200, 0x50300];
 const PIO_IRQS = [7, 9];
 const WATCHDOG_FORCED = 2;
 
@@ -22,8 +24,11 @@ const WATCHDOG_FORCED = 2;
 export class BoardError extends Error {}
 
 export class Machine {
-  /** `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. */
-  constructor({ flash, symbols }, { allowed = () => false, onByte = () => {} } = {}) {
+  /**
+   * `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. `onBytes`: bytes came over USB.
+   * `onKnown`: what the board said on USB that it is.
+   */
+  constructor({ flash, symbols }, { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown } = {}) {
     const chip = new RP2040();
     Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols });
     this.marks = new Marks();
@@ -35,6 +40,8 @@ export class Machine {
     this.sample = () => 0;
     this.onLent = () => {};
     chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
+    chip.usbCtrl = chip.peripherals[USB_BASE] = new Usb(chip);
+    this.usb = new UsbHost(chip, { onBytes, onKnown, fail: (text) => complain('USB', text) });
     chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
     PIO_BASES.forEach((base, i) => {
       chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);

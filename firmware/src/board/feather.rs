@@ -2,7 +2,8 @@
 //!
 //! | pin | use |
 //! |---|---|
-//! | GP0, GP1 | UART to the host: transmit, receive |
+//! | USB | link to the host |
+//! | GP0, GP1 | UART, the other link to the host: transmit, receive |
 //! | GP2, GP3, GP6 - GP12 | select lines (the Feather brings out no GP4 and GP5) |
 //! | GP18 - GP20, GP24, GP25 | further select lines, or outputs of reactions |
 //! | GP13 | heartbeat LED |
@@ -11,15 +12,15 @@
 use super::Parts;
 use crate::{
     adc::Converter,
-    link::{BAUD, RING, Wire},
+    link::{Uart, Usb, Wire, uart},
     pins::Line,
     scan::{Begun, Chain},
 };
 use embassy_rp::{
     adc, bind_interrupts,
     gpio::{Level, Output, Pull},
-    peripherals::UART0,
-    uart,
+    peripherals::{UART0, USB},
+    uart as port, usb,
     watchdog::Watchdog,
 };
 use static_cell::ConstStaticCell;
@@ -32,7 +33,8 @@ pub const LINES: usize = 14;
 
 bind_interrupts!(struct Interrupts {
     PIO0_IRQ_0 => Begun;
-    UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
+    UART0_IRQ => port::BufferedInterruptHandler<UART0>;
+    USBCTRL_IRQ => usb::InterruptHandler<USB>;
 });
 
 /// Starts the clocks (125 MHz) and takes the board apart. Must be called once.
@@ -74,12 +76,20 @@ pub fn take() -> Parts {
             ),
             Interrupts,
         ),
-        wire: Wire::new({
-            static TX: ConstStaticCell<[u8; RING]> = ConstStaticCell::new([0; RING]);
-            static RX: ConstStaticCell<[u8; RING]> = ConstStaticCell::new([0; RING]);
-            let mut config = uart::Config::default();
-            config.baudrate = BAUD;
-            uart::BufferedUart::new(p.UART0, p.PIN_0, p.PIN_1, Interrupts, TX.take(), RX.take(), config)
+        wire: Wire::new(Usb::start(usb::Driver::new(p.USB, Interrupts)), {
+            static TX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);
+            static RX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);
+            let mut config = port::Config::default();
+            config.baudrate = uart::BAUD;
+            Uart::new(port::BufferedUart::new(
+                p.UART0,
+                p.PIN_0,
+                p.PIN_1,
+                Interrupts,
+                TX.take(),
+                RX.take(),
+                config,
+            ))
         }),
         led: Output::new(p.PIN_13, Level::Low),
         watchdog: Watchdog::new(p.WATCHDOG),

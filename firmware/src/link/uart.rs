@@ -1,5 +1,5 @@
-//! The link to the host: a UART behind two rings. Interrupts move the bytes, so nothing here ever waits, and a scan that
-//! keeps the processor for several milliseconds loses none.
+//! A UART behind two rings. Interrupts move the bytes, so nothing here ever waits, and a scan that keeps the processor for
+//! several milliseconds loses none.
 
 use core::task::Poll;
 use embassy_futures::poll_once;
@@ -13,21 +13,21 @@ pub const BAUD: u32 = 921_600;
 /// Bytes of each ring: what the line carries in 22 ms, more than two scans take.
 pub const RING: usize = 2048;
 
-/// The byte link to the host.
-pub struct Wire {
+/// The port.
+pub struct Uart {
     tx: BufferedUartTx,
     rx: BufferedUartRx,
 }
 
-impl Wire {
+impl Uart {
     /// Over a UART that is already configured.
-    pub fn new(uart: BufferedUart) -> Wire {
+    pub fn new(uart: BufferedUart) -> Uart {
         let (tx, rx) = uart.split();
-        Wire { tx, rx }
+        Uart { tx, rx }
     }
 }
 
-impl Link for Wire {
+impl Link for Uart {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
         // A ring hands out what lies before its end in one piece, hence two rounds.
         let mut taken = 0;

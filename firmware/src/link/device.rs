@@ -1,0 +1,121 @@
+//! The board as a USB device: a serial port (CDC-ACM). Its tasks run at the priority of an interrupt, the lowest one, and
+//! interrupt nothing but perception.
+
+use super::usb::{OPENED, RECEIVED, SENT};
+use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
+use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
+use embassy_rp::interrupt::{self, InterruptExt, Priority};
+use embassy_rp::{bind_interrupts, peripherals::USB, usb::Driver};
+use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, Sender, State};
+use embassy_usb::{Builder, Config};
+use static_cell::{ConstStaticCell, StaticCell};
+
+/// Vendor and product by which a host knows the board: from the range of <https://pid.codes> that is for tests, so the
+/// product's name counts, too. Whoever sells boards takes numbers of their own.
+const ID: (u16, u16) = (0x1209, 0x0001);
+/// The product's name.
+const PRODUCT: &str = "taxel";
+
+/// Bytes of a packet.
+const PACKET: usize = 64;
+/// What the board may draw from the bus, mA.
+const MILLIAMPERES: u16 = 250;
+
+type Bus = Driver<'static, USB>;
+
+static EXECUTOR: InterruptExecutor = InterruptExecutor::new();
+
+bind_interrupts!(struct Interrupts {
+    SWI_IRQ_1 => Turn;
+});
+
+/// The interrupt that gives the tasks their turn; nothing else raises it.
+struct Turn;
+
+impl Handler<SWI_IRQ_1> for Turn {
+    #[allow(unsafe_code)] // SAFETY: it is called by the executor's own interrupt alone
+    unsafe fn on_interrupt() {
+        unsafe { EXECUTOR.on_interrupt() }
+    }
+}
+
+/// Attaches the board to the bus. Must be called once.
+pub fn start(driver: Bus) {
+    interrupt::SWI_IRQ_1.set_priority(Priority::P3);
+    EXECUTOR.start(interrupt::SWI_IRQ_1).spawn(once(attach(driver)));
+}
+
+/// A task of which there is one.
+fn once<S>(token: Result<SpawnToken<S>, SpawnError>) -> SpawnToken<S> {
+    token.unwrap_or_else(|_| defmt::panic!("the USB device was started twice"))
+}
+
+/// Serves the bus, once all other tasks have begun: at this priority, too.
+#[embassy_executor::task]
+async fn attach(driver: Bus) {
+    static DESCRIPTORS: ConstStaticCell<[u8; 128]> = ConstStaticCell::new([0; 128]);
+    static CAPABILITIES: ConstStaticCell<[u8; 16]> = ConstStaticCell::new([0; 16]);
+    static CONTROL: ConstStaticCell<[u8; PACKET]> = ConstStaticCell::new([0; PACKET]);
+    static PORT: StaticCell<State<'static>> = StaticCell::new();
+    static SLEEP: StaticCell<Sleep> = StaticCell::new();
+    let mut config = Config::new(ID.0, ID.1);
+    config.manufacturer = Some(PRODUCT);
+    config.product = Some(PRODUCT);
+    config.max_power = MILLIAMPERES;
+    let mut builder =
+        Builder::new(driver, config, DESCRIPTORS.take(), CAPABILITIES.take(), &mut [], CONTROL.take());
+    builder.handler(SLEEP.init(Sleep));
+    let port = CdcAcmClass::new(&mut builder, PORT.init(State::new()), PACKET as u16);
+    let (sender, receiver, control) = port.split_with_control();
+    #[allow(unsafe_code)]
+    // SAFETY: this future is a task of an executor of embassy.
+    let spawner = unsafe { Spawner::for_current_executor() }.await;
+    spawner.spawn(once(watch(control)));
+    spawner.spawn(once(send(sender)));
+    spawner.spawn(once(receive(receiver)));
+    builder.build().run().await;
+}
+
+/// Hears whether anything moves on the bus.
+struct Sleep;
+
+impl embassy_usb::Handler for Sleep {
+    fn reset(&mut self) {
+        OPENED.set_asleep(false);
+    }
+
+    fn suspended(&mut self, suspended: bool) {
+        OPENED.set_asleep(suspended);
+    }
+}
+
+#[embassy_executor::task]
+async fn watch(control: ControlChanged<'static>) {
+    loop {
+        control.control_changed().await;
+        OPENED.set_ready(control.dtr());
+    }
+}
+
+#[embassy_executor::task]
+async fn send(mut port: Sender<'static, Bus>) {
+    let mut packet = [0; PACKET];
+    let mut full = false;
+    loop {
+        // The host takes packets for one piece until it meets one that is not full: an empty one, if need be.
+        let count = if full { SENT.try_read(&mut packet).unwrap_or(0) } else { SENT.read(&mut packet).await };
+        let sent = port.write_packet(packet.get(..count).unwrap_or(&[])).await;
+        full = sent.is_ok() && count == PACKET;
+    }
+}
+
+#[embassy_executor::task]
+async fn receive(mut port: Receiver<'static, Bus>) {
+    let mut packet = [0; PACKET];
+    loop {
+        port.wait_connection().await;
+        if let Ok(count) = port.read_packet(&mut packet).await {
+            RECEIVED.write_all(packet.get(..count).unwrap_or(&[])).await;
+        }
+    }
+}

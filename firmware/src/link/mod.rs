@@ -1,0 +1,54 @@
+//! The links to the host. The board talks, and listens, over USB while a program there has opened its port, else over the
+//! UART; both carry the same bytes.
+//!
+//! | file | what |
+//! |---|---|
+//! | `uart.rs` | the UART behind its rings |
+//! | `usb.rs` | the rings of the USB port |
+//! | `device.rs` | the USB device, and the tasks that move bytes between its endpoints and the rings |
+
+mod device;
+pub mod uart;
+mod usb;
+
+pub use uart::Uart;
+pub use usb::Usb;
+
+use taxel_core::run::Link;
+
+/// The byte link to the host.
+pub struct Wire {
+    usb: Usb,
+    uart: Uart,
+    /// The board talks over USB.
+    over_usb: bool,
+}
+
+impl Wire {
+    /// Over these two.
+    pub fn new(usb: Usb, uart: Uart) -> Wire {
+        Wire { usb, uart, over_usb: false }
+    }
+
+    /// Looks which link is to be used. What waits for a host that has gone is not for the next one.
+    fn choose(&mut self) {
+        let open = self.usb.is_open();
+        if self.over_usb && !open {
+            self.usb.forget();
+        }
+        self.over_usb = open;
+    }
+}
+
+impl Link for Wire {
+    fn try_read(&mut self, buffer: &mut [u8]) -> usize {
+        self.choose();
+        // What comes over the UART meanwhile is taken from its ring, too, and heard by nobody: later it would be out of date.
+        let count = self.uart.try_read(buffer);
+        if self.over_usb { self.usb.try_read(buffer) } else { count }
+    }
+
+    fn try_write(&mut self, bytes: &[u8]) -> usize {
+        if self.over_usb { self.usb.try_write(bytes) } else { self.uart.try_write(bytes) }
+    }
+}

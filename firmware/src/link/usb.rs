@@ -1,0 +1,85 @@
+//! The port that the board is for a host on USB: two rings, which tasks of a higher priority fill and empty, so that
+//! perception does not hold up the bus.
+
+use super::device;
+use core::sync::atomic::{AtomicBool, Ordering};
+use embassy_rp::{peripherals::USB, usb};
+use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, pipe::Pipe};
+use taxel_core::run::Link;
+
+/// Bytes to the host that may wait: what the bus carries in 3.4 ms.
+const TO_HOST: usize = 4096;
+/// Bytes from the host: when they are full, the host is made to wait.
+const FROM_HOST: usize = 1024;
+/// Bytes that are copied at once, with interrupts off: for less than 10 us.
+const PIECE: usize = 256;
+
+/// A ring.
+pub(super) type Ring<const N: usize> = Pipe<CriticalSectionRawMutex, N>;
+
+pub(super) static SENT: Ring<TO_HOST> = Ring::new();
+pub(super) static RECEIVED: Ring<FROM_HOST> = Ring::new();
+
+/// A program has the port open: it has said so, and nobody has pulled the cable since or put the host to sleep.
+pub(super) struct Opened {
+    ready: AtomicBool,
+    asleep: AtomicBool,
+}
+
+pub(super) static OPENED: Opened = Opened { ready: AtomicBool::new(false), asleep: AtomicBool::new(false) };
+
+impl Opened {
+    /// The terminal is ready, as it says by its line DTR.
+    pub fn set_ready(&self, ready: bool) {
+        self.ready.store(ready, Ordering::Relaxed);
+    }
+
+    /// Nothing moves on the bus: the host sleeps, or is no longer there.
+    pub fn set_asleep(&self, asleep: bool) {
+        self.asleep.store(asleep, Ordering::Relaxed);
+    }
+
+    fn get(&self) -> bool {
+        self.ready.load(Ordering::Relaxed) && !self.asleep.load(Ordering::Relaxed)
+    }
+}
+
+/// The port.
+pub struct Usb(());
+
+impl Usb {
+    /// Attaches the board to the bus. Must be called once.
+    pub fn start(driver: usb::Driver<'static, USB>) -> Usb {
+        device::start(driver);
+        Usb(())
+    }
+
+    /// Whether a program has opened the port.
+    pub fn is_open(&self) -> bool {
+        OPENED.get()
+    }
+
+    /// Empties both rings.
+    pub fn forget(&mut self) {
+        SENT.clear();
+        RECEIVED.clear();
+    }
+}
+
+impl Link for Usb {
+    fn try_read(&mut self, buffer: &mut [u8]) -> usize {
+        RECEIVED.try_read(buffer).unwrap_or(0)
+    }
+
+    fn try_write(&mut self, bytes: &[u8]) -> usize {
+        let mut given = 0;
+        for piece in bytes.chunks(PIECE) {
+            let count = SENT.try_write(piece).unwrap_or(0);
+            given += count;
+            if count == 0 {
+                break;
+            }
+        }
+        given
+    }
+}
