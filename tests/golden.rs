@@ -57,7 +57,7 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 11] {
+fn reports() -> [(&'static str, Report<'static>); 12] {
     let (frame, time) = (300, Micros(5_000_000_000));
     let words = Words {
         strength: Strength::Firm,
@@ -81,6 +81,17 @@ fn reports() -> [(&'static str, Report<'static>); 11] {
         refused: 7,
         scan_us: 7_628,
         process_us: 3_200,
+    };
+    let budget = Budget {
+        frame,
+        time,
+        frames: 195,
+        scan_us: 5_120,
+        process_us: 2_010,
+        encode_us: 590,
+        send_us: 700,
+        overruns: 3,
+        thinned_frames: 4,
     };
     let hello = Hello {
         magic: MAGIC,
@@ -111,10 +122,11 @@ fn reports() -> [(&'static str, Report<'static>); 11] {
         ("Sync", Report::Sync(SyncReport { token: 9, received: time, sent: Micros(5_000_000_100) })),
         ("Answer", Report::Answer(Answer { request: 2, refusal: Some("no") })),
         ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
+        ("Budget", Report::Budget(budget)),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 12] {
+fn requests() -> [(&'static str, Request<'static>); 13] {
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
     [
         ("SetGarment", Request::SetGarment(&[1, 2, 3])),
@@ -129,6 +141,7 @@ fn requests() -> [(&'static str, Request<'static>); 12] {
         ("SelfTest", Request::SelfTest),
         ("Save", Request::Save),
         ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
+        ("Budget", Request::Budget { hz: 65_535 }),
     ]
 }
 

@@ -43,6 +43,7 @@ fn args(source: &str, frames: Option<u64>) -> LiveArgs {
         garment: None,
         scene: None,
         tare: None,
+        budget: None,
         realtime: false,
         seed: None,
         svg: None,

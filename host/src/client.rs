@@ -17,6 +17,7 @@
 
 mod counts;
 mod event;
+mod known;
 mod picture;
 mod worn;
 
@@ -27,11 +28,9 @@ pub use worn::Worn;
 use picture::Picture;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
-use taxel_core::format::{Name, Q15};
-use taxel_core::intent::Leading;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    ContactList, Frame, Health, Hello, IntentReport, LONGEST_REQUEST, Raw, Receiver, Report, Request,
+    Budget, ContactList, Frame, Health, Hello, IntentReport, LONGEST_REQUEST, Raw, Receiver, Report, Request,
     WireError, decode, decode_image, encode,
 };
 
@@ -56,6 +55,7 @@ pub struct Client {
     regions: Vec<RegionState>,
     intention: Option<IntentReport>,
     health: Option<Health>,
+    budget: Option<Budget>,
 }
 
 impl Default for Client {
@@ -83,6 +83,7 @@ impl Client {
             regions: Vec::new(),
             intention: None,
             health: None,
+            budget: None,
         }
     }
 
@@ -172,6 +173,10 @@ impl Client {
                 Event::Answer { request: answer.request, refusal: answer.refusal.map(String::from) }
             }
             Report::Raw(raw) => self.take_raw(&raw),
+            Report::Budget(budget) => {
+                self.budget = Some(budget);
+                Event::Budget(budget)
+            }
         }
     }
 
@@ -226,71 +231,5 @@ impl Client {
             self.counts.undecoded += 1;
         }
         Event::Raw { frame: raw.frame, time: raw.time, whole }
-    }
-}
-
-/// What is known.
-impl Client {
-    /// What was counted on the line.
-    pub fn counts(&self) -> &Counts {
-        &self.counts
-    }
-
-    /// Garment, scene and firmware; none before the first `Hello`.
-    pub fn worn(&self) -> Option<&Worn> {
-        self.worn.as_ref()
-    }
-
-    /// The garment's geometry; none before the first `Hello`.
-    pub fn layout(&self) -> Option<&taxel_core::garment::Layout> {
-        self.worn.as_ref().map(|worn| &worn.layout)
-    }
-
-    /// The last conditioned image by taxel number, with its frame's number; none before the first that stands alone.
-    pub fn image(&self) -> Option<(u32, &[u16])> {
-        self.picture.image()
-    }
-
-    /// The last raw codes by taxel number; empty where none were sent.
-    pub fn raw(&self) -> &[u16] {
-        &self.raw
-    }
-
-    /// Contacts that are there, as told last.
-    pub fn contacts(&self) -> &[Placed] {
-        &self.contacts
-    }
-
-    /// Ids of the contacts that have gone with the last frame.
-    pub fn released(&self) -> &[u32] {
-        &self.released
-    }
-
-    /// Regions that are touched, as told last.
-    pub fn regions(&self) -> &[RegionState] {
-        &self.regions
-    }
-
-    /// Names of the concepts of the scene's map.
-    pub fn concepts(&self) -> &[Name] {
-        let intent = self.worn.as_ref().and_then(|worn| worn.scene.intent.as_ref());
-        intent.map_or(&[], |intent| intent.map.concepts.as_slice())
-    }
-
-    /// The announced intention.
-    pub fn leading(&self) -> Leading {
-        self.intention.as_ref().map_or(Leading::None, |report| report.leading)
-    }
-
-    /// Activation of each of the concepts; 0 before the first inference.
-    pub fn activations(&self) -> Vec<Q15> {
-        let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
-        all.resize(self.concepts().len(), Q15(0));
-        all
-    }
-
-    /// The board's counters, as told last.
-    pub fn health(&self) -> Option<&Health> {
-        self.health.as_ref()
     }
 }

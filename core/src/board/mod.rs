@@ -1,6 +1,7 @@
 //! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives what to send
 //! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
 
+mod budget;
 mod outbox;
 mod outputs;
 mod pace;
@@ -17,6 +18,7 @@ use crate::garment::{Circuit, Garment};
 use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
+use budget::{Doing, Ledger};
 use heapless::{Deque, String, Vec};
 use outbox::{Outbox, Refusal};
 use outputs::Outputs;
@@ -69,7 +71,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     scans: Pace,
     scanning: bool,
     health: Health,
-    scanned: Option<Micros>,
+    ledger: Ledger,
     frame: u32,
     taring: bool,
     /// The garment has a baseline of its own.
@@ -97,7 +99,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             works: Deque::new(),
             scanning: false,
             health: Health::default(),
-            scanned: None,
+            ledger: Ledger::new(),
             frame: 0,
             taring: false,
             tared: false,
@@ -136,6 +138,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.begun = true;
             self.reset();
         }
+        let doing = if matches!(input, Input::Scanned(Ok(_))) { Doing::Process } else { Doing::Else };
+        self.ledger.turn(now, doing, self.outbox.has_rest());
         match input {
             Input::Received(bytes) => self.receive(now, bytes),
             Input::Scanned(Ok(scan)) => self.perceive(now, &scan, probe),
@@ -154,9 +158,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     fn next_job(&mut self, now: Micros) -> Option<Job> {
-        if let Some(scanned) = self.scanned.take() {
-            self.health.process_us = now.since(scanned).min(u64::from(u32::MAX)) as u32;
-        }
+        self.health.process_us = self.ledger.process_us();
         self.outbox.tick(now);
         if let Some((pin, level)) = self.outputs.next() {
             return Some(Job::Drive(pin, level));
@@ -178,7 +180,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
         self.scanning = false;
-        self.scanned = Some(now);
         self.frame = self.frame.wrapping_add(1);
         self.health.scans = self.health.scans.wrapping_add(1);
         // A scene that wants fewer frames than the converter makes leaves the others on purpose.
@@ -188,6 +189,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.health.scan_us = scan.report.duration_us;
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
+        self.ledger.begin(now, self.frame, time, scan.report.duration_us);
+        self.outbox.spend(|| self.ledger.due(now, &self.health));
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
         for change in percept.reactions.changes() {
             if let Some(line) = pipeline.reactions().output(change.index) {
@@ -205,6 +208,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     /// What is to be sent next: the rest of the frame under way, else the most urgent message, encoded now.
     pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
+        let rest = self.outbox.has_rest();
+        self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
         self.outbox.pending(now, &self.info, &self.setup, &image, &mut self.health, probe)
     }

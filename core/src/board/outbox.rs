@@ -51,6 +51,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     contacts: ContactList,
     contacts_wait: bool,
     health: Option<Micros>,
+    budget: Option<Budget>,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
@@ -84,6 +85,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             contacts: ContactList { frame: 0, time: Micros(0), dropped: 0, contacts: Vec::new() },
             contacts_wait: false,
             health: None,
+            budget: None,
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
             codes: Codes::new(),
@@ -121,7 +123,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     fn drop_waiting(&mut self) {
         self.reactions.clear();
         self.changes.clear();
-        (self.intent, self.image.due, self.raw) = (None, None, None);
+        (self.intent, self.image.due, self.raw, self.budget) = (None, None, None, None);
         self.contacts.contacts.clear();
         (self.symbols_wait, self.contacts_wait) = (false, false);
     }
@@ -151,6 +153,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             self.health.get_or_insert(Micros(now.0 + SECOND));
         } else {
             self.hello.get_or_insert(Micros(now.0 + SECOND));
+        }
+    }
+
+    /// Takes a report of the time, unless one waits.
+    pub fn spend(&mut self, budget: impl FnOnce() -> Option<Budget>) {
+        if self.streaming && self.budget.is_none() {
+            self.budget = budget();
         }
     }
 
@@ -264,12 +273,17 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health: &mut Health,
         probe: &mut impl Probe,
     ) -> &[u8] {
-        if self.under_way.rest().is_empty() {
+        if !self.has_rest() {
             probe.begin(Stage::Encode);
             self.next(now, info, setup, image, health);
             probe.begin(Stage::Idle);
         }
         self.under_way.rest()
+    }
+
+    /// Whether the link has not taken all of the message under way.
+    pub fn has_rest(&self) -> bool {
+        !self.under_way.rest().is_empty()
     }
 
     pub fn sent(&mut self, count: usize) {
@@ -303,6 +317,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
             under_way.put(Report::HEALTH, &Health { time: now, ..*health })
+        } else if let Some(budget) = self.budget.take() {
+            under_way.put(Report::BUDGET, &budget)
         } else if let Some((frame, time)) = self.image.due.take() {
             self.put_image(frame, time, &setup.layout, image, health)
         } else if let Some((frame, time)) = self.raw.take() {

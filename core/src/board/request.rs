@@ -72,6 +72,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             Request::SelfTest => return self.start(Work::SelfTest),
             Request::Save => return self.start(Work::Save),
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
+            Request::Budget { hz } => {
+                self.ledger.report(hz);
+                Ok(())
+            }
         };
         self.outbox.answer(number, result.err());
     }

@@ -49,6 +49,8 @@ pub enum Report<'a> {
     /// Raw codes.
     #[serde(borrow)]
     Raw(Raw<'a>),
+    /// Where the time goes.
+    Budget(Budget),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -75,6 +77,8 @@ impl Report<'_> {
     pub const ANSWER: u32 = 9;
     /// Of `Raw`.
     pub const RAW: u32 = 10;
+    /// Of `Budget`.
+    pub const BUDGET: u32 = 11;
 }
 
 /// Frozen.
@@ -204,6 +208,29 @@ pub struct Health {
     pub process_us: u32,
 }
 
+/// Where the time of frames went: of each kind the most that any of them took, all that was done until the next frame included.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Budget {
+    /// Number of the last scan of these.
+    pub frame: u32,
+    /// Start of that scan.
+    pub time: Micros,
+    /// How many they are: 1, or all since the last such report.
+    pub frames: u16,
+    /// Duration of the scan, us. The next one goes on meanwhile.
+    pub scan_us: u32,
+    /// From the codes to the reactions, us.
+    pub process_us: u32,
+    /// Messages were encoded and handed to the link, us.
+    pub encode_us: u32,
+    /// A message waited for room on the link, us. The processor was not held up by that.
+    pub send_us: u32,
+    /// As in [`Health`].
+    pub overruns: u32,
+    /// As in [`Health`].
+    pub thinned_frames: u32,
+}
+
 /// How grave a sentence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
@@ -290,6 +317,11 @@ pub enum Request<'a> {
         /// the gains
         gains: Vec<u16, 64>,
     },
+    /// How often `Budget` is reported.
+    Budget {
+        /// a second; 0: never, 65535: for each frame
+        hz: u16,
+    },
 }
 
 impl Request<'_> {
@@ -308,6 +340,7 @@ impl Request<'_> {
             Request::SelfTest => 9,
             Request::Save => 10,
             Request::SetGain { .. } => 11,
+            Request::Budget { .. } => 12,
         }
     }
 }

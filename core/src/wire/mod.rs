@@ -22,6 +22,7 @@
 //! | 8 | [`SyncReport`] | in answer to `Sync` |
 //! | 9 | [`Answer`] | in answer to every other request |
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
+//! | 11 | [`Budget`] | each second, or as often as was asked for |
 //!
 //! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see [`encode_image`]:
 //! alone where `base` is none, else the difference to the frame of that number, which is the last `Frame` before it.

@@ -2,7 +2,9 @@
 
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
-use taxel_core::wire::{Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, WireError};
+use taxel_core::wire::{
+    Budget, Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, WireError,
+};
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +43,8 @@ pub enum Event {
     Reaction(ReactionReport),
     /// Counters of the board.
     Health(Health),
+    /// Where the board's time goes.
+    Budget(Budget),
     /// A sentence of the board.
     Log {
         /// The board's time.

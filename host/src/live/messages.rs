@@ -114,6 +114,12 @@ fn small(client: &Client, event: &Event) -> Value {
             rename_time(&mut line);
             line
         }
+        Event::Budget(budget) => {
+            let mut line = json!({ "type": "budget" });
+            merge(&mut line, serde_json::to_value(budget).unwrap_or_default());
+            rename_time(&mut line);
+            line
+        }
         Event::Log { time, level, text } => {
             json!({ "type": "log", "time_us": time.0, "level": word(level), "text": text })
         }

@@ -28,6 +28,7 @@ use std::io::{IsTerminal, Write, stdout};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
+use taxel_core::wire::Request;
 
 /// What `taxel live` takes.
 #[derive(Debug, Clone, Args)]
@@ -62,6 +63,9 @@ pub struct LiveArgs {
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
+    /// How many times a second the board reports where its time goes; 65535: for each frame [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub budget: Option<u16>,
     /// A simulation is not faster than time
     #[arg(long)]
     pub realtime: bool,
@@ -133,6 +137,9 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         outfit::play(&mut client, scene)?;
     }
     client.start(args.tare.unwrap_or(source.tare))?;
+    if let Some(hz) = args.budget {
+        client.request(&Request::Budget { hz })?;
+    }
     let mut limits = Limits {
         frames: args.frames,
         seconds: args.seconds,

@@ -127,7 +127,7 @@ pub(super) fn shape_name(class: Class) -> String {
 
 /// The name of a request by its number.
 pub(super) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 12] = [
+    const NAMES: [&str; 13] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -140,6 +140,7 @@ pub(super) fn request_name(number: u8) -> &'static str {
         "self-test",
         "save",
         "set-gain",
+        "budget",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

@@ -140,8 +140,13 @@ impl View {
         if let Some(latency) = self.latency {
             line += &format!("  latency {:.1} ms", latency.as_secs_f64() * 1e3);
         }
-        if let Some(health) = client.health() {
-            line += &format!("  scan {:.2} ms  perceive {:.2} ms", ms(health.scan_us), ms(health.process_us));
+        if let Some(budget) = client.budget() {
+            let [scan, perceive, encode, wait] =
+                [budget.scan_us, budget.process_us, budget.encode_us, budget.send_us].map(ms);
+            line += &format!(
+                "  scan {scan:.2} ms  perceive {perceive:.2} ms  encode {encode:.2} ms  link {wait:.2} ms  overruns {}",
+                budget.overruns
+            );
         }
         if space.height > 1 {
             buffer.set_stringn(space.x, space.y + 1, line, width, Style::new());

@@ -1,0 +1,179 @@
+//! Where the time from one scan to the next goes. The board has no clock of its own: what it does between two calls is
+//! charged by the times of the calls.
+
+use super::pace::Pace;
+use crate::format::Micros;
+use crate::wire::{Budget, Health};
+
+/// Reports per second until the host asks for others.
+const RATE_HZ: u16 = 1;
+
+/// What the board is at, or was when it was called last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Doing {
+    /// A scan's codes become a percept.
+    Process,
+    /// A message is encoded and handed to the link.
+    Encode,
+    /// All else, the wait for the next scan above all.
+    Else,
+}
+
+/// Keeps account of time.
+pub(super) struct Ledger {
+    pace: Pace,
+    doing: Doing,
+    since: Micros,
+    /// Since when a message has been waiting for room on the link.
+    waiting: Option<Micros>,
+    /// The frame under way.
+    frame: Frame,
+    /// The dearest of the frames since the last report, and how many they are.
+    dearest: Frame,
+    frames: u16,
+}
+
+/// What a frame took, us.
+#[derive(Debug, Default, Clone, Copy)]
+struct Frame {
+    number: u32,
+    time: Micros,
+    scan: u32,
+    process: u32,
+    encode: u32,
+    send: u32,
+}
+
+impl Ledger {
+    /// Nothing has been done yet.
+    pub fn new() -> Ledger {
+        let none = Frame::default();
+        Ledger {
+            pace: Pace::new(RATE_HZ),
+            doing: Doing::Else,
+            since: Micros(0),
+            waiting: None,
+            frame: none,
+            dearest: none,
+            frames: 0,
+        }
+    }
+
+    /// Reports so many times a second; 0: never, `u16::MAX`: for each frame.
+    pub fn report(&mut self, hz: u16) {
+        self.pace = Pace::new(hz);
+        self.frames = 0;
+    }
+
+    /// From `now` on the board is at something else. `rest`: of the message under way the link has not taken all.
+    pub fn turn(&mut self, now: Micros, doing: Doing, rest: bool) {
+        let passed = us(now, self.since);
+        match self.doing {
+            Doing::Process => self.frame.process = self.frame.process.saturating_add(passed),
+            Doing::Encode => self.frame.encode = self.frame.encode.saturating_add(passed),
+            Doing::Else => {}
+        }
+        (self.doing, self.since) = (doing, now);
+        match (self.waiting, rest) {
+            (None, true) => self.waiting = Some(now),
+            (Some(since), false) => {
+                self.frame.send = self.frame.send.saturating_add(us(now, since));
+                self.waiting = None;
+            }
+            _ => {}
+        }
+    }
+
+    /// Another frame begins to be processed: the one before is complete.
+    pub fn begin(&mut self, now: Micros, number: u32, time: Micros, scan_us: u32) {
+        if let Some(since) = &mut self.waiting {
+            self.frame.send = self.frame.send.saturating_add(us(now, *since));
+            *since = now;
+        }
+        let Frame { scan, process, encode, send, .. } = self.frame;
+        let most = if self.frames == 0 { Frame::default() } else { self.dearest };
+        self.dearest = Frame {
+            scan: scan.max(most.scan),
+            process: process.max(most.process),
+            encode: encode.max(most.encode),
+            send: send.max(most.send),
+            ..self.frame
+        };
+        // Before the first frame there was none.
+        self.frames = self.frames.saturating_add(u16::from(self.frame.number != 0));
+        self.frame = Frame { number, time, scan: scan_us, ..Frame::default() };
+    }
+
+    /// The frames since the last report, if it is time for one.
+    pub fn due(&mut self, now: Micros, health: &Health) -> Option<Budget> {
+        if self.frames == 0 || !self.pace.due(now) {
+            return None;
+        }
+        let Frame { number, time, scan, process, encode, send } = self.dearest;
+        Some(Budget {
+            frame: number,
+            time,
+            frames: core::mem::take(&mut self.frames),
+            scan_us: scan,
+            process_us: process,
+            encode_us: encode,
+            send_us: send,
+            overruns: health.overruns,
+            thinned_frames: health.thinned_frames,
+        })
+    }
+
+    /// How long the last frame was processed.
+    pub fn process_us(&self) -> u32 {
+        self.frame.process
+    }
+}
+
+fn us(now: Micros, since: Micros) -> u32 {
+    now.since(since).min(u32::MAX.into()) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use heapless::Vec;
+
+    #[test]
+    fn each_time_is_charged_to_its_frame() {
+        let mut ledger = Ledger::new();
+        ledger.report(u16::MAX);
+        let health = Health { overruns: 4, thinned_frames: 5, ..Health::default() };
+        let mut budgets = Vec::<Budget, 4>::new();
+        for (number, slow) in [(1, 0), (2, 900), (3, 0), (4, 0)] {
+            let start = u64::from(number) * 5_120;
+            let at = |us: u64| Micros(start + us);
+            ledger.turn(at(0), Doing::Process, false);
+            ledger.begin(at(0), number, Micros(start - 5_120), 5_100);
+            budgets.extend(ledger.due(at(0), &health));
+            ledger.turn(at(2_000 + slow), Doing::Encode, false);
+            ledger.turn(at(2_300 + slow), Doing::Else, true);
+            ledger.turn(at(2_800 + slow), Doing::Encode, false);
+            ledger.turn(at(2_850 + slow), Doing::Else, number == 3);
+        }
+        let told: Vec<_, 4> =
+            budgets.iter().map(|b| (b.frame, b.frames, b.process_us, b.encode_us, b.send_us)).collect();
+        assert_eq!(told, [(1, 1, 2_000, 350, 500), (2, 1, 2_900, 350, 500), (3, 1, 2_000, 350, 500 + 2_270)]);
+        assert_eq!((budgets[1].scan_us, budgets[1].overruns, budgets[1].thinned_frames), (5_100, 4, 5));
+        assert_eq!((budgets[1].time, ledger.process_us()), (Micros(5_120), 2_000));
+    }
+
+    #[test]
+    fn a_report_of_many_frames_tells_the_dearest() {
+        let mut ledger = Ledger::new();
+        let mut budgets = Vec::<Budget, 4>::new();
+        for number in 1..=400u32 {
+            let start = Micros(u64::from(number) * 5_000);
+            ledger.turn(start, Doing::Process, false);
+            ledger.begin(start, number, start, 5_000);
+            budgets.extend(ledger.due(start, &Health::default()));
+            ledger.turn(Micros(start.0 + 1_000 + u64::from(number % 100)), Doing::Else, false);
+        }
+        let told: Vec<_, 4> = budgets.iter().map(|b| (b.frames, b.process_us)).collect();
+        assert_eq!(told, [(1, 1_001), (198, 1_099), (200, 1_099)]);
+    }
+}

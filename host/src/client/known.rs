@@ -1,0 +1,78 @@
+//! What is known of a board by what it told.
+
+use super::{Client, Counts, Worn};
+use taxel_core::body::Placed;
+use taxel_core::format::{Name, Q15};
+use taxel_core::intent::Leading;
+use taxel_core::symbol::RegionState;
+use taxel_core::wire::{Budget, Health};
+
+impl Client {
+    /// What was counted on the line.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Garment, scene and firmware; none before the first `Hello`.
+    pub fn worn(&self) -> Option<&Worn> {
+        self.worn.as_ref()
+    }
+
+    /// The garment's geometry; none before the first `Hello`.
+    pub fn layout(&self) -> Option<&taxel_core::garment::Layout> {
+        self.worn.as_ref().map(|worn| &worn.layout)
+    }
+
+    /// The last conditioned image by taxel number, with its frame's number; none before the first that stands alone.
+    pub fn image(&self) -> Option<(u32, &[u16])> {
+        self.picture.image()
+    }
+
+    /// The last raw codes by taxel number; empty where none were sent.
+    pub fn raw(&self) -> &[u16] {
+        &self.raw
+    }
+
+    /// Contacts that are there, as told last.
+    pub fn contacts(&self) -> &[Placed] {
+        &self.contacts
+    }
+
+    /// Ids of the contacts that have gone with the last frame.
+    pub fn released(&self) -> &[u32] {
+        &self.released
+    }
+
+    /// Regions that are touched, as told last.
+    pub fn regions(&self) -> &[RegionState] {
+        &self.regions
+    }
+
+    /// Names of the concepts of the scene's map.
+    pub fn concepts(&self) -> &[Name] {
+        let intent = self.worn.as_ref().and_then(|worn| worn.scene.intent.as_ref());
+        intent.map_or(&[], |intent| intent.map.concepts.as_slice())
+    }
+
+    /// The announced intention.
+    pub fn leading(&self) -> Leading {
+        self.intention.as_ref().map_or(Leading::None, |report| report.leading)
+    }
+
+    /// Activation of each of the concepts; 0 before the first inference.
+    pub fn activations(&self) -> Vec<Q15> {
+        let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
+        all.resize(self.concepts().len(), Q15(0));
+        all
+    }
+
+    /// The board's counters, as told last.
+    pub fn health(&self) -> Option<&Health> {
+        self.health.as_ref()
+    }
+
+    /// Where the board's time goes, as told last.
+    pub fn budget(&self) -> Option<&Budget> {
+        self.budget.as_ref()
+    }
+}
