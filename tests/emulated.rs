@@ -24,6 +24,8 @@ pub struct Emulated {
     child: Child,
     input: ChildStdin,
     lines: mpsc::Receiver<Value>,
+    /// What the harness said and nobody has waited for yet.
+    pub said: VecDeque<Value>,
     link: TcpStream,
     receiver: Box<Receiver<LONGEST>>,
     messages: VecDeque<(usize, Vec<u8>)>,
@@ -57,25 +59,31 @@ impl Emulated {
             .expect("node cannot be started");
         let input = child.stdin.take().unwrap();
         let lines = lines_of(child.stdout.take().unwrap());
-        let port = wait_for(&lines, "port")["port"].as_u64().unwrap() as u16;
+        let mut said = VecDeque::new();
+        let port = wait_for(&lines, &mut said, "port")["port"].as_u64().unwrap() as u16;
         let link = TcpStream::connect(("127.0.0.1", port)).unwrap();
         link.set_nodelay(true).unwrap();
         link.set_read_timeout(Some(PATIENCE)).unwrap();
         let (receiver, messages) = (Box::new(Receiver::new()), VecDeque::new());
-        Emulated { child, input, lines, link, receiver, messages, wire_bytes: 0, seq: None }
+        Emulated { child, input, lines, said, link, receiver, messages, wire_bytes: 0, seq: None }
     }
 
     /// Lets the frames begin; when the first scan that shows them began.
     pub fn play(&mut self) -> Micros {
         writeln!(self.input, "play").unwrap();
-        Micros(wait_for(&self.lines, "play")["play"]["us"].as_f64().unwrap() as u64)
+        Micros(self.wait_for("play")["play"]["us"].as_f64().unwrap() as u64)
     }
 
     /// What the harness answers to a command: `stats`, what it has counted so far, or `stack`, how deep the stack was since
     /// it was last asked.
     pub fn look(&mut self, at: &str) -> Value {
         writeln!(self.input, "{at}").unwrap();
-        wait_for(&self.lines, at)[at].take()
+        self.wait_for(at)[at].take()
+    }
+
+    /// Waits until the harness says something of this kind.
+    pub fn wait_for(&mut self, kind: &str) -> Value {
+        wait_for(&self.lines, &mut self.said, kind)
     }
 
     /// Sends a request.
@@ -177,11 +185,16 @@ fn lines_of(output: impl Read + Send + 'static) -> mpsc::Receiver<Value> {
     lines
 }
 
-fn wait_for(lines: &mpsc::Receiver<Value>, key: &str) -> Value {
+/// The first line of a kind; the others are kept.
+fn wait_for(lines: &mpsc::Receiver<Value>, said: &mut VecDeque<Value>, kind: &str) -> Value {
+    if let Some(at) = said.iter().position(|line| line.get(kind).is_some()) {
+        return said.remove(at).unwrap();
+    }
     loop {
         let line = lines.recv_timeout(PATIENCE).expect("the harness has ended, or says nothing more");
-        if line.get(key).is_some() {
+        if line.get(kind).is_some() {
             return line;
         }
+        said.push_back(line);
     }
 }

@@ -1,13 +1,15 @@
 //! The firmware image on the emulated board: five moving contacts at full speed. `cargo xtask test --only emulator`.
 
 mod emulated;
+mod images;
 
-use emulated::{Emulated, Message};
+use emulated::Emulated;
+use images::{Images, TAXELS};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use taxel::sim::{frame_codes, load, scale_rate};
 use taxel_core::garment::Garment;
-use taxel_core::wire::{Report, Request, decode_image, image_sum};
+use taxel_core::wire::{Report, Request};
 
 /// Time from scan to scan, us.
 const SCAN_US: u64 = 5_120;
@@ -20,7 +22,6 @@ const IDLE: usize = 90;
 const IDLE_ROUNDS: usize = 2;
 /// Scans from the first touch to the end of the rise.
 const RISE: usize = 35;
-const TAXELS: usize = 2048;
 
 /// Idle frames over and over, then the scene.
 fn codes(garment: &Garment) -> Vec<u16> {
@@ -28,29 +29,6 @@ fn codes(garment: &Garment) -> Vec<u16> {
     let frames = frame_codes(&script, garment, SCAN_US, IDLE + RISE + SCANS + 50).unwrap();
     let (idle, scene) = frames.split_at(IDLE * TAXELS);
     [idle.repeat(IDLE_ROUNDS), scene.to_vec()].concat()
-}
-
-/// Images as a host keeps them.
-#[derive(Default)]
-struct Images {
-    last: Option<(u32, Vec<u16>)>,
-}
-
-impl Images {
-    /// Number and time of the scan of a `Frame`, whose image must be the one that the board had.
-    fn take(&mut self, message: &Message) -> Option<(u32, u64)> {
-        let Report::Frame(frame) = message.report() else { return None };
-        let mut image = vec![0; TAXELS];
-        let base = frame.base.map(|number| {
-            let (last, base) = self.last.as_ref().expect("a difference to no frame");
-            assert_eq!(*last, number, "the difference is to another frame");
-            base.as_slice()
-        });
-        decode_image(frame.data, base, &mut image).unwrap();
-        assert_eq!(image_sum(&image), frame.sum, "frame {}", frame.frame);
-        self.last = Some((frame.frame, image));
-        Some((frame.frame, frame.time.0))
-    }
 }
 
 #[test]

@@ -20,9 +20,10 @@ const { values: options } = parseArgs({
   options: {
     image: { type: 'string' }, port: { type: 'string' }, link: { type: 'string', default: 'uart' }, wiring: { type: 'string' }, codes: { type: 'string' },
     idle: { type: 'string', default: '0' }, loop: { type: 'boolean', default: false },
-    hold: { type: 'boolean', default: false }, dwell: { type: 'string', default: '1' }, seconds: { type: 'string', default: 'Infinity' },
+    hold: { type: 'boolean', default: false }, dwell: { type: 'string', default: '1' }, period: { type: 'string' }, seconds: { type: 'string', default: 'Infinity' },
     'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
     stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
+    every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
   },
 });
 
@@ -38,14 +39,31 @@ function attachGarment(machine) {
   const wiring = readWiring(options.wiring);
   const garment = new Garment({
     wiring, frames: options.codes === undefined ? [] : readFrames(options.codes, wiring.count),
-    idle: Number(options.idle), loop: options.loop, dwell: Number(options.dwell), playing: !options.hold,
+    idle: Number(options.idle), loop: options.loop, dwell: Number(options.dwell),
+    period: options.period === undefined ? undefined : Number(options.period) * 1000, playing: !options.hold,
     readPin: (pin) => machine.readPin(pin), now: () => machine.clock.nanosCounter,
     onPlay: (scan) => say({ play: { scan, us: machine.micros } }),
+    onScan: (scan) => scan % Number(options.every) === 0 && say({ passed: { scan, us: machine.micros, cycles: machine.cycles } }),
   });
   machine.sample = (channel) => garment.sample(channel);
-  garment.check = new Check(garment, machine);
-  machine.onLent = (address) => garment.check.lent(address);
+  if (options.period === undefined) {
+    garment.check = new Check(garment, machine);
+    machine.onLent = (address) => garment.check.lent(address);
+  }
   return garment;
+}
+
+/** Says when messages have come whole, and when pins have changed. */
+function tellTimes(machine, link) {
+  if (options.times) link.onEnd = (bytes) => say({ end: { bytes, us: machine.micros } });
+  for (const pin of options.watch.split(',').filter((pin) => pin !== '').map(Number)) {
+    let last;
+    machine.chip.gpio[pin].addListener(() => {
+      const level = machine.readPin(pin);
+      if (level !== last) say({ edge: { pin, level, us: machine.micros } });
+      last = level;
+    });
+  }
 }
 
 function statistics(machine, garment, link, started) {
@@ -88,6 +106,7 @@ async function main() {
     allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
     onKnown: (usb) => say({ usb }),
   });
+  tellTimes(machine, link);
   if (overUsb) machine.usb.plug();
   const garment = attachGarment(machine);
   if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });

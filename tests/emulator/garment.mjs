@@ -32,10 +32,10 @@ export function readFrames(path, count) {
 export class Garment {
   /**
    * `readPin(number)` is the level a pin drives, or undefined when it does not drive; `now()` is the board's time in ns.
-   * Each frame is shown by `dwell` scans. `playing`: whether the frames run from the first scan on, or wait for `play()` and show `idle` until then.
+   * Each frame is shown by `dwell` scans, or for `period` ns whatever the scans do. `playing`: whether the frames run from the first scan on, or wait for `play()` and show `idle` until then.
    */
-  constructor({ wiring, frames = [], idle = 0, loop = false, dwell = 1, playing = true, readPin, now = () => 0, onPlay = () => {} }) {
-    Object.assign(this, { frames, idle, loop, dwell, readPin, now, onPlay });
+  constructor({ wiring, frames = [], idle = 0, loop = false, dwell = 1, period, playing = true, readPin, now = () => 0, onPlay = () => {}, onScan = () => {} }) {
+    Object.assign(this, { frames, idle, loop, dwell, period, readPin, now, onPlay, onScan });
     this.lines = wiring.lines;
     this.table = tableOf(wiring);
     this.seen = new Int32Array(this.table.length).fill(-1);
@@ -44,6 +44,7 @@ export class Garment {
     this.address = -1;
     this.last = 0;
     this.firstPlayed = playing ? 0 : Infinity;
+    this.begun = 0;
     this.wanted = false;
     this.floating = 0;
   }
@@ -66,7 +67,8 @@ export class Garment {
     const taxel = channel < 4 ? this.table[(address << 2) | channel] : UNMAPPED;
     if (taxel === UNMAPPED) return this.idle;
     this.shown[taxel] = this.scan;
-    return this.frameOf(this.scan)?.[taxel] ?? this.idle;
+    const at = this.period === undefined ? this.frameOf(this.scan) : this.frameAt(this.now());
+    return at?.[taxel] ?? this.idle;
   }
 
   /** The frame that a scan shows; undefined before the frames begin. */
@@ -74,6 +76,12 @@ export class Garment {
     const at = Math.floor((scan - this.firstPlayed) / this.dwell);
     if (this.frames.length === 0 || at < 0) return undefined;
     return this.frames[this.loop ? at % this.frames.length : Math.min(at, this.frames.length - 1)];
+  }
+
+  /** The frame that is shown at a time, where time and not the scans lead from one to the next. */
+  frameAt(now) {
+    if (this.scan < this.firstPlayed) return undefined;
+    return this.frames[Math.min(Math.floor((now - this.begun) / this.period), this.frames.length - 1)];
   }
 
   /**
@@ -86,8 +94,10 @@ export class Garment {
     const pause = this.address >= 0 && this.now() - this.last > SCAN_GAP_NANOS;
     if (pause || this.seen[entry] === this.scan) {
       this.scan++;
+      this.onScan(this.scan);
       if (this.wanted && this.firstPlayed === Infinity) {
         this.firstPlayed = this.scan;
+        this.begun = this.now();
         this.onPlay(this.scan);
       }
     }

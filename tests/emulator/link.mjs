@@ -8,6 +8,8 @@ export class Link {
   /** `receive(bytes)` takes what the client sends; `onClient(there)`: it has come, or gone. */
   constructor(receive, onClient = () => {}) {
     Object.assign(this, { receive, onClient });
+    /** Called with the number of bytes so far when the last one of a message has come. */
+    this.onEnd = () => {};
     this.out = [];
     this.client = undefined;
     this.sent = this.dropped = this.received = 0;
@@ -42,8 +44,12 @@ export class Link {
 
   /** Takes a byte from the board. */
   push(byte) {
-    if (this.client === undefined) this.dropped++;
-    else this.out.push(byte);
+    if (this.client === undefined) {
+      this.dropped++;
+      return;
+    }
+    this.out.push(byte);
+    if (byte === 0) this.onEnd(this.sent + this.out.length);
   }
 
   /** Hands what has gathered to the client. */

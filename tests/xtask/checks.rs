@@ -27,6 +27,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator", targets::emulator),
     ("emulator-stack", targets::emulator_stack),
     ("emulator-scan", targets::emulator_scan),
+    ("emulator-usb", targets::emulator_usb),
     ("recorded", targets::recorded),
     ("emulator-recorded", targets::emulator_recorded),
 ];

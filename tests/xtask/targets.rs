@@ -7,7 +7,15 @@ use std::path::Path;
 use std::process::Command;
 
 /// All of them; cargo passes them over even where it is asked for all targets.
-pub const APART: &[&str] = &["emulator", "emulator_stack", "emulator_recorded", "recorded", "cycles"];
+pub const APART: &[&str] = &[
+    "emulator",
+    "emulator_stack",
+    "emulator_scan",
+    "emulator_usb",
+    "emulator_recorded",
+    "recorded",
+    "cycles",
+];
 
 /// Five contacts at full speed.
 pub fn emulator(log: &Path) -> Result<Result<(), String>, String> {
@@ -22,6 +30,11 @@ pub fn emulator_stack(log: &Path) -> Result<Result<(), String>, String> {
 /// The scan by DMA and PIO, every code checked.
 pub fn emulator_scan(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_scan", log)
+}
+
+/// The board on USB: what arrives, what it costs, how late it is.
+pub fn emulator_usb(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_usb", log)
 }
 
 /// Recordings on the emulated board and on this machine.

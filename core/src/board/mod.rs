@@ -181,6 +181,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
         self.scanning = false;
         self.frame = self.frame.wrapping_add(1);
+        self.ledger.begin(now, self.frame, scan.report.start, scan.report.duration_us);
+        self.outbox.spend(|| self.ledger.due(now, &self.health));
         self.health.scans = self.health.scans.wrapping_add(1);
         // A scene that wants fewer frames than the converter makes leaves the others on purpose.
         if self.setup.scene.rate_hz == 0 {
@@ -189,8 +191,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.health.scan_us = scan.report.duration_us;
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
-        self.ledger.begin(now, self.frame, time, scan.report.duration_us);
-        self.outbox.spend(|| self.ledger.due(now, &self.health));
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
         for change in percept.reactions.changes() {
             if let Some(line) = pipeline.reactions().output(change.index) {

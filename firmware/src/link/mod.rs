@@ -22,21 +22,38 @@ pub struct Wire {
     uart: Uart,
     /// The board talks over USB.
     over_usb: bool,
+    /// The last byte that was sent is the last one of a message.
+    ended: bool,
+    /// What comes next is the rest of a message whose beginning went over the other link.
+    cut: bool,
 }
+
+/// Ends each message.
+const END: u8 = 0;
 
 impl Wire {
     /// Over these two.
     pub fn new(usb: Usb, uart: Uart) -> Wire {
-        Wire { usb, uart, over_usb: false }
+        Wire { usb, uart, over_usb: false, ended: true, cut: false }
     }
 
-    /// Looks which link is to be used. What waits for a host that has gone is not for the next one.
+    /// Looks which link is to be used.
     fn choose(&mut self) {
         let open = self.usb.is_open();
-        if self.over_usb && !open {
+        if self.over_usb == open {
+            return;
+        }
+        if !open {
+            // What waits for a host that has gone is not for the next one.
             self.usb.forget();
         }
-        self.over_usb = open;
+        (self.over_usb, self.cut) = (open, !self.ended);
+        // Ends what was cut off when the board went from this link.
+        self.send(&[END]);
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> usize {
+        if self.over_usb { self.usb.try_write(bytes) } else { self.uart.try_write(bytes) }
     }
 }
 
@@ -49,6 +66,16 @@ impl Link for Wire {
     }
 
     fn try_write(&mut self, bytes: &[u8]) -> usize {
-        if self.over_usb { self.usb.try_write(bytes) } else { self.uart.try_write(bytes) }
+        let mut count = 0;
+        if self.cut {
+            let end = bytes.iter().position(|byte| *byte == END);
+            self.cut = end.is_none();
+            count = end.map_or(bytes.len(), |at| at + 1);
+        }
+        count += self.send(bytes.get(count..).unwrap_or(&[]));
+        if let Some(last) = count.checked_sub(1).and_then(|last| bytes.get(last)) {
+            self.ended = *last == END;
+        }
+        count
     }
 }

@@ -73,11 +73,11 @@ impl Link for Usb {
 
     fn try_write(&mut self, bytes: &[u8]) -> usize {
         let mut given = 0;
-        for piece in bytes.chunks(PIECE) {
-            let count = SENT.try_write(piece).unwrap_or(0);
-            given += count;
-            if count == 0 {
-                break;
+        // A ring takes what goes in before its end, hence the rounds.
+        while let Some(piece) = bytes.get(given..bytes.len().min(given + PIECE)) {
+            match SENT.try_write(piece) {
+                Ok(count) if count > 0 => given += count,
+                _ => break,
             }
         }
         given
