@@ -1,6 +1,5 @@
 //! The Sobel operator, where it is asked for.
 
-use super::slices::row_of;
 use crate::garment::Area;
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.
@@ -19,52 +18,84 @@ impl Gradient {
     }
 }
 
-/// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; values past the end of the slice are 0.
+/// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; 0 where the slice does not hold what it takes.
 pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
-    Neighbourhood::of(values, area, row).gradient(column.into())
+    let (row, column) = (row.min(area.rows.saturating_sub(1)), column.min(area.columns.saturating_sub(1)));
+    Neighbourhood::of(values, area, row).gradient(column)
 }
 
 /// A row of a panel with the one above and the one below it, itself at the border.
-pub(crate) struct Neighbourhood<'a>([&'a [u16]; 3]);
+pub(crate) struct Neighbourhood<'a> {
+    values: &'a [u16],
+    /// Numbers of the first taxels: of the row above, the row, the row below.
+    rows: [u16; 3],
+    columns: u16,
+}
 
 impl<'a> Neighbourhood<'a> {
-    /// Of no row.
-    pub const NONE: Neighbourhood<'static> = Neighbourhood([&[]; 3]);
-
+    /// Of a row that the panel has.
     pub fn of(values: &'a [u16], area: &Area, row: u16) -> Self {
-        let last = area.rows.saturating_sub(1);
-        let y = row.min(last);
-        Neighbourhood([y.saturating_sub(1), y, (y + 1).min(last)].map(|row| row_of(values, area, row)))
+        let here = area.base + row * area.columns;
+        let above = if row > 0 { here - area.columns } else { here };
+        let below = if row + 1 < area.rows { here + area.columns } else { here };
+        Neighbourhood { values, rows: [above, here, below], columns: area.columns }
     }
 
-    /// The row below, which is `row` and not the last one of the panel.
-    pub fn next(&self, values: &'a [u16], area: &Area, row: u16) -> Self {
-        let [_, here, below] = self.0;
-        Neighbourhood([here, below, row_of(values, area, row + 1)])
+    /// Columns `left ..= right` of the row; empty where the slice does not hold them.
+    pub fn piece(&self, left: u16, right: u16) -> &'a [u16] {
+        let first = usize::from(self.rows[1]);
+        self.values.get(first + usize::from(left)..first + usize::from(right) + 1).unwrap_or(&[])
     }
 
-    /// The row above, the row, the row below.
-    pub const fn rows(&self) -> [&'a [u16]; 3] {
-        self.0
+    /// As [`Neighbourhood::piece`], of the row above and of the row below.
+    pub fn beside(&self, left: u16, right: u16) -> [&'a [u16]; 2] {
+        let [above, _, below] = self.rows;
+        [above, below].map(|first| Neighbourhood { rows: [first; 3], ..*self }.piece(left, right))
     }
 
-    pub fn gradient(&self, column: usize) -> Gradient {
-        let x = column.min(self.0[1].len().saturating_sub(1));
-        let [[nw, n, ne], [w, _, e], [sw, s, se]] = self.0.map(|row| three(row, x).map(i32::from));
-        Gradient { x: ne + 2 * e + se - nw - 2 * w - sw, y: sw + 2 * s + se - nw - 2 * n - ne }
+    /// At a column that the panel has.
+    pub fn gradient(&self, column: u16) -> Gradient {
+        let gradient = if column == 0 || column + 1 == self.columns {
+            self.gradient_beside(column)
+        } else {
+            self.pieces(column - 1).map(|rows| slopes(&rows))
+        };
+        gradient.unwrap_or_default()
+    }
+
+    /// In the first or the last column.
+    fn gradient_beside(&self, column: u16) -> Option<Gradient> {
+        if self.columns == 1 {
+            let [[above], [here], [below]] = self.pieces(0)?;
+            return Some(slopes(&[&[*above; 3], &[*here; 3], &[*below; 3]]));
+        }
+        Some(if column == 0 {
+            let rows = self.pieces(0)?.map(|[here, east]| [*here, *here, *east]);
+            slopes(&rows.each_ref())
+        } else {
+            let rows = self.pieces(column - 1)?.map(|[west, here]| [*west, *here, *here]);
+            slopes(&rows.each_ref())
+        })
+    }
+
+    /// From a column on, a piece of each row.
+    fn pieces<const N: usize>(&self, column: u16) -> Option<[&'a [u16; N]; 3]> {
+        let piece = |first: u16| {
+            // One comparison, since 17 bits and a few cannot overflow.
+            let from = usize::from(first) + usize::from(column);
+            self.values.get(from..from + N)?.first_chunk()
+        };
+        let [above, here, below] = self.rows;
+        Some([piece(above)?, piece(here)?, piece(below)?])
     }
 }
 
-/// A value with its neighbours to the left and right, which it replaces beyond the ends of the row.
-fn three(row: &[u16], x: usize) -> [u16; 3] {
-    match *row.get(x.saturating_sub(1)..).unwrap_or(&[]) {
-        [middle, right, ..] if x == 0 => [middle, middle, right],
-        [left, middle, right, ..] => [left, middle, right],
-        [left, middle] => [left, middle, middle],
-        [middle] if x == 0 => [middle; 3],
-        [left] => [left, 0, 0],
-        [] => [0; 3],
-    }
+/// In the middle of three rows of three.
+fn slopes([above, here, below]: &[&[u16; 3]; 3]) -> Gradient {
+    let [[nw, n, ne], [w, _, e], [sw, s, se]] = [above, here, below].map(|row| row.map(i32::from));
+    // Both diagonals count for both slopes.
+    let (falling, rising) = (se - nw, ne - sw);
+    Gradient { x: falling + rising + 2 * (e - w), y: falling - rising + 2 * (s - n) }
 }
 
 #[cfg(test)]

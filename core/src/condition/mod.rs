@@ -41,6 +41,7 @@ mod tare;
 mod terms;
 
 pub use config::{ConditionConfig, Filter};
+pub(crate) use slices::row_of;
 pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
 pub use feedback::{CARRIED, Feedback};

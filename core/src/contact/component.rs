@@ -1,14 +1,14 @@
 //! Which components are contacts, and what is measured on each of them.
 
 use super::config::ContactConfig;
-use super::contour::{Contour, Line};
+use super::contour::Contour;
 use super::join::{Joins, weigh};
 use super::label::Labels;
 use super::moments::Moments;
 use super::run::{NONE, Run};
-use crate::condition::{CARRIED, Feedback, Image};
+use crate::condition::{CARRIED, Feedback, Image, Neighbourhood};
 use crate::format::{Fixed16, Inverse};
-use crate::garment::{Layout, Place, Rect};
+use crate::garment::{Area, Layout, Place, Rect};
 use heapless::Vec;
 
 /// A connected touch of one frame, not yet tracked.
@@ -136,20 +136,19 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
-        let mut line = Line::NONE;
-        for run in &labels.runs {
-            let Some(index) = labels.contact_of(run) else { continue };
-            let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
-            if !line.is_of(run) {
-                let Some(area) = layout.areas().get(usize::from(run.panel)) else { continue };
-                line = line.moved(run, area, image);
-            }
-            component.add_moments(run, &line, joins);
-            component.contour.add(run, &mut line, &labels.runs, low);
-            if run.panel == component.bounds.panel {
-                widen(&mut component.bounds, run, line.row);
-            } else {
-                self.widen_beyond(index, run, line.row);
+        for runs in labels.runs.chunk_by(|run, next| run.panel == next.panel) {
+            let area = runs.first().and_then(|run| layout.areas().get(usize::from(run.panel)));
+            let Some(area) = area else { continue };
+            for run in runs {
+                let Some(index) = labels.contact_of(run) else { continue };
+                let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
+                component.add(run, image.values, area, low, joins);
+                let row = run.row - area.first_row;
+                if run.panel == component.bounds.panel {
+                    widen(&mut component.bounds, run, row);
+                } else {
+                    self.widen_beyond(index, run, row);
+                }
             }
         }
         for (contact, moments) in joins.carried_moments() {
@@ -199,17 +198,22 @@ fn widen(rect: &mut Rect, run: &Run, row: u16) {
 }
 
 impl Component {
-    fn add_moments(&mut self, run: &Run, line: &Line, joins: &mut Joins) {
-        let values = line.piece(run);
+    /// Adds a run to the sums.
+    #[inline(never)]
+    fn add(&mut self, run: &Run, values: &[u16], area: &Area, low: u16, joins: &mut Joins) {
+        let row = run.row - area.first_row;
+        let around = Neighbourhood::of(values, area, row);
+        let values = around.piece(run.left, run.right);
+        self.contour.add(run, &around, row == 0 || row + 1 >= area.rows, low);
         // Of parts that are carried the sums are, once all their runs are in.
         let carried = if self.joined { joins.moments_of(run.parent) } else { None };
         let moments = carried.unwrap_or(&mut self.moments);
-        moments.add_run(run.left.into(), line.row.into(), values, self.peak);
+        moments.add_run(run.left.into(), row.into(), values, self.peak);
         if self.peak_at.is_none()
             && run.peak == self.peak
             && let Some((column, _)) = (run.left..).zip(values).find(|(_, value)| **value == self.peak)
         {
-            self.peak_at = Some(Place { panel: run.panel, row: line.row, column });
+            self.peak_at = Some(Place { panel: run.panel, row, column });
         }
     }
 }

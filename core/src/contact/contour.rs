@@ -1,78 +1,7 @@
 //! The contour of a contact: how long it is, and how steep.
 
-use super::run::{Run, key};
-use crate::condition::{Image, Neighbourhood};
-use crate::garment::Area;
-
-/// The row whose runs are being measured.
-pub(super) struct Line<'a> {
-    around: Neighbourhood<'a>,
-    /// over all panels
-    number: Option<u16>,
-    /// in the panel
-    pub row: u16,
-    /// The first or the last row of the panel.
-    edge: bool,
-    /// Index of a run: those before it end above this row's, and further left.
-    above: usize,
-    /// As `above`, one row below.
-    below: usize,
-}
-
-impl<'a> Line<'a> {
-    /// Before the first row.
-    pub const NONE: Line<'static> =
-        Line { around: Neighbourhood::NONE, number: None, row: 0, edge: true, above: 0, below: 0 };
-
-    /// Whether it is the row of a run.
-    pub fn is_of(&self, run: &Run) -> bool {
-        self.number == Some(run.row)
-    }
-
-    /// The row of a run that comes later.
-    pub fn moved(&self, run: &Run, area: &Area, image: &Image<'a>) -> Line<'a> {
-        let row = run.row.saturating_sub(area.first_row);
-        let edge = row == 0 || row + 1 >= area.rows;
-        let follows = !edge && self.number.is_some_and(|number| number + 1 == run.row);
-        Line {
-            around: if follows {
-                self.around.next(image.values, area, row)
-            } else {
-                Neighbourhood::of(image.values, area, row)
-            },
-            number: Some(run.row),
-            row,
-            edge,
-            above: self.above,
-            below: self.below,
-        }
-    }
-
-    /// The values of a run.
-    pub fn piece(&self, run: &Run) -> &'a [u16] {
-        piece(self.around.rows()[1], run.left, run.right)
-    }
-
-    /// Whether all taxels above and below the columns `left ..= right` belong to one run each. Asked from left to right.
-    fn is_inside(&mut self, runs: &[Run], left: u16, right: u16) -> bool {
-        let Some(number) = self.number.filter(|_| !self.edge) else { return false };
-        let covered = |at: &mut usize, row: u16| {
-            let place = key(row, left);
-            while runs.get(*at).is_some_and(|run| key(run.row, run.right) < place) {
-                *at += 1;
-            }
-            runs.get(*at).is_some_and(|run| run.covers(row, left, right))
-        };
-        covered(&mut self.above, number.saturating_sub(1))
-            && covered(&mut self.below, number.saturating_add(1))
-    }
-}
-
-/// Columns `left ..= right` of a row.
-fn piece(row: &[u16], left: u16, right: u16) -> &[u16] {
-    let rest = row.get(usize::from(left)..).unwrap_or(&[]);
-    rest.get(..=usize::from(right - left)).unwrap_or(rest)
-}
+use super::run::Run;
+use crate::condition::Neighbourhood;
 
 /// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
 #[derive(Debug, Clone, Copy)]
@@ -86,31 +15,35 @@ pub(super) struct Contour {
 impl Contour {
     pub const NONE: Contour = Contour { length: 0, slope: 0 };
 
-    /// Adds what a run has of it.
-    pub fn add(&mut self, run: &Run, line: &mut Line, runs: &[Run], low: u16) {
-        let (left, right) = (u32::from(run.left), u32::from(run.right));
-        if line.edge {
-            return (left..right + 1).for_each(|column| self.take(line, column));
-        }
-        self.take(line, left);
+    /// Adds what a run has of it; `border` says that its row is the first or the last of the panel.
+    pub fn add(&mut self, run: &Run, around: &Neighbourhood, border: bool, low: u16) {
+        let (left, right) = (run.left, run.right);
+        self.take(around, left);
         if left == right {
             return;
         }
-        self.take(line, right);
+        self.take(around, right);
         // Between the ends only what is above and below matters.
-        if right - left > 1 && !line.is_inside(runs, run.left + 1, run.right - 1) {
-            let [above, _, below] = line.around.rows();
-            let inner = |row| piece(row, run.left + 1, run.right - 1);
-            for (column, (above, below)) in (left + 1..).zip(inner(above).iter().zip(inner(below))) {
+        if border {
+            (left + 1..right).for_each(|column| self.take(around, column));
+        } else if !run.is_inside() && right - left > 1 {
+            let [above, below] = around.beside(left + 1, right - 1);
+            for (column, (above, below)) in (left + 1..).zip(above.iter().zip(below)) {
                 if *above < low || *below < low {
-                    self.take(line, column);
+                    self.take(around, column);
                 }
             }
         }
     }
 
-    fn take(&mut self, line: &Line, column: u32) {
+    fn take(&mut self, around: &Neighbourhood, column: u16) {
         self.length = self.length.wrapping_add(1);
-        self.slope = self.slope.wrapping_add(line.around.gradient(column as usize).magnitude() >> 3);
+        self.slope = self.slope.wrapping_add(steepness(around, column) >> 3);
     }
+}
+
+/// Sobel magnitude.
+#[inline(never)] // the few registers of an M0+ are for this
+fn steepness(around: &Neighbourhood, column: u16) -> u32 {
+    around.gradient(column).magnitude()
 }

@@ -1,7 +1,7 @@
 //! Connected components: 8-connected runs joined by union-find, row by row.
 
 use super::run::{NONE, Run, Stretch, key};
-use crate::condition::{Feedback, Image};
+use crate::condition::{Feedback, Image, row_of};
 use crate::garment::{Area, Layout, Rect, Side};
 use core::ops::Range;
 use heapless::Vec;
@@ -36,40 +36,42 @@ impl<const RUNS: usize> Labels<RUNS> {
             return;
         }
         for (panel, area) in (0u8..).zip(layout.areas()) {
-            let last = area.first_row.saturating_add(area.rows);
-            let (mut above, mut from) = (0..0, area.first_row);
-            while let Some(number) = image.rows.next(from..last) {
-                let start = self.runs.len();
-                let row = number - area.first_row;
-                self.scan_row(image.row(area, row), low, panel, number);
-                let here = start..self.runs.len();
-                if !here.is_empty() {
-                    self.mark_sides(start, panel, row, area);
-                    if number == from {
-                        self.connect(above, here.clone());
-                    }
-                }
-                (above, from) = (here, number + 1);
-            }
+            self.scan_panel(panel, area, image, low);
         }
         self.flatten();
     }
 
-    /// Appends the runs of a row.
-    fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16) {
+    fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
+        let start = self.runs.len();
+        let last = area.first_row.saturating_add(area.rows);
+        let (mut above, mut from) = (start, area.first_row);
+        while let Some(number) = image.rows.next(from..last) {
+            let here = self.runs.len();
+            let row = row_of(image.values, area, number - area.first_row);
+            // Only rows that follow each other touch.
+            self.scan_row(row, low, panel, number, if number == from { above } else { here });
+            (above, from) = (here, number + 1);
+        }
+        self.mark_sides(start, panel, area);
+    }
+
+    /// Appends the runs of a row, and joins them to those of the row above, the first of which is `above`.
+    #[inline(never)]
+    fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16, above: usize) {
+        let mut above = above..self.runs.len();
         let (mut rest, mut column) = (values, 0);
-        while let Some(skipped) = rest.iter().position(|value| *value >= low) {
-            rest = rest.get(skipped..).unwrap_or(&[]);
+        while let Some(quiet) = rest.iter().position(|value| *value >= low) {
+            rest = rest.get(quiet..).unwrap_or(&[]);
             let Stretch { length, mass, peak } = Stretch::of(rest, low.into());
-            let left = column + skipped;
-            column = left + length;
+            let left = column + quiet as u16;
+            column = left + length as u16;
             rest = rest.get(length..).unwrap_or(&[]);
             let index = self.runs.len() as u16;
             let run = Run {
                 mass,
                 row,
-                left: left as u16,
-                right: (column - 1) as u16,
+                left,
+                right: column - 1,
                 parent: index,
                 group: index,
                 contact: NONE,
@@ -78,24 +80,29 @@ impl<const RUNS: usize> Labels<RUNS> {
                 panel,
                 held: false,
                 joined: false,
+                covers: 0,
             };
-            if self.runs.push(run).is_err() {
-                self.overflow = self.overflow.saturating_add(1);
+            match self.runs.push(run) {
+                Ok(()) if above.is_empty() => {}
+                Ok(()) => above.start = self.connect(above.clone(), left.into(), (column - 1).into()),
+                Err(_) => self.overflow = self.overflow.saturating_add(1),
             }
         }
     }
 
-    /// Marks the sides of the panel that the new runs of a row touch.
-    fn mark_sides(&mut self, start: usize, panel: u8, row: u16, area: &Area) {
+    /// Marks the sides of a panel that its runs touch, which are those from `start` on.
+    fn mark_sides(&mut self, start: usize, panel: u8, area: &Area) {
+        let runs = self.runs.get(start..).unwrap_or(&[]);
+        let (Some(first), Some(last)) = (runs.first(), runs.last()) else { return };
         let mut mark = |touched: bool, side| {
             if touched {
                 self.sides |= bit(panel, side);
             }
         };
-        mark(row == 0, Side::Top);
-        mark(row + 1 >= area.rows, Side::Bottom);
-        mark(self.runs.get(start).is_some_and(|run| run.left == 0), Side::Left);
-        mark(self.runs.last().is_some_and(|run| run.right + 1 >= area.columns), Side::Right);
+        mark(first.row == area.first_row, Side::Top);
+        mark(last.row - area.first_row + 1 >= area.rows, Side::Bottom);
+        mark(runs.iter().any(|run| run.left == 0), Side::Left);
+        mark(runs.iter().any(|run| run.right + 1 >= area.columns), Side::Right);
     }
 
     /// Whether a run touches that side of a panel.
@@ -103,30 +110,37 @@ impl<const RUNS: usize> Labels<RUNS> {
         self.sides & bit(panel, side) != 0
     }
 
-    /// Joins the runs of two rows that follow each other where they touch, corners included.
-    fn connect(&mut self, above: Range<usize>, here: Range<usize>) {
-        let (mut i, mut j) = (above.start, here.start);
-        let ends = |labels: &Self, index: usize| {
-            labels.runs.get(index).map_or((0, 0), |run| (u32::from(run.left), u32::from(run.right)))
-        };
-        let (mut a, mut b) = (ends(self, i), ends(self, j));
-        while i < above.end && j < here.end {
-            if a.0 <= b.1 + 1 && b.0 <= a.1 + 1 {
-                self.union(i as u16, j as u16);
+    /// Joins the last run to those of the row above that it touches, corners included. The first of these that may touch the
+    /// next run of the row.
+    #[inline(never)]
+    fn connect(&mut self, above: Range<usize>, left: u32, right: u32) -> usize {
+        let (mut other, mut covers) = (above.start, 0);
+        while let Some(run) = self.runs.get_mut(other).filter(|_| other < above.end) {
+            let (begin, end) = (u32::from(run.left), u32::from(run.right));
+            if begin > right + 1 {
+                break;
             }
-            // The one that ends first cannot touch what follows the other.
-            if a.1 < b.1 {
-                i += 1;
-                a = ends(self, i);
-            } else {
-                j += 1;
-                b = ends(self, j);
+            if end + 1 >= left {
+                run.covers += u8::from(left <= begin + 1 && end <= right + 1);
+                covers += u8::from(begin <= left + 1 && right <= end + 1);
+                self.union(other as u16);
+                // What ends further right may touch the next run, too.
+                if end > right {
+                    break;
+                }
             }
+            other += 1;
         }
+        if let Some(run) = self.runs.last_mut() {
+            run.covers += covers;
+        }
+        other
     }
 
-    fn union(&mut self, a: u16, b: u16) {
-        let (a, b) = (self.part(a), self.part(b));
+    /// Unites the part of a run with that of the last.
+    fn union(&mut self, run: u16) {
+        let last = self.runs.len() as u16 - 1;
+        let (a, b) = (self.part(run), self.part(last));
         let (first, second) = (a.min(b), a.max(b));
         if first == second {
             return;

@@ -29,12 +29,19 @@ pub(super) struct Run {
     pub held: bool,
     /// A seam joins the part to another.
     pub joined: bool,
+    /// How many of the two rows beside it have a run that covers it but for its ends.
+    pub covers: u8,
 }
 
 impl Run {
     /// The place of the first taxel as one word, in the order of the runs.
     pub const fn key(&self) -> u32 {
         key(self.row, self.left)
+    }
+
+    /// Whether all taxels above and below belong to a run, but for those at the ends.
+    pub const fn is_inside(&self) -> bool {
+        self.covers == 2
     }
 
     /// Whether the columns `left ..= right` of its own row all belong to it.
@@ -48,7 +55,7 @@ pub(super) const fn key(row: u16, column: u16) -> u32 {
     (row as u32) << 16 | column as u32
 }
 
-/// What a slice begins with: taxels from `low` on.
+/// What a row, or the rest of it, begins with: taxels from a threshold on.
 pub(super) struct Stretch {
     pub length: usize,
     /// sum f
@@ -58,8 +65,8 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Measures the taxels that a slice begins with.
-    #[inline(never)]
+    /// Measures it.
+    #[inline(never)] // the few registers of an M0+ are for its loop
     pub fn of(values: &[u16], low: u32) -> Stretch {
         let (mut mass, mut peak) = (0u32, 0u32);
         let quiet = values.iter().map(|value| u32::from(*value)).position(|value| {
