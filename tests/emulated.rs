@@ -7,6 +7,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc;
 use std::time::Duration;
 use taxel::sim::wiring_json;
@@ -31,6 +32,8 @@ pub struct Emulated {
     messages: VecDeque<(usize, Vec<u8>)>,
     wire_bytes: usize,
     seq: Option<u32>,
+    /// How many damaged frames are still forgiven, each with what was lost around it: a cable was pulled.
+    pub forgiven: u32,
 }
 
 impl Emulated {
@@ -50,9 +53,9 @@ impl Emulated {
             .args(["--port", "0", "--hold", "--idle", &rest.to_string()])
             .args(options)
             .arg("--wiring")
-            .arg(file(&format!("{}.json", garment.name), wiring.as_bytes()))
+            .arg(file("json", wiring.as_bytes()))
             .arg("--codes")
-            .arg(file(&format!("{}.bin", garment.name), &codes))
+            .arg(file("bin", &codes))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -65,7 +68,18 @@ impl Emulated {
         link.set_nodelay(true).unwrap();
         link.set_read_timeout(Some(PATIENCE)).unwrap();
         let (receiver, messages) = (Box::new(Receiver::new()), VecDeque::new());
-        Emulated { child, input, lines, said, link, receiver, messages, wire_bytes: 0, seq: None }
+        Emulated {
+            child,
+            input,
+            lines,
+            said,
+            link,
+            receiver,
+            messages,
+            wire_bytes: 0,
+            seq: None,
+            forgiven: 0,
+        }
     }
 
     /// Lets the frames begin; when the first scan that shows them began.
@@ -114,8 +128,12 @@ impl Emulated {
             for byte in &bytes[..count] {
                 self.wire_bytes += 1;
                 let Some(body) = self.receiver.push(*byte) else { continue };
-                let body = body.expect("a damaged frame").to_vec();
-                self.messages.push_back((std::mem::take(&mut self.wire_bytes), body));
+                let wire_bytes = std::mem::take(&mut self.wire_bytes);
+                match body {
+                    Ok(body) => self.messages.push_back((wire_bytes, body.to_vec())),
+                    Err(_) if self.forgiven > 0 => (self.forgiven, self.seq) = (self.forgiven - 1, None),
+                    Err(error) => panic!("a damaged frame: {error}"),
+                }
             }
         }
         let (wire_bytes, body) = self.messages.pop_front().unwrap();
@@ -164,8 +182,10 @@ impl Message {
     }
 }
 
-/// A file for the harness.
-fn file(name: &str, content: &[u8]) -> PathBuf {
+/// A file for the harness, of which there may be several at a time.
+fn file(kind: &str, content: &[u8]) -> PathBuf {
+    static FILES: AtomicU32 = AtomicU32::new(0);
+    let name = format!("{}-{}.{kind}", env!("CARGO_CRATE_NAME"), FILES.fetch_add(1, Ordering::Relaxed));
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::write(&path, content).unwrap();
     path

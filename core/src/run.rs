@@ -35,9 +35,17 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
     board: &mut Board<TAXELS, RUNS>,
 ) {
     while platform.alive() {
-        pump(link, platform, board);
+        receive(link, platform, board);
         let now = platform.now();
-        match board.step(now, Input::Tick, platform) {
+        let job = board.step(now, Input::Tick, platform);
+        // What a reaction moves goes before what tells of it.
+        if let Some(Job::Drive(pin, level)) = job {
+            // The pin was checked with the scene; a line that fails shows in the next scan.
+            let _ = acquire.drive(pin, level);
+            continue;
+        }
+        send(link, platform, board);
+        match job {
             Some(Job::Scan(plan)) => {
                 platform.begin(Stage::Scan);
                 let scan = acquire.scan(board.circuit(), &plan).await;
@@ -45,22 +53,18 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
             }
-            Some(Job::Drive(pin, level)) => {
-                // The pin was checked with the scene; a line that fails shows in the next scan.
-                let _ = acquire.drive(pin, level);
-            }
             Some(Job::Start(work)) => {
                 let result = platform.work(work);
                 let now = platform.now();
                 board.step(now, Input::Done(work, result), platform);
             }
-            None => platform.idle(board.wake()).await,
+            Some(Job::Drive(..)) | None => platform.idle(board.wake()).await,
         }
     }
 }
 
-/// Moves bytes both ways, as many as are there and fit.
-fn pump<const TAXELS: usize, const RUNS: usize>(
+/// Takes all bytes that have come.
+fn receive<const TAXELS: usize, const RUNS: usize>(
     link: &mut impl Link,
     platform: &mut impl Platform,
     board: &mut Board<TAXELS, RUNS>,
@@ -72,6 +76,14 @@ fn pump<const TAXELS: usize, const RUNS: usize>(
         let now = platform.now();
         board.step(now, Input::Received(received), platform);
     }
+}
+
+/// Gives as many bytes as the link takes.
+fn send<const TAXELS: usize, const RUNS: usize>(
+    link: &mut impl Link,
+    platform: &mut impl Platform,
+    board: &mut Board<TAXELS, RUNS>,
+) {
     loop {
         let now = platform.now();
         let bytes = board.pending(now, platform);

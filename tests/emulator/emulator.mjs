@@ -73,7 +73,7 @@ function statistics(machine, garment, link, started) {
     mcycles_per_s: Number((machine.cycles / wall / 1e6).toFixed(1)), asleep_us: Math.round(machine.asleep / 1000),
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
-      overruns: machine.uart.overruns }, usb: machine.usb.packets, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
+      uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
     marks: machine.marks, check: garment?.check,
   };
 }
@@ -119,8 +119,14 @@ async function main() {
       say({ stack: machine.stack });
       machine.stack.paint(machine.core.SP);
     },
-    plug: () => machine.usb.plug(),
-    unplug: () => machine.usb.unplug(),
+    plug: () => {
+      machine.usb.plug();
+      say({ plug: machine.micros });
+    },
+    unplug: () => {
+      machine.usb.unplug();
+      say({ unplug: machine.micros });
+    },
     quit: () => { control.quit = true; },
   };
   createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.());

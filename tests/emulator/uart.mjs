@@ -32,6 +32,7 @@ export class Uart extends BasePeripheral {
     this.mask = 0;
     this.overrun = false;
     this.overruns = 0;
+    this.sent = 0;
     this.txAlarm = rp2040.clock.createAlarm(() => this.transmitted());
     this.rxAlarm = rp2040.clock.createAlarm(() => this.received());
     this.timeoutAlarm = rp2040.clock.createAlarm(() => this.raise(INT_RX_TIMEOUT));
@@ -131,6 +132,7 @@ export class Uart extends BasePeripheral {
   transmitted() {
     const byte = this.shifting;
     this.shifting = -1;
+    this.sent++;
     this.shift();
     // Without FIFOs or at level 0 the last byte itself crosses the level.
     if (this.shifting < 0 && this.txLevel === 0) this.raise(INT_TX);

@@ -28,6 +28,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-stack", targets::emulator_stack),
     ("emulator-scan", targets::emulator_scan),
     ("emulator-usb", targets::emulator_usb),
+    ("emulator-latency", targets::emulator_latency),
     ("recorded", targets::recorded),
     ("emulator-recorded", targets::emulator_recorded),
 ];

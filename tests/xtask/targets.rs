@@ -12,6 +12,7 @@ pub const APART: &[&str] = &[
     "emulator_stack",
     "emulator_scan",
     "emulator_usb",
+    "emulator_latency",
     "emulator_recorded",
     "recorded",
     "cycles",
@@ -32,9 +33,14 @@ pub fn emulator_scan(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_scan", log)
 }
 
-/// The board on USB: what arrives, what it costs, how late it is.
+/// The board on USB: what arrives, and what it costs.
 pub fn emulator_usb(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_usb", log)
+}
+
+/// How late messages and reactions are.
+pub fn emulator_latency(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_latency", log)
 }
 
 /// Recordings on the emulated board and on this machine.
