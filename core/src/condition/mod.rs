@@ -41,13 +41,13 @@ mod tare;
 mod terms;
 
 pub use config::{ConditionConfig, Filter};
-pub(crate) use slices::row_of;
 pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
 pub use feedback::{CARRIED, Feedback};
 pub use image::Image;
 pub use progress::Tare;
 pub use rows::Rows;
+pub(crate) use slices::row_of;
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};
 

@@ -1,7 +1,7 @@
 //! Direction, elongation and breadth of a contact from its central moments.
 
 use super::moments::{Central, Moments};
-use crate::format::{Inverse, Q15, Scaled, Turn, product, root};
+use crate::format::{Inverse, Q15, Scaled, Turn, left, right, root, signed_wide, wide};
 
 /// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
 pub const ASSUMED_PITCH_UM: u32 = 10_000;
@@ -19,74 +19,99 @@ pub struct Axis {
 /// Numbers of the common scale that leaves 31 bits to the sum `A + B`.
 #[derive(Clone, Copy)]
 struct Normal {
-    a: u64,
-    b: u64,
-    c: i64,
+    a: u32,
+    b: u32,
+    c: i32,
     /// `value = normal * 2^exponent`
     exponent: i16,
 }
 
+/// `A - B`, `2 C` and `sqrt((A - B)^2 + 4 C^2)`.
+struct Spread {
+    difference: i32,
+    mixed: i32,
+    d: u32,
+}
+
 impl Normal {
-    fn of(a: u64, b: u64, c: i64) -> Normal {
-        let spare = a.wrapping_add(b).leading_zeros() as i16;
-        match spare - 33 {
-            up @ 0.. => Normal { a: a << up, b: b << up, c: c << up, exponent: -up },
-            down => Normal { a: a >> -down, b: b >> -down, c: c >> -down, exponent: -down },
-        }
+    fn of(central: &Central) -> Normal {
+        let Central { a, b, c } = *central;
+        let spare = a.wrapping_add(b).leading_zeros();
+        let scaled = |v: u64| if spare >= 33 { left(v, spare - 33) } else { right(v, 33 - spare) } as u32;
+        // 31 bits and a sign.
+        let c = (scaled(c as u64) << 1) as i32 >> 1;
+        Normal { a: scaled(a), b: scaled(b), c, exponent: 33 - spare as i16 }
     }
 
-    /// `A - B`, `2 C` and `sqrt((A - B)^2 + 4 C^2)`.
-    fn spread(&self) -> (i64, i64, u64) {
-        let (difference, mixed) = ((self.a as i64).wrapping_sub(self.b as i64), self.c.wrapping_mul(2));
-        let (x, y) = (difference.unsigned_abs(), mixed.unsigned_abs());
+    fn spread(&self) -> Spread {
+        let (difference, mixed) = (self.a.wrapping_sub(self.b) as i32, self.c.wrapping_mul(2));
+        let square = |v: i32| wide(v.unsigned_abs(), v.unsigned_abs());
         // Both are at most 2^31 but for the bits that were cut: the sum of the squares fits.
-        (difference, mixed, root(product(x, x).wrapping_add(product(y, y))).into())
+        let d = root(square(difference).wrapping_add(square(mixed)));
+        Spread { difference, mixed, d }
     }
 
-    fn axis(&self, area: u32) -> Axis {
-        let (difference, mixed, d) = self.spread();
-        let anisotropy = Q15::ratio(d, self.a.wrapping_add(self.b));
+    fn axis(&self, spread: &Spread, area: u32) -> Axis {
+        let anisotropy = Q15::ratio(spread.d.into(), self.a.wrapping_add(self.b).into());
         // Not below 32768 / area, rounded down, without the division.
         let share = anisotropy.0 as u32;
         let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
-        let defined = d > 0 && clear;
-        Axis { azimuth: defined.then(|| half_angle(mixed, difference)), anisotropy }
+        let defined = spread.d > 0 && clear;
+        Axis { azimuth: defined.then(|| half_angle(spread.mixed, spread.difference)), anisotropy }
     }
 
-    /// See [`breadth`]; of a contact of mass `m`.
-    fn breadth(&self, m: u64, pitch_um: [u32; 2]) -> u32 {
-        // Beyond 655 mm the squares would not leave room; no garment is that coarse.
-        let [px, py] = pitch_um.map(|p| {
-            // A hundredth by multiplication: exact below 2^30.
-            let um = if p == 0 { ASSUMED_PITCH_UM } else { p.min(655_399) };
-            (product(um.into(), 42_949_673) >> 32).clamp(1, 6553)
-        });
-        let pixel = px * px + py * py;
-        let c = product(self.c.unsigned_abs(), px * py) as i64;
-        let c = if self.c < 0 { c.wrapping_neg() } else { c };
-        let normal = Normal::of(product(self.a, px * px), product(self.b, py * py), c);
-        let (difference, _, d) = normal.spread();
+    /// `12 (A + B - D) / m^2`: 24 times the variance across the major axis.
+    fn across(&self, spread: &Spread, inverse: Scaled) -> Scaled {
+        let minor = self.a.wrapping_add(self.b).saturating_sub(spread.d);
+        Scaled::from_u64(wide(minor, 12)).times(inverse).times(inverse).shifted(self.exponent)
+    }
+
+    /// See [`breadth`].
+    fn breadth(&self, spread: &Spread, inverse: Scaled, pitch_um: [u32; 2]) -> u32 {
+        let [px, py] = pitch_um.map(tenths);
+        let pixel2 = [px, py].map(|p| p * p);
+        if px == py {
+            // 2 w^2 = (12 (A + B - D) / m^2 + 2) p^2
+            let strip = self.across(spread, inverse).to_wide(FRACTION);
+            let sum = Scaled::from_u64(strip.saturating_add(2 << FRACTION));
+            let square = sum.times(Scaled::from_u64(pixel2[0].into()));
+            return square.shifted(-FRACTION - 1).sqrt().to_fixed(0);
+        }
+        self.oblong(pixel2, px * py).strip(inverse, pixel2)
+    }
+
+    /// On the cloth, where the pixel is an oblong.
+    fn oblong(&self, [xx, yy]: [u32; 2], xy: u32) -> Normal {
+        let c = signed_wide(self.c, xy);
+        let normal = Normal::of(&Central { a: wide(self.a, xx), b: wide(self.b, yy), c });
+        Normal { exponent: self.exponent + normal.exponent, ..normal }
+    }
+
+    /// Width of the strip where lengths are those on the cloth.
+    fn strip(&self, inverse: Scaled, [xx, yy]: [u32; 2]) -> u32 {
+        let spread = self.spread();
         // Twice the pixel's square across: px^2 + py^2 - (px^2 - py^2)(A - B) / D.
-        let skew = (px * px) as i64 - (py * py) as i64;
-        let lean = if d == 0 || skew == 0 {
-            0
-        } else {
-            i64::from(Inverse::of(d as u32).nearest(skew.wrapping_mul(difference)))
+        let skew = i64::from(xx) - i64::from(yy);
+        let lean = match spread.d {
+            0 => 0,
+            d => i64::from(Inverse::of(d).nearest(skew.wrapping_mul(spread.difference.into()))),
         };
-        let pixel2 = (pixel as i64 - lean).max(0) as u64;
-        // 2 w^2 = 12 (A + B - D) / m^2 + pixel2
-        let minor = normal.a.wrapping_add(normal.b).saturating_sub(d);
-        let exponent = self.exponent + normal.exponent;
-        let strip = if m == 0 {
-            Scaled::ZERO
-        } else {
-            let inverse = Scaled::from_u64(1).over(Scaled::from_u64(m));
-            Scaled::from_u64(minor.wrapping_mul(12)).times(inverse).times(inverse).shifted(exponent)
-        };
+        let pixel2 = (i64::from(xx + yy) - lean).max(0) as u64;
         // Eight fraction bits, which a width of one pixel needs.
-        let sum = strip.to_wide(8).saturating_add(pixel2 << 8);
+        let sum = self.across(&spread, inverse).to_wide(8).saturating_add(pixel2 << 8);
         Scaled::from_u64(sum).shifted(-9).sqrt().to_fixed(0)
     }
+}
+
+/// Fraction bits of a strip's square in pixels.
+const FRACTION: i16 = 24;
+
+/// A pitch in 0.1 mm.
+fn tenths(pitch_um: u32) -> u32 {
+    // Beyond 655 mm the squares would not leave room; no garment is that coarse.
+    let um = if pitch_um == 0 { ASSUMED_PITCH_UM } else { pitch_um.min(655_399) };
+    // A hundredth by multiplication: exact below 2^30.
+    ((wide(um, 42_949_673) >> 32) as u32).clamp(1, 6553)
 }
 
 /// Azimuth and anisotropy of a contact of `area` taxels (0 counts as 1).
@@ -94,25 +119,32 @@ impl Normal {
 /// For moments of a contact: `A + B < 2^64`, which `Layout::build` asserts, and `|2 C| <= A + B`. Where these do not hold, as
 /// for sums that wrapped, the result means nothing; the function is total all the same.
 pub fn axis(central: &Central, area: u32) -> Axis {
-    Normal::of(central.a, central.b, central.c).axis(area)
+    let normal = Normal::of(central);
+    normal.axis(&normal.spread(), area)
 }
 
-/// Axis, and [`breadth`], of a contact of `area` taxels.
-pub(super) fn axis_and_breadth(moments: &Moments, area: u32, pitch_um: [u32; 2]) -> (Axis, u32) {
-    let central = moments.central();
-    let normal = Normal::of(central.a, central.b, central.c);
-    (normal.axis(area), normal.breadth(moments.m, pitch_um))
+/// Axis, and [`breadth`], of a contact of `area` taxels and the inverse of its mass.
+#[inline(never)]
+pub(super) fn axis_and_breadth(
+    moments: &Moments,
+    inverse: &Inverse,
+    area: u32,
+    pitch_um: [u32; 2],
+) -> (Axis, u32) {
+    let normal = Normal::of(&moments.central());
+    let spread = normal.spread();
+    (normal.axis(&spread, area), normal.breadth(&spread, Scaled::inverse(inverse), pitch_um))
 }
 
 /// Half the angle of the point (x, y), in (-1/4, 1/4] turn.
-fn half_angle(y: i64, x: i64) -> Turn {
+fn half_angle(y: i32, x: i32) -> Turn {
     let greater = x.unsigned_abs().max(y.unsigned_abs()) | 1;
     // Up to 30 bits, so that the smaller of the two keeps its digits.
-    let (x, y) = match greater.leading_zeros() as i32 - 34 {
-        up @ 0.. => (x << up, y << up),
-        down => (x >> -down, y >> -down),
+    let (x, y) = match greater.leading_zeros() {
+        spare @ 2.. => (x << (spare - 2), y << (spare - 2)),
+        spare => (x >> (2 - spare), y >> (2 - spare)),
     };
-    let half = idsp::atan2(y as i32, x as i32) >> 1;
+    let half = idsp::atan2(y, x) >> 1;
     Turn(if half == -(1 << 30) { 1 << 30 } else { half })
 }
 
@@ -125,6 +157,7 @@ fn half_angle(y: i64, x: i64) -> Turn {
 /// isotropic on the cloth (anisotropy below 2^-13) has no direction along which to see the pixel, so that the difference of the
 /// two pitches comes on top. As [`axis`], it is total, and means nothing for sums that wrapped.
 pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
-    let central = moments.central();
-    Normal::of(central.a, central.b, central.c).breadth(moments.m, pitch_um)
+    let normal = Normal::of(&moments.central());
+    let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));
+    normal.breadth(&normal.spread(), inverse, pitch_um)
 }

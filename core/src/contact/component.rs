@@ -27,6 +27,8 @@ pub(super) struct Component {
     pub bounds: Rect,
     /// In the frame of the home panel.
     pub moments: Moments,
+    /// Of its mass, the total.
+    pub inverse: Inverse,
     pub x: Fixed16,
     pub y: Fixed16,
 }
@@ -71,6 +73,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 contour: Contour::NONE,
                 bounds: Rect { panel: run.panel, ..NOWHERE },
                 moments: Moments::default(),
+                inverse: Inverse::of(0),
                 x: Fixed16(0),
                 y: Fixed16(0),
             };
@@ -157,10 +160,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             }
         }
         for component in &mut self.list {
-            // The mass is the total, which fits in 32 bits; rounded once, to the nearest 2^-16 taxel.
-            let mass = Inverse::of(component.total);
-            component.x = Fixed16(mass.nearest(component.moments.sx.saturating_mul(1 << 16)));
-            component.y = Fixed16(mass.nearest(component.moments.sy.saturating_mul(1 << 16)));
+            component.locate();
         }
     }
 
@@ -198,6 +198,16 @@ fn widen(rect: &mut Rect, run: &Run, row: u16) {
 }
 
 impl Component {
+    /// Finds the centroid, rounded once to the nearest 2^-16 taxel.
+    fn locate(&mut self) {
+        self.inverse = Inverse::of(self.total);
+        let mean = |sum: i64| {
+            let fits = sum.unsigned_abs() >> 47 == 0;
+            Fixed16(self.inverse.nearest(if fits { sum << 16 } else { sum.signum() * i64::MAX }))
+        };
+        (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
+    }
+
     /// Adds a run to the sums.
     #[inline(never)]
     fn add(&mut self, run: &Run, values: &[u16], area: &Area, low: u16, joins: &mut Joins) {

@@ -16,6 +16,7 @@ impl Contour {
     pub const NONE: Contour = Contour { length: 0, slope: 0 };
 
     /// Adds what a run has of it; `border` says that its row is the first or the last of the panel.
+    #[inline(never)] // the few registers of an M0+ are for this
     pub fn add(&mut self, run: &Run, around: &Neighbourhood, border: bool, low: u16) {
         let (left, right) = (run.left, run.right);
         self.take(around, left);

@@ -112,18 +112,23 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     /// Joins the last run to those of the row above that it touches, corners included. The first of these that may touch the
     /// next run of the row.
-    #[inline(never)]
+    #[inline(never)] // the few registers of an M0+ are for this
     fn connect(&mut self, above: Range<usize>, left: u32, right: u32) -> usize {
-        let (mut other, mut covers) = (above.start, 0);
-        while let Some(run) = self.runs.get_mut(other).filter(|_| other < above.end) {
+        let (mut other, mut joined, mut covers) = (above.start, NONE, 0);
+        while other < above.end {
+            let Some(run) = self.runs.get_mut(other) else { break };
             let (begin, end) = (u32::from(run.left), u32::from(run.right));
             if begin > right + 1 {
                 break;
             }
             if end + 1 >= left {
-                run.covers += u8::from(left <= begin + 1 && end <= right + 1);
-                covers += u8::from(begin <= left + 1 && right <= end + 1);
-                self.union(other as u16);
+                if left <= begin + 1 && end <= right + 1 {
+                    run.covers += 1;
+                }
+                if begin <= left + 1 && right <= end + 1 {
+                    covers += 1;
+                }
+                joined = self.united(joined, other as u16);
                 // What ends further right may touch the next run, too.
                 if end > right {
                     break;
@@ -131,28 +136,38 @@ impl<const RUNS: usize> Labels<RUNS> {
             }
             other += 1;
         }
-        if let Some(run) = self.runs.last_mut() {
-            run.covers += covers;
-        }
+        self.attach(joined, covers);
         other
     }
 
-    /// Unites the part of a run with that of the last.
-    fn union(&mut self, run: u16) {
-        let last = self.runs.len() as u16 - 1;
-        let (a, b) = (self.part(run), self.part(last));
-        let (first, second) = (a.min(b), a.max(b));
-        if first == second {
+    /// Adds the last run to a part that is another's, or to none.
+    fn attach(&mut self, part: u16, covers: u8) {
+        let Some(last) = self.runs.last_mut() else { return };
+        last.covers = covers;
+        if part == NONE {
             return;
         }
-        let Some(other) = self.runs.get_mut(usize::from(second)) else { return };
+        last.parent = part;
+        let (mass, area, peak) = (last.mass, last.area, last.peak);
+        if let Some(run) = self.runs.get_mut(usize::from(part)) {
+            run.add(mass, area, peak);
+        }
+    }
+
+    /// The part of a run, once it is united with another part, or none.
+    fn united(&mut self, part: u16, run: u16) -> u16 {
+        let own = self.part(run);
+        if part == NONE || part == own {
+            return own;
+        }
+        let (first, second) = (part.min(own), part.max(own));
+        let Some(other) = self.runs.get_mut(usize::from(second)) else { return first };
         other.parent = first;
         let (mass, area, peak) = (other.mass, other.area, other.peak);
         if let Some(run) = self.runs.get_mut(usize::from(first)) {
-            run.mass = run.mass.wrapping_add(mass);
-            run.area = run.area.saturating_add(area);
-            run.peak = run.peak.max(peak);
+            run.add(mass, area, peak);
         }
+        first
     }
 
     /// The first run of the part that a run belongs to. Parents have smaller indices, so this ends; it halves the path.

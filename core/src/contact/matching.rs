@@ -6,7 +6,7 @@ use super::point::{Images, LONGEST, Point};
 use super::record::Contact;
 use super::run::NONE;
 use super::track::Tracks;
-use crate::format::{Fixed16, Micros};
+use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::Layout;
 use heapless::Vec;
 
@@ -110,15 +110,15 @@ fn least_of(row: &[u32], taken: &[bool]) -> (u32, u16) {
 }
 
 /// Microseconds as seconds in Q16, at most 16.
-fn seconds(us: u64) -> i64 {
+fn seconds(us: u64) -> u32 {
     // 2^32 * 65536 / 10^6
-    ((us.min(16_000_000) * 281_474_977) >> 32) as i64
+    (wide(us.min(16_000_000) as u32, 281_474_977) >> 32) as u32
 }
 
 /// Where a contact should be, and how far from there it may be, in 1/16 taxel.
-fn expected(contact: &Contact, seconds: i64, gate: u16) -> (Point, u32) {
+fn expected(contact: &Contact, seconds: u32, gate: u16) -> (Point, u32) {
     let gate = i32::from(gate) * 16;
-    let step = |v: Fixed16| ((i64::from(v.0) * seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
+    let step = |v: Fixed16| (signed_wide(v.0, seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
     let still = contact.vx.0 == 0 && contact.vy.0 == 0;
     let (x, y) = if still { (0, 0) } else { (step(contact.vx), step(contact.vy)) };
     let at = Point::of(contact.panel, contact.x, contact.y);

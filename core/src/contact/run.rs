@@ -39,6 +39,13 @@ impl Run {
         key(self.row, self.left)
     }
 
+    /// Adds the sums of others to those of the part.
+    pub fn add(&mut self, mass: u32, area: u16, peak: u16) {
+        self.mass = self.mass.wrapping_add(mass);
+        self.area = self.area.saturating_add(area);
+        self.peak = self.peak.max(peak);
+    }
+
     /// Whether all taxels above and below belong to a run, but for those at the ends.
     pub const fn is_inside(&self) -> bool {
         self.covers == 2

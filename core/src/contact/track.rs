@@ -211,7 +211,8 @@ fn beside<const RUNS: usize>(labels: &Labels<RUNS>, layout: &Layout, place: Plac
 fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
     let panel = component.bounds.panel;
     let pitch = layout.areas().get(usize::from(panel)).map_or([0, 0], |area| area.pitch_um);
-    let (axis, breadth) = axis_and_breadth(&component.moments, component.area.into(), pitch);
+    let (axis, breadth) =
+        axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
     contact.panel = panel;
     contact.total = component.total;
     contact.peak = component.peak;

@@ -7,7 +7,7 @@ use super::point::{Point, nearest_way};
 use super::record::Contact;
 use super::slip::{SLIP_STEPS, Slip};
 use crate::condition::Image;
-use crate::format::{Fixed16, Inverse, Micros};
+use crate::format::{Fixed16, Inverse, Micros, signed_wide};
 use crate::garment::{Layout, Transform};
 
 /// What is remembered of a contact.
@@ -89,7 +89,7 @@ fn carry(contact: &mut Contact, way: &Transform) {
 /// How a step becomes a velocity in this frame, and what counts as a slip.
 pub(super) struct Pace {
     /// Time constant, us; below 2^26.
-    tau: i64,
+    tau: u32,
     /// Of `tau` and the time since the last frame; none where no time went by.
     inverse: Option<Inverse>,
     /// Way of the slip speed in the time of [`SLIP_STEPS`] steps, in 2^-12 taxel.
@@ -119,7 +119,7 @@ impl Clock {
         let inverse = (elapsed > 0).then(|| Inverse::of(tau + elapsed.min(1 << 31) as u32));
         // 16 + 32 + 8 bits; 256 = 2^12 / 16.
         let way = u64::from(config.slip_speed) * now.since(third).min(u32::MAX.into()) * 256;
-        Pace { tau: tau.into(), inverse, limit: Inverse::of(1_000_000).quotient(way) }
+        Pace { tau, inverse, limit: Inverse::of(1_000_000).quotient(way) }
     }
 }
 
@@ -130,7 +130,7 @@ impl Pace {
         match self.inverse {
             // 32 + 26 bits and 32 + 20 bits: no overflow.
             Some(inverse) => {
-                Fixed16(inverse.nearest(i64::from(v.0) * self.tau + i64::from(step) * 1_000_000))
+                Fixed16(inverse.nearest(signed_wide(v.0, self.tau) + signed_wide(step, 1_000_000)))
             }
             None => v,
         }

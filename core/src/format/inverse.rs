@@ -1,13 +1,14 @@
 //! Division without a divider: the Cortex-M0+ has none, and 64 bits by software take 750 cycles.
 
 use super::product::wide;
+use super::shift::left;
 
 /// The inverse of a divisor, by Newton's iteration; worth its price (about 200 cycles) from the first quotient on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inverse {
     /// The divisor, shifted so that bit 31 is set; 0 for no divisor.
-    normal: u32,
-    shift: u32,
+    pub(super) normal: u32,
+    pub(super) shift: u32,
     inverse: u32,
 }
 
@@ -40,6 +41,11 @@ impl Inverse {
         Inverse { shift, ..Inverse::of_normal(divisor << shift) }
     }
 
+    /// Of the divisor shifted so that bit 31 is set.
+    pub(super) const fn unshifted(&self) -> Inverse {
+        Inverse { shift: 0, ..*self }
+    }
+
     /// Of a divisor with bit 31 set.
     pub(super) const fn of_normal(normal: u32) -> Inverse {
         Inverse { normal, shift: 0, inverse: inverse_of(normal) }
@@ -47,12 +53,11 @@ impl Inverse {
 
     /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
     pub const fn quotient(&self, value: u64) -> u32 {
-        let divisor = (self.normal >> self.shift) as u64;
-        if value >> 32 >= divisor {
+        if (value >> 32) as u32 >= self.normal >> self.shift {
             return u32::MAX;
         }
         // The quotient is below 2^32: the shifted value does not lose bits.
-        let value = value << self.shift;
+        let value = left(value, self.shift);
         let mut quotient = (wide((value >> 32) as u32, self.inverse) >> 31) as u32;
         let mut rest = value - wide(quotient, self.normal);
         // Too small by a few at most: 8 for the inverse, 2 for the low half of the value.

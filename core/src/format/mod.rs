@@ -22,12 +22,14 @@ mod inverse;
 mod product;
 mod root;
 mod scaled;
+mod shift;
 
 pub use invalid::Invalid;
 pub use inverse::Inverse;
-pub(crate) use product::product;
+pub(crate) use product::{product, signed_wide, wide};
 pub use root::root;
 pub use scaled::Scaled;
+pub(crate) use shift::{left, right};
 
 use serde::{Deserialize, Serialize};
 

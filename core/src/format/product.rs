@@ -15,6 +15,12 @@ const fn from_halves(a: u32, b: u32) -> u64 {
     (high as u64) << 32 | low as u64
 }
 
+/// The product of a number with sign and a word below 2^31.
+pub(crate) const fn signed_wide(a: i32, b: u32) -> i64 {
+    let size = wide(a.unsigned_abs(), b) as i64;
+    if a < 0 { -size } else { size }
+}
+
 /// The product modulo 2^64; fast where both fit in 32 bits.
 pub(crate) const fn product(a: u64, b: u64) -> u64 {
     if (a | b) >> 32 == 0 { wide(a as u32, b as u32) } else { a.wrapping_mul(b) }
@@ -29,6 +35,7 @@ mod tests {
         let words = [0, 1, 0xffff, 0x1_0000, 0x1_ffff, 0x8000_0000, 0xffff_0000, 0xffff_ffff, 0xdead_beef];
         for (a, b) in words.into_iter().flat_map(|a| words.map(|b| (a, b))) {
             assert_eq!([wide(a, b), from_halves(a, b)], [u64::from(a) * u64::from(b); 2]);
+            assert_eq!(signed_wide(a as i32, b >> 1), i64::from(a as i32) * i64::from(b >> 1));
             for (high, low) in [(a, b), (0, a), (b, 0)] {
                 let (x, y) = (u64::from(high) << 32 | u64::from(low), u64::from(b));
                 assert_eq!(u128::from(product(x, y)), u128::from(x) * u128::from(y) % (1 << 64));

@@ -1,6 +1,7 @@
 //! The integer square root without a divider.
 
 use super::product::wide;
+use super::shift::left;
 
 /// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where there is no divider:
 /// Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one exact correction.
@@ -12,7 +13,7 @@ pub const fn root(value: u64) -> u32 {
         return exact_root(value);
     }
     let shift = value.leading_zeros() & !1;
-    exact_root(value << shift) >> (shift / 2)
+    exact_root(left(value, shift)) >> (shift / 2)
 }
 
 /// The root of a `normal` with bit 63 or 62 set.

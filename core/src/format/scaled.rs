@@ -4,13 +4,14 @@
 //! |---|---|
 //! | [`Scaled::from_u64`] | 2^-32 (0 below 2^32) |
 //! | [`Scaled::times`] | 2^-32 |
-//! | [`Scaled::over`] | 2^-31 |
+//! | [`Scaled::over`], [`Scaled::inverse`] | 2^-31 |
 //! | [`Scaled::sqrt`] | 2^-31 |
 //!
 //! The exponent saturates, and beyond it the size is wrong and nothing else; the values of the core stay within
 //! 2^-130 ..= 2^130, far from there.
 
 use super::product::wide;
+use super::shift::{left, right};
 use super::{Fixed24, Inverse, Q15, root};
 
 /// `mantissa * 2^exponent`, with bit 31 of the mantissa set, or zero.
@@ -33,9 +34,23 @@ impl Scaled {
         if value == 0 {
             return Scaled::ZERO;
         }
+        if value >> 32 == 0 {
+            let up = (value as u32).leading_zeros();
+            return Scaled { mantissa: (value as u32) << up, exponent: -(up as i16) };
+        }
         let up = value.leading_zeros();
-        let full = value << up;
+        let full = left(value, up);
         Scaled::carried((full >> 32) as u32, (full >> 31) as u32 & 1, 32 - up as i16)
+    }
+
+    /// The inverse of a divisor; [`Scaled::MAX`] where it is zero.
+    pub const fn inverse(divisor: &Inverse) -> Scaled {
+        let exponent = divisor.shift as i16 - 63;
+        match divisor.normal {
+            0 => Scaled::MAX,
+            TOP => Scaled { mantissa: TOP, exponent: exponent + 1 },
+            _ => Scaled { mantissa: divisor.unshifted().quotient(1 << 63), exponent },
+        }
     }
 
     /// Product.
@@ -45,9 +60,12 @@ impl Scaled {
         }
         // Bit 63 or 62 is set.
         let product = wide(self.mantissa, other.mantissa);
-        let up = (product >> 63 == 0) as i16;
-        let exponent = self.exponent.saturating_add(other.exponent).saturating_add(32 - up);
-        let product = product << up;
+        let exponent = self.exponent.saturating_add(other.exponent);
+        let (product, exponent) = if product >> 63 == 0 {
+            (product << 1, exponent.saturating_add(31))
+        } else {
+            (product, exponent.saturating_add(32))
+        };
         Scaled::carried((product >> 32) as u32, (product >> 31) as u32 & 1, exponent)
     }
 
@@ -72,7 +90,8 @@ impl Scaled {
         }
         // A radicand of 63 or 64 bits above an even exponent: the root has 32 bits.
         let odd = self.exponent & 1;
-        let radicand = (self.mantissa as u64) << (32 - odd as u32);
+        let wide = self.mantissa as u64;
+        let radicand = if odd == 0 { wide << 32 } else { wide << 31 };
         Scaled { mantissa: root(radicand), exponent: self.exponent.saturating_sub(32 - odd) / 2 }
     }
 
@@ -96,8 +115,8 @@ impl Scaled {
     pub const fn to_wide(self, bits: i16) -> u64 {
         match self.exponent.saturating_add(bits) {
             _ if self.mantissa == 0 => 0,
-            up @ 0..=32 => (self.mantissa as u64) << up,
-            down @ -31..0 => self.mantissa as u64 >> -down,
+            up @ 0..=32 => left(self.mantissa as u64, up as u32),
+            down @ -31..0 => right(self.mantissa as u64, -down as u32),
             up if up > 0 => u64::MAX,
             _ => 0,
         }
@@ -113,12 +132,13 @@ impl Scaled {
             return u32::MAX;
         }
         let down = up.unsigned_abs() as u32;
-        if down > 32 {
-            return 0;
+        match down {
+            0 => self.mantissa,
+            1..=31 => (self.mantissa >> down) + (self.mantissa >> (down - 1) & 1),
+            // From half a step on.
+            32 => 1,
+            _ => 0,
         }
-        let wide = (self.mantissa as u64) << 1 >> down;
-        let rounded = (wide + 1) >> 1;
-        if rounded > u32::MAX as u64 { u32::MAX } else { rounded as u32 }
     }
 
     /// As Q8.24, rounded to the nearest; saturates just below 256.
