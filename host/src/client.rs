@@ -19,6 +19,8 @@ mod counts;
 mod event;
 mod known;
 mod picture;
+mod requests;
+mod syncs;
 mod worn;
 
 pub use counts::Counts;
@@ -26,12 +28,13 @@ pub use event::{Event, ImageNews};
 pub use worn::Worn;
 
 use picture::Picture;
+use syncs::Syncs;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ContactList, Frame, Health, Hello, IntentReport, LONGEST_REQUEST, Raw, Receiver, Report, Request,
-    WireError, decode, decode_image, encode,
+    Budget, ContactList, Frame, Health, Hello, IntentReport, Raw, Receiver, Report, Request, WireError, decode,
+    decode_image,
 };
 
 /// Longest frame from a board.
@@ -44,6 +47,7 @@ pub struct Client {
     message: Vec<u8>,
     requests: Vec<u8>,
     counts: Counts,
+    syncs: Syncs,
     streaming: bool,
     worn: Option<Worn>,
     picture: Picture,
@@ -73,6 +77,7 @@ impl Client {
             // Ends whatever the board may have received before.
             requests: vec![0],
             counts: Counts::default(),
+            syncs: Syncs::default(),
             streaming: false,
             worn: None,
             picture: Picture::default(),
@@ -85,26 +90,6 @@ impl Client {
             health: None,
             budget: None,
         }
-    }
-
-    /// Asks for everything, also from a board that starts anew later; and for a tare over `tare` frames, unless 0.
-    pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
-        self.streaming = true;
-        self.request(&Request::Start)?;
-        if tare > 0 { self.request(&Request::Tare { frames: tare }) } else { Ok(()) }
-    }
-
-    /// Queues a request. An error: it is too long.
-    pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
-        let (mut body, mut frame) = ([0; LONGEST_REQUEST], [0; LONGEST_REQUEST + 1]);
-        let length = encode(request, &mut body, &mut frame)?;
-        self.requests.extend_from_slice(&frame[..length]);
-        Ok(())
-    }
-
-    /// The bytes that are to be sent to the board.
-    pub fn take_requests(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.requests)
     }
 
     /// Takes one byte. When it ends a message, the state is that of the message, and this says what it was.
@@ -132,6 +117,7 @@ impl Client {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
             self.forget();
+            self.syncs.restart();
             if self.streaming {
                 self.request(&Request::Start)?;
             }
@@ -168,7 +154,10 @@ impl Client {
                 Event::Health(health)
             }
             Report::Log(log) => Event::Log { time: log.time, level: log.level, text: log.text.into() },
-            Report::Sync(report) => Event::Sync(report),
+            Report::Sync(report) => {
+                self.syncs.take(&report);
+                Event::Sync(report)
+            }
             Report::Answer(answer) => {
                 Event::Answer { request: answer.request, refusal: answer.refusal.map(String::from) }
             }

@@ -5,6 +5,7 @@ pub mod arrays;
 pub mod bench;
 pub mod cli;
 pub mod client;
+pub mod clock;
 pub mod fcm;
 pub mod features;
 pub mod json;

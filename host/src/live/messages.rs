@@ -1,7 +1,10 @@
 //! Messages as JSON, one a line, each with its `type`.
 //!
 //! A line of type `frame` holds what `taxel process` prints for a frame: the contacts that are there, those that have
-//! gone (`released`), the intention; and what was lost and thinned so far. Nothing in a line depends on the host's time.
+//! gone (`released`), the intention; and what was lost and thinned so far. `time_us` is the board's time. Lines of a board
+//! that lives in real time (a serial port, TCP) also have `host_time_us`, the host's time of it in microseconds since 1970,
+//! and `host_time_uncertainty_us`, how far from that the truth can be, as soon as the board has answered a `Sync`; nothing
+//! else in a line depends on the host's time.
 
 use super::Show;
 use crate::client::{Client, Event, ImageNews};
@@ -30,6 +33,11 @@ impl<W: Write> Show for Messages<W> {
         let mut line = message(client, event);
         if let (true, Event::Frame { image: ImageNews::Whole, .. }) = (self.pixels, event) {
             line["panels"] = pixels(client);
+        }
+        let board = line.get("time_us").and_then(Value::as_u64);
+        if let Some(time) = board.and_then(|board| client.host_time(Micros(board))) {
+            line["host_time_us"] = json!(time.us);
+            line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
         }
         Ok(writeln!(self.out, "{line}")?)
     }

@@ -20,6 +20,7 @@ pub use taxel::{TaxelLines, TaxelPlace};
 pub use view::View;
 
 use crate::client::{Client, Event, ImageNews};
+use crate::clock::SteadyTime;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -149,11 +150,19 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     };
     let mut save = args.save.as_ref().map(Saver::open).transpose()?;
     let mut patience = Patience { asked: Instant::now(), times: 0 };
+    let time = SteadyTime::start();
+    let tell_time = |client: &mut Client, real: bool| {
+        if real {
+            client.tell_time(time.now_us());
+        }
+    };
     let mut buffer = [0; 4096];
     while !limits.ended {
+        tell_time(&mut client, source.real_time);
         let lost = || format!("{} is gone", source.label);
         source.port.write(&client.take_requests()).with_context(lost)?;
         let Some(count) = source.port.read(&mut buffer).with_context(lost)? else { break };
+        tell_time(&mut client, source.real_time);
         let mut taken = 0;
         for byte in &buffer[..count] {
             taken += 1;

@@ -24,7 +24,7 @@ pub fn open(options: &SourceOptions) -> Result<Source> {
         match Serial::open(&port.port_name, BAUD) {
             Ok(serial) => {
                 if let Some(serial) = listen(serial) {
-                    return Ok(Source::new(format!("serial:{}@{BAUD}", port.port_name), serial));
+                    return Ok(Source::real(format!("serial:{}@{BAUD}", port.port_name), serial));
                 }
                 silent.push(format!("{} says no Hello", port.port_name));
             }

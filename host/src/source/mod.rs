@@ -49,13 +49,26 @@ pub struct Source {
     pub port: Box<dyn Port>,
     /// Frames over which it should be tared at the start; 0: as it is.
     pub tare: u16,
+    /// Its board lives in real time: its clock can be compared with the host's.
+    pub real_time: bool,
     /// Counts per newton on a taxel, where that is known.
     pub counts_per_newton: Option<f32>,
 }
 
 impl Source {
     fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
-        Source { label: label.into(), port: Box::new(port), tare: 0, counts_per_newton: None }
+        Source {
+            label: label.into(),
+            port: Box::new(port),
+            tare: 0,
+            real_time: false,
+            counts_per_newton: None,
+        }
+    }
+
+    /// Of a real board.
+    fn real(label: impl Into<String>, port: impl Port + 'static) -> Source {
+        Source { real_time: true, ..Source::new(label, port) }
     }
 }
 
@@ -65,9 +78,9 @@ pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Auto => auto::open(options),
         SourceSpec::Sim(scene) => sim::open(scene, options),
         SourceSpec::Serial { path, baud } => {
-            Ok(Source::new(format!("serial:{path}@{baud}"), serial::Serial::open(path, *baud)?))
+            Ok(Source::real(format!("serial:{path}@{baud}"), serial::Serial::open(path, *baud)?))
         }
-        SourceSpec::Tcp(address) => Ok(Source::new(format!("tcp:{address}"), tcp::Tcp::open(address)?)),
+        SourceSpec::Tcp(address) => Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address)?)),
         SourceSpec::Emulator(scene) => emulator::open(scene, options),
         SourceSpec::File(path) => {
             Ok(Source::new(format!("file:{}", path.display()), file::Saved::open(path)?))

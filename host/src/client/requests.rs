@@ -1,0 +1,32 @@
+//! What the host asks of the board.
+
+use super::Client;
+use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode};
+
+/// Requests.
+impl Client {
+    /// Asks for everything, also from a board that starts anew later; and for a tare over `tare` frames, unless 0.
+    pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
+        self.streaming = true;
+        self.request(&Request::Start)?;
+        if tare > 0 { self.request(&Request::Tare { frames: tare }) } else { Ok(()) }
+    }
+
+    /// Queues a request. An error: it is too long.
+    pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
+        let (mut body, mut frame) = ([0; LONGEST_REQUEST], [0; LONGEST_REQUEST + 1]);
+        let length = encode(request, &mut body, &mut frame)?;
+        self.requests.extend_from_slice(&frame[..length]);
+        Ok(())
+    }
+
+    /// The bytes that are to be sent to the board.
+    pub fn take_requests(&mut self) -> Vec<u8> {
+        let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };
+        if let Some(sync) = sync {
+            // A request of a few bytes fits.
+            let _ = self.request(&sync);
+        }
+        std::mem::take(&mut self.requests)
+    }
+}

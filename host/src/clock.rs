@@ -1,0 +1,249 @@
+//! The host's time of what a board has seen, from round trips of `Sync`: bounds, not a guess with an error bar.
+//!
+//! A request that the host sent at `asked` was read by the board at `received`, and its answer, handed to the link at `sent`,
+//! came at `answered`: the board's `received` is not before `asked`, and its `sent` not after `answered`, however long
+//! and however unequal the two ways were. Each round trip so bounds the offset of the two clocks from both sides; bounds
+//! of earlier trips are carried on, widened by what the clocks can have drifted since, and cut with the new ones. A trip
+//! that waited in a queue bounds less, and does no harm. The rate is bounded likewise, by bounds of the offset that lie
+//! minutes apart.
+//!
+//! What is assumed: the clocks differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at most. Bounds
+//! that leave nothing over mean that it did not hold, or that a clock was set: then everything begins with the last trip.
+
+use std::collections::VecDeque;
+use std::time::{Instant, SystemTime};
+use taxel_core::format::Micros;
+
+/// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm, a host that follows a time server
+/// turns its clock by 500 ppm at most.
+pub const RATE_LIMIT: f64 = 500e-6;
+/// Fastest change of that difference, per second: 0.1 ppm/s, a cheap crystal that warms by 6 degrees in a minute.
+pub const WANDER: f64 = 0.1e-6;
+/// Time between two bounds that are kept for the rate, us.
+const SPACING: f64 = 4e6;
+/// Bounds that are kept: two minutes of them, after which wander costs more than a longer time gains.
+const KEPT: usize = 32;
+
+/// Host time of something on a board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HostTime {
+    /// Microseconds since the epoch of the host's times.
+    pub us: u64,
+    /// The true time is at most that far from it, microseconds.
+    pub uncertainty_us: u64,
+}
+
+/// A `Sync` and its answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RoundTrip {
+    /// The host's time before the request was sent, us.
+    pub asked: u64,
+    /// The board's time when it was read.
+    pub received: Micros,
+    /// The board's time when the answer was handed to the link.
+    pub sent: Micros,
+    /// The host's time after the answer had come, us.
+    pub answered: u64,
+}
+
+/// What is known of a board's clock.
+#[derive(Debug, Default, Clone)]
+pub struct HostClock {
+    known: Option<Known>,
+}
+
+/// Bounds, both included.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    low: f64,
+    high: f64,
+}
+
+impl Bounds {
+    fn cut(self, other: Bounds) -> Option<Bounds> {
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        (low <= high).then_some(Bounds { low, high })
+    }
+
+    fn widened(self, by: f64) -> Bounds {
+        Bounds { low: self.low - by, high: self.high + by }
+    }
+}
+
+#[derive(Debug, Clone)]
+struct Known {
+    /// Host time less board time in the first trip, us: offsets are counted from it.
+    origin: i128,
+    /// Board time of the bounds.
+    at: Micros,
+    offset: Bounds,
+    /// Change of the offset, us per us of the board.
+    rate: Bounds,
+    earlier: VecDeque<(Micros, Bounds)>,
+}
+
+impl HostClock {
+    /// Takes a round trip; one that ends before it began is left out.
+    pub fn take(&mut self, trip: &RoundTrip) {
+        let RoundTrip { asked, received, sent, answered } = *trip;
+        let origin =
+            self.known.as_ref().map_or(i128::from(answered) - i128::from(sent.0), |known| known.origin);
+        let offset = |host: u64, board: Micros| (i128::from(host) - i128::from(board.0) - origin) as f64;
+        // The drift of the short time on the board, and the microsecond that either clock cuts off.
+        let slack = 1.0 + span(received, sent).abs() * RATE_LIMIT;
+        let new = Bounds { low: offset(asked, received) - slack, high: offset(answered, sent) + 1.0 };
+        if received > sent || new.low > new.high {
+            return;
+        }
+        let carried = self.known.take().and_then(|known| known.carried_on(sent, new));
+        self.known = Some(carried.unwrap_or_else(|| Known {
+            origin,
+            at: sent,
+            offset: new,
+            rate: Bounds { low: -RATE_LIMIT, high: RATE_LIMIT },
+            earlier: VecDeque::from([(sent, new)]),
+        }));
+    }
+
+    /// The board has started anew: its clock as well.
+    pub fn forget(&mut self) {
+        self.known = None;
+    }
+
+    /// The host's time of a time of the board; none before the first round trip.
+    pub fn host_time(&self, board: Micros) -> Option<HostTime> {
+        let known = self.known.as_ref()?;
+        let Bounds { low, high } = known.offset_at(board);
+        let middle = known.origin + i128::from(board.0) + ((low + high) / 2.0).round() as i128;
+        Some(HostTime {
+            us: u64::try_from(middle.max(0)).unwrap_or(u64::MAX),
+            uncertainty_us: ((high - low) / 2.0).ceil() as u64 + 1,
+        })
+    }
+}
+
+impl Known {
+    /// Bounds of the offset at a time of the board, before or after the last trip.
+    fn offset_at(&self, board: Micros) -> Bounds {
+        let passed = span(self.at, board);
+        let drifts = [self.rate.low * passed, self.rate.high * passed];
+        let wander = WANDER * 1e-6 * passed * passed / 2.0;
+        Bounds {
+            low: self.offset.low + drifts[0].min(drifts[1]) - wander,
+            high: self.offset.high + drifts[0].max(drifts[1]) + wander,
+        }
+    }
+
+    /// With the bounds of a new trip; none where nothing is left between all bounds.
+    fn carried_on(mut self, sent: Micros, new: Bounds) -> Option<Known> {
+        let passed = span(self.at, sent);
+        if passed < 0.0 {
+            return None;
+        }
+        self.offset = self.offset_at(sent).cut(new)?;
+        self.rate = self.rate.widened(WANDER * 1e-6 * passed);
+        self.at = sent;
+        for (then, before) in &self.earlier {
+            let time = span(*then, sent);
+            if time < SPACING / 8.0 {
+                continue;
+            }
+            let mean = Bounds {
+                low: (self.offset.low - before.high) / time,
+                high: (self.offset.high - before.low) / time,
+            };
+            // The mean is that of the time between; since then the rate has wandered on.
+            self.rate = self.rate.cut(mean.widened(WANDER * 1e-6 * time / 2.0))?;
+        }
+        let limit = Bounds { low: -RATE_LIMIT, high: RATE_LIMIT };
+        self.rate = self.rate.cut(limit)?;
+        if self.earlier.back().is_none_or(|(last, _)| span(*last, sent) >= SPACING) {
+            self.earlier.push_back((sent, self.offset));
+            if self.earlier.len() > KEPT {
+                self.earlier.pop_front();
+            }
+        }
+        Some(self)
+    }
+}
+
+/// Time from the one to the other, us.
+fn span(from: Micros, to: Micros) -> f64 {
+    (i128::from(to.0) - i128::from(from.0)) as f64
+}
+
+/// The host's time: microseconds since 1970 when it was made, steady since, whatever is done to the calendar.
+#[derive(Debug, Clone, Copy)]
+pub struct SteadyTime {
+    began: Instant,
+    began_us: u64,
+}
+
+impl SteadyTime {
+    /// From now on.
+    pub fn start() -> SteadyTime {
+        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        SteadyTime { began: Instant::now(), began_us: since.as_micros() as u64 }
+    }
+
+    /// The time, us.
+    pub fn now_us(&self) -> u64 {
+        self.began_us + self.began.elapsed().as_micros() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trip(asked: u64, received: u64, sent: u64, answered: u64) -> RoundTrip {
+        RoundTrip { asked, received: Micros(received), sent: Micros(sent), answered }
+    }
+
+    #[test]
+    fn a_trip_bounds_the_offset_by_half_its_time_on_the_way() {
+        let mut clock = HostClock::default();
+        assert_eq!(clock.host_time(Micros(5)), None);
+        clock.take(&trip(1_000_000, 500, 700, 1_001_200));
+        // At board time 700 the host's time is between 1,000,200 (it took nothing there) and 1,001,200.
+        let time = clock.host_time(Micros(700)).unwrap();
+        assert_eq!((time.us, time.uncertainty_us), (1_000_700, 503));
+        // A trip that waited a second in a queue says nothing new, and costs nothing but the drift.
+        clock.take(&trip(2_000_000, 1_000_000, 1_000_100, 3_001_500));
+        let later = clock.host_time(Micros(1_000_100)).unwrap();
+        assert!((500..=1_010).contains(&later.uncertainty_us), "{later:?}");
+    }
+
+    #[test]
+    fn a_clock_that_was_set_is_learnt_anew() {
+        let mut clock = HostClock::default();
+        for second in 0..20 {
+            let now = second * 1_000_000;
+            clock.take(&trip(now + 7_000_000, now + 100, now + 150, now + 7_000_300));
+        }
+        // Back to zero, and ten seconds ahead.
+        for board in [40, 10_000_000] {
+            clock.take(&trip(30_000_000, board, board + 10, 30_000_200));
+            let time = clock.host_time(Micros(board)).unwrap();
+            assert!(
+                time.us.abs_diff(30_000_095) <= time.uncertainty_us && time.uncertainty_us < 110,
+                "{time:?}"
+            );
+        }
+        clock.forget();
+        assert_eq!(clock.host_time(Micros(0)), None);
+    }
+
+    #[test]
+    fn nonsense_does_no_harm() {
+        let mut clock = HostClock::default();
+        clock.take(&trip(10, 50, 40, 20));
+        clock.take(&trip(20, 10, 10, 10));
+        assert_eq!(clock.host_time(Micros(0)), None);
+        for times in [[0, u64::MAX, u64::MAX, u64::MAX], [u64::MAX, 0, u64::MAX, u64::MAX], [0, 0, 0, 0]] {
+            clock.take(&trip(times[0], times[1], times[2], times[3]));
+            let _ = clock.host_time(Micros(u64::MAX)).is_some_and(|time| time.us > 0);
+            let _ = clock.host_time(Micros(0));
+        }
+    }
+}
