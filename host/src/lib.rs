@@ -12,5 +12,6 @@ pub mod json;
 pub mod live;
 pub mod process;
 pub mod scenes;
+pub mod setup;
 pub mod sim;
 pub mod source;
