@@ -33,8 +33,8 @@ use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ContactList, Frame, Health, Hello, IntentReport, Raw, Receiver, Report, Request, WireError, decode,
-    decode_image,
+    Budget, ContactList, Frame, Health, Hello, IntentReport, Raw, Receiver, Report, Request, WireError,
+    decode, decode_image,
 };
 
 /// Longest frame from a board.
