@@ -191,9 +191,11 @@ fn an_attack_moves_a_pin_in_the_frame_that_decides_it() {
     let codes = frame_codes(&script, &garment, SCAN_US as u64, 300).unwrap();
     let mut board = Emulated::start(&garment, &codes, 100, &["--watch", "19", "--seconds", "3"]);
     board.receive();
+    board.obey(&Request::Tare { frames: 16 });
+    board.obey(&Request::Start);
+    // What the untared garment seemed to feel counts on for half a second.
+    while !matches!(board.receive().report(), Report::Frame(frame) if frame.time.0 > 700_000) {}
     board.play();
-    board.ask(&Request::Tare { frames: 16 });
-    board.ask(&Request::Start);
     let decided = loop {
         if let Report::Intent(intent) = board.receive().report()
             && intent.leading == Leading::Attack

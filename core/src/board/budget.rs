@@ -84,6 +84,11 @@ impl Ledger {
         }
     }
 
+    /// There is nothing to be encoded: what comes now is something else.
+    pub fn rest(&mut self) {
+        self.doing = Doing::Else;
+    }
+
     /// Another frame begins to be processed: the one before is complete.
     pub fn begin(&mut self, now: Micros, number: u32, time: Micros, scan_us: u32) {
         if let Some(since) = &mut self.waiting {

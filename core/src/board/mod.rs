@@ -211,7 +211,11 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        self.outbox.pending(now, &self.info, &self.setup, &image, &mut self.health, probe)
+        self.outbox.prepare(now, &self.info, &self.setup, &image, &mut self.health, probe);
+        if !self.outbox.has_rest() {
+            self.ledger.rest();
+        }
+        self.outbox.rest()
     }
 
     /// The first `count` of the pending bytes have been taken by the link.

@@ -263,8 +263,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// What is to be sent next.
-    pub fn pending(
+    /// Encodes what is to be sent next, unless something is under way.
+    pub fn prepare(
         &mut self,
         now: Micros,
         info: &BoardInfo,
@@ -272,18 +272,22 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         image: &Image<'_>,
         health: &mut Health,
         probe: &mut impl Probe,
-    ) -> &[u8] {
+    ) {
         if !self.has_rest() {
             probe.begin(Stage::Encode);
             self.next(now, info, setup, image, health);
             probe.begin(Stage::Idle);
         }
+    }
+
+    /// What the link has not taken of the message under way.
+    pub fn rest(&self) -> &[u8] {
         self.under_way.rest()
     }
 
-    /// Whether the link has not taken all of the message under way.
+    /// Whether there is any of it.
     pub fn has_rest(&self) -> bool {
-        !self.under_way.rest().is_empty()
+        !self.rest().is_empty()
     }
 
     pub fn sent(&mut self, count: usize) {
