@@ -34,7 +34,7 @@ use taxel_core::wire::Request;
 /// What `taxel live` takes.
 #[derive(Debug, Clone, Args)]
 pub struct LiveArgs {
-    /// `auto`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
+    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// End after N images

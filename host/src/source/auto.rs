@@ -1,30 +1,32 @@
-//! A real board, if there is one, else a simulated one.
+//! A real board: found by what it says on USB that it is, or heard on a probe's port; else a simulated one.
 
 use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
-use anyhow::Result;
-use serialport::{SerialPortInfo, SerialPortType};
+use anyhow::{Result, bail};
+use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// USB vendors whose boards may run the firmware: Raspberry Pi, Adafruit. Bridges that sit in front of anything (FTDI,
-/// CP210x, CH34x) are not opened, because opening them restarts some boards.
-const VENDORS: [u16; 2] = [0x2e8a, 0x239a];
+/// Vendor and product that a board says it is on USB, and its name: the numbers are for tests (<https://pid.codes>), so others
+/// may have them, too.
+const BOARD: (u16, u16, &str) = (0x1209, 0x0001, "taxel");
+/// Vendors of probes that pass on a board's UART: Raspberry Pi, Adafruit. Bridges that sit in front of anything (FTDI, CP210x,
+/// CH34x) are not opened, because opening them restarts some boards.
+const PROBES: [u16; 2] = [0x2e8a, 0x239a];
 /// How long a port is listened to, without a byte being sent.
 const LISTEN: Duration = Duration::from_millis(1500);
 const BAUD: u32 = 921_600;
 
 /// Opens the first port on which a board is heard.
 pub fn open(options: &SourceOptions) -> Result<Source> {
-    // A system without serial ports may say so by an error.
-    let ports = serialport::available_ports().unwrap_or_default();
-    let known: Vec<_> = ports.into_iter().filter(is_known).collect();
+    let known = known(ports());
     let mut silent = Vec::new();
     for port in &known {
         match Serial::open(&port.port_name, BAUD) {
             Ok(serial) => {
                 if let Some(serial) = listen(serial) {
-                    return Ok(Source::real(format!("serial:{}@{BAUD}", port.port_name), serial));
+                    return Ok(Source::real(label(port), serial));
                 }
                 silent.push(format!("{} says no Hello", port.port_name));
             }
@@ -33,15 +35,67 @@ pub fn open(options: &SourceOptions) -> Result<Source> {
     }
     let simulation = SourceSpec::simulation();
     let why = match silent.len() {
-        0 => "no serial port has the USB id of a known board".into(),
+        0 => "no serial port has the USB id of a board, 1209:0001, or of a probe".into(),
         _ => silent.join(", "),
     };
     eprintln!("No board found ({why}): simulating one, as --source {simulation} does.");
     open_source(&simulation, options)
 }
 
-fn is_known(port: &SerialPortInfo) -> bool {
-    matches!(&port.port_type, SerialPortType::UsbPort(usb) if VENDORS.contains(&usb.vid))
+/// Opens the first board on USB whose port nobody else has open.
+pub fn usb() -> Result<Source> {
+    let (mut boards, mut why) = (known(ports()), Vec::new());
+    boards.retain(|port| usb_of(port).is_some_and(is_board));
+    for port in &boards {
+        match Serial::open(&port.port_name, BAUD) {
+            Ok(serial) => return Ok(Source::new(label(port), serial)),
+            Err(error) => why.push(error.to_string()),
+        }
+    }
+    let (vendor, product, name) = BOARD;
+    match why.len() {
+        0 => bail!("no board on USB: no serial port says that it is {vendor:04x}:{product:04x} {name}"),
+        _ => bail!("no board on USB can be used: {}", why.join(", ")),
+    }
+}
+
+/// All serial ports of this machine.
+fn ports() -> Vec<SerialPortInfo> {
+    // Without this folder serialport panics.
+    if cfg!(target_os = "linux") && !Path::new("/sys/class/tty").is_dir() {
+        return Vec::new();
+    }
+    // A system without serial ports may say so by an error.
+    serialport::available_ports().unwrap_or_default()
+}
+
+/// The ports on which a board may be: first those that are one.
+fn known(ports: Vec<SerialPortInfo>) -> Vec<SerialPortInfo> {
+    let (boards, others): (Vec<_>, Vec<_>) =
+        ports.into_iter().partition(|port| usb_of(port).is_some_and(is_board));
+    let probes = others.into_iter().filter(|port| usb_of(port).is_some_and(|usb| PROBES.contains(&usb.vid)));
+    boards.into_iter().chain(probes).collect()
+}
+
+fn usb_of(port: &SerialPortInfo) -> Option<&UsbPortInfo> {
+    match &port.port_type {
+        SerialPortType::UsbPort(usb) => Some(usb),
+        _ => None,
+    }
+}
+
+/// A name that the system does not tell may be the right one.
+fn is_board(usb: &UsbPortInfo) -> bool {
+    let (vendor, product, name) = BOARD;
+    (usb.vid, usb.pid) == (vendor, product) && usb.product.as_deref().is_none_or(|told| told.contains(name))
+}
+
+/// The port's name; what is on USB has no speed.
+fn label(port: &SerialPortInfo) -> String {
+    match usb_of(port).is_some_and(is_board) {
+        true => format!("usb:{}", port.port_name),
+        false => format!("serial:{}@{BAUD}", port.port_name),
+    }
 }
 
 /// The port, with what was heard, if a board speaks there: `Hello`, or whatever it still streams to somebody before.
@@ -58,4 +112,30 @@ fn listen(mut serial: Serial) -> Option<Serial> {
         }
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn port(name: &str, vid: u16, pid: u16, product: Option<&str>) -> SerialPortInfo {
+        let product = product.map(String::from);
+        let usb = UsbPortInfo { vid, pid, serial_number: None, manufacturer: None, product };
+        SerialPortInfo { port_name: name.into(), port_type: SerialPortType::UsbPort(usb) }
+    }
+
+    #[test]
+    fn a_board_is_known_by_its_usb_id_and_name() {
+        let ports = vec![
+            SerialPortInfo { port_name: "ttyS0".into(), port_type: SerialPortType::PciPort },
+            port("probe", 0x2e8a, 0x000c, None),
+            port("bridge", 0x0403, 0x6001, None),
+            port("another", 0x1209, 0x0001, Some("blinker")),
+            port("board", 0x1209, 0x0001, Some("taxel")),
+            port("silent board", 0x1209, 0x0001, None),
+        ];
+        let found = known(ports);
+        let labels: Vec<_> = found.iter().map(label).collect();
+        assert_eq!(labels, ["usb:board", "usb:silent board", "serial:probe@921600"]);
+    }
 }

@@ -1,4 +1,4 @@
-//! Where bytes come from and requests go: a simulated board, a serial port, TCP, the emulator, a file.
+//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the emulator, a file.
 
 mod auto;
 mod emulator;
@@ -76,6 +76,7 @@ impl Source {
 pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     match spec {
         SourceSpec::Auto => auto::open(options),
+        SourceSpec::Usb => auto::usb(),
         SourceSpec::Sim(scene) => sim::open(scene, options),
         SourceSpec::Serial { path, baud } => {
             Ok(Source::real(format!("serial:{path}@{baud}"), serial::Serial::open(path, *baud)?))

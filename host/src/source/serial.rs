@@ -19,8 +19,10 @@ pub struct Serial {
 impl Serial {
     /// Opens a port, 8N1.
     pub fn open(path: &str, baud: u32) -> Result<Serial> {
+        // DTR: a board on USB talks to a port that is open, and takes this line for it.
         let port = serialport::new(path, baud)
             .timeout(PATIENCE)
+            .dtr_on_open(true)
             .open()
             .map_err(|error| anyhow!("serial port {path} at {baud} Bd cannot be opened: {error}"))?;
         Ok(Serial { port, heard: Vec::new() })

@@ -14,6 +14,8 @@ const SCENE: &str = "pat";
 pub enum SourceSpec {
     /// A board on a port with a known USB id, else a simulation.
     Auto,
+    /// A board on USB.
+    Usb,
     /// A simulated board that plays this scene.
     Sim(String),
     /// A serial port.
@@ -45,6 +47,7 @@ impl FromStr for SourceSpec {
         let (kind, rest) = text.split_once(':').map_or((text, None), |(kind, rest)| (kind, Some(rest)));
         match (kind, rest) {
             ("auto", None) => Ok(SourceSpec::Auto),
+            ("usb", None) => Ok(SourceSpec::Usb),
             ("sim", None) => Ok(SourceSpec::simulation()),
             ("sim", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Sim(scene.into())),
             ("emulator", None) => Ok(SourceSpec::Emulator(SCENE.into())),
@@ -52,9 +55,11 @@ impl FromStr for SourceSpec {
             ("serial", Some(port)) if !port.is_empty() => serial(port),
             ("tcp", Some(address)) => tcp(address),
             ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
-            _ => Err("known are auto, sim[:SCENE], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:SCENE], \
+            _ => {
+                Err("known are auto, usb, sim[:SCENE], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:SCENE], \
                       file:FILE"
-                .into()),
+                    .into())
+            }
         }
     }
 }
@@ -82,6 +87,7 @@ impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SourceSpec::Auto => f.write_str("auto"),
+            SourceSpec::Usb => f.write_str("usb"),
             SourceSpec::Sim(scene) => write!(f, "sim:{scene}"),
             SourceSpec::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
             SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
@@ -97,9 +103,15 @@ mod tests {
 
     #[test]
     fn words_are_read_and_written() {
-        for text in
-            ["auto", "sim:pat", "serial:/dev/ttyACM0@115200", "tcp:[::1]:80", "file:a b", "sim:x/y.toml"]
-        {
+        for text in [
+            "auto",
+            "usb",
+            "sim:pat",
+            "serial:/dev/ttyACM0@115200",
+            "tcp:[::1]:80",
+            "file:a b",
+            "sim:x/y.toml",
+        ] {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }
         let read = |text: &str| text.parse::<SourceSpec>();
@@ -107,7 +119,7 @@ mod tests {
         assert_eq!(read("emulator").unwrap(), SourceSpec::Emulator("pat".into()));
         assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");
         for wrong in
-            ["", "auto:", "sim:", "serial:", "serial:a@b", "tcp:a", "tcp:a:99999", "tcp::1", "file", "usb"]
+            ["", "auto:", "sim:", "serial:", "serial:a@b", "tcp:a", "tcp:a:99999", "tcp::1", "file", "usb:"]
         {
             assert!(read(wrong).is_err(), "{wrong}");
         }
