@@ -34,19 +34,21 @@ fn main() {
 fn table(rows: &[Value]) -> String {
     let mut text = String::from(
         "Microseconds per panel of 32 x 64: median 3x3, Sobel, threshold, labels, moments; one thread\n\
-         scene           taxel  imageproc   ratio   OpenCV   ratio\n",
+         (all: taxel with axes, ids, velocities and slip, which the others do not do)\n\
+         scene           taxel  imageproc   ratio   OpenCV   ratio      all\n",
     );
     for row in rows {
         let number = |key: &str| row[key].as_f64();
         let show = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));
         text += &format!(
-            "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7}\n",
+            "{:<12} {:>8} {:>10} {:>7} {:>8} {:>7} {:>8}\n",
             row["scene"].as_str().unwrap_or(""),
             number("taxel").map_or("-".into(), |value| format!("{value:.2}")),
             show(number("imageproc")),
             show(number("ratio")),
             show(number("opencv")),
             show(number("opencv_ratio")),
+            number("follow").map_or("-".into(), |value| format!("{value:.2}")),
         );
     }
     if rows.iter().all(|row| row["opencv"].is_null()) {
@@ -62,12 +64,13 @@ fn row(scene: &Scene) -> Value {
     }
     let codes: Vec<Code> = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
     let (panel, mut chain) = (chains::panel(&scene.values), chains::Ours::new());
-    let taxel = time(|| chain.process(black_box(&codes), |sums| sums.for_each(|sum| _ = black_box(sum))));
+    let taxel = time(|| chain.segment(black_box(&codes)).for_each(|sums| _ = black_box(sums)));
+    let follow = time(|| _ = black_box(chain.follow(black_box(&codes))));
     let imageproc = time(|| _ = black_box(chains::imageproc(black_box(&panel))));
     let opencv = opencv(&scene.values);
     json!({
         "scene": scene.name, "contacts": scene.contacts, "taxel": taxel, "imageproc": imageproc,
-        "ratio": imageproc / taxel, "opencv": opencv, "opencv_ratio": opencv.map(|time| time / taxel),
+        "ratio": imageproc / taxel, "follow": follow, "opencv": opencv, "opencv_ratio": opencv.map(|time| time / taxel),
     })
 }
 

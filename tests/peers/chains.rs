@@ -16,8 +16,8 @@ pub type Sums = (u64, i64, i64);
 
 const TAXELS: usize = ROWS * COLUMNS;
 
-/// The core's stages condition and contact. Their Sobel operator is applied where it is used, on the contours; what they do
-/// besides (baseline, gain, axes, tracking) is timed with it.
+/// The core's stage condition, and of the stage contact what finds and measures. Their Sobel operator is applied where it is
+/// used, on the contours; what they do besides (baseline, gain, peaks, bounds) is timed with it.
 pub struct Ours {
     layout: Layout,
     condition: Condition,
@@ -44,13 +44,20 @@ impl Ours {
         }
     }
 
-    /// One frame; what it found is handed to `found`.
-    pub fn process(&mut self, codes: &[Code], found: impl FnOnce(&mut dyn Iterator<Item = Sums>)) {
+    /// One frame, and the sums of what it found.
+    pub fn segment(&mut self, codes: &[Code]) -> impl Iterator<Item = Sums> {
+        let (condition, contact) = &mut self.state;
+        let image = self.condition.process(condition, &self.layout, codes, false, 1, contact.feedback());
+        let found = self.contact.segment(contact, &self.layout, &image);
+        found.iter().map(|found| (found.moments.m, found.moments.sx, found.moments.sy))
+    }
+
+    /// One frame with all that the stages do: axes, ids, velocities, slip. How many contacts it has.
+    pub fn follow(&mut self, codes: &[Code]) -> usize {
         self.frame += 1;
         let (condition, contact) = &mut self.state;
         let image = self.condition.process(condition, &self.layout, codes, false, 1, contact.feedback());
-        let touches = self.contact.process(contact, &self.layout, &image, Micros(self.frame * 5128));
-        found(&mut touches.moments.iter().map(|sums| (sums.m, sums.sx, sums.sy)));
+        self.contact.process(contact, &self.layout, &image, Micros(self.frame * 5128)).present.len()
     }
 }
 
@@ -77,8 +84,8 @@ pub fn imageproc(image: &GrayImage) -> Vec<Sums> {
 /// Both in the order of their sums.
 pub fn found(scene: &[u8]) -> (Vec<Sums>, Vec<Sums>) {
     let codes: Vec<Code> = scene.iter().map(|value| Code(u16::from(*value))).collect();
-    let (mut ours, mut theirs) = (Vec::new(), imageproc(&panel(scene)));
-    Ours::new().process(&codes, |sums| ours.extend(sums));
+    let (mut ours, mut theirs): (Vec<Sums>, _) =
+        (Ours::new().segment(&codes).collect(), imageproc(&panel(scene)));
     ours.sort_unstable();
     theirs.sort_unstable();
     (ours, theirs)

@@ -4,6 +4,7 @@ mod chains;
 mod scenes;
 
 use proptest::prelude::*;
+use taxel_core::format::Code;
 
 #[test]
 fn the_same_contacts_with_the_same_sums() {
@@ -11,6 +12,8 @@ fn the_same_contacts_with_the_same_sums() {
         let (ours, theirs) = chains::found(&scene.values);
         assert_eq!(ours, theirs, "{}", scene.name);
         assert_eq!(ours.len(), scene.contacts, "{}", scene.name);
+        let codes: Vec<Code> = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
+        assert_eq!(chains::Ours::new().follow(&codes), scene.contacts, "{}", scene.name);
     }
 }
 

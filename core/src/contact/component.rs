@@ -1,35 +1,40 @@
 //! Which components are contacts, and what is measured on each of them.
 
 use super::config::ContactConfig;
-use super::contour::Contour;
+use super::contour::{Contour, Line};
 use super::join::{Joins, weigh};
 use super::label::Labels;
 use super::moments::Moments;
 use super::run::{NONE, Run};
-use crate::condition::{CARRIED, Feedback, Image, Neighbourhood};
+use crate::condition::{CARRIED, Feedback, Image};
 use crate::format::{Fixed16, Inverse};
-use crate::garment::{Area, Layout, Place, Rect};
+use crate::garment::{Layout, Place, Rect};
 use heapless::Vec;
 
 /// A connected touch of one frame, not yet tracked.
 #[derive(Debug, Clone)]
-pub(super) struct Component {
+pub struct Component {
     /// Its first part.
-    pub part: u16,
+    pub(super) part: u16,
     joined: bool,
+    /// Sum of the pressure, counts.
     pub total: u32,
+    /// Greatest pressure of a taxel, counts.
     pub peak: u16,
     /// First taxel with the greatest value.
     pub peak_at: Option<Place>,
+    /// Taxels.
     pub area: u16,
-    pub contour: Contour,
+    pub(super) contour: Contour,
     /// In the home panel, where it lies there.
     pub bounds: Rect,
     /// In the frame of the home panel.
     pub moments: Moments,
     /// Of its mass, the total.
-    pub inverse: Inverse,
+    pub(super) inverse: Inverse,
+    /// Centroid in the frame of the home panel, rounded once: half a step off at most.
     pub x: Fixed16,
+    /// As `x`, across the rows.
     pub y: Fixed16,
 }
 
@@ -128,6 +133,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Measures all components.
+    #[inline(never)] // a stack frame of its own is near
     pub fn measure<const RUNS: usize>(
         &mut self,
         labels: &Labels<RUNS>,
@@ -139,19 +145,20 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
-        for runs in labels.runs.chunk_by(|run, next| run.panel == next.panel) {
-            let area = runs.first().and_then(|run| layout.areas().get(usize::from(run.panel)));
-            let Some(area) = area else { continue };
-            for run in runs {
-                let Some(index) = labels.contact_of(run) else { continue };
-                let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
-                component.add(run, image.values, area, low, joins);
-                let row = run.row - area.first_row;
-                if run.panel == component.bounds.panel {
-                    widen(&mut component.bounds, run, row);
-                } else {
-                    self.widen_beyond(index, run, row);
-                }
+        let mut line = Line::NONE;
+        for run in &labels.runs {
+            let Some(index) = labels.contact_of(run) else { continue };
+            let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
+            if !line.is_of(run) {
+                let Some(area) = layout.areas().get(usize::from(run.panel)) else { continue };
+                line = Line::of(run, area, image.values);
+            }
+            component.contour.add(run, &line, low);
+            component.add(run, &line, joins);
+            if run.panel == component.bounds.panel {
+                widen(&mut component.bounds, run, line.row);
+            } else {
+                self.widen_beyond(index, run, line.row);
             }
         }
         for (contact, moments) in joins.carried_moments() {
@@ -208,22 +215,18 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds a run to the sums.
-    #[inline(never)]
-    fn add(&mut self, run: &Run, values: &[u16], area: &Area, low: u16, joins: &mut Joins) {
-        let row = run.row - area.first_row;
-        let around = Neighbourhood::of(values, area, row);
-        let values = around.piece(run.left, run.right);
-        self.contour.add(run, &around, row == 0 || row + 1 >= area.rows, low);
+    /// Adds a run of a row to the sums.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn add(&mut self, run: &Run, line: &Line, joins: &mut Joins) {
+        let values = line.around.piece(run.left, run.right);
         // Of parts that are carried the sums are, once all their runs are in.
         let carried = if self.joined { joins.moments_of(run.parent) } else { None };
-        let moments = carried.unwrap_or(&mut self.moments);
-        moments.add_run(run.left.into(), row.into(), values, self.peak);
+        carried.unwrap_or(&mut self.moments).add_run(run.left.into(), line.row.into(), values, self.peak);
         if self.peak_at.is_none()
             && run.peak == self.peak
             && let Some((column, _)) = (run.left..).zip(values).find(|(_, value)| **value == self.peak)
         {
-            self.peak_at = Some(Place { panel: run.panel, row, column });
+            self.peak_at = Some(Place { panel: run.panel, row: line.row, column });
         }
     }
 }

@@ -2,6 +2,39 @@
 
 use super::run::Run;
 use crate::condition::Neighbourhood;
+use crate::garment::Area;
+
+/// The row whose runs are being measured.
+pub(super) struct Line<'a> {
+    pub around: Neighbourhood<'a>,
+    /// over all panels
+    number: Option<u16>,
+    /// in the panel
+    pub row: u16,
+    /// The first or the last row of the panel.
+    border: bool,
+}
+
+impl<'a> Line<'a> {
+    /// Before the first row.
+    pub const NONE: Line<'static> = Line { around: Neighbourhood::NONE, number: None, row: 0, border: true };
+
+    /// Whether it is the row of a run.
+    pub fn is_of(&self, run: &Run) -> bool {
+        self.number == Some(run.row)
+    }
+
+    /// The row of a run.
+    pub fn of(run: &Run, area: &Area, values: &'a [u16]) -> Line<'a> {
+        let row = run.row - area.first_row;
+        Line {
+            around: Neighbourhood::of(values, area, row),
+            number: Some(run.row),
+            row,
+            border: row == 0 || row + 1 >= area.rows,
+        }
+    }
+}
 
 /// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
 #[derive(Debug, Clone, Copy)]
@@ -15,17 +48,17 @@ pub(super) struct Contour {
 impl Contour {
     pub const NONE: Contour = Contour { length: 0, slope: 0 };
 
-    /// Adds what a run has of it; `border` says that its row is the first or the last of the panel.
+    /// Adds what a run has of it.
     #[inline(never)] // the few registers of an M0+ are for this
-    pub fn add(&mut self, run: &Run, around: &Neighbourhood, border: bool, low: u16) {
-        let (left, right) = (run.left, run.right);
+    pub fn add(&mut self, run: &Run, line: &Line, low: u16) {
+        let (left, right, around) = (run.left, run.right, &line.around);
         self.take(around, left);
         if left == right {
             return;
         }
         self.take(around, right);
         // Between the ends only what is above and below matters.
-        if border {
+        if line.border {
             (left + 1..right).for_each(|column| self.take(around, column));
         } else if !run.is_inside() && right - left > 1 {
             let [above, below] = around.beside(left + 1, right - 1);

@@ -62,6 +62,7 @@ impl Joins {
     }
 
     /// From run to run of the one panel at the seam, and from taxel to taxel of the other beside it.
+    #[inline(never)] // a stack frame of its own is near
     fn find_along<const RUNS: usize>(
         &mut self,
         index: u8,
@@ -119,24 +120,23 @@ impl Joins {
 
     /// The panel with most of the mass of contact `contact`, whose parts are joined; places all its parts.
     pub fn settle<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout, contact: u16) -> u8 {
-        let parts = || labels.parts().filter(|(_, run)| run.contact == contact);
-        let mut mass = [0u64; PANELS];
-        for (_, run) in parts() {
-            if let Some(sum) = mass.get_mut(usize::from(run.panel)) {
+        // Of each panel: the mass, and the heaviest part with its own.
+        let mut sums = [(0u64, 0, 0); PANELS];
+        for (part, run) in labels.parts().filter(|(_, run)| run.contact == contact) {
+            if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(run.panel)) {
                 *sum = sum.wrapping_add(run.mass.into());
+                if run.mass > *most {
+                    (*heaviest, *most) = (part, run.mass);
+                }
             }
         }
-        let heaviest = |best: (u8, u64), (panel, mass): (usize, &u64)| {
-            if *mass > best.1 { (panel as u8, *mass) } else { best }
-        };
-        let (home, _) = mass.iter().enumerate().fold((0, 0), heaviest);
-        let mut anchor = (0, 0);
-        for (part, run) in parts().filter(|(_, run)| run.panel == home) {
-            if run.mass > anchor.1 {
-                anchor = (part, run.mass);
+        let (mut home, mut anchor, mut greatest) = (0, 0, 0);
+        for (panel, (sum, heaviest, _)) in (0u8..).zip(sums) {
+            if sum > greatest {
+                (home, anchor, greatest) = (panel, heaviest, sum);
             }
         }
-        self.place(anchor.0, contact, Transform::IDENTITY);
+        self.place(anchor, contact, Transform::IDENTITY);
         self.carry(layout, contact);
         home
     }

@@ -41,6 +41,7 @@ impl<const RUNS: usize> Labels<RUNS> {
         self.flatten();
     }
 
+    #[inline(never)] // a stack frame of its own is near
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
         let start = self.runs.len();
         let last = area.first_row.saturating_add(area.rows);

@@ -42,6 +42,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
     }
 
     /// Gives each track the index of its component, or [`NONE`].
+    #[inline(never)] // a stack frame of its own is near
     pub fn assign(
         &mut self,
         config: &ContactConfig,

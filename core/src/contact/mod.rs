@@ -30,7 +30,7 @@
 //!
 //! The stage makes four passes: runs of each active row and their union (`run`, `label`); joins across seams
 //! (`join`); the choice of contacts; and the measures of the chosen ones only (`component`, `contour`). Then
-//! they are matched to those of the last frame (`track`).
+//! they are matched to those of the last frame (`track`). [`Contacts::segment`] is all but the last, for whoever needs no ids.
 
 mod axis;
 mod component;
@@ -51,6 +51,7 @@ mod track;
 mod trail;
 
 pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
+pub use component::Component;
 pub use config::{ContactConfig, NO_SLIP};
 pub use moments::{Central, Moments};
 pub use record::{Contact, Phase};

@@ -55,12 +55,9 @@ struct Piece {
 }
 
 impl Piece {
-    /// At most [`PIECE`] values, each not above `peak`. From the last to the first, three running sums: no
-    /// multiplication by a coordinate per taxel.
-    fn of(values: &[u16], peak: u16) -> Piece {
-        if peak <= NARROW {
-            return Piece::of_narrow(values);
-        }
+    /// At most [`PIECE`] values. From the last to the first, three running sums: no multiplication by a coordinate per
+    /// taxel.
+    fn of(values: &[u16]) -> Piece {
         let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
         for value in values.iter().rev().map(|value| u32::from(*value)) {
             s0 = s0.wrapping_add(value);
@@ -71,8 +68,7 @@ impl Piece {
         Piece { s0, s1, s2, squares }
     }
 
-    /// As many sums as the registers of a Cortex-M0+ hold: unrolled, it would be slower.
-    #[inline(never)]
+    /// The same of values up to [`NARROW`].
     fn of_narrow(values: &[u16]) -> Piece {
         let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u32);
         for value in values.iter().rev().map(|value| u32::from(*value)) {
@@ -94,49 +90,58 @@ impl Moments {
     }
 
     /// Adds a piece of a row whose first taxel is (x, y), with no value above `peak`.
+    #[inline(never)] // the few registers of an M0+ are for its loop
     pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], peak: u16) {
-        let (mut x, mut rest) = (x, values);
-        while let Some((piece, after)) = rest.split_at_checked(PIECE) {
-            self.add_piece(x, y, &Piece::of(piece, peak));
-            (x, rest) = (x.wrapping_add(PIECE as u32), after);
+        if x < 64 && y < 128 && values.len() <= PIECE && peak <= NARROW {
+            let piece = Piece::of_narrow(values);
+            if piece.s0 < 1 << 17 {
+                return self.add_near(x, y, &piece);
+            }
         }
-        self.add_piece(x, y, &Piece::of(rest, peak));
+        self.add_far(x, y, values);
     }
 
-    fn add_piece(&mut self, x: u32, y: u32, piece: &Piece) {
+    /// Small coordinates and sums, as nearly always: everything below 128^2 * 2^17 = 2^31 fits in 32 bits, where a
+    /// multiplication takes one cycle instead of 55.
+    fn add_near(&mut self, x: u32, y: u32, piece: &Piece) {
         let Piece { s0, s1, s2, squares } = *piece;
         let first = s1.wrapping_sub(s0);
-        // Small coordinates and sums, as nearly always: everything below 128^2 * 2^17 = 2^31 fits in 32 bits, where a
-        // multiplication takes one cycle instead of 55.
-        if x < 64 && y < 128 && s0 < 1 << 17 {
-            // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
-            let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
-            let (sx, sy) = (x * s0 + first, y * s0);
-            // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
-            let sxx = x * (sx + first) + second;
-            // One after the other, for want of registers.
-            self.m = self.m.wrapping_add(s0.into());
-            self.sx = self.sx.wrapping_add(sx.into());
-            self.sy = self.sy.wrapping_add(sy.into());
-            self.sxx = self.sxx.wrapping_add(sxx.into());
-            self.syy = self.syy.wrapping_add((y * sy).into());
-            self.sxy = self.sxy.wrapping_add((y * sx).into());
-            self.s2 = self.s2.wrapping_add(squares);
-            return;
+        // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
+        let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
+        let (sx, sy) = (x * s0 + first, y * s0);
+        // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
+        let sxx = x * (sx + first) + second;
+        // One after the other, for want of registers.
+        self.m = self.m.wrapping_add(s0.into());
+        self.sx = self.sx.wrapping_add(sx.into());
+        self.sy = self.sy.wrapping_add(sy.into());
+        self.sxx = self.sxx.wrapping_add(sxx.into());
+        self.syy = self.syy.wrapping_add((y * sy).into());
+        self.sxy = self.sxy.wrapping_add((y * sx).into());
+        self.s2 = self.s2.wrapping_add(squares);
+    }
+
+    /// Any coordinates, values and length.
+    #[cold]
+    fn add_far(&mut self, x: u32, y: u32, values: &[u16]) {
+        let (mut x, y) = (u64::from(x), u64::from(y));
+        for values in values.chunks(PIECE) {
+            let Piece { s0, s1, s2, squares } = Piece::of(values);
+            let [s0, s1, s2] = [s0, s1, s2].map(u64::from);
+            let first = s1.wrapping_sub(s0);
+            let second = (s2 * 2).wrapping_add(s0).wrapping_sub(s1 * 3);
+            let (sx, sy) = (x.wrapping_mul(s0).wrapping_add(first), y.wrapping_mul(s0));
+            self.add(&Moments {
+                m: s0,
+                sx: sx as i64,
+                sy: sy as i64,
+                sxx: x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second),
+                syy: y.wrapping_mul(sy),
+                sxy: y.wrapping_mul(sx) as i64,
+                s2: squares,
+            });
+            x += PIECE as u64;
         }
-        let second = (u64::from(s2) * 2).wrapping_add(s0.into()).wrapping_sub(u64::from(s1) * 3);
-        let (x, y, m, first) = (u64::from(x), u64::from(y), u64::from(s0), u64::from(first));
-        let (sx, sy) = (x.wrapping_mul(m).wrapping_add(first), y.wrapping_mul(m));
-        let sxx = x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second);
-        self.add(&Moments {
-            m,
-            sx: sx as i64,
-            sy: sy as i64,
-            sxx,
-            syy: y.wrapping_mul(sy),
-            sxy: y.wrapping_mul(sx) as i64,
-            s2: squares,
-        });
     }
 
     /// Of a whole image as it stands, row by row.

@@ -75,17 +75,18 @@ impl Stretch {
     /// Measures it.
     #[inline(never)] // the few registers of an M0+ are for its loop
     pub fn of(values: &[u16], low: u32) -> Stretch {
-        let (mut mass, mut peak) = (0u32, 0u32);
-        let quiet = values.iter().map(|value| u32::from(*value)).position(|value| {
+        let (mut mass, mut peak, mut rest) = (0u32, 0u32, values);
+        while let [value, after @ ..] = rest {
+            let value = u32::from(*value);
             if value < low {
-                return true;
+                break;
             }
             mass = mass.wrapping_add(value);
             if value > peak {
                 peak = value;
             }
-            false
-        });
-        Stretch { length: quiet.unwrap_or(values.len()), mass, peak }
+            rest = after;
+        }
+        Stretch { length: values.len() - rest.len(), mass, peak }
     }
 }

@@ -1,6 +1,6 @@
 //! The stage.
 
-use super::component::Components;
+use super::component::{Component, Components};
 use super::config::ContactConfig;
 use super::join::Joins;
 use super::label::Labels;
@@ -109,7 +109,7 @@ impl Contacts {
         &self.config
     }
 
-    /// Takes in one frame that was scanned at `now`.
+    /// Takes in one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
     pub fn process<'a, const CONTACTS: usize, const RUNS: usize>(
         &self,
         state: &'a mut ContactState<CONTACTS, RUNS>,
@@ -117,15 +117,38 @@ impl Contacts {
         image: &Image,
         now: Micros,
     ) -> Touches<'a> {
-        let low = self.config.low;
-        let ContactState { labels, joins, components, matching, tracks, feedback } = state;
-        labels.scan(layout, image, low);
+        self.segment(state, layout, image);
+        self.track(state, layout, image, now)
+    }
+
+    /// The components of a frame that are contacts, measured, in the order of their first taxels. For whoever needs no ids
+    /// and no velocities, this is all; of contacts it follows only where they were, which keeps faint ones.
+    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize>(
+        &self,
+        state: &'a mut ContactState<CONTACTS, RUNS>,
+        layout: &Layout,
+        image: &Image,
+    ) -> &'a [Component] {
+        let ContactState { labels, joins, components, feedback, .. } = state;
+        labels.scan(layout, image, self.config.low);
         labels.mark_held(layout, feedback, self.config.high);
         joins.find(labels, layout);
         components.select(&self.config, labels);
         components.number(labels);
-        components.measure(labels, joins, layout, image, low);
+        components.measure(labels, joins, layout, image, self.config.low);
         components.feed_back(feedback);
+        &components.list
+    }
+
+    /// Follows contacts from the last frame to the components that [`Contacts::segment`] found in this image.
+    pub fn track<'a, const CONTACTS: usize, const RUNS: usize>(
+        &self,
+        state: &'a mut ContactState<CONTACTS, RUNS>,
+        layout: &Layout,
+        image: &Image,
+        now: Micros,
+    ) -> Touches<'a> {
+        let ContactState { labels, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
         tracks.merge(labels, layout);
         tracks.update(&self.config, &components.list, layout, image, now);

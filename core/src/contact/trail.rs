@@ -35,6 +35,7 @@ impl Trail {
     }
 
     /// Carries a contact's way and velocity on to its component, of which the rest is still to be told.
+    #[inline(never)] // a stack frame of its own is near
     pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
         let Scenery { config, layout, image, pace } = scenery;
         let from = Point::of(contact.panel, contact.x, contact.y);

@@ -59,9 +59,13 @@ pub(super) const VOTERS: usize = 9;
 /// share of the votes, each weighed by how near it is. Unknown, with the confidence of that, if even the nearest is
 /// farther than `reject`.
 pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reject: u32) -> (Class, Q15) {
-    let nearest = nearest(prototypes, features, k);
-    let Some((least, _)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
     let limit = reject.saturating_mul(reject);
+    // Most touches are like something: what is farther need not be compared in full.
+    let mut nearest = nearest(prototypes, features, k, limit.saturating_add(1));
+    if nearest.iter().take(k).any(|(_, class)| *class == Class::UNKNOWN) {
+        nearest = self::nearest(prototypes, features, k, u32::MAX);
+    }
+    let Some((least, _)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
     if least > limit {
         return (Class::UNKNOWN, Q15::ratio((least - limit).into(), least.into()));
     }
@@ -77,13 +81,14 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
     (best.0, Q15::ratio(own, all))
 }
 
-/// The `k` nearest prototypes in the order of their squared distance; of equals the first in the base.
-fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Class); VOTERS] {
-    let mut nearest = [(u32::MAX, Class::UNKNOWN); VOTERS];
-    let mut limit = u32::MAX;
-    for prototype in prototypes {
-        let Some(distance) = distance_below(limit, &prototype.features, features) else { continue };
-        let mut carried = (distance, prototype.class);
+/// The `k` nearest prototypes in the order of their squared distance, if that is below a limit; of equals the first in the
+/// base.
+fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) -> [(u32, Class); VOTERS] {
+    let mut nearest = [(limit, Class::UNKNOWN); VOTERS];
+    let (mut rest, mut limit) = (prototypes, limit);
+    while let Some((distance, found, after)) = next_below(limit, rest, features) {
+        rest = after;
+        let mut carried = (distance, found);
         for held in nearest.iter_mut().take(k) {
             if carried.0 < held.0 {
                 core::mem::swap(held, &mut carried);
@@ -94,23 +99,36 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize) -> [(u32, Cl
     nearest
 }
 
-/// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
-fn distance_below(limit: u32, a: &Features, b: &Features) -> Option<u32> {
-    let [[a0, a1, a2, a3], [b0, b1, b2, b3]] = [a, b];
-    let first = square(*a3, *b3);
-    if first >= limit {
-        return None;
+/// The first prototype whose squared distance is below a limit: that, its class, and the prototypes after it. Most are told
+/// apart by size and anisotropy.
+#[inline(never)] // the few registers of an M0+ are for this
+fn next_below<'a>(
+    limit: u32,
+    prototypes: &'a [Prototype],
+    features: &Features,
+) -> Option<(u32, Class, &'a [Prototype])> {
+    let [nmi, form, anisotropy, size] = *features;
+    let mut rest = prototypes.iter();
+    while let Some(prototype) = rest.next() {
+        let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
+        let mut distance = square(size, other_size);
+        if distance >= limit {
+            continue;
+        }
+        distance = distance.saturating_add(square(anisotropy, other_anisotropy));
+        if distance >= limit {
+            continue;
+        }
+        distance = distance.saturating_add(square(nmi, other_nmi)).saturating_add(square(form, other_form));
+        if distance < limit {
+            return Some((distance, prototype.class, rest.as_slice()));
+        }
     }
-    let second = first + square(*a2, *b2);
-    if second >= limit {
-        return None;
-    }
-    let distance = second + square(*a0, *b0) + square(*a1, *b1);
-    (distance < limit).then_some(distance)
+    None
 }
 
-/// Each feature counts for at most 32767 apart, so that four squares fit.
+/// How far apart two numbers are, squared: below 2^32.
 fn square(a: i16, b: i16) -> u32 {
     let apart = i32::from(a) - i32::from(b);
-    (apart.wrapping_mul(apart) as u32).min(32767 * 32767)
+    apart.wrapping_mul(apart) as u32
 }
