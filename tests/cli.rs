@@ -34,7 +34,8 @@ fn newest_source() -> SystemTime {
         let Ok(entries) = path.read_dir() else { return changed(path) };
         entries.filter_map(|entry| newest(&entry.ok()?.path())).max()
     }
-    let folders = ["core/src", "host/src", "host/scenes"].map(|folder| newest(&root().join(folder)));
+    let folders =
+        ["core/src", "host/src", "host/scenes", "host/maps"].map(|folder| newest(&root().join(folder)));
     folders.into_iter().flatten().max().unwrap()
 }
 

@@ -113,14 +113,16 @@ fn greatest_scene() -> Scene {
     let intent = scene.intent.as_mut().unwrap();
     intent.steps = 64;
     let map = &mut intent.map;
-    map.concepts = names("concept");
+    // As many as there may be, by names with which they fit into a request.
+    map.concepts = (0..map.concepts.capacity()).map(|index| name(&format!("c{index:02}"))).collect();
     for (intention, place) in ["kindness", "threat", "attack"].into_iter().zip(&mut map.concepts[8..]) {
         *place = name(intention);
     }
     map.decimals = 4;
-    // Eight causes, eight effects.
-    map.edges =
-        (0..64).map(|k| Link { from: k / 8, to: 8 + k % 8, weight: 10_000 - i16::from(k) * 300 }).collect();
+    // Eight causes of all others.
+    let effects = map.concepts.len() as u8 - 8;
+    let link = |k: u8| Link { from: k / effects, to: 8 + k % effects, weight: 10_000 - i16::from(k) * 100 };
+    map.edges = (0..map.edges.capacity() as u8).map(link).collect();
     map.thresholds = (0..16).map(|concept| Threshold { concept, value: -5000 }).collect();
     let sources = [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed];
     let sources = sources.into_iter().chain((0..3).map(Source::Host));

@@ -4,7 +4,7 @@
 use serde_json::Value;
 use taxel::fcm::decimal::Decimal;
 use taxel::fcm::engine::{self, Problem, Settings};
-use taxel::fcm::file::parse_json;
+use taxel::fcm::json::parse;
 use taxel_core::intent::{Outcome, Rule, Transfer};
 
 struct Case {
@@ -60,7 +60,7 @@ fn reference(name: &str) -> (Problem, Vec<Case>) {
             last: numbers(&case["final"]),
         }
     });
-    (parse_json(&text).unwrap(), cases.collect())
+    (parse(&text).unwrap(), cases.collect())
 }
 
 const MAPS: [&str; 3] = ["fcmpy8", "heat8", "tactile10"];
@@ -190,6 +190,7 @@ fn tie(weights: [&str; 3], start: [&str; 3], rule: Rule, transfer: Transfer) -> 
         names: ["a", "b", "c", "sum"].map(String::from).to_vec(),
         weights: matrix,
         start: start.map(d).into_iter().chain([zero]).collect(),
+        ..Problem::default()
     };
     let settings = Settings { rule, transfer, lambda: 1.0, threshold: zero, held: true };
     let runs = [engine::run(&problem, &settings, 1), engine::q15(&problem, &settings, 1).unwrap()];
@@ -232,8 +233,8 @@ fn the_published_rule_puts_out_every_map_without_cycles() {
                     .skip(i + 1)
                     .for_each(|w| *w = Decimal { digits: next(21) as i128 - 10, decimals: 1 });
             }
-            let problem =
-                Problem { names: (0..n).map(|i| i.to_string()).collect(), weights, start: vec![d("1"); n] };
+            let (names, start) = ((0..n).map(|i| i.to_string()).collect(), vec![d("1"); n]);
+            let problem = Problem { names, weights, start, ..Problem::default() };
             let settings = Settings {
                 rule: Rule::Kosko,
                 transfer: Transfer::Bivalent,
@@ -268,6 +269,6 @@ fn a_file_is_refused_in_one_sentence() {
         ("[1]", "not a JSON object with the keys names, W and x0"),
         ("{", "not JSON: EOF while parsing an object at line 1 column 1"),
     ] {
-        assert_eq!(parse_json(text).unwrap_err().to_string(), message);
+        assert_eq!(parse(text).unwrap_err().to_string(), message);
     }
 }

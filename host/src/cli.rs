@@ -29,7 +29,7 @@ enum Command {
     /// Moments, NMI and axis of one recorded image as it stands
     #[command(after_help = FEATURES)]
     Features(FeaturesArgs),
-    /// Run a fuzzy cognitive map in f64 and in the board's arithmetic
+    /// Fuzzy cognitive maps: run in f64 and in the board's arithmetic, validate
     #[command(after_help = FCM)]
     Fcm(FcmArgs),
     /// Speed against error, as tables and charts
@@ -54,8 +54,10 @@ const FEATURES: &str = "Examples:
   taxel features image.npy
   taxel features subject_01.npz --array posture_03 --frame 20 --json";
 
-const FCM: &str = "Example:
-  taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json";
+const FCM: &str = "Examples:
+  taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json
+  taxel fcm tactile --input press=0.8 --input time=0.1
+  taxel fcm check my-map.toml";
 
 const BENCH: &str = "Examples:
   taxel bench

@@ -4,9 +4,9 @@ use super::input::{Source, Touch};
 use super::map::Map;
 use crate::format::Q15;
 
-impl<const N: usize> Map<N> {
-    /// The start of an inference: each input concept encoded, every other concept 0. `host` holds the values the host
-    /// feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
+impl<const N: usize, const E: usize> Map<N, E> {
+    /// The start of an inference: each input concept encoded, every other concept 0. Inputs of one concept add up, and the sum
+    /// is held within -1 ..= 1 after each of them. `host` holds the values the host feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
     pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
         let mut state = [0; N];
         for input in &self.inputs {
@@ -21,7 +21,7 @@ impl<const N: usize> Map<N> {
                 Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
             };
             if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {
-                *out = input.ramp(value);
+                *out = (*out + input.ramp(value)).max(-self.one).min(self.one);
             }
         }
         state

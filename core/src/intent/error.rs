@@ -9,6 +9,10 @@ use core::fmt;
 pub enum MapError {
     /// No concept, or more than the type has room for.
     Concepts { found: usize, room: usize },
+    /// More edges than the type has room for.
+    Edges { found: usize, room: usize },
+    /// More inputs than the type has room for.
+    Inputs { found: usize, room: usize },
     /// Two concepts have one name.
     DuplicateConcept { concept: Name },
     /// The decimal step is finer than 10^-4.
@@ -31,8 +35,6 @@ pub enum MapError {
     TooLarge { concept: Name },
     /// An input belongs to a concept that does not exist.
     InputConcept { input: usize, concept: u8, concepts: usize },
-    /// A concept has two inputs.
-    DuplicateInput { concept: Name },
     /// An input concept also has causes, which would overwrite it at the first step.
     DrivenInput { concept: Name },
     /// The range of an input is empty.
@@ -74,6 +76,8 @@ impl fmt::Display for MapError {
         match self {
             M::Concepts { found: 0, .. } => write!(f, "the map has no concept"),
             M::Concepts { found, room } => write!(f, "{found} concepts, and there is room for {room}"),
+            M::Edges { found, room } => write!(f, "{found} edges, and there is room for {room}"),
+            M::Inputs { found, room } => write!(f, "{found} inputs, and there is room for {room}"),
             M::DuplicateConcept { concept } => write!(f, "concept {concept} is named twice"),
             M::Decimals { found } => write!(f, "decimals = {found} is outside 0 ..= 4"),
             M::EdgeConcept { edge, concept, concepts } => {
@@ -100,7 +104,6 @@ impl fmt::Display for MapError {
             M::InputConcept { input, concept, concepts } => {
                 write!(f, "input {input} names concept {concept}, and there are {concepts}")
             }
-            M::DuplicateInput { concept } => write!(f, "concept {concept} has two inputs"),
             M::DrivenInput { concept } => write!(f, "concept {concept} is an input and has an incoming edge"),
             M::InputRange { concept, low, high } => {
                 write!(f, "input {concept}: low = {low} is not below high = {high}")

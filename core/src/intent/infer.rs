@@ -42,7 +42,7 @@ pub struct Inference<const N: usize> {
     pub outcome: Outcome,
 }
 
-impl<const N: usize> Map<N> {
+impl<const N: usize, const E: usize> Map<N, E> {
     /// Runs the map from `start` (the first of the N + 1 states of a trajectory) for at most `steps` steps, and
     /// stops where it settles. Total and bounded: memory does not depend on `steps`; after no step it is unsettled.
     ///
@@ -87,13 +87,16 @@ impl<const N: usize> Map<N> {
         }
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };
         let mut next = *state;
-        for ((value, row), own_y) in next.iter_mut().zip(&self.rows).zip(&y).take(self.concepts.len()) {
+        let mut causes = self.causes.iter();
+        for ((value, row), own_y) in next.iter_mut().zip(&self.rows).zip(&y) {
             if row.held {
-                continue;
+                continue; // it has no causes
             }
             let mut sum = row.bias + ((own * own_y) >> self.shift);
-            for (weight, y) in row.weights.iter().zip(&y).take(self.concepts.len()) {
-                sum += (i32::from(*weight) * y) >> self.shift;
+            for cause in causes.by_ref().take(row.causes) {
+                // `build` proved that the cause is there.
+                let y = y.get(usize::from(cause.from)).copied().unwrap_or(0);
+                sum += (i32::from(cause.weight) * y) >> self.shift;
             }
             *value = self.transferred(sum);
         }

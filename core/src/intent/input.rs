@@ -3,6 +3,9 @@
 //! A ramp: `at_low` up to `low`, `at_high` from `high` on, and a straight line between. The result is rounded to the
 //! nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source that
 //! describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
+//!
+//! The inputs of one concept add up. A ramp from 0 to 1 and one further on from 0 to -1 are together a trapezoid, and a triangle
+//! where the second begins as the first ends: fuzzy memberships need no other form.
 
 use super::error::MapError;
 use crate::format::Name;

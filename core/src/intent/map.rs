@@ -5,10 +5,10 @@
 //! the source's edge i -> j: positive increases, negative decreases. Concepts without an incoming edge (an all-zero
 //! column of W) keep their value while `held` is true.
 //!
-//! [`MapConfig`] is what a message says, in decimal steps; [`Map`] is what inference reads: one row of
-//! weights per concept, thresholds folded into a bias, the transfer's gain as one multiplication.
+//! [`MapConfig`] is what a message says, in decimal steps; [`Map`] is what inference reads: the causes of each concept one
+//! after the other, thresholds folded into a bias, the transfer's gain as one multiplication.
 
-use super::config::{CONCEPTS, DECIMALS, MapConfig, Rule};
+use super::config::{CONCEPTS, DECIMALS, EDGES, MapConfig, Rule};
 use super::error::MapError;
 use super::input::Encoder;
 use super::transfer::{Gain, Transfer};
@@ -17,21 +17,32 @@ use heapless::Vec;
 
 /// All that inference needs to know of one concept.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row<const N: usize> {
+pub(crate) struct Row {
     /// Keeps its value.
     pub held: bool,
     /// -T in the unit of the sum.
     pub bias: i32,
-    /// Weights of its causes in steps.
-    pub weights: [i16; N],
+    /// Number of its causes.
+    pub causes: usize,
+}
+
+/// One cause of a concept.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CauseOf {
+    /// Index of the cause.
+    pub from: u8,
+    /// Weight in steps, not 0.
+    pub weight: i16,
 }
 
 /// A checked map, ready for inference. States are arrays of `N` numbers of which the first `len()` count, in units
 /// of 1 / [`Map::one`].
 #[derive(Debug, Clone)]
-pub struct Map<const N: usize = CONCEPTS> {
+pub struct Map<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub(crate) concepts: Vec<Name, N>,
-    pub(crate) rows: [Row<N>; N],
+    pub(crate) rows: Vec<Row, N>,
+    /// The causes of the first concept, then those of the second, and so on.
+    pub(crate) causes: Vec<CauseOf, E>,
     pub(crate) inputs: Vec<Encoder, N>,
     pub(crate) rule: Rule,
     pub(crate) transfer: Transfer,
@@ -44,16 +55,17 @@ pub struct Map<const N: usize = CONCEPTS> {
     pub(crate) shift: u32,
 }
 
-impl<const N: usize> Map<N> {
+impl<const N: usize, const E: usize> Map<N, E> {
     /// Checks `config` and prepares it. Every error names the concept, edge or parameter and its value.
-    pub fn build<const C: usize, const E: usize>(config: &MapConfig<C, E>) -> Result<Self, MapError> {
+    pub fn build<const C: usize, const D: usize>(config: &MapConfig<C, D>) -> Result<Self, MapError> {
         check_scalars(config)?;
         let concepts = checked_concepts(&config.concepts)?;
         let step = 10i32.pow(config.decimals.into());
         let one = if config.transfer.is_threshold() { step } else { Q15::ONE.0 };
         let mut map = Map {
             concepts,
-            rows: [Row { held: false, bias: 0, weights: [0; N] }; N],
+            rows: Vec::new(),
+            causes: Vec::new(),
             inputs: Vec::new(),
             rule: config.rule,
             transfer: config.transfer,
@@ -109,9 +121,9 @@ impl<const N: usize> Map<N> {
         }
     }
 
-    fn set_edges<const C: usize, const E: usize>(
+    fn set_edges<const C: usize, const D: usize>(
         &mut self,
-        config: &MapConfig<C, E>,
+        config: &MapConfig<C, D>,
     ) -> Result<(), MapError> {
         let name = |index: u8| config.concepts.get(usize::from(index)).cloned();
         for (at, edge) in config.edges.iter().enumerate() {
@@ -125,11 +137,18 @@ impl<const N: usize> Map<N> {
             if config.edges.iter().take(at).any(|e| (e.from, e.to) == (edge.from, edge.to)) {
                 return Err(MapError::DuplicateEdge { from, to });
             }
-            let row = self.rows.get_mut(usize::from(edge.to)).ok_or(missing(edge.to))?;
-            *row.weights.get_mut(usize::from(edge.from)).ok_or(missing(edge.from))? = edge.weight;
         }
-        for row in &mut self.rows {
-            row.held = config.held && row.weights.iter().all(|w| *w == 0);
+        for to in 0..config.concepts.len() {
+            let causes = config.edges.iter().filter(|edge| usize::from(edge.to) == to && edge.weight != 0);
+            let mut row = Row { held: false, bias: 0, causes: 0 };
+            for edge in causes {
+                let room = MapError::Edges { found: config.edges.len(), room: E };
+                self.causes.push(CauseOf { from: edge.from, weight: edge.weight }).map_err(|_| room)?;
+                row.causes += 1;
+            }
+            row.held = config.held && row.causes == 0;
+            let room = MapError::Concepts { found: config.concepts.len(), room: N };
+            self.rows.push(row).map_err(|_| room)?;
         }
         Ok(())
     }
@@ -139,8 +158,10 @@ impl<const N: usize> Map<N> {
     fn set_shift(&mut self) -> Result<(), MapError> {
         // |x| <= one, hence |2 x - one| <= 3 one.
         let largest = i64::from(self.one) * if self.rule == Rule::Rescaled { 3 } else { 1 };
+        let mut causes = self.causes.iter();
         for (row, concept) in self.rows.iter().zip(&self.concepts) {
-            let weights: i64 = row.weights.iter().map(|w| i64::from(w.unsigned_abs())).sum();
+            let weights: i64 =
+                causes.by_ref().take(row.causes).map(|c| i64::from(c.weight.unsigned_abs())).sum();
             // + one step for y_j itself and one for the threshold.
             let bound = (weights + 2 * i64::from(self.step)) * largest;
             let fits = |shift: u32| (bound >> shift) + N as i64 + 2 <= i64::from(i32::MAX);
@@ -154,9 +175,9 @@ impl<const N: usize> Map<N> {
         Ok(())
     }
 
-    fn set_thresholds<const C: usize, const E: usize>(
+    fn set_thresholds<const C: usize, const D: usize>(
         &mut self,
-        config: &MapConfig<C, E>,
+        config: &MapConfig<C, D>,
     ) -> Result<(), MapError> {
         let (scale, shift, step, decimals) = (self.one, self.shift, self.step, config.decimals);
         // Checked below before it is used: within -1 ..= 1 the product is at most one * step < 2^29.
@@ -193,9 +214,9 @@ impl<const N: usize> Map<N> {
         self.gain = Gain::new(numerator, denominator);
     }
 
-    fn set_inputs<const C: usize, const E: usize>(
+    fn set_inputs<const C: usize, const D: usize>(
         &mut self,
-        config: &MapConfig<C, E>,
+        config: &MapConfig<C, D>,
     ) -> Result<(), MapError> {
         for (at, input) in config.inputs.iter().enumerate() {
             let name =
@@ -204,22 +225,18 @@ impl<const N: usize> Map<N> {
                     concept: input.concept,
                     concepts: self.concepts.len(),
                 })?;
-            let row = self.rows.get(usize::from(input.concept));
-            if row.is_some_and(|row| row.weights.iter().any(|w| *w != 0)) {
+            if self.rows.get(usize::from(input.concept)).is_some_and(|row| row.causes > 0) {
                 return Err(MapError::DrivenInput { concept: name });
             }
-            if config.inputs.iter().take(at).any(|other| other.concept == input.concept) {
-                return Err(MapError::DuplicateInput { concept: name });
-            }
             let encoder = Encoder::build(input, &name, config.decimals, self.one)?;
-            let room = MapError::Concepts { found: config.inputs.len(), room: N };
+            let room = MapError::Inputs { found: config.inputs.len(), room: N };
             self.inputs.push(encoder).map_err(|_| room)?;
         }
         Ok(())
     }
 }
 
-fn check_scalars<const C: usize, const E: usize>(config: &MapConfig<C, E>) -> Result<(), MapError> {
+fn check_scalars<const C: usize, const D: usize>(config: &MapConfig<C, D>) -> Result<(), MapError> {
     if config.decimals > DECIMALS {
         return Err(MapError::Decimals { found: config.decimals });
     }

@@ -141,10 +141,11 @@ fn a_refused_map_names_what_is_wrong() {
     assert_eq!(twice, "the threshold of threat is given twice");
     assert_eq!(edit(|c| c.inputs[0].low = 30_000), "input press: low = 30000 is not below high = 30000");
     assert_eq!(edit(|c| c.inputs[2].at_low = -101), "input location: -1.01 is outside [-1, 1]");
-    assert_eq!(edit(|c| c.inputs[2].concept = 1), "concept shape has two inputs");
     assert_eq!(edit(|c| c.inputs[2].concept = 4), "concept kindness is an input and has an incoming edge");
     let small = Map::<8>::build(&tactile()).unwrap_err();
     assert_eq!(small.to_string(), "10 concepts, and there is room for 8");
+    let sparse = Map::<16, 20>::build(&tactile()).unwrap_err();
+    assert_eq!(sparse.to_string(), "24 edges, and there is room for 20");
     let mut stage = IntentConfig::new(tactile());
     stage.level = 1001;
     assert_eq!(
@@ -174,7 +175,7 @@ fn no_sum_overflows_even_with_every_weight_at_its_limit() {
                     weight: if at % 2 == 0 { one } else { -one },
                 }));
             }
-            match Map::<16>::build(&config) {
+            match Map::<16, 256>::build(&config) {
                 // Overflow checks are on in this profile: an overflow would panic.
                 Ok(map) => {
                     for start in [[i32::MIN; 16], [i32::MAX; 16], [0; 16]] {
@@ -303,6 +304,53 @@ fn a_host_value_feeds_its_concept() {
     let map = Map::<CONCEPTS>::build(&config).unwrap();
     assert_eq!(map.encode(None, &[Q15(5), Q15(-12345)])[2], -12345);
     assert_eq!(map.encode(None, &[])[2], 0);
+}
+
+/// A rise and a fall are a trapezoid; without a touch it is 0 like every other input.
+#[test]
+fn the_inputs_of_a_concept_add_up() {
+    let mut config = MapConfig::<4, 4> { decimals: 1, lambda: 1000, ..Default::default() };
+    config.concepts.push(name("medium")).unwrap();
+    let source = Source::Press;
+    let ramp = |low, high, at_high| Input { concept: 0, source, low, high, at_low: 0, at_high };
+    config.inputs.extend([ramp(100, 300, 10), ramp(500, 700, -10)]);
+    let map = Map::<4>::build(&config).unwrap();
+    let of = |press| map.encode(Some(&Touch { press, ..Touch::default() }), &[])[0];
+    let points = [0, 100, 200, 300, 400, 500, 600, 700, u32::MAX];
+    assert_eq!(points.map(of), [0, 0, 16384, 32768, 32768, 32768, 16384, 0, 0]);
+    assert_eq!(map.encode(None, &[])[0], 0);
+    config.inputs.extend([ramp(100, 300, 10)]);
+    let map = Map::<4>::build(&config).unwrap();
+    assert_eq!(map.encode(Some(&Touch { press: 400, ..Touch::default() }), &[])[0], 32768, "held at 1");
+}
+
+/// Sixty-four concepts, each driven by three others, settle where the definition does.
+#[test]
+fn a_map_of_64_concepts_is_inferred() {
+    let mut config: std::boxed::Box<MapConfig<64, 192>> = std::boxed::Box::default();
+    (config.decimals, config.lambda) = (2, 1000);
+    for at in 0..64u8 {
+        config.concepts.push(name(&format!("c{at}"))).unwrap();
+        let cause = |k: u8| Edge { from: (at + k * k) % 64, to: at, weight: 20 - 15 * i16::from(k) };
+        config.edges.extend([1, 2, 3].map(cause));
+    }
+    config.threshold = -10;
+    assert_eq!(config.edges.len(), 192);
+    let map = Map::<64, 192>::build(&*config).unwrap();
+    let run = map.infer(&[0; 64], 200);
+    assert_eq!(run.outcome, Outcome::Fixed);
+    let mut exact = [0f64; 64];
+    for _ in 0..200 {
+        let mut sums = [0.1; 64];
+        for edge in &config.edges {
+            sums[usize::from(edge.to)] += f64::from(edge.weight) / 100.0 * exact[usize::from(edge.from)];
+        }
+        exact = sums.map(f64::tanh);
+    }
+    let worst =
+        run.state.iter().zip(exact).map(|(q, x)| (f64::from(*q) / 32768.0 - x).abs()).fold(0.0, f64::max);
+    println!("64 concepts: {worst:.1e} from the fixed point in f64");
+    assert!(worst < 2e-4, "{worst}");
 }
 
 #[test]

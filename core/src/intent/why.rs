@@ -19,7 +19,8 @@ pub struct Part {
 pub struct Why<const N: usize> {
     /// Index of the concept.
     pub concept: u8,
-    /// One part for each incoming edge (and for itself, unless the rule is kosko), in the order of the concepts.
+    /// One part for each incoming edge, in the order of the map; then for itself, unless the rule is kosko (an edge from itself is
+    /// in that part).
     pub parts: Vec<Part, N>,
     /// T of this concept.
     pub threshold: Q15,
@@ -27,28 +28,38 @@ pub struct Why<const N: usize> {
     pub sum: Q15,
 }
 
-impl<const N: usize> Map<N> {
+impl<const N: usize, const E: usize> Map<N, E> {
     /// The contributions to `concept` in `state`; none where there is no such concept or it keeps its value.
     /// Total. A few divisions: for the moment of an announcement, not for each frame.
     pub fn why(&self, state: &[i32; N], concept: usize) -> Option<Why<N>> {
         let row = self.rows.get(concept).filter(|row| concept < self.len() && !row.held)?;
+        let before = self.rows.iter().take(concept).map(|row| row.causes).sum();
+        let own = if self.rule == Rule::Kosko { 0 } else { self.step };
         let mut why = Why { concept: concept as u8, parts: Vec::new(), threshold: Q15(0), sum: Q15(0) };
-        for (from, (weight, x)) in row.weights.iter().zip(state).enumerate().take(self.len()) {
-            let own = if from == concept && self.rule != Rule::Kosko { self.step } else { 0 };
-            let weight = i32::from(*weight) + own;
-            if weight == 0 {
-                continue;
+        let mut itself = own;
+        for cause in self.causes.iter().skip(before).take(row.causes) {
+            if own != 0 && usize::from(cause.from) == concept {
+                itself += i32::from(cause.weight);
+            } else {
+                self.add(&mut why, cause.from, cause.weight.into(), state);
             }
-            let x = (*x).max(-self.one).min(self.one);
-            let y = if self.rule == Rule::Rescaled { 2 * x - self.one } else { x };
-            let value = self.product_q15(i64::from(weight) * i64::from(y));
-            why.sum = Q15(why.sum.0.saturating_add(value.0));
-            // There are at most N parts: one for each concept.
-            let _ = why.parts.push(Part { from: from as u8, value });
+        }
+        if itself != 0 {
+            self.add(&mut why, concept as u8, itself, state);
         }
         why.threshold = self.product_q15(-(i64::from(row.bias) << self.shift));
         why.sum = Q15(why.sum.0.saturating_sub(why.threshold.0));
         Some(why)
+    }
+
+    /// Adds the part of one cause.
+    fn add(&self, why: &mut Why<N>, from: u8, weight: i32, state: &[i32; N]) {
+        let x = state.get(usize::from(from)).copied().unwrap_or(0).max(-self.one).min(self.one);
+        let y = if self.rule == Rule::Rescaled { 2 * x - self.one } else { x };
+        let value = self.product_q15(i64::from(weight) * i64::from(y));
+        why.sum = Q15(why.sum.0.saturating_add(value.0));
+        // There are at most N parts: one for each concept.
+        let _ = why.parts.push(Part { from, value });
     }
 
     /// A product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest, halves away from 0.

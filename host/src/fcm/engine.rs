@@ -7,15 +7,15 @@ use anyhow::{Context, Result, bail};
 use std::collections::HashMap;
 use taxel_core::format::name;
 use taxel_core::intent::infer::ROUNDING;
-use taxel_core::intent::{Edge, Map, MapConfig, Outcome, Rule, Transfer};
+use taxel_core::intent::{Edge, Map, MapConfig, Outcome, Rule, Threshold, Transfer};
 
 /// Most concepts for which the core's arithmetic is run on the host.
 pub const Q15_CONCEPTS: usize = 128;
 /// Every pair of them may have an edge.
-const Q15_EDGES: usize = Q15_CONCEPTS * Q15_CONCEPTS;
+pub const Q15_EDGES: usize = Q15_CONCEPTS * Q15_CONCEPTS;
 
 /// A map and where it starts, as read from a file: all numbers decimal, in -1 ..= 1.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Default, Clone, PartialEq)]
 pub struct Problem {
     /// Names of the concepts.
     pub names: Vec<String>,
@@ -23,6 +23,15 @@ pub struct Problem {
     pub weights: Vec<Vec<Decimal>>,
     /// The first state.
     pub start: Vec<Decimal>,
+    /// Thresholds of single concepts, in the place of that of all; may be shorter than the list of concepts.
+    pub thresholds: Vec<Option<Decimal>>,
+}
+
+impl Problem {
+    /// Threshold of a concept.
+    fn threshold(&self, settings: &Settings, concept: usize) -> Decimal {
+        self.thresholds.get(concept).copied().flatten().unwrap_or(settings.threshold)
+    }
 }
 
 /// How to run it.
@@ -38,6 +47,14 @@ pub struct Settings {
     pub threshold: Decimal,
     /// Whether concepts without an incoming edge keep their value.
     pub held: bool,
+}
+
+impl Default for Settings {
+    /// What applies where nothing is said: kosko, tanh, lambda 1, no threshold, inputs held.
+    fn default() -> Settings {
+        let (rule, transfer) = (Rule::Kosko, Transfer::Tanh);
+        Settings { rule, transfer, lambda: 1.0, threshold: Decimal::default(), held: true }
+    }
 }
 
 /// States one after the other, and how they ended.
@@ -101,7 +118,8 @@ fn keeps(problem: &Problem, settings: &Settings, j: usize) -> bool {
 fn float(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
     let weights: Vec<Vec<f64>> =
         problem.weights.iter().map(|row| row.iter().map(|w| w.to_f64()).collect()).collect();
-    let threshold = settings.threshold.to_f64();
+    let thresholds: Vec<f64> =
+        (0..problem.names.len()).map(|j| problem.threshold(settings, j).to_f64()).collect();
     let mut states: Vec<Vec<f64>> = vec![problem.start.iter().map(|v| v.to_f64()).collect()];
     for _ in 0..steps {
         let x = &states[states.len() - 1];
@@ -112,7 +130,7 @@ fn float(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
                 return x[j];
             }
             let own = if settings.rule == Rule::Kosko { 0.0 } else { y[j] };
-            let z = weights.iter().zip(&y).map(|(row, y)| row[j] * y).sum::<f64>() + own - threshold;
+            let z = weights.iter().zip(&y).map(|(row, y)| row[j] * y).sum::<f64>() + own - thresholds[j];
             match settings.transfer {
                 Transfer::Sigmoid => 1.0 / (1.0 + (-settings.lambda * z).exp()),
                 _ => (settings.lambda * z).tanh(),
@@ -127,11 +145,12 @@ fn float(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
 
 fn exact(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
     let decimals = problem.weights.iter().flatten().chain(&problem.start).map(|d| d.decimals);
-    let decimals = decimals.chain([settings.threshold.decimals]).max().unwrap_or(0);
+    let thresholds = (0..problem.names.len()).map(|j| problem.threshold(settings, j));
+    let decimals = decimals.chain(thresholds.clone().map(|t| t.decimals)).max().unwrap_or(0);
     let one = 10i128.pow(decimals);
     let weights: Vec<Vec<i128>> =
         problem.weights.iter().map(|row| row.iter().map(|w| w.scaled(one)).collect()).collect();
-    let threshold = settings.threshold.scaled(one) * one;
+    let thresholds: Vec<i128> = thresholds.map(|t| t.scaled(one) * one).collect();
     let mut state: Vec<i128> = problem.start.iter().map(|v| v.scaled(one)).collect();
     let as_float = |state: &[i128]| state.iter().map(|v| Decimal { digits: *v, decimals }.to_f64()).collect();
     let mut states: Vec<Vec<f64>> = vec![as_float(&state)];
@@ -143,7 +162,7 @@ fn exact(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
                 return state[j];
             }
             let own = if settings.rule == Rule::Kosko { 0 } else { y[j] * one };
-            let z = weights.iter().zip(&y).map(|(row, y)| row[j] * y).sum::<i128>() + own - threshold;
+            let z = weights.iter().zip(&y).map(|(row, y)| row[j] * y).sum::<i128>() + own - thresholds[j];
             let level = z.signum() * one;
             if settings.transfer == Transfer::Bivalent { level.max(0) } else { level }
         });
@@ -173,11 +192,12 @@ pub fn q15(problem: &Problem, settings: &Settings, steps: usize) -> Result<Traje
 }
 
 /// The map as the core builds it.
-pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Map<Q15_CONCEPTS>> {
+pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Box<Map<Q15_CONCEPTS, Q15_EDGES>>> {
     if problem.names.len() > Q15_CONCEPTS {
         bail!("{} concepts: the core's arithmetic is run for up to {Q15_CONCEPTS}", problem.names.len());
     }
-    let numbers = problem.weights.iter().flatten().chain([&settings.threshold]);
+    let own = problem.thresholds.iter().flatten();
+    let numbers = problem.weights.iter().flatten().chain(own).chain([&settings.threshold]);
     let start = problem.start.iter().filter(|_| settings.transfer.is_threshold());
     let decimals = numbers.chain(start).map(|d| d.decimals).max().unwrap_or(0).min(4);
     let step = 10i128.pow(decimals);
@@ -193,11 +213,17 @@ pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Map<Q15_CONCEP
         // Two long names may agree in what fits: the core only needs them to differ.
         config.concepts.push(name(&index.to_string())).ok().context("too many concepts")?;
     }
+    for (concept, own) in problem.thresholds.iter().enumerate() {
+        if let Some(own) = own {
+            let own = Threshold { concept: concept as u8, value: own.scaled(step) as i16 };
+            config.thresholds.push(own).ok().context("too many thresholds")?;
+        }
+    }
     for (from, row) in problem.weights.iter().enumerate() {
         for (to, weight) in row.iter().enumerate().filter(|(_, w)| w.digits != 0) {
             let edge = Edge { from: from as u8, to: to as u8, weight: weight.scaled(step) as i16 };
             config.edges.push(edge).ok().context("too many edges")?;
         }
     }
-    Ok(Map::build(&config)?)
+    Ok(Box::new(Map::build(&*config)?))
 }

@@ -1,6 +1,7 @@
 //! Another garment or scene for a board, from a file, before it streams.
 
 use crate::client::Client;
+use crate::fcm;
 use crate::sim;
 use anyhow::{Context, Result};
 use std::path::Path;
@@ -20,11 +21,11 @@ pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
-/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene.
+/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
 pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let place = || path.display().to_string();
     let text = std::fs::read_to_string(path).with_context(place)?;
-    let scene: Scene = toml::from_str(&text).with_context(place)?;
+    let scene = parse(&text, path).with_context(place)?;
     let garment = taxel_core::garment::Garment::reference();
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     // Regions are the board's affair: it may wear another garment.
@@ -33,4 +34,16 @@ pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     Pipeline::build(&elsewhere, &layout).with_context(place)?;
     let bytes = postcard::to_allocvec(&scene).context("the scene cannot be written")?;
     client.request(&Request::SetScene(&bytes)).with_context(place)
+}
+
+/// Reads a scene; JSON in between where it gives a map as people write it.
+fn parse(text: &str, path: &Path) -> Result<Scene> {
+    let table: toml::Table = toml::from_str(text)?;
+    let map = table.get("intent").and_then(|intent| intent.get("map"));
+    if map.is_none_or(|map| map.get("concepts").is_some()) {
+        return Ok(toml::from_str(text)?);
+    }
+    let mut value = serde_json::to_value(table)?;
+    fcm::scene::resolve(&mut value, path.parent().unwrap_or(Path::new(".")))?;
+    Ok(serde_json::from_value(value)?)
 }

@@ -1,8 +1,10 @@
 //! The scene of a simulation: the one that ships, with what a script says otherwise.
 
+use crate::fcm;
 use crate::sim::Script;
 use anyhow::{Result, anyhow};
 use serde_json::Value;
+use std::path::Path;
 use taxel_core::scene::Scene;
 
 /// The shipped scene with the settings of a script's `[scene]` in their places.
@@ -10,7 +12,9 @@ pub fn scene_of(script: &Script) -> Result<Scene> {
     let wrong = |error: &dyn std::fmt::Display| anyhow!("scene {}: [scene]: {error}", script.name);
     // JSON in between: TOML has no 64-bit masks.
     let mut merged = serde_json::to_value(Scene::shipped()).map_err(|e| wrong(&e))?;
-    merge(&mut merged, serde_json::to_value(&script.scene).map_err(|e| wrong(&e))?);
+    let mut said = serde_json::to_value(&script.scene).map_err(|e| wrong(&e))?;
+    fcm::scene::resolve(&mut said, Path::new(".")).map_err(|e| wrong(&format!("{e:#}")))?;
+    merge(&mut merged, said);
     if let Value::Object(sections) = &merged {
         // One by one, so that an error can say where.
         for (key, value) in sections {
@@ -47,6 +51,13 @@ mod tests {
         let scene = of("rate_hz = 50\nstream = { contacts_hz = 20 }\nreact = []").unwrap();
         assert_eq!((scene.rate_hz, scene.stream.contacts_hz, scene.stream.key_ms), (50, 20, 1000));
         assert!(scene.react.is_empty());
+        let map = "intent = { map = { name = \"two\", concept = [{ name = \"kindness\" }, { name = \"threat\" }], \
+                   edge = [{ from = \"kindness\", to = \"threat\", weight = \"strong -\" }] } }";
+        let named = of(map).unwrap().intent.unwrap().map;
+        assert_eq!((named.concepts.len(), named.edges[0].weight, named.decimals), (2, -75, 2));
+        assert_eq!(of("intent = { map = \"tactile\" }").unwrap(), Scene::shipped());
+        let error = of(&map.replace("to = \"threat\"", "to = \"joy\"")).unwrap_err().to_string();
+        assert!(error.contains("intent.map: map two: an edge names the unknown concept joy"), "{error}");
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
         assert!(error.starts_with("scene a: [scene]: contact: unknown field `lo`"), "{error}");
         let error = of("speed = 3").unwrap_err().to_string();

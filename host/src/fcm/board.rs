@@ -1,0 +1,51 @@
+//! A map file as the board would infer it.
+
+use super::decimal::Decimal;
+use super::engine::{Q15_CONCEPTS, Q15_EDGES};
+use super::map::MapFile;
+use anyhow::{Context, Result};
+use taxel_core::intent::{Inference, Map};
+
+/// The core's map, with room for more concepts than the board has.
+pub type HostMap = Map<Q15_CONCEPTS, Q15_EDGES>;
+/// A state of it.
+pub type State = [i32; Q15_CONCEPTS];
+
+/// Steps after which a map that moves is called unsettled.
+pub const STEPS: u16 = 1000;
+
+/// A map file in the arithmetic of the board.
+pub struct BoardMap {
+    /// The core's map.
+    pub map: Box<HostMap>,
+}
+
+impl BoardMap {
+    /// Builds it; what the core refuses is said with the map's name.
+    pub fn build(file: &MapFile) -> Result<BoardMap> {
+        let config = file.to_config::<Q15_CONCEPTS, Q15_EDGES>()?;
+        let map = Map::build(&*config).with_context(|| format!("map {}", file.name))?;
+        Ok(BoardMap { map: Box::new(map) })
+    }
+
+    /// The state with these activations, by the number of the concept; all others 0.
+    pub fn state(&self, activations: impl IntoIterator<Item = (usize, Decimal)>) -> State {
+        let mut state = [0; Q15_CONCEPTS];
+        for (concept, value) in activations {
+            if let Some(slot) = state.get_mut(concept) {
+                *slot = value.scaled(self.map.one().into()) as i32;
+            }
+        }
+        state
+    }
+
+    /// Runs until it settles, at most [`STEPS`] steps.
+    pub fn infer(&self, start: &State) -> Inference<Q15_CONCEPTS> {
+        self.map.infer(start, STEPS)
+    }
+
+    /// An activation as a number.
+    pub fn value(&self, activation: i32) -> f64 {
+        f64::from(activation) / f64::from(self.map.one())
+    }
+}

@@ -1,0 +1,114 @@
+//! Between a map file and the core's configuration, which numbers concepts and counts decimal steps.
+
+use super::decimal::Decimal;
+use super::map::{ConceptFile, EdgeFile, MapFile};
+use super::member::InputFile;
+use super::weight::Weight;
+use anyhow::{Context, Result, anyhow, bail};
+use taxel_core::format::{Name, name};
+use taxel_core::intent::{Edge, MapConfig, Threshold};
+
+impl MapFile {
+    /// The map in the core's decimal steps; the step is the finest one that the file uses.
+    pub fn to_config<const N: usize, const E: usize>(&self) -> Result<Box<MapConfig<N, E>>> {
+        self.check_numbers()?;
+        let decimals = self.decimals();
+        let place = |error: anyhow::Error| anyhow!("map {}: {error}", self.name);
+        let mut config = Box::new(MapConfig {
+            name: fitting(&self.name, "name")?,
+            decimals: decimals as u8,
+            rule: self.rule,
+            transfer: self.transfer,
+            lambda: decimal(self.lambda, 3, "lambda").map_err(place)? as u16,
+            threshold: steps(self.threshold, decimals, || "threshold".into())?,
+            held: self.held,
+            ..MapConfig::default()
+        });
+        let full = |what: &str, found, room| {
+            anyhow!("map {}: {found} {what}, and there is room for {room}", self.name)
+        };
+        for (at, concept) in self.concept.iter().enumerate() {
+            let short = fitting(&concept.name, "concept").map_err(place)?;
+            config.concepts.push(short).map_err(|_| full("concepts", self.concept.len(), N))?;
+            if let Some(own) = concept.threshold {
+                let value = steps(own, decimals, || format!("threshold of {}", concept.name))?;
+                let own = Threshold { concept: u8::try_from(at)?, value };
+                config.thresholds.push(own).map_err(|_| full("thresholds", at, N))?;
+            }
+        }
+        for edge in &self.edge {
+            let number = |concept| Ok::<u8, anyhow::Error>(u8::try_from(self.index(concept, "an edge")?)?);
+            let weight = steps(edge.weight.value(), decimals, || format!("W[{}][{}]", edge.from, edge.to))?;
+            let edge = Edge { from: number(&edge.from)?, to: number(&edge.to)?, weight };
+            config.edges.push(edge).map_err(|_| full("edges", self.edge.len(), E))?;
+        }
+        for input in &self.input {
+            let concept = u8::try_from(self.index(&input.concept, "an input")?)?;
+            for ramp in input.inputs(concept, decimals).map_err(place)? {
+                config.inputs.push(ramp).map_err(|_| full("inputs", self.input.len(), N))?;
+            }
+        }
+        Ok(config)
+    }
+
+    /// The readable form of a map.
+    pub fn from_config<const N: usize, const E: usize>(config: &MapConfig<N, E>) -> MapFile {
+        let step = 10f64.powi(config.decimals.into());
+        let decimal = |steps: i16| f64::from(steps) / step;
+        let called = |at: u8| config.concepts.get(usize::from(at)).map_or(at.to_string(), |n| n.to_string());
+        let own = |at: usize| config.thresholds.iter().find(|t| usize::from(t.concept) == at);
+        let concept = |(at, name): (usize, &Name)| ConceptFile {
+            name: name.to_string(),
+            threshold: own(at).map(|own| decimal(own.value)),
+            ..ConceptFile::default()
+        };
+        let edge = |edge: &Edge| EdgeFile {
+            from: called(edge.from),
+            to: called(edge.to),
+            weight: Weight::Number(decimal(edge.weight)),
+            fixed: false,
+            note: String::new(),
+        };
+        let inputs = (0..config.concepts.len() as u8).flat_map(|at| {
+            let own: Vec<_> = config.inputs.iter().filter(|input| input.concept == at).collect();
+            InputFile::of(&called(at), &own, config.decimals)
+        });
+        MapFile {
+            rule: config.rule,
+            transfer: config.transfer,
+            lambda: f64::from(config.lambda) / 1000.0,
+            threshold: decimal(config.threshold),
+            held: config.held,
+            concept: config.concepts.iter().enumerate().map(concept).collect(),
+            input: inputs.collect(),
+            edge: config.edges.iter().map(edge).collect(),
+            ..MapFile::empty(&config.name)
+        }
+    }
+}
+
+/// A text that must fit into a [`Name`] whole: two that are cut could become one.
+fn fitting(text: &str, what: &str) -> Result<Name> {
+    let short = name(text);
+    if short != text {
+        bail!("{what} {text} is longer than 16 bytes");
+    }
+    Ok(short)
+}
+
+/// `value` in steps of 10^-`decimals`; it must be a whole number of them.
+fn decimal(value: f64, decimals: u32, field: &str) -> Result<i128> {
+    let exact = Decimal::from_f64(value).filter(|d| d.decimals <= decimals);
+    let exact =
+        exact.with_context(|| format!("{field} = {value} is not a number of at most {decimals} decimals"))?;
+    Ok(exact.scaled(10i128.pow(decimals)))
+}
+
+/// A value in -1 ..= 1 in steps of 10^-`decimals`. The range is checked here because i16 ends at 3.2767.
+pub fn steps(value: f64, decimals: u32, field: impl Fn() -> String) -> Result<i16> {
+    if value.abs() > 1.0 {
+        bail!("{} = {value} is outside [-1, 1]", field());
+    }
+    let all = decimal(value, 4, &field())?;
+    Ok((all / 10i128.pow(4 - decimals)) as i16)
+}

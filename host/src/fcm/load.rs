@@ -1,0 +1,46 @@
+//! Map files by path or by the name of a shipped one, and the words of the command line that speak of concepts.
+
+use super::decimal::Decimal;
+use super::map::MapFile;
+use anyhow::{Context, Result, anyhow};
+use std::path::Path;
+
+/// The maps that ship.
+pub const SHIPPED: [(&str, &str); 1] = [("tactile", include_str!("../../maps/tactile.toml"))];
+
+/// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place and the value.
+pub fn map(name_or_path: &str) -> Result<MapFile> {
+    if let Some((_, text)) = SHIPPED.iter().find(|(name, _)| *name == name_or_path) {
+        return parse(text, name_or_path);
+    }
+    let text = std::fs::read_to_string(name_or_path).with_context(|| {
+        let names: Vec<&str> = SHIPPED.iter().map(|(name, _)| *name).collect();
+        format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))
+    })?;
+    parse(&text, name_or_path)
+}
+
+/// Reads the text of a map from `place`.
+pub fn parse(text: &str, place: &str) -> Result<MapFile> {
+    let map: MapFile = toml::from_str(text).map_err(|error| {
+        let line =
+            error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+        anyhow!("{place}: line {line}: {}", error.message().lines().collect::<Vec<_>>().join(" "))
+    })?;
+    map.check_numbers().with_context(|| place.to_string())?;
+    Ok(map)
+}
+
+/// Writes a map.
+pub fn save(map: &MapFile, path: &Path) -> Result<()> {
+    let text = toml::to_string(map).context("the map cannot be written")?;
+    std::fs::write(path, text).with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+/// `NAME=VALUE` with a value in -1 ..= 1.
+pub fn assignment(text: &str) -> Result<(String, Decimal), String> {
+    let wrong = || "expected NAME=VALUE with a value in -1 ..= 1".to_string();
+    let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+    let value = Decimal::parse(value.trim()).filter(|value| value.is_fraction()).ok_or_else(wrong)?;
+    Ok((name.trim().into(), value))
+}

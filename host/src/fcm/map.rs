@@ -1,0 +1,205 @@
+//! Maps as people write them: TOML that names concepts instead of numbering them, with notes.
+
+use super::config::steps;
+use super::decimal::Decimal;
+use super::engine::{Problem, Settings};
+use super::member::InputFile;
+use super::weight::Weight;
+use anyhow::{Context, Result, anyhow, bail};
+use serde::{Deserialize, Serialize};
+use taxel_core::intent::{Rule, Transfer};
+
+/// The version of the format that this program reads and writes.
+pub const VERSION: u32 = 1;
+
+/// A concept of a [`MapFile`].
+#[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConceptFile {
+    /// What it is called; at most 16 bytes for the board.
+    pub name: String,
+    /// What it stands for.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// T of this concept, in the place of the map's, -1 ..= 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub threshold: Option<f64>,
+}
+
+/// An edge of a [`MapFile`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EdgeFile {
+    /// Name of the cause.
+    pub from: String,
+    /// Name of the effect.
+    pub to: String,
+    /// Causality value: a number in -1 ..= 1 of at most four decimals, or a term.
+    pub weight: Weight,
+    /// Learning leaves it as it is.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
+    /// Why.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+}
+
+/// A map.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapFile {
+    /// Version of the format; 1 if absent.
+    #[serde(default = "version")]
+    pub version: u32,
+    /// What the map is called.
+    pub name: String,
+    /// What it is for.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// What is summed; kosko if absent.
+    #[serde(default)]
+    pub rule: Rule,
+    /// What the sum becomes; tanh if absent.
+    #[serde(default)]
+    pub transfer: Transfer,
+    /// Steepness; 1 if absent.
+    #[serde(default = "one")]
+    pub lambda: f64,
+    /// Threshold of every concept; 0 if absent.
+    #[serde(default)]
+    pub threshold: f64,
+    /// Whether concepts without an incoming edge keep their value; true if absent.
+    #[serde(default = "yes")]
+    pub held: bool,
+    /// Concepts, in the order of every state.
+    #[serde(default)]
+    pub concept: Vec<ConceptFile>,
+    /// Inputs.
+    #[serde(default)]
+    pub input: Vec<InputFile>,
+    /// Causal edges.
+    #[serde(default)]
+    pub edge: Vec<EdgeFile>,
+}
+
+fn version() -> u32 {
+    VERSION
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl MapFile {
+    /// A map without a concept, with the usual settings.
+    pub fn empty(name: &str) -> MapFile {
+        MapFile {
+            version: VERSION,
+            name: name.into(),
+            note: String::new(),
+            rule: Rule::default(),
+            transfer: Transfer::default(),
+            lambda: one(),
+            threshold: 0.0,
+            held: yes(),
+            concept: Vec::new(),
+            input: Vec::new(),
+            edge: Vec::new(),
+        }
+    }
+
+    /// Number of a concept.
+    pub fn find(&self, concept: &str) -> Option<usize> {
+        self.concept.iter().position(|c| c.name == concept)
+    }
+
+    /// Number of a concept that must be there; `user` says what names it.
+    pub fn index(&self, concept: &str, user: &str) -> Result<usize> {
+        self.find(concept)
+            .with_context(|| format!("map {}: {user} names the unknown concept {concept}", self.name))
+    }
+
+    /// The edge between two concepts.
+    pub fn edge(&self, from: &str, to: &str) -> Option<&EdgeFile> {
+        self.edge.iter().find(|edge| edge.from == from && edge.to == to)
+    }
+
+    /// Whether an edge leads to a concept.
+    pub fn is_driven(&self, concept: &str) -> bool {
+        self.edge.iter().any(|edge| edge.to == concept && edge.weight.value() != 0.0)
+    }
+
+    /// Concepts that something outside of the map decides: those with an input, or else without a cause.
+    pub fn entries(&self) -> Vec<&str> {
+        let names = self.concept.iter().map(|c| c.name.as_str());
+        names.filter(|name| !self.is_driven(name)).collect()
+    }
+
+    /// The most decimals of any number of the map, at most the core's four.
+    pub fn decimals(&self) -> u32 {
+        let weights = self.edge.iter().map(|e| e.weight.value());
+        let ends = self.input.iter().flat_map(|i| i.at.unwrap_or([0.0, 1.0]));
+        let own = self.concept.iter().filter_map(|c| c.threshold);
+        let all = weights.chain(ends).chain(own).chain([self.threshold]);
+        all.filter_map(Decimal::from_f64).map(|d| d.decimals).max().unwrap_or(0).min(4)
+    }
+
+    /// The map as both engines take it, started from `start` (concepts that it does not name are 0).
+    pub fn problem(&self, start: &[(String, Decimal)]) -> Result<(Problem, Settings)> {
+        self.check_numbers()?;
+        let n = self.concept.len();
+        let exact = |value: f64| Decimal::from_f64(value).unwrap_or_default();
+        let mut problem = Problem {
+            names: self.concept.iter().map(|c| c.name.clone()).collect(),
+            weights: vec![vec![Decimal::default(); n]; n],
+            start: vec![Decimal::default(); n],
+            thresholds: self.concept.iter().map(|c| c.threshold.map(exact)).collect(),
+        };
+        for edge in &self.edge {
+            let (from, to) = (self.index(&edge.from, "an edge")?, self.index(&edge.to, "an edge")?);
+            problem.weights[from][to] = exact(edge.weight.value());
+        }
+        for (concept, value) in start {
+            problem.start[self.index(concept, "--input")?] = *value;
+        }
+        let MapFile { rule, transfer, lambda, threshold, held, .. } = *self;
+        Ok((problem, Settings { rule, transfer, lambda, threshold: exact(threshold), held }))
+    }
+
+    /// Whether every number is one, within its range, and every concept is named once.
+    pub fn check_numbers(&self) -> Result<()> {
+        if self.version != VERSION {
+            bail!("map {}: version {} is not known, this program reads {VERSION}", self.name, self.version);
+        }
+        if self.concept.is_empty() {
+            bail!("map {}: it has no concept", self.name);
+        }
+        let place = |error: anyhow::Error| anyhow!("map {}: {error}", self.name);
+        for (at, concept) in self.concept.iter().enumerate() {
+            let name = &concept.name;
+            if self.find(name) != Some(at) {
+                bail!("map {}: concept {name} is named twice", self.name);
+            }
+            let own = concept.threshold.unwrap_or(0.0);
+            steps(own, 4, || format!("threshold of {name}")).map_err(place)?;
+        }
+        steps(self.threshold, 4, || "threshold".into()).map_err(place)?;
+        if !(0.001..=65.535).contains(&self.lambda) {
+            bail!("map {}: lambda = {} is outside 0.001 ..= 65.535", self.name, self.lambda);
+        }
+        for (at, edge) in self.edge.iter().enumerate() {
+            let EdgeFile { from, to, .. } = edge;
+            self.index(from, "an edge")?;
+            self.index(to, "an edge")?;
+            steps(edge.weight.value(), 4, || format!("W[{from}][{to}]")).map_err(place)?;
+            if self.edge[..at].iter().any(|other| other.from == *from && other.to == *to) {
+                bail!("map {}: edge {from} -> {to} is given twice", self.name);
+            }
+        }
+        Ok(())
+    }
+}

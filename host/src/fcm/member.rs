@@ -1,0 +1,119 @@
+//! Fuzzy memberships of what is measured: the forms of an input in a map file, and the ramps of the board that they become.
+//!
+//! | form | activation |
+//! |---|---|
+//! | `rise = [a, b]` | `at[0]` up to a, `at[1]` from b on |
+//! | `fall = [a, b]` | `at[1]` up to a, `at[0]` from b on |
+//! | `triangle = [a, b, c]` | `at[0]` outside a ..= c, `at[1]` at b |
+//! | `trapezoid = [a, b, c, d]` | `at[0]` outside a ..= d, `at[1]` in b ..= c |
+//!
+//! `at` is `[0, 1]` where it is not given; between the points are straight lines. Points are in the unit of the source. Triangle and
+//! trapezoid are two inputs of the board, whose activations add up.
+
+use super::config::steps;
+use anyhow::{Result, bail};
+use serde::{Deserialize, Serialize};
+use taxel_core::intent::{Input, Source};
+
+/// An input of a map file: exactly one of the four forms.
+#[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InputFile {
+    /// Name of the concept.
+    pub concept: String,
+    /// Where the value comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<Source>,
+    /// Grows from the first point to the second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rise: Option<[i32; 2]>,
+    /// Shrinks from the first point to the second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fall: Option<[i32; 2]>,
+    /// Greatest at the second of three points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triangle: Option<[i32; 3]>,
+    /// Greatest between the second and the third of four points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trapezoid: Option<[i32; 4]>,
+    /// Activation without and with full membership.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 2]>,
+    /// What the author has to say.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+}
+
+/// What a ramp is between: its two points, and its two activations in decimal steps.
+type Ramp = ([i32; 2], [i16; 2]);
+
+impl InputFile {
+    /// One or two ramps for the concept of number `concept`, activations in steps of 10^-`decimals`.
+    pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<Input>> {
+        let Some(source) = self.source else { bail!("input {}: source is missing", self.concept) };
+        let ramps = self.ramps(decimals)?;
+        let input =
+            |([low, high], [at_low, at_high]): Ramp| Input { concept, source, low, high, at_low, at_high };
+        Ok(ramps.into_iter().map(input).collect())
+    }
+
+    fn ramps(&self, decimals: u32) -> Result<Vec<Ramp>> {
+        let InputFile { rise, fall, triangle, trapezoid, .. } = self;
+        let name = &self.concept;
+        let [out, full] = self.at.unwrap_or([0.0, 1.0]);
+        let at = |value| steps(value, decimals, || format!("input {name}: at"));
+        let (out, full) = (at(out)?, at(full)?);
+        let hill = |[a, b, c, d]: [i32; 4]| {
+            if i32::from(full).abs_diff(out.into()) > 10u32.pow(decimals) {
+                bail!("input {name}: the two activations of a triangle or trapezoid differ by more than 1");
+            }
+            Ok(vec![([a, b], [out, full]), ([c, d], [0, out - full])])
+        };
+        let ramps = match (rise, fall, triangle, trapezoid) {
+            (Some(points), None, None, None) => vec![(*points, [out, full])],
+            (None, Some(points), None, None) => vec![(*points, [full, out])],
+            (None, None, Some([a, b, c]), None) => hill([*a, *b, *b, *c])?,
+            (None, None, None, Some(points)) => hill(*points)?,
+            _ => bail!("input {name}: give exactly one of rise, fall, triangle and trapezoid"),
+        };
+        let falls = |points: &[i32]| points.windows(2).any(|pair| pair[0] > pair[1]);
+        let points: Vec<i32> = ramps.iter().flat_map(|(points, _)| *points).collect();
+        if falls(&points) || ramps.iter().any(|([low, high], _)| low == high) {
+            bail!("input {name}: the points {points:?} do not rise");
+        }
+        Ok(ramps)
+    }
+
+    /// The readable form of the ramps of one concept, in steps of 10^-`decimals`; two that are a hill become one.
+    pub fn of(concept: &str, inputs: &[&Input], decimals: u8) -> Vec<InputFile> {
+        let step = 10f64.powi(decimals.into());
+        let decimal = |steps: i16| f64::from(steps) / step;
+        let at = |out, full| Some([decimal(out), decimal(full)]).filter(|at| *at != [0.0, 1.0]);
+        let blank =
+            |source| InputFile { concept: concept.into(), source: Some(source), ..InputFile::default() };
+        match inputs {
+            [up, down]
+                if up.source == down.source
+                    && up.high <= down.low
+                    && down.at_low == 0
+                    && i32::from(down.at_high) == i32::from(up.at_low) - i32::from(up.at_high) =>
+            {
+                let form = blank(up.source);
+                let at = at(up.at_low, up.at_high);
+                vec![match up.high == down.low {
+                    true => InputFile { triangle: Some([up.low, up.high, down.high]), at, ..form },
+                    false => {
+                        InputFile { trapezoid: Some([up.low, up.high, down.low, down.high]), at, ..form }
+                    }
+                }]
+            }
+            ramps => (ramps.iter())
+                .map(|i| InputFile {
+                    rise: Some([i.low, i.high]),
+                    at: at(i.at_low, i.at_high),
+                    ..blank(i.source)
+                })
+                .collect(),
+        }
+    }
+}

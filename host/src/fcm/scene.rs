@@ -1,0 +1,25 @@
+//! Maps in scene files: `intent.map` may be the name of a shipped map, the path of a map file, or such a map in place.
+
+use super::load;
+use super::map::MapFile;
+use anyhow::{Context, Result};
+use serde_json::Value;
+use std::path::Path;
+use taxel_core::intent::MapConfig;
+
+/// Puts the core's form of the map into a scene's `intent.map`. `folder` is where paths begin. What is written in the core's own
+/// form is left as it is.
+pub fn resolve(scene: &mut Value, folder: &Path) -> Result<()> {
+    let Some(map) = scene.get_mut("intent").and_then(|intent| intent.get_mut("map")) else { return Ok(()) };
+    let file: MapFile = match map {
+        Value::String(name) if load::SHIPPED.iter().any(|(shipped, _)| shipped == name) => load::map(name)?,
+        Value::String(path) => load::map(&folder.join(path).display().to_string()).context("intent.map")?,
+        Value::Object(table) if table.contains_key("concept") => {
+            serde_json::from_value(map.clone()).context("intent.map")?
+        }
+        _ => return Ok(()),
+    };
+    let config: MapConfig = *file.to_config().context("intent.map")?;
+    *map = serde_json::to_value(config).context("intent.map")?;
+    Ok(())
+}
