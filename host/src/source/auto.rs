@@ -48,7 +48,7 @@ pub fn usb() -> Result<Source> {
     boards.retain(|port| usb_of(port).is_some_and(is_board));
     for port in &boards {
         match Serial::open(&port.port_name, BAUD) {
-            Ok(serial) => return Ok(Source::new(label(port), serial)),
+            Ok(serial) => return Ok(Source::real(label(port), serial)),
             Err(error) => why.push(error.to_string()),
         }
     }
