@@ -38,12 +38,13 @@ fn shown() -> (Vec<Shown>, usize) {
 fn codes(shown: &[Shown], scans: usize) -> Vec<u16> {
     let scenes = shown.iter().flat_map(|(pattern, _)| std::iter::repeat_n(*pattern, scans));
     let frames = std::iter::repeat_n(Pattern::Empty, REST).chain(scenes).zip(0..);
-    let codes = frames.flat_map(|(pattern, number)| {
-        let mut codes = [Code(0); TAXELS];
-        pattern.codes(number, &mut codes);
-        codes.map(|code| code.0)
-    });
-    codes.collect()
+    frames.flat_map(|(pattern, number)| codes_of(pattern, number)).collect()
+}
+
+fn codes_of(pattern: Pattern, number: u32) -> [u16; TAXELS] {
+    let mut codes = [Code(0); TAXELS];
+    pattern.codes(number, &mut codes);
+    codes.map(|code| code.0)
 }
 
 /// A board on USB that streams, with a budget for each frame; when the first frame was shown.
@@ -149,4 +150,43 @@ fn what_is_perceived_arrives() {
     }
     println!("USB {}; stack {}; {} us", stats["usb"], stats["stack"], stats["emulated_us"]);
     assert_eq!(came.len(), shown.len());
+}
+
+#[test]
+fn a_cable_may_be_pulled_and_put_again() {
+    let codes: Vec<u16> =
+        [Pattern::Empty, Pattern::One].into_iter().flat_map(|pattern| codes_of(pattern, 0)).collect();
+    let (mut board, _) = streaming(&codes, &["--seconds", "3"]);
+    let first = next_frame(&mut board, &mut Images::default());
+    let before = board.look("unplug").as_f64().unwrap() as u64;
+    let sent = |board: &mut Emulated| board.look("stats")["uart"].as_u64().unwrap();
+    let over_uart = sent(&mut board);
+    while board.look("stats")["emulated_us"].as_u64().unwrap() < before + 30_000 {}
+    assert!(sent(&mut board) > over_uart, "the board goes on over the UART");
+    board.forgiving = true;
+    board.look("plug");
+    board.wait_for("usb");
+    board.ask(&Request::Start);
+    // As a host does that has just opened the port: what differs from an image that it has not is not for it.
+    let again = loop {
+        let message = board.receive();
+        if matches!(message.report(), Report::Frame(frame) if frame.base.is_none() && frame.time.0 > before) {
+            break Images::default().take(&message).unwrap();
+        }
+    };
+    println!("pulled at {before} us; image {first:?} before, {again:?} after");
+    assert_eq!(
+        (again.1 - first.1 + SCAN_US / 2) / SCAN_US,
+        u64::from(again.0 - first.0),
+        "no scan was left out"
+    );
+    board.end();
+}
+
+fn next_frame(board: &mut Emulated, images: &mut Images) -> (u32, u64) {
+    loop {
+        if let Some(seen) = images.take(&board.receive()) {
+            return seen;
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! `cargo xtask`: what cargo alone does not do. Runs without dependencies, so that it is built in a second.
 
+mod campaign;
 mod checks;
 mod counts;
 mod cross;
@@ -30,6 +31,7 @@ usage: cargo xtask COMMAND
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
                         the core beside imageproc, and OpenCV where Python has it: microseconds per panel
+  campaign [--write]    long runs on the emulated board; --write: and write down what they print, docs/bench/campaign.txt
   test [--only NAME] [--may-miss NAME]
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
@@ -56,6 +58,7 @@ fn main() -> ExitCode {
         Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
+        Some("campaign") => campaign::run(rest).map(|()| true),
         Some("test") => checks::run(rest),
         _ => Err(USAGE.to_string()),
     };

@@ -51,18 +51,28 @@ pub fn emulator_recorded(log: &Path) -> Result<Result<(), String>, String> {
 
 /// A test target that runs the firmware image; what it measured is shown.
 fn on_emulator(target: &str, log: &Path) -> Result<Result<(), String>, String> {
+    let end = measured(target, log, &[])?;
+    Ok(end.map(|lines| lines.iter().for_each(|line| println!("  {line}"))))
+}
+
+/// What a test target that runs the firmware image printed.
+pub fn measured(
+    target: &str,
+    log: &Path,
+    variables: &[(&str, &str)],
+) -> Result<Result<Vec<String>, String>, String> {
     install::emulator()?;
     let image = match image(&Toolchain::find()?, log) {
         Ok(image) => image,
         Err(why) => return Ok(Err(why)),
     };
     let mut command = test_target(target);
-    command.args(["--", "--nocapture"]).env("TAXEL_FIRMWARE_ELF", image.elf);
+    command.args(["--", "--nocapture"]).env("TAXEL_FIRMWARE_ELF", image.elf).envs(variables.iter().copied());
     let end = process::run_into(&mut command, log);
     let text = std::fs::read_to_string(log).unwrap_or_default();
-    let measured = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
-    measured.take_while(|line| !line.starts_with("test result")).for_each(|line| println!("  {line}"));
-    Ok(end)
+    let lines = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
+    let lines = lines.take_while(|line| !line.starts_with("test result")).map(String::from).collect();
+    Ok(end.map(|()| lines))
 }
 
 /// What the chain costs on the emulated board, against the bars and the table that was written.

@@ -1,0 +1,46 @@
+//! `cargo xtask campaign`: runs that take longer than a check may, each of which prints a table.
+
+use crate::{paths, targets};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// The runs: a test target that runs the firmware image, and what of it takes longer where TAXEL_CAMPAIGN is set.
+const RUNS: [(&str, &str); 2] = [
+    ("emulator_usb", "frames over USB: every scene of the bench, 400 scans each"),
+    ("emulator_latency", "onset and reflex: 500 touches of one to five contacts"),
+];
+
+/// Runs all of them; `--write`: and writes what they print.
+pub fn run(args: &[String]) -> Result<(), String> {
+    let write = match args {
+        [] => false,
+        [write] if write == "--write" => true,
+        _ => return Err(crate::USAGE.into()),
+    };
+    let logs = paths::target().join("xtask");
+    std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
+    let mut table = String::from(
+        "Long runs of the firmware image on the emulated board; `cargo xtask campaign --write` writes this.\n",
+    );
+    for (target, what) in RUNS {
+        println!("{what} ...");
+        let log = logs.join(format!("campaign-{target}.log"));
+        let _ = std::fs::remove_file(&log);
+        let lines = targets::measured(target, &log, &[("TAXEL_CAMPAIGN", "1")])?
+            .map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
+        let said = lines.iter().filter(|line| !line.starts_with("test ") && !line.is_empty());
+        // A string takes all.
+        let _ = writeln!(table, "\n{what}");
+        said.for_each(|line| _ = writeln!(table, "  {line}"));
+    }
+    print!("{table}");
+    if write {
+        std::fs::write(written(), table).map_err(|error| format!("{}: {error}", written().display()))
+    } else {
+        Ok(())
+    }
+}
+
+fn written() -> PathBuf {
+    paths::root().join("docs/bench/campaign.txt")
+}
