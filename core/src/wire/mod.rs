@@ -24,6 +24,9 @@
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
 //! | 11 | [`Budget`] | each second, or as often as was asked for |
 //!
+//! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
+//! while a program there has opened its port, else over the UART.
+//!
 //! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see [`encode_image`]:
 //! alone where `base` is none, else the difference to the frame of that number, which is the last `Frame` before it.
 //! `Raw` has the same coding, always alone.
