@@ -46,8 +46,9 @@ impl<'a> Neighbourhood<'a> {
 
     /// Columns `left ..= right` of the row; empty where the slice does not hold them.
     pub fn piece(&self, left: u16, right: u16) -> &'a [u16] {
-        let first = usize::from(self.rows[1]);
-        self.values.get(first + usize::from(left)..first + usize::from(right) + 1).unwrap_or(&[])
+        // One comparison, since 17 bits and a few cannot overflow.
+        let from = usize::from(self.rows[1]) + usize::from(left);
+        self.values.get(from..from + usize::from(right - left) + 1).unwrap_or(&[])
     }
 
     /// As [`Neighbourhood::piece`], of the row above and of the row below.
