@@ -3,16 +3,17 @@
 use super::rows::{Rows, grain};
 use super::slices::{panel_mut, panel_of};
 use super::state::ConditionState;
-use super::terms::Terms;
 use crate::format::Code;
 use crate::garment::Area;
 
 /// Taxels that are looked at together.
 const CHUNK: usize = 16;
+/// Those of them that are calibrated together.
+const PART: usize = 8;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Calibrates a panel whose calibrated image is empty; whether anything is left.
-    pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], terms: Terms) -> bool {
+    pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], falling: bool) -> bool {
         let limit = panel_of(&self.limit, area);
         let codes = panel_of(codes, area);
         let there = limit.len().min(codes.len());
@@ -30,12 +31,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             columns: usize::from(area.columns),
             grain: grain(area),
         };
-        let least = (u32::from(terms.floor) << 12) - 2048;
-        if terms.falling {
-            panel.calibrate::<true>(least, marks)
-        } else {
-            panel.calibrate::<false>(least, marks)
-        }
+        if falling { panel.calibrate::<true>(marks) } else { panel.calibrate::<false>(marks) }
     }
 }
 
@@ -49,17 +45,16 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    fn calibrate<const FALLING: bool>(mut self, least: u32, mut marks: Marks<'_>) -> bool {
+    fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
-        let any = self.chunks::<CHUNK, FALLING>(0, least, &mut marks);
-        self.chunks::<1, FALLING>(whole, least, &mut marks) | any
+        let any = self.chunks::<CHUNK, PART, FALLING>(0, &mut marks);
+        self.chunks::<1, 1, FALLING>(whole, &mut marks) | any
     }
 
     /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.
-    fn chunks<const N: usize, const FALLING: bool>(
+    fn chunks<const N: usize, const PART: usize, const FALLING: bool>(
         &mut self,
         first: usize,
-        least: u32,
         marks: &mut Marks<'_>,
     ) -> bool {
         let (codes, _) = self.codes.get(first..).unwrap_or(&[]).as_chunks::<N>();
@@ -72,12 +67,15 @@ impl Panel<'_> {
         while let (Some(codes), Some(limit)) = (codes.get(at..), limit.get(at..)) {
             let skipped = quiet::<N, FALLING>(codes, limit);
             at += skipped;
-            let (Some(codes), Some(rest)) = (codes.get(skipped..), rest.get(at..)) else { break };
-            let (Some(gain), Some(out)) = (gain.get(at..), out.get_mut(at..)) else { break };
+            let (Some(codes), Some(limit)) = (codes.get(skipped..), limit.get(skipped..)) else { break };
+            let (Some(rest), Some(gain), Some(out)) = (rest.get(at..), gain.get(at..), out.get_mut(at..))
+            else {
+                break;
+            };
             if codes.is_empty() {
                 break;
             }
-            at += loud::<N, FALLING>(codes, rest, gain, out, least, first + at * N, marks);
+            at += loud::<N, PART, FALLING>(codes, limit, rest, gain, out, first + at * N, marks);
             any = true;
         }
         any
@@ -102,20 +100,25 @@ fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16
 
 /// Calibrates until a chunk is quiet; how many there were.
 #[inline(never)]
-fn loud<const N: usize, const FALLING: bool>(
+fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
+    limit: &[[u16; N]],
     rest: &[[u16; N]],
     gain: &[[u16; N]],
     out: &mut [[u16; N]],
-    least: u32,
     mut at: usize,
     marks: &mut Marks<'_>,
 ) -> usize {
     let mut done = 0;
-    let mut more = [0; N];
-    for (((codes, rest), gain), out) in codes.iter().zip(rest).zip(gain).zip(out) {
-        differences::<N, FALLING>(codes, rest, &mut more);
-        let bits = scale(&more, gain, out, least);
+    for ((((codes, limit), rest), gain), out) in codes.iter().zip(limit).zip(rest).zip(gain).zip(out) {
+        let ((codes, _), (limit, _)) = (codes.as_chunks(), limit.as_chunks());
+        let ((rest, _), (gain, _), (out, _)) = (rest.as_chunks(), gain.as_chunks(), out.as_chunks_mut());
+        let mut bits = 0;
+        for (part, ((((codes, limit), rest), gain), out)) in
+            codes.iter().zip(limit).zip(rest).zip(gain).zip(out).enumerate()
+        {
+            bits |= scale::<PART, FALLING>(codes, limit, rest, gain, out) << (part * PART);
+        }
         done += 1;
         if bits == 0 {
             break;
@@ -126,30 +129,29 @@ fn loud<const N: usize, const FALLING: bool>(
     done
 }
 
-/// What the codes have more than at rest, or less.
+/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them.
 ///
-/// Apart from [`scale`] and not inlined, as that: neither needs more than the registers of a Cortex-M0+.
+/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. Not inlined,
+/// and as short as the compiler unrolls it: five places in memory are all that the registers of a Cortex-M0+ can tell.
 #[inline(never)]
-fn differences<const N: usize, const FALLING: bool>(codes: &[Code; N], rest: &[u16; N], more: &mut [i32; N]) {
-    for ((more, code), rest) in more.iter_mut().zip(codes).zip(rest) {
-        let (code, rest) = (i32::from(code.0), i32::from(*rest));
-        *more = if FALLING { rest - code } else { code - rest };
-    }
-}
-
-/// `(difference * gain + 2048) >> 12`, at most 65535, where that reaches the floor; a bit for each such taxel.
-///
-/// The product of two 16-bit numbers leaves room for the rounding. It is compared before that, with the least that comes to the
-/// floor, and the two steps of the rounding need no constant in a register.
-#[inline(never)]
-fn scale<const N: usize>(differences: &[i32; N], gain: &[u16; N], out: &mut [u16; N], least: u32) -> u32 {
+fn scale<const PART: usize, const FALLING: bool>(
+    codes: &[Code; PART],
+    limit: &[u16; PART],
+    rest: &[u16; PART],
+    gain: &[u16; PART],
+    out: &mut [u16; PART],
+) -> u32 {
+    let taxels = codes.iter().zip(limit).zip(rest.iter().zip(gain)).zip(out);
     let mut bits = 0;
-    for (bit, ((difference, gain), out)) in differences.iter().zip(gain).zip(out).enumerate() {
-        let product = difference.cast_unsigned().wrapping_mul(u32::from(*gain));
-        if *difference > 0 && product >= least {
-            let value = ((product >> 11) + 1) >> 1;
+    for (((code, limit), (rest, gain)), out) in taxels.rev() {
+        bits <<= 1;
+        let (code, limit) = (u32::from(code.0), u32::from(*limit));
+        if if FALLING { code < limit } else { code > limit } {
+            let rest = u32::from(*rest);
+            let difference = if FALLING { rest.wrapping_sub(code) } else { code.wrapping_sub(rest) };
+            let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
             *out = value.min(0xffff) as u16;
-            bits |= 1 << bit;
+            bits |= 1;
         }
     }
     bits

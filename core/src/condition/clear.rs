@@ -1,6 +1,5 @@
 //! Emptying the images where they may hold something.
 
-use super::rows::span;
 use super::state::ConditionState;
 use super::tare::areas_of;
 use crate::garment::Layout;
@@ -9,23 +8,21 @@ use core::ops::Range;
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Empties the image, before and after the filter.
     pub(super) fn clear(&mut self, layout: &Layout) {
-        // Rows that are full follow each other without a gap.
+        // Rows that follow each other are one part: that is sooner done than to look for their columns.
         let mut held = 0..0;
         for (_, area) in areas_of(layout, self.active) {
+            let columns = usize::from(area.columns);
             let end = area.first_row.saturating_add(area.rows);
             let mut row = area.first_row;
             while let Some(number) = self.rows.next(row..end) {
                 row = number + 1;
-                let columns = span(area, self.rows.groups(number));
                 self.rows.set(number, 0);
-                let start =
-                    usize::from(area.base) + usize::from(number - area.first_row) * usize::from(area.columns);
-                let here = start + usize::from(columns.start)..start + usize::from(columns.end);
-                if here.start != held.end {
+                let start = usize::from(area.base) + usize::from(number - area.first_row) * columns;
+                if start != held.end {
                     self.clear_taxels(&held);
-                    held.start = here.start;
+                    held.start = start;
                 }
-                held.end = here.end;
+                held.end = start + columns;
             }
         }
         self.clear_taxels(&held);

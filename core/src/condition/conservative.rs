@@ -1,10 +1,10 @@
 //! Conservative smoothing: a taxel is clamped to the range of its eight neighbours.
 //!
 //! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own neighbour and an
-//! impulse would survive. Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is
-//! not greater settle a taxel: two or three comparisons mostly, of which one is shared with the next taxel.
+//! impulse would survive.
 
-use super::rows::Rows;
+use super::clamp::{Around, RUN, clamp, clamp_run};
+use super::rows::{Pieces, Rows};
 use crate::garment::Area;
 use core::ops::Range;
 
@@ -16,26 +16,20 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
         narrow(values, out);
         return mark_all(area, marks);
     }
-    let panel = Panel { columns, last: usize::from(area.rows - 1) };
+    let there = u16::MAX >> (15 - (area.columns - 1 >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
     let mut next = first;
-    while let Some(start) = marks.next(next..end) {
-        let mut after = start + 1;
-        while after < end && marks.contains(after) {
-            after += 1;
-        }
-        let rows = usize::from(start - first)..usize::from(after - first);
-        let bridged = panel.smooth(values, out, rows.clone());
-        next = after;
-        let there = (area.columns - 1) >> grain;
-        for number in start..after {
-            let groups = marks.groups(number);
-            let row = usize::from(number - first);
-            // Beside a column that holds nothing, the border stays 0.
-            let near = [groups & 0b11 != 0, (groups << 1 | groups) >> there & 1 != 0];
-            if panel.sides(values, out, row, near) || bridged {
-                marks.add(number, (groups << 1 | groups | groups >> 1) & u16::MAX >> (15 - there));
-            }
+    while let Some(number) = marks.next(next..end) {
+        next = number + 1;
+        let groups = bridged(marks.groups(number), there);
+        marks.add(number, groups);
+        let here = usize::from(number - first) * columns;
+        // The other side lends what is missing: a neighbour that counts twice changes neither end of the range.
+        let above = if number == first { columns } else { here - columns };
+        let below = if next == end { above } else { here + columns };
+        let row = Row { starts: [above, here, below], columns };
+        for (_, piece) in Pieces::of(area, grain, groups.into()) {
+            row.smooth(values, out, piece);
         }
     }
 }
@@ -47,90 +41,12 @@ fn mark_all(area: &Area, marks: &mut Rows) {
     }
 }
 
-/// A panel of at least two rows and columns.
-struct Panel {
-    columns: usize,
-    /// The last row.
-    last: usize,
-}
-
-impl Panel {
-    /// Smooths all but the first and the last taxel of some rows that follow each other; whether a taxel without pressure got
-    /// some. What it makes of the first and the last column is wrong.
-    fn smooth(&self, values: &[u16], out: &mut [u16], rows: Range<usize>) -> bool {
-        let mut bridged = false;
-        let mut rows = rows;
-        if rows.start == 0 {
-            bridged |= self.band(values, out, 0..1);
-            rows.start = 1;
-        }
-        let inside = rows.start..rows.end.min(self.last);
-        if inside.start < inside.end {
-            bridged |= self.band(values, out, inside);
-        }
-        if rows.end > self.last && rows.start <= self.last {
-            bridged |= self.band(values, out, self.last..self.last + 1);
-        }
-        bridged
-    }
-
-    /// The same for rows of which each has one above and below, or for one that lends from the other side what is missing: a
-    /// neighbour that counts twice changes neither end of the range.
-    fn band(&self, values: &[u16], out: &mut [u16], rows: Range<usize>) -> bool {
-        let [above, below] = self.beside(rows.start);
-        let (start, length) = (rows.start * self.columns, rows.len() * self.columns);
-        let row = |start: usize| values.get(start..start + length).unwrap_or(&[]);
-        let inside = start + 1..start + length - 1;
-        inner(row(above), row(start), row(below), out.get_mut(inside).unwrap_or(&mut []))
-    }
-
-    /// Where the rows above and below one begin.
-    fn beside(&self, row: usize) -> [usize; 2] {
-        let (above, below) = (row.checked_sub(1), (row < self.last).then_some(row + 1));
-        [above.or(below), below.or(above)].map(|row| row.unwrap_or(0) * self.columns)
-    }
-
-    /// The first and the last taxel of a row, as far as they are asked for; whether one had no pressure and got some.
-    #[inline(never)]
-    fn sides(&self, values: &[u16], out: &mut [u16], row: usize, [left, right]: [bool; 2]) -> bool {
-        let [above, below] = self.beside(row);
-        let here = row * self.columns;
-        let line = |start: usize| values.get(start..start + self.columns);
-        let (Some(above), Some(line), Some(below)) = (line(above), line(here), line(below)) else {
-            return false;
-        };
-        let Some(out) = out.get_mut(here..here + self.columns) else { return false };
-        let mut bridged = false;
-        if left
-            && let (Some(above), Some(line), Some(below), Some(out)) =
-                (above.first_chunk(), line.first_chunk(), below.first_chunk(), out.first_mut())
-        {
-            *out = border(above, line, below, 0);
-            bridged |= line[0] == 0 && *out != 0;
-        }
-        if right
-            && let (Some(above), Some(line), Some(below), Some(out)) =
-                (above.last_chunk(), line.last_chunk(), below.last_chunk(), out.last_mut())
-        {
-            *out = border(above, line, below, 1);
-            bridged |= line[1] == 0 && *out != 0;
-        }
-        bridged
-    }
-}
-
-/// The taxel at `at`, 0 or 1, of the first or the last two columns.
-#[inline(never)]
-fn border(above: &[u16; 2], here: &[u16; 2], below: &[u16; 2], at: usize) -> u16 {
-    let [value, next] = if at == 0 { *here } else { [here[1], here[0]] };
-    let others = [above[0], above[1], below[0], below[1]];
-    if value > next && others.iter().all(|other| *other < value) {
-        others.into_iter().fold(next, u16::max)
-    } else if value < next && others.iter().all(|other| *other > value) {
-        others.into_iter().fold(next, u16::min)
-    } else {
-        value
-    }
+/// Groups of a row that may hold something once it is smooth: a taxel without pressure gets some from neighbours on both
+/// sides, or from those on the one side that it has. Where a group has more columns, it is at the end of one.
+fn bridged(groups: u16, there: u16) -> u16 {
+    let last = there ^ there >> 1;
+    let (before, after) = (groups << 1, groups >> 1);
+    (groups | before & after | after & 1 | before & last) & there
 }
 
 /// A panel of a single row or column.
@@ -142,46 +58,76 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// All of `here` but its ends.
-#[inline(never)]
-fn inner(above: &[u16], here: &[u16], below: &[u16], out: &mut [u16]) -> bool {
-    let (Some(first), Some(second)) = (here.first(), here.get(1)) else { return false };
-    let mut value = i32::from(*second);
-    let mut from_last = value - i32::from(*first);
-    let mut bridged = false;
-    let rows = above.array_windows::<3>().zip(here.array_windows::<3>()).zip(below.array_windows::<3>());
-    for (((above, here), below), out) in rows.zip(out) {
-        let next = i32::from(here[2]);
-        let to_next = next - value;
-        let mut smoothed = value;
-        if to_next < 0 {
-            if from_last > 0 && !around(above, below).any(|other| other >= value) {
-                smoothed = greatest(above, here, below);
+/// A row of at least two columns.
+struct Row {
+    /// Where the row above, the row and the row below begin in a panel.
+    starts: [usize; 3],
+    columns: usize,
+}
+
+impl Row {
+    /// Smooths some columns, and others beside them: they have their neighbours, too.
+    #[inline(never)]
+    fn smooth(&self, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+        let Some(latest) = self.columns.checked_sub(RUN + 2) else { return self.smooth_each(values, out) };
+        let mut at = columns.start.saturating_sub(1).min(latest);
+        loop {
+            let Some([above, here, below]) = self.from(values, at) else { return };
+            let Some(out) = out.get_mut(self.starts[1] + at..).and_then(<[u16]>::first_chunk_mut) else {
+                return;
+            };
+            clamp_run(above, here, below, out);
+            if at == 0 {
+                let others = [here[1], above[0], below[0], above[1], below[1]];
+                out[0] = border(here[0], others);
             }
-        } else if to_next > 0 && from_last < 0 && !around(above, below).any(|other| other <= value) {
-            smoothed = least(above, here, below);
-            bridged |= value == 0;
+            if at == latest {
+                let others = [here[RUN], above[RUN + 1], below[RUN + 1], above[RUN], below[RUN]];
+                out[RUN + 1] = border(here[RUN + 1], others);
+                return;
+            }
+            at += RUN;
+            if at + 1 >= columns.end {
+                return;
+            }
+            // The last may begin within the one before: it says the same again.
+            at = at.min(latest);
         }
-        *out = smoothed as u16;
-        (from_last, value) = (to_next, next);
     }
-    bridged
+
+    /// Some taxels from a column on, with those above and below them.
+    #[inline(always)]
+    fn from<'a>(&self, values: &'a [u16], column: usize) -> Option<[&'a Around; 3]> {
+        let [above, here, below] = self.starts;
+        let above = values.get(above + column..)?.first_chunk()?;
+        let here = values.get(here + column..)?.first_chunk()?;
+        let below = values.get(below + column..)?.first_chunk()?;
+        Some([above, here, below])
+    }
+
+    /// Smooths a row that is shorter than a run.
+    fn smooth_each(&self, values: &[u16], out: &mut [u16]) {
+        let [above, here, below] = self.starts;
+        let value = |at: usize| values.get(at).copied().unwrap_or(0);
+        for column in 0..self.columns {
+            let left = if column == 0 { 1 } else { column - 1 };
+            let right = if column + 1 == self.columns { left } else { column + 1 };
+            let three = |start: usize| [start + left, start + column, start + right].map(value);
+            if let Some(out) = out.get_mut(here + column) {
+                *out = clamp(&three(above), &three(here), &three(below));
+            }
+        }
+    }
 }
 
-/// The neighbours above and below, the nearest first.
+/// A taxel of the first or the last column.
 #[inline(always)]
-fn around(above: &[u16; 3], below: &[u16; 3]) -> impl Iterator<Item = i32> {
-    [above[1], below[1], above[0], above[2], below[0], below[2]].into_iter().map(i32::from)
-}
-
-/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
-#[inline(never)]
-fn greatest(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> i32 {
-    around(above, below).fold(i32::from(here[0]).max(here[2].into()), i32::max)
-}
-
-/// The smallest neighbour.
-#[inline(never)]
-fn least(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> i32 {
-    around(above, below).fold(i32::from(here[0]).min(here[2].into()), i32::min)
+fn border(value: u16, others: [u16; 5]) -> u16 {
+    if others.iter().all(|other| *other < value) {
+        others.into_iter().fold(0, u16::max)
+    } else if others.iter().all(|other| *other > value) {
+        others.into_iter().fold(u16::MAX, u16::min)
+    } else {
+        value
+    }
 }

@@ -20,6 +20,7 @@
 //! does, so that a held contact neither is swallowed nor drifts.
 
 mod calibrate;
+mod clamp;
 mod clear;
 mod config;
 mod consensus;

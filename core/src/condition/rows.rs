@@ -59,6 +59,10 @@ impl Rows {
                 return if self.groups[SHARED] != 0 { Some(row) } else { None };
             }
             let ahead = self.held[entry / 32] >> (entry % 32);
+            if ahead & 1 == 1 {
+                // Most rows that hold something follow another, and to count zeros takes a Cortex-M0+ long.
+                return Some(row);
+            }
             if ahead != 0 {
                 let next = row + ahead.trailing_zeros() as u16;
                 return if next < rows.end { Some(next) } else { None };

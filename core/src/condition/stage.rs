@@ -47,7 +47,7 @@ impl Condition {
         if !state.tare_frame(layout, codes, panels) {
             let terms = Terms { floor: self.config.floor, falling };
             state.set_limits(terms);
-            state.perceive(layout, codes, terms, panels, self.config.filter);
+            state.perceive(layout, codes, falling, panels, self.config.filter);
             if self.config.track_baseline {
                 state.follow_drift(layout, codes, panels, feedback, terms);
             }
@@ -70,10 +70,10 @@ impl Condition {
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Makes the image of a frame.
-    fn perceive(&mut self, layout: &Layout, codes: &[Code], terms: Terms, panels: u8, filter: Filter) {
+    fn perceive(&mut self, layout: &Layout, codes: &[Code], falling: bool, panels: u8, filter: Filter) {
         self.clear(layout);
         for (panel, area) in areas_of(layout, panels) {
-            self.active |= u8::from(self.calibrate(area, codes, terms)) << panel;
+            self.active |= u8::from(self.calibrate(area, codes, falling)) << panel;
         }
         for (_, area) in areas_of(layout, self.active) {
             self.filter(area, filter);

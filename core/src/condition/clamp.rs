@@ -1,0 +1,137 @@
+//! A taxel within the range of its eight neighbours: one comparison after another, or many taxels at once.
+
+/// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
+const VECTORS: bool = cfg!(target_pointer_width = "64");
+
+/// Taxels that are done together: as many as fill a vector, or as two runs of the inside of a block.
+pub(super) const RUN: usize = if VECTORS { 8 } else { 7 };
+
+/// A run and its neighbours.
+pub(super) type Around = [u16; RUN + 2];
+
+/// Clamps all of `here` but its ends, each to the range of its eight neighbours.
+#[inline(always)]
+pub(super) fn clamp_run(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+    if VECTORS { by_range(above, here, below, out) } else { by_comparison(above, here, below, out) }
+}
+
+/// All at once.
+fn by_range(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+    let rows = above.array_windows().zip(here.array_windows()).zip(below.array_windows());
+    let inside = out.iter_mut().skip(1);
+    rows.zip(inside).for_each(|(((above, here), below), out)| *out = clamp(above, here, below));
+}
+
+/// Clamps `here[1]` to the range of the others.
+#[inline(always)]
+pub(super) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 {
+    let [left, value, right] = *here;
+    let others = above.iter().chain(below);
+    let (least, greatest) = others.fold((left.min(right), left.max(right)), |(least, greatest), other| {
+        (least.min(*other), greatest.max(*other))
+    });
+    value.max(least).min(greatest)
+}
+
+/// One after another. Not inlined, so that it has the registers of a Cortex-M0+ to itself.
+#[inline(never)]
+fn by_comparison(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+    // A compiler keeps a loop of that length, and with it an index and five sums for each taxel.
+    step::<1>(above, here, below, out);
+    step::<2>(above, here, below, out);
+    step::<3>(above, here, below, out);
+    step::<4>(above, here, below, out);
+    step::<5>(above, here, below, out);
+    step::<6>(above, here, below, out);
+    step::<7>(above, here, below, out);
+    step::<8>(above, here, below, out);
+}
+
+/// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a
+/// taxel: two or three comparisons mostly.
+#[inline(always)]
+fn step<const AT: usize>(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+    let (Some(a), Some([left, value, right]), Some(b)) =
+        (three(above, AT), three(here, AT), three(below, AT))
+    else {
+        // A run that is shorter.
+        return;
+    };
+    let mut settled = *value;
+    if value > right {
+        if value > left && around(a, b).all(|other| other < *value) {
+            settled = greatest(above, here, below, AT);
+        }
+    } else if value < right && value < left && around(a, b).all(|other| other > *value) {
+        settled = least(above, here, below, AT);
+    }
+    if let Some(out) = out.get_mut(AT) {
+        *out = settled;
+    }
+}
+
+/// The neighbours above and below, the nearest first.
+#[inline(always)]
+fn around(above: &[u16; 3], below: &[u16; 3]) -> impl Iterator<Item = u16> {
+    [above[1], below[1], above[0], above[2], below[0], below[2]].into_iter()
+}
+
+/// A taxel of a row with its neighbours.
+#[inline(always)]
+fn three(row: &Around, at: usize) -> Option<&[u16; 3]> {
+    row.get(at - 1..)?.first_chunk()
+}
+
+/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
+#[inline(never)]
+fn greatest(above: &Around, here: &Around, below: &Around, at: usize) -> u16 {
+    fold_around(above, here, below, at, u16::max)
+}
+
+/// The smallest neighbour.
+#[inline(never)]
+fn least(above: &Around, here: &Around, below: &Around, at: usize) -> u16 {
+    fold_around(above, here, below, at, u16::min)
+}
+
+#[inline(always)]
+fn fold_around(
+    above: &Around,
+    here: &Around,
+    below: &Around,
+    at: usize,
+    of: impl Fn(u16, u16) -> u16,
+) -> u16 {
+    let (Some(above), Some([left, _, right]), Some(below)) =
+        (three(above, at), three(here, at), three(below, at))
+    else {
+        return 0;
+    };
+    above.iter().chain(below).fold(of(*left, *right), |end, other| of(end, *other))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All that three by three values of four sizes can be, at both ends of the scale.
+    #[test]
+    fn to_compare_one_after_another_makes_no_difference() {
+        for case in 0..1u32 << 18 {
+            let rows = [0, 6, 12].map(|shift| {
+                let mut row: Around = [0; RUN + 2];
+                for (at, value) in row.iter_mut().enumerate() {
+                    // Other columns hold the same in another order.
+                    let size = case >> (shift + 2 * (at % 3)) & 3;
+                    *value = [0, 1, 0x8000, 0xffff][size as usize];
+                }
+                row
+            });
+            let mut out = [[0; RUN + 2]; 2];
+            let [above, here, below] = &rows;
+            by_comparison(above, here, below, &mut out[0]);
+            by_range(above, here, below, &mut out[1]);
+            assert_eq!(out[0], out[1]);
+        }
+    }
+}
