@@ -14,6 +14,7 @@
 //! frame's end. The test below compares the two.
 
 use core::fmt;
+use core::mem::{replace, take};
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use serde::{Deserialize, Serialize};
@@ -26,6 +27,9 @@ pub(crate) const CRC_BYTES: usize = 4;
 
 /// Most bytes of a group of COBS.
 const GROUP: usize = 254;
+
+/// Bytes that are stuffed together.
+const BLOCK: usize = 8;
 
 /// Why some bytes are no message, or a message is no bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,28 +136,61 @@ pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, WireError> {
 #[inline(never)] // the few registers of an M0+ are for its loop
 pub(crate) fn stuff(data: &[u8], out: &mut [u8]) -> Option<usize> {
     let room = out.len();
-    let (mut data, mut out) = (data, out);
+    let (head, mut out) = out.split_first_mut()?;
+    let mut group = Group { head, length: 0 };
+    let mut data = data;
     loop {
-        let (head, group) = out.split_first_mut()?;
-        let mut length = 0;
-        for (to, from) in group.iter_mut().zip(data.iter().take(GROUP)) {
-            if *from == 0 {
-                break;
-            }
-            *to = *from;
-            length += 1;
+        // Most bytes are far from the end of a full group.
+        while group.length <= GROUP - BLOCK
+            && let Some((block, later)) = data.split_first_chunk::<BLOCK>()
+        {
+            let (to, rest) = take(&mut out).split_first_chunk_mut::<BLOCK>()?;
+            block.iter().zip(to).for_each(|(byte, to)| group.take(*byte, to));
+            (data, out) = (later, rest);
         }
-        *head = length as u8 + 1;
-        out = group.get_mut(length..)?;
-        match data.get(length..)? {
-            [] => {
-                *out.first_mut()? = 0;
-                return Some(room - out.len() + 1);
-            }
-            [0, rest @ ..] if length < GROUP => data = rest,
-            // The group is full, or there is no room for the next one.
-            rest => data = rest,
+        let Some((byte, later)) = data.split_first() else { break };
+        if group.length == GROUP {
+            group.end(take_first(&mut out)?);
         }
+        group.take(*byte, take_first(&mut out)?);
+        data = later;
+    }
+    let end = room - out.len() + 1;
+    let last = take_first(&mut out)?;
+    *last = 0;
+    *group.head = group.length as u8 + 1;
+    Some(end)
+}
+
+fn take_first<'a>(out: &mut &'a mut [u8]) -> Option<&'a mut u8> {
+    let (first, rest) = take(out).split_first_mut()?;
+    *out = rest;
+    Some(first)
+}
+
+/// A group of COBS: a byte that tells where the next one begins, and bytes that are not 0. A 0 of the data is where the next
+/// begins.
+struct Group<'a> {
+    head: &'a mut u8,
+    length: usize,
+}
+
+impl<'a> Group<'a> {
+    #[inline(always)]
+    fn take(&mut self, byte: u8, to: &'a mut u8) {
+        if byte == 0 {
+            self.end(to);
+        } else {
+            *to = byte;
+            self.length += 1;
+        }
+    }
+
+    /// The next one begins at `next`.
+    #[inline(always)]
+    fn end(&mut self, next: &'a mut u8) {
+        *replace(&mut self.head, next) = self.length as u8 + 1;
+        self.length = 0;
     }
 }
 

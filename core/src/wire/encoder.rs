@@ -83,9 +83,10 @@ impl<'a> Encoder<'a> {
             self.varint((start - self.told) as u32)?;
             // Written when it is known: it has one byte.
             let length = self.out.next()?;
+            let most = values.len().min(RUN);
             let count = match base {
-                None => self.alone(start, values)?,
-                Some(base) => self.differences(start, values, base)?,
+                None => self.alone(start, values.get(..most)?)?,
+                Some(base) => self.differences(start, values.get(..most)?, base.get(..most)?)?,
             };
             *length = count as u8;
             start += count;
@@ -94,67 +95,70 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Writes a run that stands alone; how many taxels it has.
+    /// Writes a run that stands alone; how many taxels it has. Not inlined, as [`Encoder::differences`]: the loop within needs
+    /// the few registers of a Cortex-M0+.
+    #[inline(never)]
     fn alone(&mut self, start: usize, values: &[u16]) -> Option<usize> {
         let mut last = 0;
         let count = self.run(values.iter().map(|value| {
             let value = i32::from(*value);
             (value != 0, value - replace(&mut last, value))
         }))?;
-        self.weigh(start, values.get(..count)?.iter().rev().map(|value| (*value).into()));
+        self.sum = self.sum.wrapping_add(sum_of(start, values.get(..count)?));
         Some(count)
     }
 
     /// Writes a run of differences; how many taxels it has.
+    #[inline(never)]
     fn differences(&mut self, start: usize, values: &[u16], base: &[u16]) -> Option<usize> {
         let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
         let count = self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))?;
         let (values, base) = (values.get(..count)?, base.get(..count)?);
-        self.weigh(start, values.iter().rev().zip(base.iter().rev()).map(difference));
+        self.sum = self.sum.wrapping_add(sum_of(start, values)).wrapping_sub(sum_of(start, base));
         Some(count)
     }
 
     /// Writes the numbers of the taxels up to two unchanged ones; how many there are.
-    #[inline(never)]
-    fn run(&mut self, taxels: impl Iterator<Item = (bool, i32)>) -> Option<usize> {
+    #[inline(always)]
+    fn run(&mut self, mut taxels: impl ExactSizeIterator<Item = (bool, i32)>) -> Option<usize> {
         // In registers: few of them are left for what is behind a pointer.
         let mut out = take(&mut self.out);
-        let (mut count, mut waits) = (0, None);
-        for (changed, number) in taxels.take(RUN) {
-            if let Some(waiting) = waits.take() {
-                if !changed {
+        let (all, mut unchanged) = (taxels.len(), 0);
+        while let Some((changed, mut number)) = taxels.next() {
+            if !changed {
+                let next = taxels.next();
+                let Some((true, later)) = next else {
+                    unchanged = 1 + usize::from(next.is_some());
                     break;
-                }
-                varint(&mut out, zigzag(waiting))?;
-                count += 1;
-            }
-            if changed {
+                };
                 varint(&mut out, zigzag(number))?;
-                count += 1;
-            } else {
-                waits = Some(number);
+                number = later;
             }
+            varint(&mut out, zigzag(number))?;
         }
         self.out = out;
-        Some(count)
-    }
-
-    /// Adds the numbers of taxels from number `start` on to the sum. From the last to the first, the sums of `number` and of
-    /// that sum hold `sum number` and `sum (i + 1) number`.
-    #[inline(never)]
-    fn weigh(&mut self, start: usize, numbers: impl Iterator<Item = i32>) {
-        let (mut plain, mut placed) = (0i32, 0i32);
-        for number in numbers {
-            plain = plain.wrapping_add(number);
-            placed = placed.wrapping_add(plain);
-        }
-        let sum = (placed as u32).wrapping_add((start as u32).wrapping_mul(plain as u32));
-        self.sum = self.sum.wrapping_add(sum);
+        Some(all - taxels.len() - unchanged)
     }
 
     fn varint(&mut self, value: u32) -> Option<()> {
         varint(&mut self.out, value)
     }
+}
+
+/// What taxels from number `start` on have in the [`image_sum`](super::image_sum).
+///
+/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no multiplication.
+#[inline(never)]
+fn sum_of(start: usize, values: &[u16]) -> u32 {
+    let (mut plain, mut placed) = (0u32, 0u32);
+    let mut add = |value: &u16| {
+        plain = plain.wrapping_add((*value).into());
+        placed = placed.wrapping_add(plain);
+    };
+    let (blocks, rest) = values.as_chunks::<8>();
+    blocks.iter().for_each(|block| block.iter().for_each(&mut add));
+    rest.iter().for_each(add);
+    plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
 }
 
 const fn zigzag(number: i32) -> u32 {
