@@ -1,7 +1,7 @@
 //! A taxel within the range of its eight neighbours: one comparison after another, or many taxels at once.
 
 /// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
-const VECTORS: bool = cfg!(target_pointer_width = "64");
+pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
 /// Taxels that are done together: as many as fill a vector, or as two runs of the inside of a block.
 pub(super) const RUN: usize = if VECTORS { 8 } else { 7 };

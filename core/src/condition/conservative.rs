@@ -3,7 +3,8 @@
 //! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own neighbour and an
 //! impulse would survive.
 
-use super::clamp::{Around, RUN, clamp, clamp_run};
+use super::clamp::{RUN, clamp, clamp_run};
+use super::row::Row;
 use super::rows::{Pieces, Rows};
 use crate::garment::Area;
 use core::ops::Range;
@@ -28,8 +29,12 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
         let above = if number == first { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
+        if groups == there {
+            smooth(&row, values, out, 0..columns);
+            continue;
+        }
         for (_, piece) in Pieces::of(area, grain, groups.into()) {
-            row.smooth(values, out, piece);
+            smooth(&row, values, out, piece);
         }
     }
 }
@@ -58,64 +63,28 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// A row of at least two columns.
-struct Row {
-    /// Where the row above, the row and the row below begin in a panel.
-    starts: [usize; 3],
-    columns: usize,
+/// Smooths some columns of a row.
+#[inline(never)]
+fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+    if row.columns < RUN + 2 {
+        return smooth_each(row, values, out);
+    }
+    row.filter(values, out, columns, clamp_run, |[above, here, below]| {
+        border(here[0], [here[1], above[0], below[0], above[1], below[1]])
+    });
 }
 
-impl Row {
-    /// Smooths some columns, and others beside them: they have their neighbours, too.
-    #[inline(never)]
-    fn smooth(&self, values: &[u16], out: &mut [u16], columns: Range<usize>) {
-        let Some(latest) = self.columns.checked_sub(RUN + 2) else { return self.smooth_each(values, out) };
-        let mut at = columns.start.saturating_sub(1).min(latest);
-        loop {
-            let Some([above, here, below]) = self.from(values, at) else { return };
-            let Some(out) = out.get_mut(self.starts[1] + at..).and_then(<[u16]>::first_chunk_mut) else {
-                return;
-            };
-            clamp_run(above, here, below, out);
-            if at == 0 {
-                let others = [here[1], above[0], below[0], above[1], below[1]];
-                out[0] = border(here[0], others);
-            }
-            if at == latest {
-                let others = [here[RUN], above[RUN + 1], below[RUN + 1], above[RUN], below[RUN]];
-                out[RUN + 1] = border(here[RUN + 1], others);
-                return;
-            }
-            at += RUN;
-            if at + 1 >= columns.end {
-                return;
-            }
-            // The last may begin within the one before: it says the same again.
-            at = at.min(latest);
-        }
-    }
-
-    /// Some taxels from a column on, with those above and below them.
-    #[inline(always)]
-    fn from<'a>(&self, values: &'a [u16], column: usize) -> Option<[&'a Around; 3]> {
-        let [above, here, below] = self.starts;
-        let above = values.get(above + column..)?.first_chunk()?;
-        let here = values.get(here + column..)?.first_chunk()?;
-        let below = values.get(below + column..)?.first_chunk()?;
-        Some([above, here, below])
-    }
-
-    /// Smooths a row that is shorter than a run.
-    fn smooth_each(&self, values: &[u16], out: &mut [u16]) {
-        let [above, here, below] = self.starts;
-        let value = |at: usize| values.get(at).copied().unwrap_or(0);
-        for column in 0..self.columns {
-            let left = if column == 0 { 1 } else { column - 1 };
-            let right = if column + 1 == self.columns { left } else { column + 1 };
-            let three = |start: usize| [start + left, start + column, start + right].map(value);
-            if let Some(out) = out.get_mut(here + column) {
-                *out = clamp(&three(above), &three(here), &three(below));
-            }
+/// Smooths a row that is shorter than a run.
+#[inline(never)]
+fn smooth_each(row: &Row, values: &[u16], out: &mut [u16]) {
+    let [above, here, below] = row.starts;
+    let value = |at: usize| values.get(at).copied().unwrap_or(0);
+    for column in 0..row.columns {
+        let left = if column == 0 { 1 } else { column - 1 };
+        let right = if column + 1 == row.columns { left } else { column + 1 };
+        let three = |start: usize| [start + left, start + column, start + right].map(value);
+        if let Some(out) = out.get_mut(here + column) {
+            *out = clamp(&three(above), &three(here), &three(below));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The exact median of nine.
 
+use super::clamp::{Around, RUN, VECTORS};
+use super::row::Row;
 use super::rows::{Pieces, Rows};
 use crate::garment::Area;
 use core::ops::Range;
@@ -20,15 +22,22 @@ pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, m
         let all = u32::from(above | here | below);
         if all != 0 {
             let row = number - first;
-            let rows = [row.saturating_sub(1), row, (row + 1).min(area.rows - 1)].map(|row| {
-                let start = usize::from(row) * columns;
-                values.get(start..start + columns).unwrap_or(&[])
-            });
+            let rows = [row.saturating_sub(1), row, (row + 1).min(area.rows - 1)];
+            let rows = rows.map(|row| usize::from(row) * columns);
             let start = usize::from(row) * columns;
-            let line = out.get_mut(start..start + columns).unwrap_or(&mut []);
             let mut held = here;
             for (groups, piece) in Pieces::of(area, grain, (all | all << 1 | all >> 1) & there) {
-                held |= if part(rows, piece, line) { groups } else { 0 };
+                let any = if VECTORS && columns >= RUN + 2 {
+                    let row = Row { starts: rows, columns };
+                    row.filter(values, out, piece.clone(), median_run, median_of_end);
+                    out.get(start + piece.start..start + piece.end)
+                        .is_some_and(|out| out.iter().any(|value| *value != 0))
+                } else {
+                    let line = |start: usize| values.get(start..start + columns).unwrap_or(&[]);
+                    let out = out.get_mut(start..start + columns).unwrap_or(&mut []);
+                    part(rows.map(line), piece, out)
+                };
+                held |= if any { groups } else { 0 };
             }
             marks.set(number, held);
         }
@@ -69,16 +78,34 @@ fn row(above: &[u16], here: &[u16], below: &[u16], led: bool, out: &mut [u16]) -
     any
 }
 
-type Sorted = (u32, u32, u32);
+/// All of `here` but its ends at once, where that takes few instructions: each column is sorted for each taxel.
+fn median_run(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+    let rows = above.array_windows().zip(here.array_windows()).zip(below.array_windows());
+    let inside = out.iter_mut().skip(1);
+    rows.zip(inside).for_each(|(((above, here), below), out)| *out = median_of_nine(*above, *here, *below));
+}
 
-fn median_of_columns(a: Sorted, b: Sorted, c: Sorted) -> u32 {
+fn median_of_nine(above: [u16; 3], here: [u16; 3], below: [u16; 3]) -> u16 {
+    let [a, b, c] = [0, 1, 2].map(|column: usize| sorted(above[column], here[column], below[column]));
+    median_of_columns(a, b, c)
+}
+
+/// The first taxel of a row, before which it is repeated.
+fn median_of_end(rows: [[u16; 2]; 3]) -> u16 {
+    let [above, here, below] = rows.map(|[end, next]| [end, end, next]);
+    median_of_nine(above, here, below)
+}
+
+type Sorted<T> = (T, T, T);
+
+fn median_of_columns<T: Ord + Copy>(a: Sorted<T>, b: Sorted<T>, c: Sorted<T>) -> T {
     let low = a.0.max(b.0).max(c.0);
     let middle = sorted(a.1, b.1, c.1).1;
     let high = a.2.min(b.2).min(c.2);
     sorted(low, middle, high).1
 }
 
-fn sorted(a: u32, b: u32, c: u32) -> Sorted {
+fn sorted<T: Ord + Copy>(a: T, b: T, c: T) -> Sorted<T> {
     let (a, b) = (a.min(b), a.max(b));
     let (b, c) = (b.min(c), b.max(c));
     (a.min(b), a.max(b), c)

@@ -33,6 +33,7 @@ mod image;
 mod limit;
 mod median;
 mod progress;
+mod row;
 mod rows;
 mod slices;
 mod square;
