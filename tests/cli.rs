@@ -292,3 +292,67 @@ fn a_broken_pipe_is_quiet() {
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success());
 }
+
+#[test]
+fn a_garment_is_set_up_by_touch() {
+    let output = file("touched.toml", b"");
+    let said = run(&["setup", "--simulate", "7", "--json", "-o", &output]);
+    assert!(said.status.success(), "{said:?}");
+    let lines: Vec<Value> = String::from_utf8(said.stdout)
+        .unwrap()
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let kinds = |kind: &str| lines.iter().filter(|line| line["type"] == kind).count();
+    assert_eq!((kinds("ask"), kinds("felt"), kinds("found")), (9, 9, 1));
+    let garment = taxel::sim::garment(&output).unwrap();
+    assert_eq!(serde_json::to_value(&garment).unwrap(), lines.last().unwrap()["garment"]);
+    let said = run(&["setup", "--simulate", "7"]);
+    let text = String::from_utf8(said.stdout).unwrap();
+    assert!(text.contains("9. Panel right arm: press") && text.contains("\n[wiring]\n"), "{text}");
+    let said = run(&["setup", "--simulate", "7", "--garment", "block-4x16"]);
+    let why = String::from_utf8(said.stderr).unwrap();
+    assert!(said.status.code() == Some(2) && why.contains("only binary addresses do"), "{why}");
+}
+
+#[test]
+fn nobody_touches_and_nothing_is_claimed() {
+    let idle = file("nobody.toml", b"duration_s = 1\n[idle]\nspread_counts = 1\n");
+    let source = format!("sim:{idle}");
+    let said = run(&["setup", "--source", &source, "--wait", "0.3"]);
+    let why = String::from_utf8(said.stderr).unwrap();
+    assert!(
+        said.status.code() == Some(2) && why.contains("not sure: Nothing was felt on any panel"),
+        "{why}"
+    );
+    let said = run(&["settle", "--source", &source, "--json"]);
+    let why = String::from_utf8(said.stderr).unwrap();
+    assert!(said.status.code() == Some(2) && why.contains("too few edges"), "{why}");
+}
+
+#[test]
+fn settling_is_found_and_written() {
+    let things = br#"
+duration_s = 1000
+wiring = { source_kohm = 10, line_pf = 80 }
+[[touch]]
+panel = "chest"
+shape = "box"
+force_n = 60
+at = [6, 12]
+size_mm = [60, 60]
+start_s = 0
+rise_s = 0.1
+hold_s = 999
+fall_s = 0.1
+"#;
+    let (things, output) = (file("things.toml", things), file("settled.toml", b""));
+    let said = run(&["settle", "--source", &format!("sim:{things}"), "--json", "-o", &output]);
+    assert!(said.status.success(), "{said:?}");
+    let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
+    // 800 ns and 4 of 4,095 counts: 5,545 ns, three slots of the board that is simulated.
+    assert_eq!(settled["in_slots_ns"], 6_000);
+    assert_eq!(settled["measured"], serde_json::json!([26]));
+    let garment = taxel::sim::garment(&output).unwrap();
+    assert_eq!(settled["settle_ns"], garment.wiring.settle_ns);
+}

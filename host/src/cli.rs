@@ -6,6 +6,8 @@ use crate::features::{self, FeaturesArgs};
 use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
 use crate::scenes::{self, ScenesArgs};
+use crate::settle::{self, SettleArgs};
+use crate::setup::{self, SetupArgs};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
@@ -35,6 +37,12 @@ enum Command {
     /// Speed against error, as tables and charts
     #[command(after_help = BENCH)]
     Bench(BenchArgs),
+    /// Find out by touch how an unknown bundle of wires is connected
+    #[command(after_help = SETUP)]
+    Setup(SetupArgs),
+    /// Find the shortest settling of a real garment
+    #[command(after_help = SETTLE)]
+    Settle(SettleArgs),
     /// List the simulated scenes
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -64,6 +72,15 @@ const BENCH: &str = "Examples:
   taxel bench acquisition
   taxel bench nmi --json";
 
+const SETUP: &str = "Examples:
+  taxel setup --garment reference -o garment.toml
+  taxel setup --source serial:/dev/ttyACM0 --garment mine.toml -o garment.toml
+  taxel setup --simulate 7 --json";
+
+const SETTLE: &str = "Examples:
+  taxel settle --garment garment.toml -o garment.toml
+  taxel settle --source sim:hold --error 2 --json";
+
 const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";
@@ -78,6 +95,8 @@ impl Cli {
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),
             Command::Bench(args) => bench::run(args),
+            Command::Setup(args) => setup::run(&args),
+            Command::Settle(args) => settle::run(&args),
             Command::Scenes(args) => scenes::run(args),
         }
     }

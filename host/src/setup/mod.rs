@@ -16,6 +16,7 @@ mod ask;
 mod assemble;
 mod bundle;
 mod check;
+mod command;
 mod feel;
 mod reading;
 mod solver;
@@ -24,6 +25,7 @@ mod user;
 
 pub use ask::{Ask, Gesture};
 pub use bundle::Bundle;
+pub use command::{SetupArgs, run};
 pub use feel::Feeler;
 pub use reading::{Blocks, Felt, Reading};
 pub use solver::{Found, Next, Solver};

@@ -90,7 +90,6 @@ impl SimBoard {
         }
         let free = (0..PINS as u8).filter(|pin| inputs.get(usize::from(*pin)).is_some_and(Option::is_none));
         let lines = Lines::new(free.map(|pin| (pin, SimPin { bus: bus.clone(), mask: 1 << pin })));
-        let settle = garment.wiring.settle_ns;
         let adc = SimAdc {
             bus: bus.clone(),
             world,
@@ -101,12 +100,7 @@ impl SimBoard {
             inputs,
             conversion_ns: u64::from(timing.conversion_ns),
         };
-        Ok(SimBoard {
-            lines,
-            delay: SimDelay { bus: bus.clone(), settling_ns: (settle, timing.settling_ns(settle)) },
-            adc,
-            clock: SimClock { bus },
-        })
+        Ok(SimBoard { lines, delay: SimDelay { bus: bus.clone(), timing }, adc, clock: SimClock { bus } })
     }
 }
 

@@ -91,14 +91,12 @@ impl OutputPin for SimPin {
 #[derive(Debug, Clone)]
 pub struct SimDelay {
     pub(super) bus: Rc<Bus>,
-    /// The garment's settling time, and the time that it takes on this board.
-    pub(super) settling_ns: (u32, u32),
+    pub(super) timing: Timing,
 }
 
 impl DelayNs for SimDelay {
     fn delay_ns(&mut self, ns: u32) {
-        let (asked, taken) = self.settling_ns;
-        self.bus.pass(u64::from(if ns == asked { taken } else { ns }));
+        self.bus.pass(u64::from(self.timing.settling_ns(ns)));
     }
 }
 

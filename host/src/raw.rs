@@ -1,0 +1,157 @@
+//! A board that is asked for raw codes, and that wears what it is told meanwhile.
+
+use crate::client::{Client, Event};
+use crate::source::{self, Source, SourceOptions, SourceSpec};
+use anyhow::{Context, Result, bail};
+use std::time::{Duration, Instant};
+use taxel_core::garment::Garment;
+use taxel_core::scene::{Scene, StreamConfig};
+use taxel_core::wire::Request;
+
+/// How long a board may say nothing that is waited for.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Seconds that a simulation lasts: longer than anybody waits.
+const DAYS: f64 = 1e6;
+
+/// Raw codes of a frame.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Codes {
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// By taxel of the garment that is worn.
+    pub codes: Vec<u16>,
+}
+
+/// A board that streams raw codes and nothing else.
+pub struct RawBoard {
+    source: Source,
+    client: Client,
+    buffer: Vec<u8>,
+    scene: Scene,
+    garment: Garment,
+}
+
+impl RawBoard {
+    /// Connects and asks for raw codes. A board with a scene of its own gets it back by [`RawBoard::leave`].
+    pub fn open(spec: &SourceSpec) -> Result<RawBoard> {
+        let options = SourceOptions { seconds: Some(DAYS), ..SourceOptions::default() };
+        let source = source::open(spec, &options)?;
+        let mut client = Client::new();
+        client.start(0)?;
+        let mut board = RawBoard {
+            source,
+            client,
+            buffer: Vec::new(),
+            scene: Scene::shipped(),
+            garment: Garment::recorded(1, 1),
+        };
+        board.until("Hello", |client, _| client.worn().is_some())?;
+        if let Some(worn) = board.client.worn() {
+            (board.scene, board.garment) = (worn.scene.clone(), worn.garment.clone());
+        }
+        board.use_for(&raw_scene())?;
+        Ok(board)
+    }
+
+    /// What it is, in a few words.
+    pub fn label(&self) -> &str {
+        &self.source.label
+    }
+
+    /// The garment that it wore when it was found.
+    pub fn garment(&self) -> &Garment {
+        &self.garment
+    }
+
+    /// Puts a garment on; an error is the board's own where it refuses.
+    pub fn wear(&mut self, garment: &Garment) -> Result<()> {
+        let bytes = postcard::to_allocvec(garment).context("the garment cannot be written")?;
+        self.ask(&Request::SetGarment(&bytes))?;
+        self.until("the new garment", |client, _| client.worn().is_some_and(|worn| worn.garment == *garment))
+    }
+
+    /// Gives the board a garment, and its own scene back.
+    pub fn leave(&mut self, garment: &Garment) -> Result<()> {
+        self.wear(garment)?;
+        self.use_for(&self.scene.clone())
+    }
+
+    /// The next frame.
+    pub fn frame(&mut self) -> Result<Codes> {
+        let mut time_us = 0;
+        self.until("raw codes", |_, event| match event {
+            Event::Raw { time, whole: true, .. } => {
+                time_us = time.0;
+                true
+            }
+            _ => false,
+        })?;
+        Ok(Codes { time_us, codes: self.client.raw().to_vec() })
+    }
+
+    fn use_for(&mut self, scene: &Scene) -> Result<()> {
+        let bytes = postcard::to_allocvec(scene).context("the scene cannot be written")?;
+        self.ask(&Request::SetScene(&bytes))
+    }
+
+    /// Makes a request and waits for its answer.
+    fn ask(&mut self, request: &Request<'_>) -> Result<()> {
+        let number = request.number();
+        self.client.request(request)?;
+        let mut refused = None;
+        self.until("an answer", |_, event| match event {
+            Event::Answer { request, refusal } if *request == number => {
+                refused = refusal.clone();
+                true
+            }
+            _ => false,
+        })?;
+        match refused {
+            Some(why) => bail!("{}: refused: {why}", self.source.label),
+            None => Ok(()),
+        }
+    }
+
+    /// Reads until an event is the one.
+    fn until(&mut self, what: &str, mut is_it: impl FnMut(&Client, &Event) -> bool) -> Result<()> {
+        let began = Instant::now();
+        let label = self.source.label.clone();
+        loop {
+            for at in 0..self.buffer.len() {
+                let Some(event) = self.client.push(self.buffer[at]) else { continue };
+                if is_it(&self.client, &event) {
+                    self.buffer.drain(..=at);
+                    return Ok(());
+                }
+            }
+            let lost = || format!("{label} is gone");
+            self.source.port.write(&self.client.take_requests()).with_context(lost)?;
+            self.buffer.resize(4096, 0);
+            let Some(count) = self.source.port.read(&mut self.buffer).with_context(lost)? else {
+                bail!("{label} ended before {what} came");
+            };
+            self.buffer.truncate(count);
+            if began.elapsed() > PATIENCE {
+                bail!("{label}: {what} did not come in {} s", PATIENCE.as_secs());
+            }
+        }
+    }
+}
+
+/// Raw codes, as many as the link takes; nothing that names a region, which the garment may not have.
+fn raw_scene() -> Scene {
+    let shipped = Scene::shipped();
+    let stream = StreamConfig {
+        frames_hz: 0,
+        contacts_hz: 0,
+        symbols: false,
+        intent: false,
+        raw_hz: u16::MAX,
+        ..shipped.stream
+    };
+    let mut scene = Scene { stream, intent: None, shape: None, ..shipped };
+    scene.friendliness.clear();
+    scene.react.clear();
+    scene.joints.clear();
+    scene
+}

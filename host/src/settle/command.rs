@@ -1,0 +1,117 @@
+//! The command `taxel settle`.
+
+use super::search::{Scanner, Settled, settle};
+use crate::garments;
+use crate::raw::RawBoard;
+use crate::sim::{self, Timing};
+use crate::source::SourceSpec;
+use anyhow::{Result, bail};
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+use taxel_core::garment::Garment;
+
+/// Frames after a change of settling that may still be of the old one.
+const OLD: u32 = 2;
+
+/// What `taxel settle` takes.
+#[derive(Debug, Clone, Args)]
+pub struct SettleArgs {
+    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// The garment, a preset or a TOML file [default: what the board wears]
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// Counts of 4,095 that a full-scale step from taxel to taxel may leave
+    #[arg(long, value_name = "COUNTS", default_value_t = 4.0)]
+    pub error: f64,
+    /// Write the garment with its settling there [default: print it]
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Print JSON instead of sentences
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A board that wears the garment with one settling after another.
+struct Worn<'a> {
+    board: &'a mut RawBoard,
+    garment: Garment,
+}
+
+impl Scanner for Worn<'_> {
+    fn scan(&mut self, settle_ns: u32, frames: u32) -> Result<Vec<f64>> {
+        self.garment.wiring.settle_ns = settle_ns;
+        self.board.wear(&self.garment)?;
+        for _ in 0..OLD {
+            self.board.frame()?;
+        }
+        let mut sums = Vec::new();
+        for _ in 0..frames {
+            let frame = self.board.frame()?;
+            sums.resize(frame.codes.len(), 0.0);
+            sums.iter_mut().zip(&frame.codes).for_each(|(sum, code)| *sum += f64::from(*code));
+        }
+        sums.iter_mut().for_each(|sum| *sum /= f64::from(frames));
+        Ok(sums)
+    }
+}
+
+/// Runs the command.
+pub fn run(args: &SettleArgs) -> Result<()> {
+    if !args.error.is_finite() || !(0.5..=400.0).contains(&args.error) {
+        bail!("--error must be 0.5 to 400 counts");
+    }
+    let given = args.garment.as_deref().map(sim::garment).transpose()?;
+    let mut board = RawBoard::open(&args.source)?;
+    let before = board.garment().clone();
+    let mut garment = given.unwrap_or_else(|| before.clone());
+    if !args.json {
+        println!(
+            "{}: lay something with edges on the garment, on each panel at best, and leave it there.",
+            board.label()
+        );
+    }
+    let settled = settle(&mut Worn { board: &mut board, garment: garment.clone() }, &garment, args.error);
+    let settled = match settled {
+        Ok(settled) => settled,
+        Err(why) => {
+            board.leave(&before)?;
+            return Err(why);
+        }
+    };
+    let before_ns = garment.wiring.settle_ns;
+    garment.wiring.settle_ns = settled.settle_ns;
+    board.leave(&garment)?;
+    tell(args, before_ns, &settled);
+    if args.json && args.output.is_none() {
+        return Ok(());
+    }
+    let comment = format!(
+        "Settling found by taxel settle: {:.1} counts are left of a full-scale step.",
+        settled.residue_counts
+    );
+    garments::write(&garment, &comment, args.output.as_deref())
+}
+
+fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled) {
+    let slots_ns = Timing::REFERENCE.settling_ns(settled.settle_ns);
+    if args.json {
+        let line = json!({
+            "type": "settled", "settle_ns": settled.settle_ns, "before_ns": before_ns, "in_slots_ns": slots_ns,
+            "residue_counts": settled.residue_counts, "error_counts": settled.error_counts, "slow_ns": settled.slow_ns,
+            "measured": settled.measured, "unmeasured": settled.unmeasured,
+        });
+        return println!("{line}");
+    }
+    println!(
+        "Settling: {} ns (before: {before_ns}). It leaves {:.1} +- {:.1} counts of a full-scale step.",
+        settled.settle_ns, settled.residue_counts, settled.error_counts
+    );
+    println!("A board that scans by DMA settles in whole slots of 2,000 ns, and takes {slots_ns} ns.");
+    if !settled.unmeasured.is_empty() {
+        let pins: Vec<_> = settled.unmeasured.iter().map(|pin| format!("GP{pin}")).collect();
+        println!("Not measured, because nothing with an edge lay there: {}.", pins.join(", "));
+    }
+}
