@@ -17,7 +17,7 @@ fn set_up(template: &Garment, seed: u64) -> (Garment, Option<u8>, Result<Found, 
     let dead = (one_panel_each && rng.u8(..4) == 0).then(|| inputs[rng.usize(..inputs.len())]);
     let mut user = User::new(&wired, solver.bundle(), dead, rng).unwrap();
     loop {
-        match solver.next() {
+        match solver.what_next() {
             Next::Ask(ask) => solver.take(user.touch(&ask)),
             Next::Found(found) => return (wired, dead, Ok(*found)),
             Next::NotSure(why) => return (wired, dead, Err(why)),
@@ -93,7 +93,7 @@ fn a_stroke_the_wrong_way_round_is_no_garment() {
         let mut solver = Solver::new(&template).unwrap();
         let mut user = User::new(&wired, solver.bundle(), None, rng).unwrap();
         let why = loop {
-            match solver.next() {
+            match solver.what_next() {
                 Next::Ask(ask) => {
                     let mut touch = user.touch(&ask).unwrap();
                     if ask.panel == 2 && matches!(ask.gesture, taxel::setup::Gesture::Down { .. }) {

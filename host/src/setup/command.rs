@@ -144,7 +144,7 @@ fn converse(
     let say = |line: Value, text: String| if args.json { println!("{line}") } else { println!("{text}") };
     let mut number = 0;
     loop {
-        match solver.next() {
+        match solver.what_next() {
             Next::Ask(ask) => {
                 number += 1;
                 say(question(&ask, template), in_words(number, &ask, template));

@@ -87,7 +87,7 @@ impl Solver {
     }
 
     /// What comes next; the same until a touch was taken.
-    pub fn next(&mut self) -> Next {
+    pub fn what_next(&mut self) -> Next {
         loop {
             if let Some(why) = &self.given_up {
                 return Next::NotSure(why.clone());
