@@ -356,3 +356,43 @@ fall_s = 0.1
     let garment = taxel::sim::garment(&output).unwrap();
     assert_eq!(settled["settle_ns"], garment.wiring.settle_ns);
 }
+
+/// Nine touches in the order in which they are asked for, on a garment that is wired as shipped.
+#[test]
+fn a_board_is_set_up_by_touch() {
+    let mut script = String::from("duration_s = 30\n");
+    let mut touch = |panel: &str, at: [f64; 2], velocity: [f64; 2], hold_s: f64, number: usize| {
+        script += &format!(
+            "[[touch]]\npanel = \"{panel}\"\nshape = \"finger\"\nforce_n = 8\nsize_mm = [26, 22]\nat = {at:?}\n\
+             velocity = {velocity:?}\nstart_s = {}\nrise_s = 0.05\nhold_s = {hold_s}\nfall_s = 0.05\n",
+            0.5 + 2.5 * number as f64
+        );
+    };
+    let panels = ["chest", "back", "left arm", "right arm"];
+    for (number, panel) in panels.iter().enumerate() {
+        touch(panel, [3.4, 0.0], [0.0, 20.0], 1.45, number);
+    }
+    touch("chest", [0.0, 17.0], [12.0, 0.0], 1.15, 4);
+    for (number, panel) in panels.iter().enumerate() {
+        touch(panel, [0.3, 0.4], [0.0, 0.0], 0.4, 5 + number);
+    }
+    let source = format!("sim:{}", file("nine.toml", script.as_bytes()));
+    let output = file("found.toml", b"");
+    let said = run(&["setup", "--source", &source, "--json", "-o", &output]);
+    assert!(
+        said.status.success(),
+        "{}{}",
+        String::from_utf8_lossy(&said.stdout),
+        String::from_utf8_lossy(&said.stderr)
+    );
+    let found = taxel::sim::Decoder::build(&taxel::sim::garment(&output).unwrap());
+    let wired = taxel::sim::Decoder::build(&taxel_core::garment::Garment::reference());
+    // Every level of the nine address lines, on every input.
+    let lines = [2, 3, 6, 7, 8, 9, 10, 11, 12];
+    for word in 0..512u64 {
+        let levels = lines.iter().enumerate().map(|(bit, pin)| (word >> bit & 1) << pin).sum();
+        let shown =
+            |decoder: &taxel::sim::Decoder, input| decoder.taxel(decoder.address(levels).unwrap(), input);
+        assert!((0..4).all(|input| shown(&found, input) == shown(&wired, input)), "{word:#b}");
+    }
+}

@@ -14,8 +14,8 @@ const SLOW: (u32, u32) = (200_000, 3_200_000);
 const QUICK: u32 = 100;
 /// The bracket is closed to this ratio.
 const CLOSE: f64 = 1.03;
-/// Standard errors that must lie within the bar where there is contrast.
-const SURE: f64 = 8.0;
+/// Standard errors that must lie within the bar: of the input that is read first and decides, and of the others.
+const SURE: [f64; 2] = [8.0, 3.0];
 
 /// A board that can be told how long to settle.
 pub trait Scanner {
@@ -111,17 +111,18 @@ impl<S: Scanner> Search<'_, S> {
             let residues: Vec<Residue> =
                 self.steps.iter().map(|steps| steps.residue(&slow, &quick)).collect();
             // Far from the bar, a large error of a large residue does no harm.
-            let clear = |residue: &Residue| {
-                SURE * residue.error <= self.bar || (residue.part - self.bar).abs() > 4.0 * residue.error
+            let clear = |index: &usize| {
+                let residue = &residues[*index];
+                SURE[usize::from(*index > 0)] * residue.error <= self.bar
+                    || (residue.part - self.bar).abs() > 4.0 * residue.error
             };
-            let seen: Vec<usize> = (0..residues.len()).filter(|index| clear(&residues[*index])).collect();
+            let seen: Vec<usize> = (0..residues.len()).filter(clear).collect();
             if seen.first() == Some(&0) {
-                let worst = seen.iter().map(|index| residues[*index]);
-                let worst = worst.reduce(|a, b| if b.part > a.part { b } else { a }).unwrap_or(residues[0]);
-                return Ok(Trial {
-                    worst,
-                    measured: seen.iter().map(|index| self.steps[*index].input).collect(),
-                });
+                // Another line counts where it is slower, not where its noise is larger.
+                let slower = |a: Residue, b: Residue| if b.part - 2.0 * b.error > a.part { b } else { a };
+                let worst = seen.iter().map(|index| residues[*index]).reduce(slower).unwrap_or(residues[0]);
+                let measured = seen.iter().map(|index| self.steps[*index].input).collect();
+                return Ok(Trial { worst, measured });
             }
             if self.frames >= FRAMES.1 {
                 let input = self.steps.first().map_or(0, |steps| steps.input);

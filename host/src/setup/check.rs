@@ -14,8 +14,8 @@ const SPREAD: f64 = 2.0;
 const BACK: f64 = 1.5;
 /// Taxels at either end of a stroke that may be missed.
 const END: f64 = 4.0;
-/// Part of the signal that may be elsewhere: crosstalk, noise.
-const ELSEWHERE: f64 = 0.1;
+/// Part of the signal that may be on other panels: a finger at a seam presses both.
+const ELSEWHERE: f64 = 0.4;
 
 /// Addresses to places.
 pub(super) struct Places {

@@ -8,8 +8,8 @@ use super::bundle::Bundle;
 use super::touch::{Touch, Trace};
 use std::collections::BTreeMap;
 
-/// Part of the strongest block's sum below which a block was not stroked.
-const BLOCK: f64 = 0.1;
+/// Part of the strongest block's sum below which a block was not stroked, but touched across a seam at an end of the way.
+const BLOCK: f64 = 0.15;
 
 /// The lines of a stroke.
 #[derive(Debug, Clone, PartialEq)]
