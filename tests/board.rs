@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use taxel_core::acquire::{Scan, ScanError, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, Job, Work};
+use taxel_core::board::{Board, BoardInfo, Input, Job, Saved};
 use taxel_core::contact::Phase;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros, Q15, name};
@@ -316,11 +316,11 @@ fn garbage_is_counted_and_loses_no_request() {
 #[test]
 fn jobs_that_fail_are_told() {
     let mut bench = Bench::new(Scene::shipped());
-    bench.ask(&Request::Save);
+    bench.ask(&Request::SelfTest);
     let jobs: Vec<_> =
         std::iter::from_fn(|| bench.tick()).take_while(|job| !matches!(job, Job::Scan(_))).collect();
-    assert_eq!(jobs.last(), Some(&Job::Start(Work::Save)));
-    bench.board.step(Micros(0), Input::Done(Work::Save, Err("no flash")), &mut ());
+    assert_eq!(jobs.last(), Some(&Job::Examine));
+    bench.board.step(Micros(0), Input::Examined(Err("no lines")), &mut ());
     let error = ScanError::Converter { input: 26, taxel: 5 };
     bench.board.step(Micros(0), Input::Scanned(Err(error)), &mut ());
     let mut told = Vec::new();
@@ -331,7 +331,7 @@ fn jobs_that_fail_are_told() {
         Report::Log(log) => told.push(log.text.to_string()),
         _ => {}
     });
-    assert_eq!(told, ["10 no flash", "scan: converter input on pin 26 gave no sample (at taxel 5)"]);
+    assert_eq!(told, ["9 no lines", "scan: converter input on pin 26 gave no sample (at taxel 5)"]);
     assert!(matches!(bench.tick(), Some(Job::Scan(_))), "a failed scan is followed by the next");
 }
 
@@ -345,6 +345,68 @@ fn what_waits_to_be_done_keeps_no_pin_from_being_driven() {
     }
     let jobs: Vec<Job> = std::iter::from_fn(|| bench.tick()).take(7).collect();
     assert_eq!(jobs[..2], [Job::Drive(18, false), Job::Drive(19, false)]);
-    assert_eq!(jobs[2..6], [Job::Start(Work::SelfTest); 4]);
+    assert_eq!(jobs[2..6], [Job::Examine; 4]);
     assert!(matches!(jobs[6], Job::Scan(_)));
+}
+
+/// Ticks, scans and reads on until the board wants to save; what it logged before.
+fn until_save(bench: &mut Bench) -> Vec<String> {
+    let mut logs = Vec::new();
+    for _ in 0..100 {
+        bench.drain(usize::MAX, |report| {
+            if let Report::Log(log) = report {
+                logs.push(log.text.to_string());
+            }
+        });
+        match bench.tick() {
+            Some(Job::Save) => return logs,
+            Some(Job::Scan(_)) => bench.scan(),
+            _ => {}
+        }
+    }
+    panic!("the board does not save");
+}
+
+#[test]
+fn a_save_is_announced_and_what_it_costs_is_counted() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.scan();
+    bench.ask(&Request::Save);
+    assert_eq!(until_save(&mut bench), ["scanning stops while the settings are stored"]);
+    bench.now += 200_000;
+    bench.board.step(Micros(bench.now), Input::Saved(Ok(Saved::Written)), &mut ());
+    // Scans of 4 ms.
+    assert_eq!(bench.board.health().overruns, 50);
+    let mut answers = Vec::new();
+    bench.drain(usize::MAX, |report| {
+        if let Report::Answer(answer) = report {
+            answers.push((answer.request, answer.refusal.map(str::to_string)));
+        }
+    });
+    assert_eq!(answers, [(10, None)]);
+}
+
+#[test]
+fn the_flash_is_spared() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.scan();
+    // Settings that have not changed cost nothing.
+    for round in 0..40 {
+        bench.ask(&Request::Save);
+        until_save(&mut bench);
+        let saved = if round < 28 { Saved::Unchanged } else { Saved::Written };
+        bench.board.step(Micros(bench.now), Input::Saved(Ok(saved)), &mut ());
+    }
+    let refusal = bench.answer(&Request::Save).expect("it is refused");
+    assert!(refusal.starts_with("the flash has been written often enough"), "{refusal}");
+    bench.now += 300_000_000;
+    bench.ask(&Request::Save);
+    until_save(&mut bench);
+}
+
+#[test]
+fn half_a_tare_is_not_stored() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Tare { frames: 9 });
+    assert_eq!(bench.answer(&Request::Save).as_deref(), Some("a tare is under way"));
 }

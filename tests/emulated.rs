@@ -145,6 +145,14 @@ impl Emulated {
         message
     }
 
+    /// Waits until the harness's power cut has ended the run.
+    #[allow(dead_code)] // a part of every target that runs the emulator
+    pub fn end_of_power(mut self) {
+        wait_for(&self.lines, "cut");
+        self.link.shutdown(std::net::Shutdown::Both).unwrap();
+        assert!(self.child.wait().unwrap().success());
+    }
+
     /// Ends the run. The harness fails on warnings of the emulator, faults, panics and resets of the board.
     pub fn end(mut self) {
         writeln!(self.input, "quit").unwrap();

@@ -9,6 +9,7 @@ use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
+use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Leading, Outcome};
 use taxel_core::react::Reaction;
 use taxel_core::scene::Scene;
@@ -102,6 +103,8 @@ fn reports() -> [(&'static str, Report<'static>); 12] {
         scene: &[4, 5, 6],
         calibration: &[],
     };
+    let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
+    let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
     let intent = IntentReport {
         frame,
         time,
@@ -123,6 +126,7 @@ fn reports() -> [(&'static str, Report<'static>); 12] {
         ("Answer", Report::Answer(Answer { request: 2, refusal: Some("no") })),
         ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
         ("Budget", Report::Budget(budget)),
+        ("HealthMap", Report::HealthMap(map)),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! `taxel-core`: everything between the converter's codes and the meaning of a touch.
 //!
-//! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan), [`condition`]
+//! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
+//! [`health`] (of every taxel), [`condition`]
 //! (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments, moments, tracks), [`shape`] (NMI, k-NN),
 //! [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
 //! [`scene`] (all their settings), [`pipeline`] (their composition), [`wire`] (messages, frames), [`board`] (a function
@@ -14,6 +15,8 @@ pub mod format;
 pub mod garment;
 
 pub mod acquire;
+
+pub mod health;
 
 pub mod condition;
 

@@ -1,7 +1,7 @@
 //! The only loop, shared by firmware, host and tests.
 
 use crate::acquire::{Acquire, Clock};
-use crate::board::{Board, Input, Job, Work};
+use crate::board::{Board, Input, Job, Saved, Settings};
 use crate::format::Micros;
 use crate::pipeline::{Probe, Stage};
 use core::future::Future;
@@ -21,8 +21,10 @@ pub trait Link {
 pub trait Platform: Clock + Probe {
     /// The loop has come round: feed the watchdog. `false` ends the loop, which only a host wants.
     fn alive(&mut self) -> bool;
-    /// Does work that the board asked for, or says why not.
-    fn work(&mut self, work: Work) -> Result<(), &'static str>;
+    /// Stores the settings, or says why not.
+    fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str>;
+    /// Examines lines and taxels, or says why not.
+    fn examine(&mut self) -> Result<(), &'static str>;
     /// Nothing to do until `until`, but bytes may come or go: waits a millisecond at most.
     async fn idle(&mut self, until: Micros);
 }
@@ -53,10 +55,16 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
             }
-            Some(Job::Start(work)) => {
-                let result = platform.work(work);
+            Some(Job::Save) => {
+                acquire.rest();
+                let result = platform.save(&board.settings());
                 let now = platform.now();
-                board.step(now, Input::Done(work, result), platform);
+                board.step(now, Input::Saved(result), platform);
+            }
+            Some(Job::Examine) => {
+                let result = platform.examine();
+                let now = platform.now();
+                board.step(now, Input::Examined(result), platform);
             }
             Some(Job::Drive(..)) | None => platform.idle(board.wake()).await,
         }

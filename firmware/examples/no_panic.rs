@@ -12,7 +12,7 @@
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use taxel_core::acquire::{Scan, ScanError, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, Setup, Work};
+use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -40,8 +40,10 @@ pub struct Given {
     codes: &'static [Code],
     report: ScanReport,
     error: ScanError,
-    work: Work,
-    result: Result<(), &'static str>,
+    saved: Result<Saved, &'static str>,
+    examined: Result<(), &'static str>,
+    part: Part,
+    buffer: &'static mut [u8],
     count: usize,
     info: BoardInfo,
     garment: Garment,
@@ -58,7 +60,7 @@ pub extern "C" fn _start(given: &mut Given) {
         0 => step(Input::Received(bytes)),
         1 => step(Input::Scanned(Ok(Scan { codes, report: *report }))),
         2 => step(Input::Scanned(Err(given.error))),
-        3 => step(Input::Done(given.work, given.result)),
+        3 => step(Input::Saved(given.saved)),
         4 => step(Input::Tick),
         5 => keep(board.pending(*now, &mut ())),
         6 => board.sent(given.count),
@@ -67,8 +69,12 @@ pub extern "C" fn _start(given: &mut Given) {
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
         10 => keep(Reference::with(*info, given.setup.clone())),
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
+        12 => step(Input::Examined(given.examined)),
+        13 => board.restore(given.part, bytes),
+        14 => keep(board.settings().write(given.part, given.buffer)),
+        15 => board.forgot("any"),
         #[cfg(control)]
-        12 => keep(codes[given.count]),
+        16 => keep(codes[given.count]),
         _ => {}
     }
 }

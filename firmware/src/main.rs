@@ -11,6 +11,7 @@ mod panic;
 mod pins;
 mod platform;
 mod scan;
+mod store;
 
 use defmt_rtt as _;
 use embassy_executor::Spawner;
@@ -54,8 +55,8 @@ fn begin(info: BoardInfo) -> Board<TAXELS, RUNS> {
 
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
-    let board::Parts { lines, converter, chain, mut wire, led, watchdog } = board::take();
-    let mut platform = platform::Board::start(watchdog, led);
+    let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
+    let mut platform = platform::Board::start(watchdog, led, flash);
     let lines = LINES.init_with(|| Lines::new(lines));
     let info = BoardInfo {
         firmware: concat!("taxel ", env!("CARGO_PKG_VERSION")),
@@ -68,5 +69,6 @@ async fn main(_spawner: Spawner) {
         scan::Scanner::new(processor, chain)
     });
     let mut board = begin(info);
+    platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;
 }

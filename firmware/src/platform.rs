@@ -1,19 +1,21 @@
 //! The board's clock, settling delay, watchdog, heartbeat and marks.
 
 use crate::mark::mark;
+use crate::store::{Fed, Flash};
 use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
 use taxel_core::{
     acquire::Clock,
-    board::Work,
+    board::{Saved, Settings},
     format::Micros,
     pipeline::{Probe, Stage},
     run::Platform,
 };
+use taxel_store::StoreError;
 
 /// The board restarts when the loop has not come round for this long.
-const WATCHDOG: Duration = Duration::from_millis(1000);
+pub const WATCHDOG: Duration = Duration::from_millis(1000);
 
 /// The LED changes this often, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;
@@ -77,16 +79,27 @@ impl DelayNs for Settle {
 /// All of the board that is neither pin, converter nor link.
 pub struct Board {
     watchdog: Watchdog,
+    flash: Flash,
     led: Output<'static>,
     led_due: Micros,
 }
 
 impl Board {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Output<'static>) -> Board {
+    pub fn start(mut watchdog: Watchdog, led: Output<'static>, flash: Flash) -> Board {
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        Board { watchdog, led, led_due: Micros(0) }
+        Board { watchdog, flash, led, led_due: Micros(0) }
+    }
+
+    /// Gives a board that has not begun yet the settings that were stored. Not inlined: it needs stack only meanwhile.
+    #[inline(never)]
+    pub fn recall(&mut self, board: &mut taxel_core::board::Board<{ crate::TAXELS }, { crate::RUNS }>) {
+        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        if let Err(error) = flash.store().and_then(|mut store| store.load(board)) {
+            defmt::error!("stored settings: {}", error.sentence());
+            board.forgot(error);
+        }
     }
 }
 
@@ -115,11 +128,14 @@ impl Platform for Board {
         true
     }
 
-    fn work(&mut self, work: Work) -> Result<(), &'static str> {
-        match work {
-            Work::Save => Err("this firmware stores no settings yet"),
-            Work::SelfTest => Err("this firmware has no self-test yet"),
-        }
+    #[inline(never)]
+    fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
+        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        flash.store().and_then(|mut store| store.save(settings)).map_err(StoreError::sentence)
+    }
+
+    fn examine(&mut self) -> Result<(), &'static str> {
+        Err("this firmware has no self-test yet")
     }
 
     async fn idle(&mut self, until: Micros) {

@@ -3,8 +3,10 @@
 use crate::bench::{self, BenchArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
+use crate::health::{self, HealthArgs};
 use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
+use crate::save::{self, SaveArgs};
 use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
 use crate::setup::{self, SetupArgs};
@@ -43,6 +45,12 @@ enum Command {
     /// Find the shortest settling of a real garment
     #[command(after_help = SETTLE)]
     Settle(SettleArgs),
+    /// Name the taxels that are ill
+    #[command(after_help = HEALTH)]
+    Health(HealthArgs),
+    /// Let a board keep its garment, scene, gains and baseline over a restart
+    #[command(after_help = SAVE)]
+    Save(SaveArgs),
     /// List the simulated scenes
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -81,6 +89,15 @@ const SETTLE: &str = "Examples:
   taxel settle --garment garment.toml -o garment.toml
   taxel settle --source sim:hold --error 2 --json";
 
+const HEALTH: &str = "Examples:
+  taxel health
+  taxel health --source sim:broken
+  taxel health --source serial:/dev/ttyACM0 --tare 32 --json";
+
+const SAVE: &str = "Examples:
+  taxel save
+  taxel save --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
 const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";
@@ -97,6 +114,8 @@ impl Cli {
             Command::Bench(args) => bench::run(args),
             Command::Setup(args) => setup::run(&args),
             Command::Settle(args) => settle::run(&args),
+            Command::Health(args) => health::run(args),
+            Command::Save(args) => save::run(args),
             Command::Scenes(args) => scenes::run(args),
         }
     }

@@ -28,13 +28,15 @@ pub use event::{Event, ImageNews};
 pub use worn::Worn;
 
 use picture::Picture;
+use std::collections::BTreeMap;
 use syncs::Syncs;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
+use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ContactList, Frame, Health, Hello, IntentReport, Raw, Receiver, Report, Request, WireError,
-    decode, decode_image,
+    Budget, ContactList, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request,
+    WireError, decode, decode_image,
 };
 
 /// Longest frame from a board.
@@ -60,6 +62,7 @@ pub struct Client {
     intention: Option<IntentReport>,
     health: Option<Health>,
     budget: Option<Budget>,
+    ill: BTreeMap<u16, TaxelHealth>,
 }
 
 impl Default for Client {
@@ -89,6 +92,7 @@ impl Client {
             intention: None,
             health: None,
             budget: None,
+            ill: BTreeMap::new(),
         }
     }
 
@@ -132,6 +136,7 @@ impl Client {
         self.picture = Picture::default();
         self.contacts.clear();
         self.regions.clear();
+        self.ill.clear();
         self.intention = None;
     }
 
@@ -166,6 +171,7 @@ impl Client {
                 self.budget = Some(budget);
                 Event::Budget(budget)
             }
+            Report::HealthMap(map) => self.take_map(&map),
         }
     }
 
@@ -210,6 +216,17 @@ impl Client {
         self.released.extend(gone.iter().map(|p| p.contact.id));
         self.contacts = here;
         Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }
+    }
+
+    fn take_map(&mut self, map: &HealthMap) -> Event {
+        let taxels = self.layout().map_or(0, |layout| layout.taxels());
+        let span = usize::from(map.first)..usize::from(map.end);
+        self.ill.retain(|taxel, _| !span.contains(&usize::from(*taxel)));
+        for ill in &map.taxels {
+            let end = ill.first.saturating_add(ill.count).min(map.end);
+            self.ill.extend((ill.first.max(map.first)..end).map(|taxel| (taxel, ill.health)));
+        }
+        Event::HealthMap { time: map.time, whole: span.end >= taxels }
     }
 
     fn take_raw(&mut self, raw: &Raw<'_>) -> Event {

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // Runs a firmware image on an emulated board. README.md says what each option does.
 
-import { writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { parseArgs } from 'node:util';
 import { setImmediate, setTimeout } from 'node:timers/promises';
@@ -11,7 +11,9 @@ import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
 import { BoardError, Machine } from './machine.mjs';
+import { PowerCut } from './rom.mjs';
 
+const SETTINGS_START = 0x1f0000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
 const BATCH_NANOS = 500_000; // how often the world outside is looked at
 
 const parent = process.ppid; // a harness that outlives its test would run for ever
@@ -24,6 +26,7 @@ const { values: options } = parseArgs({
     'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
     stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
+    flash: { type: 'string' }, cut: { type: 'string' },
   },
 });
 
@@ -108,6 +111,8 @@ async function main() {
   });
   tellTimes(machine, link);
   if (overUsb) machine.usb.plug();
+  if (options.flash !== undefined && existsSync(options.flash)) machine.chip.flash.set(readFileSync(options.flash), SETTINGS_START);
+  if (options.cut !== undefined) machine.rom.cutAt = Number(options.cut);
   const garment = attachGarment(machine);
   if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });
   const started = performance.now();
@@ -134,9 +139,11 @@ async function main() {
     await run(machine, garment, link, started, control);
   } catch (error) {
     machine.rtt.drain();
+    if (error instanceof PowerCut) return say({ cut: machine.rom.steps });
     if (error instanceof BoardError && machine.rtt.text !== '') error.message += `\nlog: ${machine.rtt.text}`;
     throw error;
   } finally {
+    if (options.flash !== undefined) writeFileSync(options.flash, machine.chip.flash.subarray(SETTINGS_START, SETTINGS_END));
     if (options.rtt !== undefined) writeFileSync(options.rtt, Uint8Array.from(machine.rtt.bytes));
     if (options.stats) say({ stats: statistics(machine, garment, link, started) });
     await link.close();

@@ -10,6 +10,9 @@ const ERASE_MS = 45, PROGRAM_MS = 0.7; // a sector of 4 KiB, a page of 256 bytes
 const SECTOR = 4096, PAGE = 256;
 const CYCLES_PER_MS = 125_000;
 
+/** Ends a run: the power has failed within a step of the flash. */
+export class PowerCut extends Error {}
+
 const XIP_BASE = 0x14000, STREAM_COUNTER = 0x18;
 
 /** Of the flash cache's control block, drivers ask only whether a stream is under way before they switch the flash off. */
@@ -23,7 +26,8 @@ export class Rom {
   constructor(chip) {
     this.chip = chip;
     chip.peripherals[XIP_BASE] = new FlashCache(chip, 'XIP');
-    this.erased = this.programmed = 0;
+    this.erased = this.programmed = this.steps = 0;
+    this.cutAt = Infinity; // the step, from 1, in whose midst the power fails
     this.functions = [
       ['', (table, code) => this.lookup(code)],
       ['C4', (to, from, count) => this.copy(to, from, count)],
@@ -63,7 +67,8 @@ export class Rom {
 
   erase(offset, count) {
     if (offset % SECTOR !== 0 || count % SECTOR !== 0) throw new Error('flash is erased by sectors');
-    this.chip.flash.fill(0xff, offset, offset + count);
+    this.chip.flash.fill(0xff, offset, offset + this.reached(count));
+    this.cut();
     this.erased += count / SECTOR;
     this.spend((ERASE_MS * count) / SECTOR);
   }
@@ -71,9 +76,20 @@ export class Rom {
   /** Programming only clears bits, as NOR flash does. */
   program(offset, from, count) {
     if (offset % PAGE !== 0 || count % PAGE !== 0) throw new Error('flash is programmed by pages');
-    for (let i = 0; i < count; i++) this.chip.flash[offset + i] &= this.chip.readUint8(from + i);
+    const reached = this.reached(count);
+    for (let i = 0; i < reached; i++) this.chip.flash[offset + i] &= this.chip.readUint8(from + i);
+    this.cut();
     this.programmed += count / PAGE;
     this.spend((PROGRAM_MS * count) / PAGE);
+  }
+
+  /** How many of a step's bytes are reached: half of them where the power fails. */
+  reached(count) {
+    return ++this.steps === this.cutAt ? count >> 1 : count;
+  }
+
+  cut() {
+    if (this.steps === this.cutAt) throw new PowerCut(`the power failed at step ${this.steps} of the flash`);
   }
 
   /** The core waits in the ROM meanwhile, with interrupts off. */

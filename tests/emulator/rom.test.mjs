@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { board } from './board.fixture.mjs';
-import { Rom } from './rom.mjs';
+import { PowerCut, Rom } from './rom.mjs';
 
 /** A ROM, and `call(name, ...arguments)`, which finds a function as drivers do and runs it. */
 function rom() {
@@ -41,4 +41,14 @@ test('a breakpoint of the program is not the ROM\'s', () => {
   const { it, chip } = rom();
   chip.core.PC = 0x10000102;
   assert.equal(it.handles(0), false);
+});
+
+test('where the power fails, half of a step is done', () => {
+  const { chip, it, call } = rom();
+  chip.flash.fill(0, 0x1f8000, 0x1fa000);
+  it.cutAt = 2;
+  call('RE', 0x1f8000, 4096);
+  assert.throws(() => call('RE', 0x1f9000, 4096), PowerCut);
+  assert.deepEqual([0x1f8fff, 0x1f97ff, 0x1f9800].map((at) => chip.flash[at]), [0xff, 0xff, 0]);
+  assert.equal(it.erased, 1);
 });

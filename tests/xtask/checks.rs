@@ -29,6 +29,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-scan", targets::emulator_scan),
     ("emulator-usb", targets::emulator_usb),
     ("emulator-latency", targets::emulator_latency),
+    ("emulator-store", targets::emulator_store),
     ("recorded", targets::recorded),
     ("emulator-recorded", targets::emulator_recorded),
 ];

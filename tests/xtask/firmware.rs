@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::process::Command;
 
-const FLASH: u64 = 2048 * 1024 - 32 * 1024;
+const FLASH: u64 = 2048 * 1024 - 64 * 1024;
 const RAM: std::ops::Range<u32> = 0x2000_0000..0x2004_2000;
 
 /// A finished image.

@@ -13,6 +13,7 @@ pub const APART: &[&str] = &[
     "emulator_scan",
     "emulator_usb",
     "emulator_latency",
+    "emulator_store",
     "emulator_recorded",
     "recorded",
     "cycles",
@@ -41,6 +42,11 @@ pub fn emulator_usb(log: &Path) -> Result<Result<(), String>, String> {
 /// How late messages and reactions are.
 pub fn emulator_latency(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_latency", log)
+}
+
+/// Settings in the flash.
+pub fn emulator_store(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_store", log)
 }
 
 /// Recordings on the emulated board and on this machine.

@@ -91,6 +91,10 @@ pub trait Acquire {
 
     /// Puts a pin that is no select line to a level.
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError>;
+
+    /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the lines or the
+    /// memory. Has no effect on what only works when it is asked to.
+    fn rest(&mut self) {}
 }
 
 impl<A: Acquire> Acquire for &mut A {
@@ -100,5 +104,9 @@ impl<A: Acquire> Acquire for &mut A {
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
         (**self).drive(pin, level)
+    }
+
+    fn rest(&mut self) {
+        (**self).rest();
     }
 }

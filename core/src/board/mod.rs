@@ -6,15 +6,20 @@ mod outbox;
 mod outputs;
 mod pace;
 mod request;
+mod saving;
+mod settings;
 mod setup;
 mod under_way;
+mod wellness;
 
+pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{BoardInfo, Setup, SetupError};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::condition::Tare;
 use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
+use crate::health::Monitor;
 use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
@@ -23,6 +28,7 @@ use heapless::{Deque, String, Vec};
 use outbox::{Outbox, Refusal};
 use outputs::Outputs;
 use pace::Pace;
+use saving::Saving;
 
 /// What happened.
 #[derive(Debug)]
@@ -31,8 +37,10 @@ pub enum Input<'a> {
     Received(&'a [u8]),
     /// A scan finished, or failed.
     Scanned(Result<Scan<'a>, ScanError>),
-    /// Work was done, or why not.
-    Done(Work, Result<(), &'static str>),
+    /// The settings were stored, or why not.
+    Saved(Result<Saved, &'static str>),
+    /// Lines and taxels were examined, or why not.
+    Examined(Result<(), &'static str>),
     /// Nothing in particular: what is there to do?
     Tick,
 }
@@ -44,16 +52,16 @@ pub enum Job {
     Scan(Plan),
     /// Put a pin to a level.
     Drive(u8, bool),
-    /// Do this; answered by [`Input::Done`].
-    Start(Work),
+    /// Store [`Board::settings`]; answered by [`Input::Saved`].
+    Save,
+    /// Examine lines and taxels; answered by [`Input::Examined`].
+    Examine,
 }
 
-/// Work beyond scanning.
+/// Work beyond scanning, which waits for its turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Work {
-    /// Examine lines and taxels.
+enum Work {
     SelfTest,
-    /// Store the settings.
     Save,
 }
 
@@ -68,6 +76,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     outbox: Outbox<TAXELS>,
     outputs: Outputs,
     works: Deque<Work, 4>,
+    saving: Saving,
     scans: Pace,
     scanning: bool,
     health: Health,
@@ -76,6 +85,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     taring: bool,
     /// The garment has a baseline of its own.
     tared: bool,
+    monitor: Monitor,
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
@@ -97,12 +107,14 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             outbox: Outbox::new(&setup.scene.stream),
             outputs: Outputs::at_rest(setup.pipeline.reactions()),
             works: Deque::new(),
+            saving: Saving::new(),
             scanning: false,
             health: Health::default(),
             ledger: Ledger::new(),
             frame: 0,
             taring: false,
             tared: false,
+            monitor: const { Monitor::new() },
             setup,
         }
     }
@@ -111,6 +123,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     fn reset(&mut self) {
         let Setup { layout, circuit, .. } = &self.setup;
         self.state.reset(layout, circuit.falling(), self.info.full_scale);
+        self.monitor.reset();
     }
 
     /// The garment has changed: nothing that was known of the old one holds.
@@ -127,17 +140,23 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// The scene has changed.
     fn used(&mut self) {
         self.state.forget();
+        self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
         self.outputs.follow(Outputs::at_rest(self.setup.pipeline.reactions()));
     }
 
-    /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
-    pub fn step(&mut self, now: Micros, input: Input<'_>, probe: &mut impl Probe) -> Option<Job> {
+    /// Puts to rest what the stages remember, once.
+    fn begin(&mut self) {
         if !self.begun {
             self.begun = true;
             self.reset();
         }
+    }
+
+    /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
+    pub fn step(&mut self, now: Micros, input: Input<'_>, probe: &mut impl Probe) -> Option<Job> {
+        self.begin();
         let doing = if matches!(input, Input::Scanned(Ok(_))) { Doing::Process } else { Doing::Else };
         self.ledger.turn(now, doing, self.outbox.has_rest());
         match input {
@@ -148,9 +167,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 self.health.failed = self.health.failed.wrapping_add(1);
                 self.outbox.log(format_args!("scan: {error}"));
             }
-            Input::Done(work, result) => {
-                self.outbox
-                    .answer(request::number_of(work), result.err().map(|why| format_args!("{why}").into()));
+            Input::Saved(result) => self.saved(now, result),
+            Input::Examined(result) => {
+                self.outbox.answer(request::number_of(Work::SelfTest), result.err().map(Refusal::of));
             }
             Input::Tick => return self.next_job(now),
         }
@@ -163,8 +182,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         if let Some((pin, level)) = self.outputs.next() {
             return Some(Job::Drive(pin, level));
         }
-        if let Some(work) = self.works.pop_front() {
-            return Some(Job::Start(work));
+        if let Some(job) = self.next_work(now) {
+            return Some(job);
         }
         if self.scanning || !self.scans.due(now) {
             return None;
@@ -203,6 +222,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, None);
         }
         self.outbox.raw(scan.codes, layout.taxels());
+        self.watch(scan.codes);
         probe.begin(Stage::Idle);
     }
 
@@ -211,11 +231,12 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        self.outbox.prepare(now, &self.info, &self.setup, &image, &mut self.health, probe);
-        if !self.outbox.has_rest() {
-            self.ledger.rest();
+        let Board { outbox, ledger, info, setup, monitor, health, .. } = self;
+        outbox.prepare(now, (info, setup, monitor), &image, health, probe);
+        if !outbox.has_rest() {
+            ledger.rest();
         }
-        self.outbox.rest()
+        outbox.rest()
     }
 
     /// The first `count` of the pending bytes have been taken by the link.

@@ -8,12 +8,16 @@ use crate::condition::Image;
 use crate::contact::Phase;
 use crate::format::{Code, Micros};
 use crate::garment::{Layout, PANELS};
+use crate::health::Monitor;
 use crate::pipeline::{Percept, Probe, Stage};
 use crate::scene::StreamConfig;
 use crate::wire::*;
 use core::fmt::{self, Write};
 use heapless::{Deque, Vec};
 use serde::Serialize;
+
+/// What the board is, wears and knows of its taxels.
+type About<'a> = (&'a BoardInfo, &'a Setup, &'a Monitor);
 
 /// Why something is refused, as a sentence.
 #[derive(Debug, Clone)]
@@ -23,6 +27,11 @@ impl Refusal {
     /// The sentence of an error.
     pub fn of(error: impl fmt::Display) -> Refusal {
         format_args!("{error}").into()
+    }
+
+    /// The sentence.
+    pub fn sentence(&self) -> &str {
+        &self.0
     }
 }
 
@@ -42,7 +51,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     hello: Option<Micros>,
     synced: Deque<(u32, Micros), 4>,
     answers: Deque<(u8, Option<Refusal>), 8>,
-    logs: Deque<Sentence, 4>,
+    logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
     changes: Deque<IntentReport, 8>,
     intent: Option<IntentReport>,
@@ -52,6 +61,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     contacts_wait: bool,
     health: Option<Micros>,
     budget: Option<Budget>,
+    /// First taxel of the next part of the map of health.
+    map: Option<u16>,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
@@ -86,6 +97,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             contacts_wait: false,
             health: None,
             budget: None,
+            map: None,
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
             codes: Codes::new(),
@@ -102,7 +114,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn start(&mut self) {
         self.streaming = true;
         self.hello = Some(Micros(0));
+        self.map_changed();
         self.forget_image();
+    }
+
+    /// The map of health is to be told.
+    pub fn map_changed(&mut self) {
+        self.map = Some(0);
     }
 
     /// `Stop`: nothing of a frame that is not under way.
@@ -138,8 +156,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let _ = self.answers.push_back((request, refusal));
     }
 
+    /// Something does not work.
     pub fn log(&mut self, text: fmt::Arguments<'_>) {
-        let _ = self.logs.push_back(Refusal::from(text).0);
+        self.tell(Level::Error, text);
+    }
+
+    pub fn tell(&mut self, level: Level, text: fmt::Arguments<'_>) {
+        let _ = self.logs.push_back((level, Refusal::from(text).0));
     }
 
     pub fn sync(&mut self, token: u32, now: Micros) {
@@ -267,15 +290,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn prepare(
         &mut self,
         now: Micros,
-        info: &BoardInfo,
-        setup: &Setup,
+        about: About<'_>,
         image: &Image<'_>,
         health: &mut Health,
         probe: &mut impl Probe,
     ) {
         if !self.has_rest() {
             probe.begin(Stage::Encode);
-            self.next(now, info, setup, image, health);
+            self.next(now, about, image, health);
             probe.begin(Stage::Idle);
         }
     }
@@ -296,7 +318,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
-    fn next(&mut self, now: Micros, info: &BoardInfo, setup: &Setup, image: &Image<'_>, health: &mut Health) {
+    fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
+        let (info, setup, monitor) = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -316,8 +339,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way.put(Report::SYMBOLS, &self.symbols)
         } else if let Some(report) = self.changes.pop_front().or_else(|| self.intent.take()) {
             under_way.put(Report::INTENT, &report)
-        } else if let Some(text) = self.logs.pop_front() {
-            under_way.put(Report::LOG, &Log { time: now, level: Level::Error, text: &text })
+        } else if let Some((level, text)) = self.logs.pop_front() {
+            under_way.put(Report::LOG, &Log { time: now, level, text: &text })
+        } else if let Some(first) = self.map.take_if(|_| self.streaming) {
+            self.put_map(now, first, setup.layout.taxels(), monitor)
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
             under_way.put(Report::HEALTH, &Health { time: now, ..*health })
@@ -331,6 +356,25 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             true
         };
         health.lost = health.lost.wrapping_add(u32::from(!fits));
+    }
+
+    /// A part of the map of health, as much as fits a message.
+    #[inline(never)]
+    fn put_map(&mut self, time: Micros, first: u16, taxels: usize, monitor: &Monitor) -> bool {
+        let mut map = HealthMap { time, first, end: taxels as u16, taxels: Vec::new() };
+        for ill in monitor.ill().iter().filter(|ill| ill.taxel >= first) {
+            match map.taxels.last_mut() {
+                Some(run) if run.health == ill.health && run.first + run.count == ill.taxel => run.count += 1,
+                _ => {
+                    if map.taxels.push(Ill { first: ill.taxel, count: 1, health: ill.health }).is_err() {
+                        map.end = ill.taxel;
+                        break;
+                    }
+                }
+            }
+        }
+        self.map = (usize::from(map.end) < taxels).then_some(map.end);
+        self.under_way.put(Report::HEALTH_MAP, &map)
     }
 
     /// `false`: it does not fit. An image whose code has no room is thinned.

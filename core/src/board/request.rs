@@ -70,7 +70,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 Ok(())
             }
             Request::SelfTest => return self.start(Work::SelfTest),
-            Request::Save => return self.start(Work::Save),
+            Request::Save => match self.save(now) {
+                Ok(()) => return self.start(Work::Save),
+                refused => refused,
+            },
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::Budget { hz } => {
                 self.ledger.report(hz);
@@ -91,7 +94,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     #[inline(never)]
-    fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+    pub(super) fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let scene: Scene = decode(bytes).map_err(Refusal::of)?;
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
@@ -129,7 +132,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             return Err(Refusal::of("the garment has no such taxel"));
         }
         for (taxel, gain) in (usize::from(first)..end).zip(gains) {
-            self.state.condition.set_gain(taxel, *gain);
+            self.put_gain(taxel, *gain);
         }
         Ok(())
     }

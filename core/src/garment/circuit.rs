@@ -162,6 +162,16 @@ impl Circuit {
         &self.sites
     }
 
+    /// How a taxel is wired: index of its block, row and column in that; none where there is none. Looks everywhere.
+    pub fn wired(&self, taxel: usize) -> Option<(u8, u8, u8)> {
+        self.sites.iter().find_map(|site| {
+            let mut places =
+                (0..site.rows).flat_map(|row| (0..site.columns).map(move |column| (row, column)));
+            let (row, column) = places.find(|(row, column)| site.taxel(*row, *column) == taxel)?;
+            Some((site.block, row, column))
+        })
+    }
+
     /// The blocks by select code: those of one code are read together.
     pub fn selects(&self) -> impl Iterator<Item = &[Site]> {
         self.sites.chunk_by(|a, b| a.select == b.select)

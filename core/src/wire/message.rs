@@ -4,6 +4,7 @@ use crate::body::Placed;
 use crate::fold::Posture;
 use crate::format::{Micros, Q15};
 use crate::garment::PANELS;
+use crate::health::TaxelHealth;
 use crate::intent::{CONCEPTS, Leading, Outcome};
 use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
@@ -51,6 +52,8 @@ pub enum Report<'a> {
     Raw(Raw<'a>),
     /// Where the time goes.
     Budget(Budget),
+    /// Which taxels are ill.
+    HealthMap(HealthMap),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -79,6 +82,8 @@ impl Report<'_> {
     pub const RAW: u32 = 10;
     /// Of `Budget`.
     pub const BUDGET: u32 = 11;
+    /// Of `HealthMap`.
+    pub const HEALTH_MAP: u32 = 12;
 }
 
 /// Frozen.
@@ -229,6 +234,30 @@ pub struct Budget {
     pub overruns: u32,
     /// As in [`Health`].
     pub thinned_frames: u32,
+}
+
+/// Which taxels are ill, of some that follow each other; those that are not named are good.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct HealthMap {
+    /// The board's time.
+    pub time: Micros,
+    /// First taxel that this message speaks of.
+    pub first: u16,
+    /// Taxel after the last of them: the garment has no more, or another message goes on there.
+    pub end: u16,
+    /// The ill ones, ascending.
+    pub taxels: Vec<Ill, 64>,
+}
+
+/// Taxels with following numbers that are ill of the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ill {
+    /// Number of the first.
+    pub first: u16,
+    /// How many, at least 1.
+    pub count: u16,
+    /// What is wrong with them.
+    pub health: TaxelHealth,
 }
 
 /// How grave a sentence is.

@@ -23,6 +23,7 @@
 //! | 9 | [`Answer`] | in answer to every other request |
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
 //! | 11 | [`Budget`] | each second, or as often as was asked for |
+//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel has fallen ill; in as many parts as it needs |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.

@@ -15,6 +15,7 @@ use crate::{
     link::{Uart, Usb, Wire, uart},
     pins::Line,
     scan::{Begun, Chain},
+    store::Flash,
 };
 use embassy_rp::{
     adc, bind_interrupts,
@@ -93,5 +94,6 @@ pub fn take() -> Parts {
         }),
         led: Output::new(p.PIN_13, Level::Low),
         watchdog: Watchdog::new(p.WATCHDOG),
+        flash: Flash::new_blocking(p.FLASH),
     }
 }

@@ -4,7 +4,7 @@ mod feather;
 
 pub use feather::{INPUTS, LINES, take};
 
-use crate::{adc::Converter, link::Wire, pins::Line, scan::Chain};
+use crate::{adc::Converter, link::Wire, pins::Line, scan::Chain, store::Flash};
 use embassy_rp::{gpio::Output, watchdog::Watchdog};
 
 /// What a board hands to the firmware.
@@ -21,4 +21,6 @@ pub struct Parts {
     pub led: Output<'static>,
     /// The watchdog, not yet started.
     pub watchdog: Watchdog,
+    /// The flash, whose last sectors hold the settings.
+    pub flash: Flash,
 }

@@ -112,4 +112,9 @@ impl Acquire for Scanner {
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
         self.processor.drive(pin, level)
     }
+
+    fn rest(&mut self) {
+        self.chain.stop();
+        self.by = By::Nobody;
+    }
 }

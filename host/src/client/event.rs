@@ -45,6 +45,13 @@ pub enum Event {
     Health(Health),
     /// Where the board's time goes.
     Budget(Budget),
+    /// Which taxels are ill; they are in the client.
+    HealthMap {
+        /// The board's time.
+        time: Micros,
+        /// The map is complete; else more of it follows.
+        whole: bool,
+    },
     /// A sentence of the board.
     Log {
         /// The board's time.

@@ -1,8 +1,10 @@
 //! What is known of a board by what it told.
 
 use super::{Client, Counts, Worn};
+use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::format::{Name, Q15};
+use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{Budget, Health};
@@ -64,6 +66,11 @@ impl Client {
         let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
         all.resize(self.concepts().len(), Q15(0));
         all
+    }
+
+    /// The taxels that are ill, by number, as told last.
+    pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
+        &self.ill
     }
 
     /// The board's counters, as told last.

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use std::io::Write;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
+use taxel_core::health::TaxelHealth;
 
 /// Prints messages as JSON.
 pub struct Messages<W> {
@@ -127,6 +128,11 @@ fn small(client: &Client, event: &Event) -> Value {
             merge(&mut line, serde_json::to_value(budget).unwrap_or_default());
             rename_time(&mut line);
             line
+        }
+        Event::HealthMap { time, whole } => {
+            let ill = |(taxel, health): (&u16, &TaxelHealth)| json!({ "taxel": taxel, "health": health.to_string() });
+            let ill: Vec<_> = client.ill().iter().map(ill).collect();
+            json!({ "type": "health_map", "time_us": time.0, "whole": whole, "ill": ill })
         }
         Event::Log { time, level, text } => {
             json!({ "type": "log", "time_us": time.0, "level": word(level), "text": text })

@@ -78,6 +78,28 @@ pub struct LiveArgs {
     pub svg: Option<PathBuf>,
 }
 
+impl LiveArgs {
+    /// Everything that comes from a source, as it is.
+    pub fn of(source: SourceSpec) -> LiveArgs {
+        LiveArgs {
+            source,
+            frames: None,
+            seconds: None,
+            json: false,
+            pixels: false,
+            save: None,
+            taxel: None,
+            garment: None,
+            scene: None,
+            tare: None,
+            budget: None,
+            realtime: false,
+            seed: None,
+            svg: None,
+        }
+    }
+}
+
 /// Something that shows what comes.
 pub trait Show {
     /// Takes an event; the client is in the state after it.

@@ -89,6 +89,18 @@ pub struct Faults {
     pub shorted: Vec<u16>,
     /// Taxels that give one code, without noise.
     pub stuck: Vec<Stuck>,
+    /// Taxels that are noisy.
+    pub noisy: Vec<Noisy>,
+}
+
+/// A taxel with a noise of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Noisy {
+    /// Number of the taxel.
+    pub taxel: u16,
+    /// Its noise, counts rms.
+    pub counts: f32,
 }
 
 /// A taxel that always gives the same code.

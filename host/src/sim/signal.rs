@@ -52,6 +52,8 @@ enum Fault {
     Open,
     Shorted,
     Stuck(u16),
+    /// Counts per unit of [`unit_noise`].
+    Noisy(f32),
 }
 
 impl World {
@@ -96,6 +98,8 @@ impl World {
         faults.open.iter().try_for_each(|t| set("open", *t, Fault::Open))?;
         faults.shorted.iter().try_for_each(|t| set("shorted", *t, Fault::Shorted))?;
         faults.stuck.iter().try_for_each(|s| set("stuck", s.taxel, Fault::Stuck(s.code.min(FULL_SCALE))))?;
+        let noise = |counts: f32| Fault::Noisy(counts.max(0.0) / UNIT_NOISE_RMS);
+        faults.noisy.iter().try_for_each(|n| set("noisy", n.taxel, noise(n.counts)))?;
         let mut whole: Vec<usize> = (0..self.taxels.len())
             .filter(|i| self.taxels.get(*i).is_some_and(|t| t.fault == Fault::None))
             .collect();
@@ -154,7 +158,7 @@ impl World {
                 Fault::Open => return self.level(0.0),
                 Fault::Shorted => return self.level(f32::from(FULL_SCALE)),
                 Fault::Dead => return self.level(t.base),
-                Fault::None | Fault::Stuck(_) => {}
+                Fault::None | Fault::Stuck(_) | Fault::Noisy(_) => {}
             }
         }
         let mut newtons = self.pressure.newtons(usize::from(t.panel), i32::from(t.x), i32::from(t.y), t_ns);
@@ -178,7 +182,11 @@ impl World {
         {
             return code;
         }
-        let noisy = if self.noise > 0.0 { signal + self.noise * unit_noise(t.key, t_ns) } else { signal };
+        let noise = match t.fault {
+            Fault::Noisy(noise) if t_ns >= self.broken_ns => noise,
+            _ => self.noise,
+        };
+        let noisy = if noise > 0.0 { signal + noise * unit_noise(t.key, t_ns) } else { signal };
         round(if self.dnl { uneven(noisy) } else { noisy })
     }
 }

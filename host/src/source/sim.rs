@@ -2,17 +2,18 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
-use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, PINS, Script, SimBoard, SimClock};
+use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, PINS, Script, SimBoard, SimClock, SimFlash};
 use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::acquire::{Clock, MuxScan};
-use taxel_core::board::{Board, BoardInfo, Work};
+use taxel_core::board::{Board, BoardInfo, Saved, Settings};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
+use taxel_store::{Store, StoreError};
 
 const TAXELS: usize = 2048;
 const RUNS: usize = 1024;
@@ -96,6 +97,7 @@ impl Play {
     fn all(&self, board: &mut Board<TAXELS, RUNS>, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
+        let mut flash = SimFlash::default();
         // The board is the same in every round: what it was built from has been checked.
         while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock } = simulated;
@@ -104,6 +106,7 @@ impl Play {
                 clock: clock.clone(),
                 end: Micros(offset_us + self.end_us),
                 link: &link,
+                flash: &mut flash,
                 origin: self.realtime.then_some(&mut origin),
             };
             let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock.clone());
@@ -143,6 +146,8 @@ struct Virtual<'a> {
     clock: Shifted,
     end: Micros,
     link: &'a BoardEnd,
+    /// Holds what is saved for as long as the simulation runs.
+    flash: &'a mut SimFlash,
     /// When the board's time was 0, where it is not to run ahead.
     origin: Option<&'a mut Instant>,
 }
@@ -171,11 +176,13 @@ impl Platform for Virtual<'_> {
         now < self.end && !self.link.is_alone()
     }
 
-    fn work(&mut self, work: Work) -> Result<(), &'static str> {
-        Err(match work {
-            Work::SelfTest => "a simulated board has no lines to examine",
-            Work::Save => "a simulated board forgets",
-        })
+    fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
+        let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
+        store.save(settings).map_err(StoreError::sentence)
+    }
+
+    fn examine(&mut self) -> Result<(), &'static str> {
+        Err("a simulated board has no lines to examine")
     }
 
     async fn idle(&mut self, until: Micros) {

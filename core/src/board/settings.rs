@@ -1,0 +1,176 @@
+//! What survives a restart.
+
+use super::Board;
+use super::outbox::Refusal;
+use super::setup::Setup;
+use crate::format::Code;
+use crate::garment::Garment;
+use crate::health::IllTaxel;
+use crate::scene::Scene;
+use crate::wire::decode;
+use core::fmt;
+use serde::Serialize;
+
+/// Longest part of the settings, bytes: two for each of 2,048 taxels.
+pub const PART_BYTES: usize = 4096;
+
+/// A part of the settings, in the order in which they are restored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Part {
+    /// The [`Garment`], postcard.
+    Garment = 0,
+    /// The [`Scene`] with its map, postcard.
+    Scene = 1,
+    /// Gains by taxel number, Q4.12, two bytes each, little-endian.
+    Gain = 2,
+    /// Codes at rest by taxel number, two bytes each, little-endian; only where there is a tare.
+    Baseline = 3,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Part; 4] = [Part::Garment, Part::Scene, Part::Gain, Part::Baseline];
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Part::Garment => "garment",
+            Part::Scene => "scene",
+            Part::Gain => "gain",
+            Part::Baseline => "baseline",
+        })
+    }
+}
+
+/// How a save ended well.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Saved {
+    /// The flash was written.
+    Written,
+    /// It holds just that already, and was left alone.
+    Unchanged,
+}
+
+/// A part that has more than [`PART_BYTES`] bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TooLong;
+
+/// What survives a restart.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings<'a> {
+    /// The garment.
+    pub garment: &'a Garment,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Gains by taxel number, Q4.12.
+    pub gain: &'a [u16],
+    /// Taxels that are ill, with their gains in place of those.
+    pub ill: &'a [IllTaxel],
+    /// Codes at rest by taxel number; none without a tare.
+    pub baseline: Option<&'a [u16]>,
+}
+
+impl Settings<'_> {
+    /// The bytes of a part, written into `buffer`; none where there is no such part.
+    pub fn write<'b>(&self, part: Part, buffer: &'b mut [u8]) -> Result<Option<&'b [u8]>, TooLong> {
+        match part {
+            Part::Garment => text(self.garment, buffer).map(Some),
+            Part::Scene => text(self.scene, buffer).map(Some),
+            Part::Gain => {
+                let gains =
+                    |taxel| self.ill.iter().find(|ill| usize::from(ill.taxel) == taxel).map(|ill| ill.gain);
+                numbers(self.gain, gains, buffer).map(Some)
+            }
+            Part::Baseline => self.baseline.map(|baseline| numbers(baseline, |_| None, buffer)).transpose(),
+        }
+    }
+}
+
+fn text<'b, T: Serialize>(value: &T, buffer: &'b mut [u8]) -> Result<&'b [u8], TooLong> {
+    postcard::to_slice(value, buffer).map(|written| &*written).map_err(|_| TooLong)
+}
+
+/// Values by taxel number, some of them `other`.
+fn numbers<'b>(
+    values: &[u16],
+    other: impl Fn(usize) -> Option<u16>,
+    buffer: &'b mut [u8],
+) -> Result<&'b [u8], TooLong> {
+    let buffer = buffer.get_mut(..2 * values.len()).ok_or(TooLong)?;
+    for (taxel, (to, value)) in buffer.as_chunks_mut().0.iter_mut().zip(values).enumerate() {
+        *to = other(taxel).unwrap_or(*value).to_le_bytes();
+    }
+    Ok(buffer)
+}
+
+impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+    /// What is to survive a restart.
+    pub fn settings(&self) -> Settings<'_> {
+        let Setup { garment, scene, layout, .. } = &self.setup;
+        let condition = &self.state.condition;
+        let gain = condition.gain();
+        let baseline = condition.baseline().filter(|_| self.tared);
+        Settings {
+            garment,
+            scene,
+            gain: gain.get(..layout.taxels()).unwrap_or(gain),
+            ill: self.monitor.ill(),
+            baseline: baseline.map(|all| all.get(..layout.taxels()).unwrap_or(all)),
+        }
+    }
+
+    /// Takes a part of stored settings. What does not fit is left out, and the host is told why.
+    pub fn restore(&mut self, part: Part, bytes: &[u8]) {
+        self.begin();
+        let done = match part {
+            Part::Garment => self.restore_garment(bytes),
+            Part::Scene => self.restore_scene(bytes),
+            Part::Gain => self.restore_numbers(bytes, |board, taxel, gain| board.put_gain(taxel, gain)),
+            Part::Baseline => self.restore_numbers(bytes, |board, taxel, code| {
+                board.tared |= board.state.condition.set_baseline(taxel, Code(code));
+            }),
+        };
+        if let Err(why) = done {
+            self.outbox.log(format_args!("stored {part}: {}", why.sentence()));
+        }
+    }
+
+    /// The board tells the host that what was stored is of no use.
+    pub fn forgot(&mut self, why: impl fmt::Display) {
+        self.outbox.log(format_args!("stored settings: {why}; this is what ships"));
+    }
+
+    /// With a scene that any garment fits; the stored one follows.
+    #[inline(never)]
+    fn restore_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let garment: Garment = decode(bytes).map_err(Refusal::of)?;
+        let mut scene = self.setup.scene.clone();
+        scene.react.clear();
+        self.setup = Setup::build(&self.info, garment, scene, TAXELS).map_err(Refusal::of)?;
+        self.worn();
+        Ok(())
+    }
+
+    fn restore_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let done = self.set_scene(bytes);
+        if done.is_err() {
+            // What ships, where the garment leaves its pins free.
+            let _ = self.setup.change_scene(&self.info, Scene::shipped());
+            self.used();
+        }
+        done
+    }
+
+    fn restore_numbers(&mut self, bytes: &[u8], set: fn(&mut Self, usize, u16)) -> Result<(), Refusal> {
+        let (numbers, rest) = bytes.as_chunks();
+        if numbers.len() != self.setup.layout.taxels() || !rest.is_empty() {
+            return Err(Refusal::of("it is of another garment"));
+        }
+        for (taxel, number) in numbers.iter().enumerate() {
+            set(self, taxel, u16::from_le_bytes(*number));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,37 @@
+//! Taxels that are ill are silenced, bridged by the filter from their neighbours, and told of.
+
+use super::Board;
+use crate::format::Code;
+use crate::health::{IllTaxel, TaxelHealth};
+
+impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+    /// Watches the codes of a frame.
+    pub(super) fn watch(&mut self, codes: &[Code]) {
+        let super::Setup { layout, circuit, scene, .. } = &self.setup;
+        let condition = &mut self.state.condition;
+        let rest = condition.baseline().filter(|_| self.tared);
+        let found = self.monitor.watch(layout, circuit, &scene.plan, (codes, rest, self.info.full_scale));
+        for (taxel, health) in &found {
+            let gain = condition.gain().get(usize::from(*taxel)).copied().unwrap_or(0);
+            if self.monitor.add(IllTaxel { taxel: *taxel, health: *health, gain }) {
+                condition.set_gain(usize::from(*taxel), 0);
+                self.outbox.map_changed();
+            }
+        }
+    }
+
+    /// Sets the gain of a taxel, now or when it is well again.
+    pub(super) fn put_gain(&mut self, taxel: usize, gain: u16) {
+        match self.monitor.ill_mut(taxel) {
+            Some(ill) => ill.gain = gain,
+            None => {
+                self.state.condition.set_gain(taxel, gain);
+            }
+        }
+    }
+
+    /// The class of a taxel.
+    pub fn health_of(&self, taxel: usize) -> TaxelHealth {
+        self.monitor.health(taxel)
+    }
+}

@@ -1,0 +1,29 @@
+//! The health of every taxel, found while the garment is used.
+//!
+//! 256 taxels are watched at a time, over [`FRAMES`] frames: lowest and highest code of each, and how far its code has
+//! travelled. Then each is judged, and it is the next ones' turn: each of 2,048 is judged once in 96 frames. What is found
+//! stays until the garment is changed.
+//!
+//! | class | what shows it |
+//! |---|---|
+//! | dead | it rests while what surrounds it is pressed |
+//! | stuck | its code does not even show noise, while its neighbours' do |
+//! | open | no signal: below what it showed at rest, or dead there |
+//! | shorted | full scale, and nothing beside it is pressed |
+//! | noisy | its code goes to and fro, many times further than it gets |
+//!
+//! Where the codes are too quiet to tell (noise under 2.6 counts rms), nothing is called stuck.
+//!
+//! | | |
+//! |---|---|
+//! | input | [`Code`](crate::format::Code) by taxel number, codes at rest |
+//! | output | at most [`ILL`] ill taxels |
+//! | RAM | 2.9 KB |
+
+mod judge;
+mod monitor;
+mod seen;
+mod taxel;
+
+pub use monitor::{Codes, FRAMES, Found, ILL, IllTaxel, Monitor};
+pub use taxel::TaxelHealth;

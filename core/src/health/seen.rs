@@ -1,0 +1,47 @@
+//! What was seen of one taxel while it was watched.
+
+use crate::format::Code;
+
+/// Its last, lowest and highest code, and how far the code went from frame to frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    last: u16,
+    low: u16,
+    high: u16,
+    travel: u16,
+}
+
+impl Seen {
+    pub const NOTHING: Seen = Seen { last: 0, low: u16::MAX, high: 0, travel: 0 };
+
+    /// The first code.
+    pub fn begin(&mut self, code: Code) {
+        *self = Seen { last: code.0, low: code.0, high: code.0, travel: 0 };
+    }
+
+    /// The next one.
+    pub fn see(&mut self, Code(code): Code) {
+        self.travel = self.travel.saturating_add(code.abs_diff(self.last));
+        self.last = code;
+        self.low = self.low.min(code);
+        self.high = self.high.max(code);
+    }
+
+    /// Distance of the lowest from the highest code.
+    pub fn range(&self) -> u16 {
+        self.high.saturating_sub(self.low)
+    }
+
+    /// Sum of the distances from code to code.
+    pub fn travel(&self) -> u16 {
+        self.travel
+    }
+
+    /// Lowest and highest pressure, where pressure lowers the code from `full`.
+    pub fn pressure(&self, falling: Option<u16>) -> (u16, u16) {
+        match falling {
+            None => (self.low, self.high),
+            Some(full) => (full.saturating_sub(self.high), full.saturating_sub(self.low)),
+        }
+    }
+}

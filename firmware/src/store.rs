@@ -1,0 +1,63 @@
+//! The sectors of the flash that hold the settings.
+
+use crate::platform::WATCHDOG;
+use core::ops::Range;
+use embassy_rp::flash::{self, Blocking, ERASE_SIZE, Error, READ_SIZE, WRITE_SIZE};
+use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
+use taxel_store::{Store, StoreError};
+
+/// The smallest flash of any board with an RP2040.
+const BYTES: usize = 2 * 1024 * 1024;
+
+/// Where memory.x ends the program. Two sets of the longest settings take 25 KB; the rest spreads the wear.
+const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
+
+/// The flash. Nothing runs while it is written or erased, interrupts included: code lies in it.
+pub type Flash = flash::Flash<'static, FLASH, Blocking, BYTES>;
+
+/// The flash, with a watchdog that is fed before each step: erasing a sector may take 0.4 s.
+pub struct Fed<'a> {
+    /// The flash.
+    pub flash: &'a mut Flash,
+    /// The watchdog.
+    pub watchdog: &'a mut Watchdog,
+}
+
+impl Fed<'_> {
+    /// The settings in it.
+    pub fn store(self) -> Result<Store<Self>, StoreError> {
+        Store::new(self, SECTORS)
+    }
+}
+
+impl ErrorType for Fed<'_> {
+    type Error = Error;
+}
+
+impl ReadNorFlash for Fed<'_> {
+    const READ_SIZE: usize = READ_SIZE;
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
+        self.flash.blocking_read(offset, bytes)
+    }
+
+    fn capacity(&self) -> usize {
+        BYTES
+    }
+}
+
+impl NorFlash for Fed<'_> {
+    const WRITE_SIZE: usize = WRITE_SIZE;
+    const ERASE_SIZE: usize = ERASE_SIZE;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
+        self.watchdog.feed(WATCHDOG);
+        self.flash.blocking_erase(from, to)
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
+        self.watchdog.feed(WATCHDOG);
+        self.flash.blocking_write(offset, bytes)
+    }
+}

@@ -1,0 +1,189 @@
+//! Saving and loading.
+
+use crate::index::{Entry, Index, VERSION};
+use crate::waitless::Waitless;
+use core::fmt;
+use core::ops::Range;
+use embedded_storage::nor_flash::NorFlash;
+use sequential_storage::cache::{Cache, Uncached};
+use sequential_storage::map::{MapConfig, MapStorage};
+use taxel_core::board::{Board, PART_BYTES, Part, Saved, Settings};
+use taxel_core::run::block_on;
+
+/// Most bytes of an item: four fit a sector of 4 KiB with what the map writes around them.
+pub const CHUNK: usize = 1000;
+/// Items of the longest part.
+const CHUNKS: usize = PART_BYTES.div_ceil(CHUNK);
+/// Key of the index; those of the parts follow.
+const INDEX: u8 = 0;
+/// An item with its key, in whole words of any flash.
+const ITEM: usize = (CHUNK + 1).next_multiple_of(32);
+
+const _: () = assert!(1 + Part::ALL.len() * 2 * CHUNKS <= 256, "the keys fit a byte");
+
+/// Why settings cannot be stored or read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StoreError {
+    /// The sectors set aside are not whole, or fewer than two.
+    Range,
+    /// The flash cannot be read, written or erased.
+    Flash,
+    /// The settings need more sectors than are set aside.
+    Full,
+    /// What is stored is not what was written.
+    Damaged,
+    /// The settings were stored in another form.
+    Version,
+    /// A part does not fit its place.
+    TooLong(Part),
+}
+
+impl StoreError {
+    /// What is wrong, in a few words.
+    pub const fn sentence(self) -> &'static str {
+        match self {
+            StoreError::Range => "the sectors set aside in the flash are not whole, or fewer than two",
+            StoreError::Flash => "the flash cannot be read or written",
+            StoreError::Full => "the flash has no room for the settings",
+            StoreError::Damaged => "what the flash holds is damaged",
+            StoreError::Version => "what the flash holds is of another version of the firmware",
+            StoreError::TooLong(Part::Garment) => "the garment is too long to be stored",
+            StoreError::TooLong(Part::Scene) => "the scene is too long to be stored",
+            StoreError::TooLong(_) => "the garment has too many taxels to be stored",
+        }
+    }
+}
+
+impl fmt::Display for StoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.sentence())
+    }
+}
+
+impl core::error::Error for StoreError {}
+
+impl<E> From<sequential_storage::Error<E>> for StoreError {
+    fn from(error: sequential_storage::Error<E>) -> Self {
+        match error {
+            sequential_storage::Error::Storage { .. } => StoreError::Flash,
+            sequential_storage::Error::FullStorage => StoreError::Full,
+            _ => StoreError::Damaged,
+        }
+    }
+}
+
+type Map<F> = MapStorage<u8, Waitless<F>, Cache<Uncached, Uncached, Uncached, u8>>;
+
+/// Settings in some sectors of a flash.
+pub struct Store<F: NorFlash> {
+    map: Map<F>,
+}
+
+impl<F: NorFlash> Store<F> {
+    /// In the sectors from offset `range.start` up to `range.end` of `flash`.
+    pub fn new(flash: F, range: Range<u32>) -> Result<Self, StoreError> {
+        let config = MapConfig::try_new(range).map_err(|_| StoreError::Range)?;
+        Ok(Store { map: MapStorage::new(Waitless(flash), config, Cache::new_uncached()) })
+    }
+
+    /// Stores what has changed. Whatever happens meanwhile, what is loaded later are the old settings or these.
+    pub fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, StoreError> {
+        let old = match self.index() {
+            Ok(index) => index,
+            Err(StoreError::Flash) => return Err(StoreError::Flash),
+            // What cannot be read does not come back: the new takes its place.
+            Err(_) => None,
+        };
+        let mut new = Index::new();
+        let mut content = [0; PART_BYTES];
+        for part in Part::ALL {
+            let Some(content) = settings.write(part, &mut content).map_err(|_| StoreError::TooLong(part))?
+            else {
+                continue;
+            };
+            let before = old.as_ref().and_then(|index| index.entry(part));
+            let entry = match before {
+                Some(entry) if entry.holds(content) && self.stands(&entry, content)? => entry,
+                before => self.write(part, before.map_or(0, |entry| entry.place ^ 1), content)?,
+            };
+            // There is room for every part.
+            let _ = new.entries.push(entry);
+        }
+        if old.as_ref() == Some(&new) {
+            return Ok(Saved::Unchanged);
+        }
+        let mut bytes = [0; Index::BYTES];
+        let bytes = postcard::to_slice(&new, &mut bytes).map_err(|_| StoreError::Full)?;
+        self.put(INDEX, bytes)?;
+        Ok(Saved::Written)
+    }
+
+    /// Gives a board that has not begun yet what was stored last. `false`: nothing was. What is wrong with a part is for the
+    /// board to say; the others hold.
+    pub fn load<const TAXELS: usize, const RUNS: usize>(
+        &mut self,
+        board: &mut Board<TAXELS, RUNS>,
+    ) -> Result<bool, StoreError> {
+        let Some(index) = self.index()? else { return Ok(false) };
+        let mut content = [0; PART_BYTES];
+        for part in Part::ALL {
+            let Some(entry) = index.entry(part) else { continue };
+            let content = self.read(&entry, &mut content)?;
+            board.restore(part, content);
+        }
+        Ok(true)
+    }
+
+    fn index(&mut self) -> Result<Option<Index>, StoreError> {
+        let mut item = [0; ITEM];
+        let Some(bytes) = block_on(self.map.fetch_item::<&[u8]>(&mut item, &INDEX))? else { return Ok(None) };
+        match bytes.first() {
+            Some(&VERSION) => postcard::from_bytes(bytes).map(Some).map_err(|_| StoreError::Damaged),
+            Some(_) => Err(StoreError::Version),
+            None => Err(StoreError::Damaged),
+        }
+    }
+
+    /// Whether a part that is in force can be read.
+    fn stands(&mut self, entry: &Entry, content: &[u8]) -> Result<bool, StoreError> {
+        for (chunk, expected) in content.chunks(CHUNK).enumerate() {
+            let mut item = [0; ITEM];
+            let held = block_on(self.map.fetch_item::<&[u8]>(&mut item, &key(entry, chunk)))?;
+            if held != Some(expected) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn write(&mut self, part: Part, place: u8, content: &[u8]) -> Result<Entry, StoreError> {
+        let entry = Entry::of(part, place, content);
+        for (chunk, bytes) in content.chunks(CHUNK).enumerate() {
+            self.put(key(&entry, chunk), bytes)?;
+        }
+        Ok(entry)
+    }
+
+    fn put(&mut self, key: u8, bytes: &[u8]) -> Result<(), StoreError> {
+        let mut item = [0; ITEM];
+        Ok(block_on(self.map.store_item(&mut item, &key, &bytes))?)
+    }
+
+    fn read<'b>(&mut self, entry: &Entry, content: &'b mut [u8]) -> Result<&'b [u8], StoreError> {
+        let content = content.get_mut(..usize::from(entry.length)).ok_or(StoreError::Damaged)?;
+        for (chunk, to) in content.chunks_mut(CHUNK).enumerate() {
+            let mut item = [0; ITEM];
+            match block_on(self.map.fetch_item::<&[u8]>(&mut item, &key(entry, chunk)))? {
+                Some(bytes) if bytes.len() == to.len() => to.copy_from_slice(bytes),
+                _ => return Err(StoreError::Damaged),
+            }
+        }
+        if entry.holds(content) { Ok(content) } else { Err(StoreError::Damaged) }
+    }
+}
+
+/// Key of a piece of a part in its place.
+fn key(entry: &Entry, chunk: usize) -> u8 {
+    let place = usize::from(entry.part) * 2 + usize::from(entry.place);
+    (1 + place * CHUNKS + chunk) as u8
+}

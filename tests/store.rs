@@ -1,0 +1,188 @@
+//! Settings in flash: what was stored is what is loaded, also where the power fails at any step of a save.
+
+use taxel::sim::{Cut, SimFlash};
+use taxel_core::board::{Board, BoardInfo, Part, Saved, Settings};
+use taxel_core::format::name;
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_store::{Store, StoreError};
+
+/// Random numbers, always the same.
+struct Random(u32);
+
+impl Random {
+    fn below(&mut self, end: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((u64::from(self.0 >> 8) * u64::from(end)) >> 24) as u32
+    }
+}
+
+/// What a host may set.
+#[derive(Debug, Clone, PartialEq)]
+struct Kept {
+    garment: Garment,
+    scene: Scene,
+    gain: Vec<u16>,
+    baseline: Option<Vec<u16>>,
+}
+
+impl Kept {
+    fn new(garment: Garment, taxels: usize) -> Kept {
+        Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None }
+    }
+
+    fn settings(&self) -> Settings<'_> {
+        Settings {
+            garment: &self.garment,
+            scene: &self.scene,
+            gain: &self.gain,
+            ill: &[],
+            baseline: self.baseline.as_deref(),
+        }
+    }
+
+    /// Changes one to four of the parts.
+    fn change(&mut self, random: &mut Random) {
+        let parts = 1 + random.below(15);
+        if parts & 1 != 0 {
+            self.garment.wiring.settle_ns = 1_000 + random.below(100_000);
+            self.garment.name = name(&"longer and longer"[..1 + random.below(15) as usize]);
+        }
+        if parts & 2 != 0 {
+            self.scene.contact.high = 20 + random.below(1_000) as u16;
+            self.scene.joints.truncate(random.below(3) as usize);
+        }
+        if parts & 4 != 0 {
+            self.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
+        }
+        if parts & 8 != 0 {
+            let codes = self.gain.iter().map(|_| random.below(4_096) as u16).collect();
+            self.baseline = Some(codes).filter(|_| random.below(8) > 0);
+        }
+    }
+}
+
+/// As much of the flash as the block needs twice: every sector is erased again and again.
+const FOUR_SECTORS: u32 = 16 * 1024;
+
+/// The sectors set aside for so many taxels.
+fn range(taxels: usize) -> std::ops::Range<u32> {
+    0..if taxels == 64 { FOUR_SECTORS } else { SimFlash::BYTES }
+}
+
+fn save(flash: &mut SimFlash, kept: &Kept) -> Result<Saved, StoreError> {
+    Store::new(flash, range(kept.gain.len())).unwrap().save(&kept.settings())
+}
+
+/// What a board that starts knows; none: the flash holds nothing.
+fn load<const TAXELS: usize>(flash: &mut SimFlash) -> Result<Option<Kept>, StoreError> {
+    load_from::<TAXELS>(flash, range(TAXELS))
+}
+
+fn load_from<const TAXELS: usize>(
+    flash: &mut SimFlash,
+    range: std::ops::Range<u32>,
+) -> Result<Option<Kept>, StoreError> {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
+    let found = Store::new(flash, range).unwrap().load(&mut board)?;
+    let Settings { garment, scene, gain, baseline, .. } = board.settings();
+    Ok(found.then(|| Kept {
+        garment: garment.clone(),
+        scene: scene.clone(),
+        gain: gain.to_vec(),
+        baseline: baseline.map(<[u16]>::to_vec),
+    }))
+}
+
+#[test]
+fn power_may_fail_at_any_step_of_200_changes() {
+    let mut random = Random(1);
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::block(), 64);
+    let mut old = None;
+    let mut cuts = 0;
+    for change in 0..200 {
+        kept.change(&mut random);
+        let before = flash.clone();
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "change {change}");
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                assert_eq!(save(&mut torn, &kept), Err(StoreError::Flash));
+                torn.restore_power();
+                let found = load::<64>(&mut torn).unwrap();
+                assert!(
+                    found == old || found.as_ref() == Some(&kept),
+                    "change {change}, step {step}, {cut:?}"
+                );
+                save(&mut torn, &kept).unwrap();
+                assert_eq!(load::<64>(&mut torn).unwrap().as_ref(), Some(&kept));
+                cuts += 1;
+            }
+        }
+        old = load::<64>(&mut flash).unwrap();
+        assert_eq!(old.as_ref(), Some(&kept));
+    }
+    println!("{cuts} cuts in {} writes and erasures, {} of these", flash.steps(), flash.erased());
+    assert!(flash.erased() >= 16, "every sector was erased several times");
+}
+
+#[test]
+fn the_greatest_garment_fits_however_often_it_is_saved() {
+    let mut random = Random(2);
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::reference(), 2048);
+    for _ in 0..60 {
+        kept.garment.wiring.settle_ns = 1_000 + random.below(1_000);
+        kept.scene.contact.high = 20 + random.below(1_000) as u16;
+        kept.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
+        kept.baseline = Some(kept.gain.iter().map(|_| random.below(4_096) as u16).collect());
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+        assert_eq!(load::<2048>(&mut flash).unwrap().as_ref(), Some(&kept));
+    }
+    println!("{:.1} sectors erased a save", flash.erased() as f64 / 60.0);
+    assert!(flash.erased() <= 60 * 6);
+}
+
+#[test]
+fn what_has_not_changed_is_not_written() {
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::block(), 64);
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+    let steps = flash.steps();
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Unchanged));
+    assert_eq!(flash.steps(), steps);
+    kept.gain[5] = 0;
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+    assert!(flash.steps() - steps <= 12, "only the gains and the index: {}", flash.steps() - steps);
+}
+
+#[test]
+fn an_empty_or_alien_flash_is_said_to_be_so() {
+    use embedded_storage::nor_flash::NorFlash;
+    let mut flash = SimFlash::default();
+    assert_eq!(load::<64>(&mut flash), Ok(None));
+    let mut random = Random(3);
+    let noise: Vec<u8> = (0..SimFlash::BYTES).map(|_| random.below(256) as u8).collect();
+    flash.write(0, &noise).unwrap();
+    assert!(matches!(load::<64>(&mut flash), Ok(None) | Err(StoreError::Damaged)));
+    let kept = Kept::new(Garment::block(), 64);
+    save(&mut flash, &kept).unwrap();
+    assert_eq!(load::<64>(&mut flash).unwrap(), Some(kept));
+    let short = Store::new(&mut flash, 0..4096).err();
+    assert_eq!(short, Some(StoreError::Range));
+}
+
+#[test]
+fn a_part_that_does_not_fit_leaves_the_others() {
+    let mut flash = SimFlash::default();
+    // A board of 64 taxels finds what was stored by one of 2,048.
+    let kept = Kept { gain: vec![1; 2048], ..Kept::new(Garment::reference(), 2048) };
+    save(&mut flash, &kept).unwrap();
+    let found = load_from::<64>(&mut flash, range(2048)).unwrap().unwrap();
+    assert_eq!((found.garment, found.gain), (Garment::block(), vec![4096; 64]));
+    let mut buffer = [0; 4000];
+    assert!(kept.settings().write(Part::Gain, &mut buffer).is_err());
+}
