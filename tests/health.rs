@@ -5,7 +5,7 @@ use taxel::sim::{self, Noisy, PINS, Script, SimBoard, Stuck};
 use taxel_core::acquire::{Acquire, MuxScan};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::Micros;
-use taxel_core::garment::{Garment, Pins};
+use taxel_core::garment::{Garment, Panel, Pins};
 use taxel_core::health::TaxelHealth;
 use taxel_core::run::block_on;
 use taxel_core::scene::Scene;
@@ -54,15 +54,23 @@ impl Worn {
     }
 }
 
-/// A hand on every panel from the end of the tare on.
+/// Something flat presses every panel from the end of the tare on, with 1.2 N on each taxel.
 fn all_pressed() -> Script {
-    let panels = ["chest", "back", "left arm", "right arm"].map(|panel| {
+    let touch = |panel: &Panel| {
+        let pitch = panel.pitch_um.map(|pitch| f64::from(pitch) / 1e3);
+        let (columns, rows) = (f64::from(panel.columns), f64::from(panel.rows));
         format!(
-            "[[touch]]\npanel = \"{panel}\"\nshape = \"rectangle\"\nsize = [18, 34]\nat = [7.5, 15.5]\n\
-             force_n = 400\nstart_s = 0.1\nrise_s = 0.05\nhold_s = 9\n"
+            "[[touch]]\npanel = \"{}\"\nshape = \"box\"\nsize_mm = [{:.1}, {:.1}]\nat = [{:.1}, {:.1}]\n\
+             force_n = 600\nstart_s = 0.1\nrise_s = 0.05\nhold_s = 5\n",
+            panel.name,
+            (columns + 2.0) * pitch[0],
+            (rows + 2.0) * pitch[1],
+            (columns - 1.0) / 2.0,
+            (rows - 1.0) / 2.0,
         )
-    });
-    Script::parse(&format!("duration_s = 9\nseed = 3\n{}", panels.concat()), "pressed.toml").unwrap()
+    };
+    let touches: String = Garment::reference().panels.iter().map(touch).collect();
+    Script::parse(&format!("duration_s = 9\nseed = 3\n{touches}"), "pressed.toml").unwrap()
 }
 
 #[test]
