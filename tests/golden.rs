@@ -58,7 +58,7 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 12] {
+fn reports() -> [(&'static str, Report<'static>); 13] {
     let (frame, time) = (300, Micros(5_000_000_000));
     let words = Words {
         strength: Strength::Firm,
