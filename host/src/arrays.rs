@@ -66,6 +66,30 @@ pub fn read_all(path: &Path) -> Result<Vec<(String, Frames)>> {
     read().with_context(|| path.display().to_string())
 }
 
+/// Names of the arrays of an archive, in order; none of any other file.
+pub fn names(path: &Path) -> Result<Vec<String>> {
+    archive(path, |archive| Ok(archive.names().to_vec()))
+}
+
+/// The counts of an array of one dimension in an archive, as labels are; none where there is no such array.
+pub fn list(path: &Path, array: &str) -> Result<Option<Vec<u16>>> {
+    archive(path, |archive| archive.list(array))
+}
+
+/// The texts of an array of one dimension in an archive, as names of classes are; none where there is no such array.
+pub fn texts(path: &Path, array: &str) -> Result<Option<Vec<String>>> {
+    archive(path, |archive| archive.texts(array))
+}
+
+/// What an archive holds; nothing of any other file.
+fn archive<T: Default>(path: &Path, read: impl FnOnce(&mut npz::Archive) -> Result<T>) -> Result<T> {
+    let read = || match open(path)? {
+        Source::Archive(mut archive) => read(&mut archive),
+        _ => Ok(T::default()),
+    };
+    read().with_context(|| path.display().to_string())
+}
+
 /// A file whose kind is known.
 enum Source {
     Array(File, u64),
@@ -130,6 +154,14 @@ impl Shape {
             shape.frames.checked_mul(shape.area()).map(|_| shape)
         };
         checked().with_context(|| format!("shape {dimensions:?}: a frame has at most 65535 rows and columns"))
+    }
+
+    /// Of an array of one dimension: one frame of one row.
+    fn of_list(dimensions: &[u64]) -> Result<Shape> {
+        match *dimensions {
+            [n @ 1..=65535] => Ok(Shape { frames: 1, rows: 1, columns: n as u16 }),
+            _ => bail!("shape {dimensions:?}: expected one dimension of 1 to 65535 values"),
+        }
     }
 
     fn area(self) -> usize {

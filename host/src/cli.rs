@@ -10,6 +10,7 @@ use crate::save::{self, SaveArgs};
 use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
 use crate::setup::{self, SetupArgs};
+use crate::shapes::{self, ShapesArgs};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
@@ -51,6 +52,9 @@ enum Command {
     /// Let a board keep its garment, scene, gains and baseline over a restart
     #[command(after_help = SAVE)]
     Save(SaveArgs),
+    /// Teach shapes, and see how well they are known
+    #[command(after_help = SHAPES)]
+    Shapes(ShapesArgs),
     /// List the simulated scenes
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -98,6 +102,13 @@ const SAVE: &str = "Examples:
   taxel save
   taxel save --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
+const SHAPES: &str = "Examples:
+  taxel shapes list
+  taxel shapes train --images images.npz --labels labels.csv -o objects.json
+  taxel shapes eval --images images.npz --labels labels.csv --cross 5 --json
+  taxel shapes eval --images shapes.npz --set 32x64_C_n3 --classes three
+  taxel shapes card objects";
+
 const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";
@@ -116,6 +127,7 @@ impl Cli {
             Command::Settle(args) => settle::run(&args),
             Command::Health(args) => health::run(args),
             Command::Save(args) => save::run(args),
+            Command::Shapes(args) => shapes::run(args),
             Command::Scenes(args) => scenes::run(args),
         }
     }

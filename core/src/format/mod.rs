@@ -19,6 +19,7 @@
 
 mod invalid;
 mod inverse;
+mod log;
 mod product;
 mod root;
 mod scaled;

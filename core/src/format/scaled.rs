@@ -29,6 +29,16 @@ impl Scaled {
     /// The largest value; what a division by zero gives.
     pub const MAX: Scaled = Scaled { mantissa: u32::MAX, exponent: i16::MAX };
 
+    /// 32 bits with the highest set, or 0.
+    pub(super) const fn mantissa(self) -> u32 {
+        self.mantissa
+    }
+
+    /// Power of two of the mantissa's lowest bit.
+    pub(super) const fn exponent(self) -> i16 {
+        self.exponent
+    }
+
     /// Rounded to the nearest.
     pub const fn from_u64(value: u64) -> Scaled {
         if value == 0 {

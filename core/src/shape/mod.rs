@@ -11,14 +11,28 @@
 
 mod base;
 mod config;
+mod descriptor;
 mod features;
+mod gallery;
 mod knn;
 mod nmi;
+mod outline;
+mod patch;
+mod space;
+mod spread;
 mod stage;
+mod sureness;
 
 pub use base::BUILT_IN;
 pub use config::ShapeConfig;
+pub use descriptor::{Descriptor, MEASURE_NAMES, MEASURES, descriptor};
 pub use features::{FEATURES, Features, features};
+pub use gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, Recognised};
 pub use knn::{Base, CLASSES, Class, Prototype};
 pub use nmi::{Nmi, nmi};
+pub use outline::Outline;
+pub use patch::Patch;
+pub use space::{DIMENSIONS, Point, Space};
+pub use spread::Spread;
 pub use stage::{Shape, Shapes};
+pub use sureness::{STEPS, Sureness};

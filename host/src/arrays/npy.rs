@@ -2,7 +2,7 @@
 
 use super::{Frames, Shape, count};
 use anyhow::{Context, Result, bail, ensure};
-use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar};
+use npyz::{DType, Deserialize, Endianness, NpyFile, NpyHeader, Order, TypeChar};
 use std::fmt::Display;
 use std::io::Read;
 
@@ -11,12 +11,45 @@ pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Headers of plain arrays have 118 bytes or a little more.
 const LONGEST_HEADER: usize = 1 << 16;
+/// Names of classes take less.
+const LONGEST_TEXTS: u64 = 1 << 20;
 
 /// Frames of an array whose file or archive entry has `size` bytes.
-pub fn read(mut source: impl Read, size: u64) -> Result<Frames> {
+pub fn read(source: impl Read, size: u64) -> Result<Frames> {
+    read_as(source, size, Shape::of)
+}
+
+/// Counts of an array of one dimension.
+pub fn list(source: impl Read, size: u64) -> Result<Vec<u16>> {
+    Ok(read_as(source, size, Shape::of_list)?.values)
+}
+
+/// Texts of an array of one dimension, as NumPy writes them: four bytes a character, filled up with 0.
+pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
+    let header = parse(&head(&mut source)?)?;
+    let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected texts") };
+    let width = kind.num_bytes().unwrap_or(0);
+    ensure!(
+        kind.type_char() == TypeChar::UnicodeStr && width > 0,
+        "holds values of type {kind}, expected texts"
+    );
+    let mut body = Vec::new();
+    source.take(LONGEST_TEXTS).read_to_end(&mut body).context("damaged")?;
+    let little = kind.endianness() != Endianness::Big;
+    let text = |cell: &[u8]| -> Option<String> {
+        let words = cell.chunks_exact(4).map(|word| word.try_into().unwrap_or([0; 4]));
+        let codes =
+            words.map(|word| if little { u32::from_le_bytes(word) } else { u32::from_be_bytes(word) });
+        codes.take_while(|code| *code != 0).map(char::from_u32).collect()
+    };
+    body.chunks_exact(width).map(|cell| text(cell).context("holds what is no text")).collect()
+}
+
+/// Values of an array whose dimensions `shape_of` understands.
+fn read_as(mut source: impl Read, size: u64, shape_of: fn(&[u64]) -> Result<Shape>) -> Result<Frames> {
     let head = head(&mut source)?;
     let header = parse(&head)?;
-    let shape = Shape::of(header.shape())?;
+    let shape = shape_of(header.shape())?;
     let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected numbers") };
     let width = kind.num_bytes().unwrap_or(0) as u64;
     let claimed = (shape.values() as u64).saturating_mul(width);

@@ -36,6 +36,33 @@ impl Archive {
         frames.with_context(|| format!("array {name}"))
     }
 
+    /// Names of all arrays, in order.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The array of that name and of one dimension, if it is there.
+    pub fn list(&mut self, name: &str) -> Result<Option<Vec<u16>>> {
+        self.known(name, |entry, size| npy::list(entry, size))
+    }
+
+    /// The texts of that name, if they are there.
+    pub fn texts(&mut self, name: &str) -> Result<Option<Vec<String>>> {
+        self.known(name, |entry, _| npy::texts(entry))
+    }
+
+    /// What `read` makes of an array, if it is there.
+    fn known<T>(
+        &mut self,
+        name: &str,
+        read: impl FnOnce(&mut dyn Read, u64) -> Result<T>,
+    ) -> Result<Option<T>> {
+        if !self.names.iter().any(|known| known == name) {
+            return Ok(None);
+        }
+        self.entry(name, read).with_context(|| format!("array {name}")).map(Some)
+    }
+
     /// The only array, or the only one that can be frames.
     pub fn only(&mut self) -> Result<Frames> {
         let candidates = if self.names.len() == 1 { self.names.clone() } else { self.candidates()? };

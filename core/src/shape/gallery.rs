@@ -1,0 +1,120 @@
+//! A gallery: examples of the shapes that a user taught, and the nearest of them.
+
+use super::descriptor::Descriptor;
+use super::space::{Point, Space, distance2};
+use super::sureness::Sureness;
+use crate::format::{Invalid, Name, Q15, root};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Most classes of a gallery.
+pub const GALLERY_CLASSES: usize = 32;
+/// Most prototypes of a gallery on a board.
+pub const GALLERY_PROTOTYPES: usize = 200;
+/// Most neighbours that vote.
+const VOTERS: usize = 9;
+
+/// An example of a class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exemplar {
+    /// Index of its class.
+    pub class: u8,
+    /// Where it lies.
+    pub at: Point,
+}
+
+/// What is known, and how it is compared.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gallery<const PROTOTYPES: usize> {
+    /// Names of the classes.
+    pub names: Vec<Name, GALLERY_CLASSES>,
+    /// Where prototypes and touches lie.
+    pub space: Space,
+    /// Neighbours that vote, 1 to 9.
+    pub k: u8,
+    /// A touch farther than this from every prototype is none of them; in units of a [`Point`].
+    pub reject: u16,
+    /// What a vote is worth.
+    pub sureness: Sureness,
+    /// The examples; those that go before win a tie.
+    pub prototypes: Vec<Exemplar, PROTOTYPES>,
+}
+
+/// What a touch was found to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Recognised {
+    /// Index of the class; none: it is none of them.
+    pub class: Option<u8>,
+    /// How often such a vote is right, see [`Sureness`]; 0 where the class is none.
+    pub confidence: Q15,
+    /// Share of the votes of the class, each weighed by 1 / distance.
+    pub share: Q15,
+    /// To the nearest prototype.
+    pub distance: u16,
+}
+
+impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
+    /// Checks a gallery that came from outside.
+    pub fn check(&self) -> Result<(), Invalid> {
+        let refuse = |parameter, must| Err(Invalid { parameter, must });
+        if self.prototypes.is_empty() {
+            return refuse("shapes.prototypes", "must be at least one");
+        }
+        if self.prototypes.iter().any(|prototype| usize::from(prototype.class) >= self.names.len()) {
+            return refuse("shapes.names", "must name the class of every prototype");
+        }
+        if self.space.weights.is_empty() || self.space.shift > 30 {
+            return refuse("shapes.space", "must have at least one dimension, and a shift of at most 30");
+        }
+        if self.k == 0 || usize::from(self.k) > VOTERS {
+            return refuse("shapes.k", "must be 1 to 9");
+        }
+        if self.reject == 0 {
+            return refuse("shapes.reject", "must be at least 1");
+        }
+        self.sureness.check()
+    }
+
+    /// Recognises a touch. Of classes with equal votes, the one with the nearest prototype.
+    pub fn recognise(&self, descriptor: &Descriptor) -> Recognised {
+        let nearest = self.nearest(&self.space.place(descriptor));
+        let distance = nearest[0].0;
+        let mut best = (0, None);
+        let mut all = 0;
+        for (_, class) in nearest.iter().take_while(|voter| voter.1.is_some()) {
+            let same = nearest.iter().filter(|voter| voter.1 == *class);
+            let votes: u64 = same.map(|voter| weight(voter.0)).sum();
+            if votes > best.0 {
+                best = (votes, *class);
+            }
+        }
+        for voter in nearest.iter().take_while(|voter| voter.1.is_some()) {
+            all += weight(voter.0);
+        }
+        let share = Q15::ratio(best.0, all);
+        let class = best.1.filter(|_| distance <= u32::from(self.reject));
+        let confidence = if class.is_some() { self.sureness.of(share, distance) } else { Q15(0) };
+        Recognised { class, confidence, share, distance: distance.min(u16::MAX.into()) as u16 }
+    }
+
+    /// Distances and classes of the nearest, in order; none where there are fewer.
+    fn nearest(&self, point: &Point) -> [(u32, Option<u8>); VOTERS] {
+        let mut nearest = [(u32::MAX, None); VOTERS];
+        for prototype in &self.prototypes {
+            let mut carried = (distance2(&prototype.at, point), Some(prototype.class));
+            for held in nearest.iter_mut().take(self.k.into()) {
+                if carried.0 < held.0 {
+                    core::mem::swap(held, &mut carried);
+                }
+            }
+        }
+        nearest.map(|(square, class)| (root(square.into()), class))
+    }
+}
+
+/// The weight of a vote: 1 / distance, and not more than that of 1/16 of a class's spread.
+fn weight(distance: u32) -> u64 {
+    u64::from(u32::MAX / (distance + 16))
+}

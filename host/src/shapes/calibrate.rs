@@ -1,0 +1,41 @@
+//! What votes are worth and when a touch is none, counted on examples that were left out of training.
+
+use super::data::Example;
+use super::train::Known;
+use taxel_core::format::Q15;
+use taxel_core::shape::{Recognised, STEPS, Sureness};
+
+/// A touch this many times as far as nearly all that were left out is none.
+const BEYOND: f64 = 1.5;
+/// Of those left out, the share that is near enough.
+const NEARLY_ALL: f64 = 0.99;
+/// Doubt: so many answers, right as often as the others on average, are added to each cell of the table.
+const DOUBT: f64 = 4.0;
+
+/// Completes a gallery by what its like found of examples that they did not learn.
+pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised]) {
+    let mut distances: Vec<u16> = found.iter().map(|found| found.distance).collect();
+    distances.sort();
+    let at = |part: f64| distances.get((part * (distances.len() - 1) as f64) as usize).copied().unwrap_or(0);
+    gallery.reject = (f64::from(at(NEARLY_ALL)) * BEYOND).clamp(1.0, 65_535.0) as u16;
+    gallery.sureness = Sureness {
+        // One of several voters, most of them, all of them.
+        shares: [16_384, 24_576, 32_767],
+        distances: [at(0.25), at(0.5), at(0.75)],
+        right: [[0; STEPS]; STEPS],
+    };
+    let right =
+        |(found, example): (&Recognised, &&Example)| found.class.map(usize::from) == Some(example.class);
+    let hits: Vec<bool> = found.iter().zip(examples).map(right).collect();
+    let mean = hits.iter().filter(|hit| **hit).count() as f64 / hits.len().max(1) as f64;
+    let mut cells = [[(DOUBT * mean, DOUBT); STEPS]; STEPS];
+    for (found, hit) in found.iter().zip(&hits) {
+        let (row, column) = gallery.sureness.cell(found.share, found.distance.into());
+        if let Some((right, all)) = cells.get_mut(row).and_then(|row| row.get_mut(column)) {
+            *right += f64::from(u8::from(*hit));
+            *all += 1.0;
+        }
+    }
+    gallery.sureness.right =
+        cells.map(|row| row.map(|(right, all)| (right / all * f64::from(Q15::ONE.0)).round() as u16));
+}

@@ -1,0 +1,50 @@
+//! Cross-validation of a recipe.
+
+use super::calibrate::calibrate;
+use super::data::Example;
+use super::select::select;
+use super::train::{Known, Recipe, fit};
+use crate::learn::folds::stratified;
+use taxel_core::shape::Recognised;
+
+/// Splits examples into those that a fold trains on and those that it is tested on; the fold of each example.
+pub fn deal(examples: &[&Example], folds: usize, seed: u64) -> Vec<usize> {
+    // Examples of one unit share their class.
+    let mut units: Vec<(usize, usize)> =
+        examples.iter().map(|example| (example.unit, example.class)).collect();
+    units.sort();
+    units.dedup();
+    let classes: Vec<usize> = units.iter().map(|unit| unit.1).collect();
+    let fold = stratified(&classes, folds, seed);
+    let of =
+        |example: &&Example| units.binary_search(&(example.unit, example.class)).map_or(0, |unit| fold[unit]);
+    examples.iter().map(of).collect()
+}
+
+/// What each example is found to be by a gallery that `train` makes of the other folds.
+pub fn predict(
+    examples: &[&Example],
+    fold: &[usize],
+    train: impl Fn(&[&Example]) -> Known,
+) -> Vec<Recognised> {
+    let folds = fold.iter().max().map_or(0, |last| last + 1);
+    let others = |n: usize| -> Vec<&Example> {
+        examples.iter().zip(fold).filter(|(_, fold)| **fold != n).map(|(example, _)| *example).collect()
+    };
+    let galleries: Vec<Known> = (0..folds).map(|n| train(&others(n))).collect();
+    examples.iter().zip(fold).map(|(example, fold)| galleries[*fold].recognise(&example.descriptor)).collect()
+}
+
+/// A gallery of all examples, completed by five folds of them, and what the folds found.
+pub fn trained(examples: &[&Example], names: &[String], recipe: &Recipe) -> (Known, Vec<Recognised>) {
+    let recipe = &if recipe.select { select(examples, names, recipe) } else { recipe.clone() };
+    let found = predict(examples, &deal(examples, FOLDS, SEED), |others| fit(others, names, recipe));
+    let mut gallery = fit(examples, names, recipe);
+    calibrate(&mut gallery, examples, &found);
+    (gallery, found)
+}
+
+/// Folds by which a gallery is completed.
+pub const FOLDS: usize = 5;
+/// Draws who is tested when.
+pub const SEED: u64 = 1;

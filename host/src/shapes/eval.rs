@@ -1,0 +1,133 @@
+//! `taxel shapes eval`: how often a base is right on labelled images.
+
+use super::base::Base;
+use super::cross::{SEED, deal, predict, trained};
+use super::data::{Example, Examples, ImagesArgs};
+use super::train_command::{RecipeArgs, check, counted};
+use crate::learn::confusion::Confusion;
+use crate::learn::fingerprint;
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use taxel_core::shape::Recognised;
+
+/// Arguments of `taxel shapes eval`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct EvalArgs {
+    /// What to recognise.
+    #[command(flatten)]
+    pub images: ImagesArgs,
+    /// Base: a file, or `drawn` or `objects`, which are shipped [default: that of them which knows most of the classes]
+    #[arg(long, value_name = "BASE", conflicts_with = "cross")]
+    pub base: Option<PathBuf>,
+    /// Learn from the images themselves, each time without one of so many folds, and recognise that one
+    #[arg(long, value_name = "FOLDS", value_parser = clap::value_parser!(u16).range(2..=10_000))]
+    pub cross: Option<u16>,
+    /// How to learn, with --cross.
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What was found, and by what.
+struct Outcome {
+    confusion: Confusion,
+    found: Vec<Recognised>,
+    /// Which are right.
+    right: Vec<bool>,
+    base: Value,
+    trained_on: bool,
+}
+
+/// Runs the command.
+pub fn run(args: EvalArgs) -> Result<()> {
+    let (examples, outcome) = match args.cross {
+        Some(folds) => crossed(&args, folds)?,
+        None => applied(&args)?,
+    };
+    if outcome.trained_on {
+        eprintln!("warning: the base was trained on this file: the figures say nothing of other touches");
+    }
+    if args.json {
+        println!("{}", report(&args, &examples, &outcome));
+    } else {
+        let all = outcome.confusion.all();
+        println!("{:.1} % of {all} right", 100.0 * outcome.confusion.accuracy());
+        print!("{}", outcome.confusion.table());
+    }
+    Ok(())
+}
+
+/// By galleries that learned the other folds.
+fn crossed(args: &EvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
+    let examples = args.images.read(None)?;
+    check(&examples)?;
+    let list: Vec<&Example> = examples.list.iter().collect();
+    let recipe = args.recipe.recipe();
+    let found = predict(&list, &deal(&list, folds.into(), SEED), |others| {
+        trained(others, &examples.names, &recipe).0
+    });
+    let confusion = counted(&list, &examples.names, &found);
+    let right = list.iter().zip(&found).map(|(e, f)| f.class.map(usize::from) == Some(e.class)).collect();
+    Ok((examples, Outcome { confusion, found, right, base: Value::Null, trained_on: false }))
+}
+
+/// By a base as it is.
+fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
+    let (name, base) = match &args.base {
+        Some(path) => (path.display().to_string(), Base::open(path)?),
+        None => {
+            let classes = args.images.read(None)?.names;
+            let (name, base) = Base::shipped_for(&classes)?;
+            (name.to_string(), base)
+        }
+    };
+    let examples = args.images.read(Some(base.view))?;
+    let known = base.names();
+    let mut confusion = Confusion::new(&examples.names, &known);
+    let (mut found, mut right) = (Vec::new(), Vec::new());
+    for example in &examples.list {
+        let recognised = base.gallery.recognise(&example.descriptor);
+        let answer = recognised.class.map(usize::from);
+        confusion.count(example.class, answer);
+        right.push(
+            answer.and_then(|answer| known.get(answer))
+                == known.iter().find(|name| **name == examples.names[example.class]),
+        );
+        found.push(recognised);
+    }
+    let trained_on = base.knows_file(&fingerprint::of(&args.images.images)?);
+    Ok((examples, Outcome { confusion, found, right, base: json!(name), trained_on }))
+}
+
+fn report(args: &EvalArgs, examples: &Examples, outcome: &Outcome) -> Value {
+    let mut report = outcome.confusion.figures();
+    let mut add = |key: &str, value: Value| report.insert(key.into(), value);
+    add("images", json!(outcome.found.len()));
+    add("base", outcome.base.clone());
+    add("cross", json!(args.cross));
+    add("trained_on", json!(outcome.trained_on));
+    add("view", json!(examples.view));
+    add("calibration", calibration(outcome));
+    add("by_set", examples.by_set(&outcome.right));
+    report.into()
+}
+
+/// Mean confidence beside right answers, by quarters of the confidence.
+fn calibration(outcome: &Outcome) -> Value {
+    let all =
+        || outcome.found.iter().zip(&outcome.right).map(|(found, right)| (found.confidence.to_f64(), *right));
+    let quarter = |n: usize| {
+        let inside: Vec<(f64, bool)> =
+            all().filter(|(confidence, _)| ((confidence * 4.0) as usize).min(3) == n).collect();
+        let mean = |sum: f64| (!inside.is_empty()).then(|| sum / inside.len() as f64);
+        json!({
+            "answers": inside.len(),
+            "confidence": mean(inside.iter().map(|(confidence, _)| confidence).sum()),
+            "right": mean(inside.iter().filter(|(_, right)| *right).count() as f64),
+        })
+    };
+    (0..4).map(quarter).collect()
+}

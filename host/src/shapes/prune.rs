@@ -1,0 +1,78 @@
+//! `taxel shapes prune`: a base without the prototypes that decide nothing.
+
+use super::base::Base;
+use super::train::Known;
+use anyhow::Result;
+use std::path::PathBuf;
+use taxel_core::shape::{Exemplar, Point};
+
+/// Arguments of `taxel shapes prune`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct PruneArgs {
+    /// Base: a file, or the name of one that is shipped
+    pub base: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "BASE")]
+    pub output: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(args: PruneArgs) -> Result<()> {
+    let mut base = Base::open(&args.base)?;
+    let before = base.gallery.prototypes.len();
+    prune(&mut base.gallery);
+    base.card.split += ", before pruning";
+    base.save(&args.output)?;
+    eprintln!("{}: {} of {before} prototypes", args.output.display(), base.gallery.prototypes.len());
+    Ok(())
+}
+
+/// Hart's condensed nearest neighbours: beginning with the first prototype of each class, only those are kept that the kept ones would take for
+/// another class. One neighbour votes from then on: what is left lies where classes meet.
+fn prune(gallery: &mut Known) {
+    let all: Vec<Exemplar> = gallery.prototypes.to_vec();
+    let mut kept = vec![false; all.len()];
+    for class in 0..gallery.names.len() {
+        if let Some(first) = all.iter().position(|exemplar| usize::from(exemplar.class) == class) {
+            kept[first] = true;
+        }
+    }
+    loop {
+        let before = kept.iter().filter(|kept| **kept).count();
+        for (at, exemplar) in all.iter().enumerate() {
+            let known = all.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(exemplar, _)| exemplar);
+            let nearest = known.min_by_key(|known| distance(&known.at, &exemplar.at));
+            kept[at] |= nearest.is_some_and(|nearest| nearest.class != exemplar.class);
+        }
+        if kept.iter().filter(|kept| **kept).count() == before {
+            break;
+        }
+    }
+    gallery.prototypes =
+        all.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(exemplar, _)| *exemplar).collect();
+    gallery.k = 1;
+}
+
+fn distance(a: &Point, b: &Point) -> u64 {
+    a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b)).pow(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::base::SHIPPED_NAMES;
+
+    #[test]
+    fn what_is_kept_decides_the_same_of_all_prototypes() {
+        for name in SHIPPED_NAMES {
+            let whole = Base::open(name.as_ref()).unwrap().gallery;
+            let mut pruned = whole.clone();
+            prune(&mut pruned);
+            assert!(pruned.prototypes.len() < whole.prototypes.len(), "{name}");
+            for exemplar in &whole.prototypes {
+                let nearest = pruned.prototypes.iter().min_by_key(|known| distance(&known.at, &exemplar.at));
+                assert_eq!(nearest.unwrap().class, exemplar.class, "{name}");
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! From labelled touches to a gallery.
+
+use super::cluster::centres;
+use super::data::Example;
+use super::discriminant::Discriminant;
+use taxel_core::format::name;
+use taxel_core::shape::{
+    DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space, Sureness,
+};
+
+/// A gallery as large as a board holds.
+pub type Known = Gallery<GALLERY_PROTOTYPES>;
+
+/// What is chosen before anything is learned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recipe {
+    /// Indices of the measures that count.
+    pub measures: Vec<usize>,
+    /// They are to be chosen by what they bring.
+    pub select: bool,
+    /// See [`Discriminant::of`].
+    pub shrinkage: f64,
+    /// Neighbours that vote.
+    pub k: u8,
+    /// Most prototypes, at most [`GALLERY_PROTOTYPES`].
+    pub prototypes: usize,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Recipe {
+            measures: (0..MEASURES).collect(),
+            select: false,
+            shrinkage: 0.05,
+            k: 3,
+            prototypes: GALLERY_PROTOTYPES,
+        }
+    }
+}
+
+/// One unit of a [`Point`] is this part of the spread within a class.
+const UNITS: f64 = 256.0;
+
+/// Learns a gallery that knows everything it meets, without a table of sureness.
+pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
+    let space = space(examples, recipe);
+    let mut prototypes = heapless::Vec::new();
+    for class in 0..names.len() {
+        let members = examples.iter().filter(|example| example.class == class);
+        let points: Vec<Point> = members.map(|example| space.place(&example.descriptor)).collect();
+        let share = (points.len() * recipe.prototypes).div_ceil(examples.len());
+        let quota = share.min(recipe.prototypes / names.len()).max(1);
+        for at in centres(&points, quota) {
+            let _ = prototypes.push(Exemplar { class: class as u8, at });
+        }
+    }
+    Gallery {
+        names: names.iter().map(|text| name(text)).collect(),
+        space,
+        k: recipe.k,
+        reject: u16::MAX,
+        sureness: Sureness::default(),
+        prototypes,
+    }
+}
+
+/// The projection that a discriminant analysis finds, in integers.
+fn space(examples: &[&Example], recipe: &Recipe) -> Space {
+    let row = |example: &&Example| recipe.measures.iter().map(|i| example.descriptor[*i].into()).collect();
+    let rows: Vec<Vec<f64>> = examples.iter().map(row).collect();
+    // By the names of the labels: what is told apart within a class of several helps to tell the classes apart.
+    let labels: Vec<usize> = examples.iter().map(|example| example.kind).collect();
+    let classes = labels.iter().max().map_or(0, |last| last + 1);
+    let found = Discriminant::of(&rows, &labels, classes, DIMENSIONS, recipe.shrinkage);
+    let greatest =
+        found.weights.iter().flatten().fold(0.0, |most: f64, weight| most.max(weight.abs())) * UNITS;
+    // The finest step at which the greatest weight fits.
+    let shift = (0..=30u8).rev().find(|shift| greatest * f64::from(*shift).exp2() < 32_767.0).unwrap_or(0);
+    let spread = |values: &mut dyn Iterator<Item = f64>| {
+        let mut out = [0i16; MEASURES];
+        recipe.measures.iter().zip(values).for_each(|(i, value)| out[*i] = value.round() as i16);
+        out
+    };
+    let scale = UNITS * f64::from(shift).exp2();
+    let weights = found.weights.iter().map(|row| spread(&mut row.iter().map(|weight| weight * scale)));
+    Space { origin: spread(&mut found.origin.iter().copied()), weights: weights.collect(), shift }
+}

@@ -1,0 +1,105 @@
+//! What of an image is the touch.
+
+use serde::{Deserialize, Serialize};
+use taxel_core::shape::{Descriptor, Patch, descriptor};
+
+/// As on the command line.
+#[derive(Debug, Default, Clone, clap::Args)]
+pub struct ViewArgs {
+    /// Counts from which a taxel belongs to the touch [default: that of the base, or 1/32 of the full scale]
+    #[arg(long, value_name = "COUNTS")]
+    pub threshold: Option<u16>,
+    /// Which of these taxels: all, or the connected ones with the greatest total [default: that of the base, or all]
+    #[arg(long, value_name = "WHICH")]
+    pub touch: Option<Which>,
+}
+
+/// Which taxels above the threshold.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Which {
+    /// Everything is one touch.
+    #[default]
+    All,
+    /// The part, connected over sides and corners, with the greatest total: a contact.
+    Greatest,
+}
+
+/// What of an image is the touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct View {
+    /// Counts from which a taxel belongs to it.
+    pub threshold: u16,
+    /// Which of them.
+    pub touch: Which,
+}
+
+impl ViewArgs {
+    /// What was asked for, else what was seen before, else what suits images whose greatest value is `top`.
+    pub fn build(&self, seen: Option<View>, top: u16) -> View {
+        let threshold = (u32::from(top) + 1).next_power_of_two().div_ceil(32) as u16;
+        let seen = seen.unwrap_or(View { threshold, touch: Which::All });
+        View { threshold: self.threshold.unwrap_or(seen.threshold), touch: self.touch.unwrap_or(seen.touch) }
+    }
+}
+
+impl View {
+    /// Describes the touch of an image.
+    pub fn describe(&self, image: &[u16], columns: u16) -> Descriptor {
+        let columns = usize::from(columns);
+        let above = |value: &u16| if *value >= self.threshold.max(1) { *value } else { 0 };
+        let mut values: Vec<u16> = image.iter().map(above).collect();
+        if self.touch == Which::Greatest {
+            values = greatest(&values, columns);
+        }
+        let rows: Vec<&[u16]> = values.chunks(columns).collect();
+        let held = |value: &u16| *value > 0;
+        let top = rows.iter().position(|row| row.iter().any(held)).unwrap_or(0);
+        let bottom = rows.iter().rposition(|row| row.iter().any(held)).unwrap_or(0);
+        let left = rows.iter().filter_map(|row| row.iter().position(held)).min().unwrap_or(0);
+        let right = rows.iter().filter_map(|row| row.iter().rposition(held)).max().unwrap_or(0);
+        let inside = rows[top..=bottom].iter().flat_map(|row| &row[left..=right]);
+        descriptor(&Patch::new(&inside.copied().collect::<Vec<u16>>(), right - left + 1))
+    }
+}
+
+/// The part with the greatest total alone; of equals the first.
+fn greatest(values: &[u16], columns: usize) -> Vec<u16> {
+    let mut left: Vec<u16> = values.to_vec();
+    let mut best = (0, Vec::new());
+    for start in 0..values.len() {
+        let (mut part, mut total, mut open) = (Vec::new(), 0u64, vec![start]);
+        while let Some(at) = open.pop() {
+            let value = std::mem::take(&mut left[at]);
+            if value == 0 {
+                continue;
+            }
+            total += u64::from(value);
+            part.push(at);
+            let (row, column) = (at / columns, at % columns);
+            for y in row.saturating_sub(1)..=(row + 1).min(values.len() / columns - 1) {
+                open.extend(
+                    (column.saturating_sub(1)..=(column + 1).min(columns - 1)).map(|x| y * columns + x),
+                );
+            }
+        }
+        if total > best.0 {
+            best = (total, part);
+        }
+    }
+    let mut out = vec![0; values.len()];
+    best.1.into_iter().for_each(|at| out[at] = values[at]);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_greatest_part_is_a_contact() {
+        let image = [9, 0, 0, 3, 0, 9, 0, 3, 0, 0, 0, 3, 1, 0, 0, 8];
+        assert_eq!(greatest(&image, 4), [9, 0, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    }
+}
