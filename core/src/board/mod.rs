@@ -98,14 +98,16 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// put to rest there when it begins: the stack of a microcontroller has no room for the whole.
     #[inline(never)]
     pub fn with(info: BoardInfo, setup: Setup) -> Self {
+        // Before the large parts: a loop between them, and they would be made on the stack and copied.
+        let (scans, outputs) = (Pace::new(setup.scan_rate()), Outputs::at_rest(setup.pipeline.reactions()));
         Board {
             info,
-            scans: Pace::new(setup.scan_rate()),
+            scans,
             begun: false,
             state: PipelineState::default(),
             inbox: Receiver::new(),
             outbox: Outbox::new(&setup.scene.stream),
-            outputs: Outputs::at_rest(setup.pipeline.reactions()),
+            outputs,
             works: Deque::new(),
             saving: Saving::new(),
             scanning: false,
