@@ -10,8 +10,8 @@ use taxel_core::run::Link;
 /// Bits per second of the link, 8N1: 92,160 bytes a second each way.
 pub const BAUD: u32 = 921_600;
 
-/// Bytes of each ring: what the line carries in 22 ms, more than two scans take.
-pub const RING: usize = 2048;
+/// Bytes of each ring: what the line carries in 11 ms, more than two scans take.
+pub const RING: usize = 1024;
 
 /// The port.
 pub struct Uart {
