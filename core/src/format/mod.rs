@@ -143,11 +143,24 @@ impl Q15 {
         if part >= whole {
             return Q15::ONE;
         }
-        // Shift both so that `whole` fits in 32 bits: at most one unit in 2^31 is lost, far below half a step.
-        let shift = 32u32.saturating_sub(whole.leading_zeros());
-        let (part, whole) = (part >> shift, (whole >> shift) as u32);
-        Q15(Inverse::of(whole).quotient((part << 15) + whole as u64 / 2) as i32)
+        // Shift both so that `whole` fits in 31 bits: at most one unit in 2^30 is lost, far below half a step.
+        let shift = if whole >> 31 == 0 { 0 } else { 33 - whole.leading_zeros() };
+        Q15(share((part >> shift) as u32, (whole >> shift) as u32) as i32)
     }
+}
+
+/// `2^15 part / whole` rounded to the nearest, for `part` not above `whole` and that below 2^31, digit by digit: half of what
+/// an [`Inverse`] costs for so few.
+const fn share(part: u32, whole: u32) -> u32 {
+    let (mut rest, mut quotient, mut digit) = (part, 0, 0);
+    while digit < 15 {
+        (rest, quotient) = (rest << 1, quotient << 1);
+        if rest >= whole {
+            (rest, quotient) = (rest - whole, quotient + 1);
+        }
+        digit += 1;
+    }
+    if rest >= whole - whole / 2 { quotient + 1 } else { quotient }
 }
 
 #[cfg(test)]

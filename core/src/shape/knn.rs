@@ -65,9 +65,12 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
     if nearest.iter().take(k).any(|(_, class)| *class == Class::UNKNOWN) {
         nearest = self::nearest(prototypes, features, k, u32::MAX);
     }
-    let Some((least, _)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
+    let Some((least, class)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
     if least > limit {
         return (Class::UNKNOWN, Q15::ratio((least - limit).into(), least.into()));
+    }
+    if k == 1 {
+        return (class, Q15::ONE);
     }
     let voters = || nearest.iter().take_while(|(_, class)| *class != Class::UNKNOWN);
     let best = voters().fold((Class::UNKNOWN, 0), |best, (_, class)| {
@@ -85,10 +88,14 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
 /// base.
 fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) -> [(u32, Class); VOTERS] {
     let mut nearest = [(limit, Class::UNKNOWN); VOTERS];
-    let (mut rest, mut limit) = (prototypes, limit);
-    while let Some((distance, found, after)) = next_below(limit, rest, features) {
-        rest = after;
-        let mut carried = (distance, found);
+    if k == 1 {
+        nearest[0] = closest(prototypes, features, limit);
+        return nearest;
+    }
+    let mut limit = limit;
+    for prototype in prototypes {
+        let Some(distance) = distance_below(limit, prototype, features) else { continue };
+        let mut carried = (distance, prototype.class);
         for held in nearest.iter_mut().take(k) {
             if carried.0 < held.0 {
                 core::mem::swap(held, &mut carried);
@@ -99,32 +106,31 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) 
     nearest
 }
 
-/// The first prototype whose squared distance is below a limit: that, its class, and the prototypes after it. Most are told
-/// apart by size and anisotropy.
-#[inline(never)] // the few registers of an M0+ are for this
-fn next_below<'a>(
-    limit: u32,
-    prototypes: &'a [Prototype],
-    features: &Features,
-) -> Option<(u32, Class, &'a [Prototype])> {
+/// The nearest prototype, if its squared distance is below a limit; of equals the first in the base.
+#[inline(never)] // the few registers of an M0+ are for its loop
+fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, Class) {
+    prototypes.iter().fold((limit, Class::UNKNOWN), |closest, prototype| {
+        match distance_below(closest.0, prototype, features) {
+            Some(distance) => (distance, prototype.class),
+            None => closest,
+        }
+    })
+}
+
+/// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
+fn distance_below(limit: u32, prototype: &Prototype, features: &Features) -> Option<u32> {
     let [nmi, form, anisotropy, size] = *features;
-    let mut rest = prototypes.iter();
-    while let Some(prototype) = rest.next() {
-        let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
-        let mut distance = square(size, other_size);
-        if distance >= limit {
-            continue;
-        }
-        distance = distance.saturating_add(square(anisotropy, other_anisotropy));
-        if distance >= limit {
-            continue;
-        }
-        distance = distance.saturating_add(square(nmi, other_nmi)).saturating_add(square(form, other_form));
-        if distance < limit {
-            return Some((distance, prototype.class, rest.as_slice()));
-        }
+    let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
+    let mut distance = square(size, other_size);
+    if distance >= limit {
+        return None;
     }
-    None
+    distance = distance.saturating_add(square(anisotropy, other_anisotropy));
+    if distance >= limit {
+        return None;
+    }
+    distance = distance.saturating_add(square(nmi, other_nmi)).saturating_add(square(form, other_form));
+    (distance < limit).then_some(distance)
 }
 
 /// How far apart two numbers are, squared: below 2^32.
