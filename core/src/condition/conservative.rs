@@ -17,7 +17,7 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
         narrow(values, out);
         return mark_all(area, marks);
     }
-    let there = u16::MAX >> (15 - (area.columns - 1 >> grain));
+    let there = u16::MAX >> (15 - ((area.columns - 1) >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
     let mut next = first;
     while let Some(number) = marks.next(next..end) {

@@ -5,6 +5,7 @@
 //! pressed image that does not move.
 //!
 //! Quiet taxels are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 58 with a base, counted in its instructions.
+//! One that has changed takes 31 for its difference and 12 for the sum.
 
 use core::mem::{replace, take};
 use core::slice;
