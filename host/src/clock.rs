@@ -114,10 +114,11 @@ impl HostClock {
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
         let known = self.known.as_ref()?;
         let Bounds { low, high } = known.offset_at(board);
-        let middle = known.origin + i128::from(board.0) + ((low + high) / 2.0).round() as i128;
+        let middle =
+            known.origin.saturating_add(board.0.into()).saturating_add(((low + high) / 2.0).round() as i128);
         Some(HostTime {
             us: u64::try_from(middle.max(0)).unwrap_or(u64::MAX),
-            uncertainty_us: ((high - low) / 2.0).ceil() as u64 + 1,
+            uncertainty_us: (((high - low) / 2.0).ceil() as u64).saturating_add(1),
         })
     }
 }

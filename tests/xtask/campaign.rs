@@ -4,10 +4,11 @@ use crate::{paths, targets};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// The runs: a test target that runs the firmware image, and what of it takes longer where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, &str); 2] = [
-    ("emulator_usb", "frames over USB: every scene of the bench, 400 scans each"),
-    ("emulator_latency", "onset and reflex: 500 touches of one to five contacts"),
+/// The runs: a test target, whether it runs the firmware image, and what of it takes longer where TAXEL_CAMPAIGN is set.
+const RUNS: [(&str, bool, &str); 3] = [
+    ("emulator_usb", true, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
+    ("emulator_latency", true, "onset and reflex: 500 touches of one to five contacts (emulated)"),
+    ("setup", false, "setup by touch: 1,000 random wirings (simulated)"),
 ];
 
 /// Runs all of them; `--write`: and writes what they print.
@@ -20,14 +21,19 @@ pub fn run(args: &[String]) -> Result<(), String> {
     let logs = paths::target().join("xtask");
     std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
     let mut table = String::from(
-        "Long runs of the firmware image on the emulated board; `cargo xtask campaign --write` writes this.\n",
+        "Long runs on the emulated and the simulated board; `cargo xtask campaign --write` writes this.\n",
     );
-    for (target, what) in RUNS {
+    for (target, image, what) in RUNS {
         println!("{what} ...");
         let log = logs.join(format!("campaign-{target}.log"));
         let _ = std::fs::remove_file(&log);
-        let lines = targets::measured(target, &log, &[("TAXEL_CAMPAIGN", "1")])?
-            .map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
+        let longer = [("TAXEL_CAMPAIGN", "1")];
+        let end = if image {
+            targets::measured(target, &log, &longer)?
+        } else {
+            targets::printed(target, &log, &longer)
+        };
+        let lines = end.map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
         let said = lines.iter().filter(|line| !line.starts_with("test ") && !line.is_empty());
         // A string takes all.
         let _ = writeln!(table, "\n{what}");

@@ -72,13 +72,20 @@ pub fn measured(
         Ok(image) => image,
         Err(why) => return Ok(Err(why)),
     };
+    let elf = image.elf.to_string_lossy().into_owned();
+    let variables = [variables, &[("TAXEL_FIRMWARE_ELF", elf.as_str())]].concat();
+    Ok(printed(target, log, &variables))
+}
+
+/// What a test target printed.
+pub fn printed(target: &str, log: &Path, variables: &[(&str, &str)]) -> Result<Vec<String>, String> {
     let mut command = test_target(target);
-    command.args(["--", "--nocapture"]).env("TAXEL_FIRMWARE_ELF", image.elf).envs(variables.iter().copied());
+    command.args(["--", "--nocapture"]).envs(variables.iter().copied());
     let end = process::run_into(&mut command, log);
     let text = std::fs::read_to_string(log).unwrap_or_default();
     let lines = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
     let lines = lines.take_while(|line| !line.starts_with("test result")).map(String::from).collect();
-    Ok(end.map(|()| lines))
+    end.map(|()| lines)
 }
 
 /// What the chain costs on the emulated board, against the bars and the table that was written.

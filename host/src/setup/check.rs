@@ -4,7 +4,7 @@ use super::ask::{Ask, Gesture};
 use super::bundle::Bundle;
 use super::touch::Touch;
 use crate::sim::Decoder;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::{Circuit, Garment, GarmentError, Layout, Pins};
 
 /// How far from where it was asked a finger may be, taxels: one for the user, one for the finger, and half a one.
 const OFF: f64 = 2.5;
@@ -25,9 +25,10 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Of a garment whose wires are those of the bundle. None: it contradicts itself.
-    pub fn of(garment: &Garment, bundle: &Bundle) -> Option<Places> {
-        let layout = Layout::build(garment, usize::from(u16::MAX), 1).ok()?;
+    /// Of a garment whose wires are those of the bundle. An error says where it contradicts itself.
+    pub fn of(garment: &Garment, bundle: &Bundle) -> Result<Places, GarmentError> {
+        let layout = Layout::build(garment, usize::from(u16::MAX), 1)?;
+        Circuit::build(garment, &layout, Pins::ANY)?;
         let decoder = Decoder::build(garment);
         let place = |address: usize| {
             let pin = bundle.inputs[bundle.split(address).0];
@@ -37,7 +38,7 @@ impl Places {
             Some((usize::from(place.panel), f64::from(place.column), f64::from(place.row)))
         };
         let places = (0..bundle.addresses()).map(place).collect();
-        Some(Places { layout, places })
+        Ok(Places { layout, places })
     }
 
     /// How far off the touch was at most, or what is wrong with it.

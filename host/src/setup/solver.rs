@@ -14,6 +14,9 @@ const TRIES: u32 = 3;
 /// Times without an answer after which a panel counts as dead.
 const SILENT: u32 = 2;
 
+/// Why dead panels cannot be told apart.
+const LEFT_OVER: &str = "The inputs that gave no sign are not as many as the panels that gave none.";
+
 /// What comes next.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Next {
@@ -101,7 +104,8 @@ impl Solver {
             }
             match self.conclude() {
                 Ok(found) => return Next::Found(Box::new(found)),
-                Err((step, why)) => self.again(step, why),
+                Err((Some(step), why)) => self.again(step, why),
+                Err((None, why)) => self.given_up = Some(why),
             }
         }
     }
@@ -176,8 +180,8 @@ impl Solver {
         self.steps.extend(alive.into_iter().map(corner));
     }
 
-    /// The garment, if all touches agree with it; else the step to be taken again, and why.
-    fn conclude(&self) -> Result<Found, (usize, String)> {
+    /// The garment, if all touches agree with it; else the step to be taken again, if that may help, and why.
+    fn conclude(&self) -> Result<Found, (Option<usize>, String)> {
         let strokes: Vec<Stroke<'_>> = self
             .steps
             .iter()
@@ -187,16 +191,14 @@ impl Solver {
             })
             .collect();
         let (mut garment, margin) = assemble(&self.template, &self.bundle, &strokes)
-            .map_err(|unclear| (unclear.step, unclear.why))?;
-        let last = self.steps.len() - 1;
-        let dead =
-            self.bury(&mut garment).ok_or((last, "more inputs than panels are left over".to_string()))?;
+            .map_err(|unclear| (Some(unclear.step), unclear.why))?;
+        let dead = self.bury(&mut garment).ok_or_else(|| (None, LEFT_OVER.to_string()))?;
         let places = Places::of(&garment, &self.bundle)
-            .ok_or((last, "the blocks contradict each other".to_string()))?;
+            .map_err(|error| (None, format!("What was felt contradicts itself: {error}.")))?;
         let mut off = 0.0f64;
         for (index, step) in self.steps.iter().enumerate() {
             if let Some(touch) = &step.touch {
-                off = off.max(places.check(&step.ask, touch).map_err(|why| (index, why))?);
+                off = off.max(places.check(&step.ask, touch).map_err(|why| (Some(index), why))?);
             }
         }
         let touches = self.steps.iter().map(|step| step.tries + step.silent).sum();
