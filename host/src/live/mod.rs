@@ -86,6 +86,7 @@ impl LiveArgs {
             frames: None,
             seconds: None,
             json: false,
+            budget: None,
             pixels: false,
             save: None,
             taxel: None,
