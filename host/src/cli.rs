@@ -95,7 +95,7 @@ const SETTLE: &str = "Examples:
 
 const HEALTH: &str = "Examples:
   taxel health
-  taxel health --source sim:broken
+  taxel health --source sim:press
   taxel health --source serial:/dev/ttyACM0 --tare 32 --json";
 
 const SAVE: &str = "Examples:

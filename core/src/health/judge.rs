@@ -90,7 +90,9 @@ impl Shown<'_> {
             return TaxelHealth::Stuck;
         }
         let loud = self.usual.saturating_mul(4).saturating_add(LOUD);
-        if seen.range() > loud && seen.travel() / 5 > seen.range() / 2 {
+        // There and back is what a touch does; the usual noise of some frames comes on top.
+        let touch = seen.range().saturating_mul(2).saturating_add(self.usual.saturating_mul(4));
+        if seen.range() > loud && seen.travel() > touch {
             return TaxelHealth::Noisy;
         }
         let Some(rest) = self.at_rest(taxel) else { return TaxelHealth::Good };

@@ -91,8 +91,18 @@ impl Monitor {
 
     /// Takes down that a taxel is ill. `false`: too many are.
     pub fn add(&mut self, ill: IllTaxel) -> bool {
-        let at = self.ill.iter().position(|other| other.taxel > ill.taxel).unwrap_or(self.ill.len());
-        self.ill.insert(at, ill).is_ok()
+        if self.ill.push(ill).is_err() {
+            return false;
+        }
+        // Down to its place; the library's own insertion panics where there is none.
+        for at in (1..self.ill.len()).rev() {
+            if let Some([a, b, ..]) = self.ill.get_mut(at - 1..)
+                && b.taxel < a.taxel
+            {
+                core::mem::swap(a, b);
+            }
+        }
+        true
     }
 
     /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].
