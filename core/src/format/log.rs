@@ -36,7 +36,7 @@ mod tests {
         for round in 0..200_000u32 {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let value = Scaled::from_u64((state >> (round % 64)).max(1)).shifted((round % 17) as i16 - 24);
-            let want = (value.to_f64().log2() * 1024.0);
+            let want = value.to_f64().log2() * 1024.0;
             assert!((f64::from(value.log2()) - want).abs() <= 0.501, "{value:?}");
         }
         assert_eq!(Scaled::from_u64(1).log2(), 0);

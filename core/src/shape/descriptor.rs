@@ -1,5 +1,6 @@
 //! The measures that describe a touch to a [`Gallery`](super::Gallery).
 
+use super::nmi::sheppard;
 use super::outline::Outline;
 use super::patch::Patch;
 use super::spread::{Spread, length};
@@ -123,10 +124,9 @@ fn ratio(value: Q15) -> i16 {
 /// Logarithms of `J m` with Sheppard's correction and without; of a single taxel the moment of its square, `m^2 / 12` after
 /// correction.
 fn inertia(moments: &Moments) -> [i32; 2] {
-    let square = Scaled::from_u64(moments.m).times(Scaled::from_u64(moments.m)).times(TWELFTH);
-    let (jm, pixel) = (moments.jm(), square.to_wide(0));
-    let log = |value: u64| Scaled::from_u64(value.max(pixel).max(1)).log2();
-    [log(jm.saturating_sub(pixel.saturating_mul(2))), log(jm)]
+    let (m, jm) = (Scaled::from_u64(moments.m), moments.jm());
+    let pixel = m.times(m).times(TWELFTH).log2();
+    [sheppard(jm, moments.m), Scaled::from_u64(jm)].map(|inertia| inertia.log2().max(pixel))
 }
 
 const TWELFTH: Scaled = Scaled::from_u64(1).over(Scaled::from_u64(12));
@@ -137,7 +137,7 @@ fn kurtosis(spread: &Spread) -> i32 {
         return 0;
     }
     let log = |value: u64| Scaled::from_u64(value).log2();
-    log(spread.m) + log(spread.r4) - 2 * log(spread.r2)
+    log(spread.m) + log(spread.r4) + (8 << 10) - 2 * log(spread.r2)
 }
 
 /// Lean, three, four, offset.
@@ -147,7 +147,7 @@ fn directions(moments: &Moments, cover: &Moments, spread: &Spread) -> [i16; 4] {
         return [0; 4];
     }
     // Hoelder: not below sum r^3 f.
-    let third = m.times(r4.times(r4).times(r4)).sqrt().sqrt();
+    let third = m.times(r4.times(r4).times(r4)).shifted(24).sqrt().sqrt();
     let own = r2.times(r2.over(m).sqrt());
     let by = |vector: [i64; 2], size: Scaled| ratio(length(vector).over(size).to_q15());
     // Times both masses, in which it is exact; J / m = J m / m^2.

@@ -36,3 +36,6 @@ pub use space::{DIMENSIONS, Point, Space};
 pub use spread::Spread;
 pub use stage::{Shape, Shapes};
 pub use sureness::{STEPS, Sureness};
+
+#[cfg(test)]
+mod tests;

@@ -56,7 +56,7 @@ pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
 const SIXTH: Scaled = Scaled::from_u64(1).over(Scaled::from_u64(6));
 
 /// `J m - m^2 / 6` through `6 J m - m^2`, which is exact where it fits; 0 where the pixel is all there is.
-fn sheppard(jm: u64, m: u64) -> Scaled {
+pub(super) fn sheppard(jm: u64, m: u64) -> Scaled {
     let square = if m >> 32 == 0 { product(m, m) } else { u64::MAX };
     if jm <= u64::MAX / 6 {
         let six = (jm << 2) + (jm << 1);

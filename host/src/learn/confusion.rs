@@ -26,15 +26,22 @@ impl Confusion {
         self.counts[class][column] += 1;
     }
 
-    /// Whether an answer is right: of a class that nobody taught, "none" is.
-    fn is_right(&self, class: usize, answer: usize) -> bool {
-        let known = self.answers.iter().position(|name| *name == self.classes[class]);
-        known.unwrap_or(self.answers.len() - 1) == answer
+    /// Whether an answer is right: of a class that nobody taught, none is.
+    pub fn is_right(&self, class: usize, answer: Option<usize>) -> bool {
+        answer == self.answers.iter().position(|name| *name == self.classes[class])
+    }
+
+    /// The answers to a class: how often each, and whether it is right.
+    fn row(&self, class: usize) -> impl Iterator<Item = (&str, u32, bool)> {
+        let none = self.answers.len() - 1;
+        self.counts[class].iter().enumerate().map(move |(answer, count)| {
+            let right = self.is_right(class, (answer != none).then_some(answer));
+            (self.answers[answer].as_str(), *count, right)
+        })
     }
 
     fn right(&self, class: usize) -> u32 {
-        let row = self.counts[class].iter().enumerate();
-        row.filter(|(answer, _)| self.is_right(class, *answer)).map(|(_, count)| count).sum()
+        self.row(class).filter(|(_, _, right)| *right).map(|(_, count, _)| count).sum()
     }
 
     /// All that were counted.
@@ -73,16 +80,11 @@ impl Confusion {
     pub fn table(&self) -> String {
         let width = self.classes.iter().map(String::len).max().unwrap_or(0);
         let line = |class: usize| {
-            let row = &self.counts[class];
-            let all: u32 = row.iter().sum();
-            let wrong = row
-                .iter()
-                .enumerate()
-                .filter(|(answer, count)| **count > 0 && !self.is_right(class, *answer));
-            let mut wrong: Vec<(usize, &u32)> = wrong.collect();
-            wrong.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
-            let wrong =
-                wrong.iter().take(3).map(|(answer, count)| format!("{} {count}", self.answers[*answer]));
+            let all: u32 = self.counts[class].iter().sum();
+            let mut wrong: Vec<_> =
+                self.row(class).filter(|(_, count, right)| *count > 0 && !right).collect();
+            wrong.sort_by_key(|(_, count, _)| std::cmp::Reverse(*count));
+            let wrong = wrong.iter().take(3).map(|(answer, count, _)| format!("{answer} {count}"));
             let wrong = wrong.collect::<Vec<_>>().join(", ");
             let line =
                 format!("{:width$}  {:>4} of {all:<4} {wrong}", self.classes[class], self.right(class));

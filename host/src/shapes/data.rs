@@ -51,6 +51,8 @@ pub struct Examples {
     pub list: Vec<Example>,
     /// Names of the classes, sorted.
     pub names: Vec<String>,
+    /// What the labels name them, sorted.
+    pub kinds: Vec<String>,
     /// What of an image was the touch.
     pub view: View,
     /// Names of the sets; the only one of a file without sets has none.
@@ -113,7 +115,7 @@ impl ImagesArgs {
             set,
         };
         let list = kept.into_iter().map(example).collect();
-        Ok(Examples { list, names, view, sets: sets.into_iter().map(|set| set.set).collect() })
+        Ok(Examples { list, names, kinds, view, sets: sets.into_iter().map(|set| set.set).collect() })
     }
 
     fn sets(&self) -> Result<Vec<Labelled>> {

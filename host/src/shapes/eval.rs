@@ -79,23 +79,25 @@ fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
     let (name, base) = match &args.base {
         Some(path) => (path.display().to_string(), Base::open(path)?),
         None => {
-            let classes = args.images.read(None)?.names;
-            let (name, base) = Base::shipped_for(&classes)?;
+            let (name, base) = Base::shipped_for(&args.images.read(None)?.kinds)?;
             (name.to_string(), base)
         }
     };
     let examples = args.images.read(Some(base.view))?;
-    let known = base.names();
-    let mut confusion = Confusion::new(&examples.names, &known);
+    // What the base knows goes by the same names as the labels.
+    let named = |name: String| args.images.classes.of(&name).map(String::from).unwrap_or(name);
+    let known: Vec<String> = base.names().into_iter().map(named).collect();
+    let mut answers = known.clone();
+    answers.sort();
+    answers.dedup();
+    let mut confusion = Confusion::new(&examples.names, &answers);
     let (mut found, mut right) = (Vec::new(), Vec::new());
     for example in &examples.list {
         let recognised = base.gallery.recognise(&example.descriptor);
-        let answer = recognised.class.map(usize::from);
+        let answer =
+            recognised.class.and_then(|class| answers.binary_search(known.get(usize::from(class))?).ok());
         confusion.count(example.class, answer);
-        right.push(
-            answer.and_then(|answer| known.get(answer))
-                == known.iter().find(|name| **name == examples.names[example.class]),
-        );
+        right.push(confusion.is_right(example.class, answer));
         found.push(recognised);
     }
     let trained_on = base.knows_file(&fingerprint::of(&args.images.images)?);
