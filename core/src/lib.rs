@@ -24,6 +24,8 @@ pub mod fold;
 
 pub mod contact;
 
+pub mod gesture;
+
 pub mod shape;
 
 pub mod body;

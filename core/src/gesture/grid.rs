@@ -1,0 +1,115 @@
+//! What each cell of the sheet felt over a window.
+
+use super::cells::{CELLS, Cells};
+use super::histogram::Histogram;
+use super::log::log2;
+
+/// Features of a grid.
+pub const GRID: usize = 4 * (SHARES.len() + 1);
+
+/// Of 256: the shares of the cells below the ranks that are features; more of the high ones.
+const SHARES: [u16; 13] = [0, 52, 92, 132, 172, 192, 212, 224, 232, 240, 244, 248, 252];
+
+/// Sums of each cell.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Grid {
+    cells: [Cell; CELLS],
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Cell {
+    squares: u64,
+    sum: u32,
+    change: u32,
+    most: u16,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Grid { cells: [Cell::default(); CELLS] }
+    }
+}
+
+impl Grid {
+    /// Adds a frame after that of `before`; the first of a window has no change.
+    pub fn add(&mut self, now: &Cells, before: &Cells, frame: u32) {
+        for ((cell, now), before) in self.cells.iter_mut().zip(now).zip(before) {
+            let value = u32::from(*now);
+            cell.sum = cell.sum.wrapping_add(value);
+            cell.squares = cell.squares.wrapping_add((value * value).into());
+            cell.most = cell.most.max(*now);
+            if frame > 0 {
+                cell.change = cell.change.wrapping_add(now.abs_diff(*before).into());
+            }
+        }
+    }
+
+    /// The features of the `frames` so far, for mean, variance, greatest value and change of the cells each: log2 (Q8) of
+    /// its ranks among the cells, and log2 (Q8) of the number of cells that share in it.
+    pub fn features(&self, frames: u32) -> [u16; GRID] {
+        let count = u64::from(frames.max(1));
+        let log = log2(count - 1);
+        let kinds: [fn(&Cell, u64) -> u64; 4] = [
+            |cell, _| u64::from(cell.sum) << 4,
+            |cell, count| (count * cell.squares).saturating_sub(u64::from(cell.sum) * u64::from(cell.sum)),
+            |cell, _| u64::from(cell.most) << 4,
+            |cell, _| u64::from(cell.change) << 4,
+        ];
+        let scales = [log, 2 * log, 0, log];
+        let mut features = [0; GRID];
+        let chunks = features.chunks_exact_mut(SHARES.len() + 1);
+        for ((out, kind), scale) in chunks.zip(kinds).zip(scales) {
+            let ranked = self.ranked(|cell| kind(cell, count), scale);
+            out.iter_mut().zip(ranked).for_each(|(place, feature)| *place = feature);
+        }
+        features
+    }
+
+    fn ranked(&self, value: impl Fn(&Cell) -> u64, scale: u16) -> [u16; SHARES.len() + 1] {
+        let mut ranks = Histogram::<6>::default();
+        let (mut sum, mut squares) = (0u64, 0u64);
+        for cell in &self.cells {
+            let value = value(cell);
+            ranks.add(log2(value).saturating_sub(scale));
+            // Variances have 50 bits; their squares shall fit, too.
+            let small = (value >> 8).min(u32::MAX.into());
+            sum = sum.saturating_add(small);
+            squares = squares.saturating_add(small.saturating_mul(small) >> 8);
+        }
+        let sharing = (2 * log2(sum)).saturating_sub(log2(squares)).saturating_sub(8 << 8);
+        let mut features = [sharing; SHARES.len() + 1];
+        let ranks = ranks.percentiles(&SHARES, CELLS as u32);
+        features.iter_mut().zip(ranks).for_each(|(place, rank)| *place = rank);
+        features
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_and_the_number_of_cells_that_share() {
+        let mut grid = Grid::default();
+        let now: Cells = core::array::from_fn(|i| if i < 16 { 1000 } else { 0 });
+        for frame in 0..100 {
+            grid.add(&now, &now, frame);
+        }
+        let have = grid.features(100);
+        let log = 16_000f64.log2() * 256.0;
+        assert!((f64::from(have[12]) - log).abs() < 64.0 && have[0] < 64, "{have:?}");
+        assert!(have[13].abs_diff(4 * 256) < 8, "{have:?}");
+        assert!(have[14..28].iter().all(|f| *f < 64) && have[42..56].iter().all(|f| *f < 64), "{have:?}");
+    }
+
+    #[test]
+    fn nothing_overflows() {
+        let mut grid = Grid::default();
+        for frame in 0..super::super::LONGEST {
+            let now = [if frame % 2 == 0 { u16::MAX } else { 0 }; CELLS];
+            grid.add(&now, &now.map(|v| !v), frame);
+        }
+        let have = grid.features(super::super::LONGEST);
+        assert!(have[13].abs_diff(6 * 256) < 8 && have[55].abs_diff(6 * 256) < 8, "{have:?}");
+    }
+}

@@ -1,0 +1,54 @@
+//! The numbers of the last frames.
+
+use super::course::LAGS;
+use super::signal::{SIGNALS, Signals};
+
+/// Frames that are kept: the longest lag.
+const KEPT: usize = 48;
+
+/// A ring of the last frames' numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct History {
+    ring: [Signals; KEPT],
+    /// Where the next is written.
+    next: usize,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        History { ring: [[0; SIGNALS]; KEPT], next: 0 }
+    }
+}
+
+impl History {
+    /// Adds the numbers of a frame.
+    pub fn push(&mut self, signals: &Signals) {
+        if let Some(place) = self.ring.get_mut(self.next) {
+            *place = *signals;
+        }
+        self.next = if self.next + 1 < KEPT { self.next + 1 } else { 0 };
+    }
+
+    /// The number `index` of the frames as many before the next as [`LAGS`] says.
+    pub fn back(&self, index: usize) -> impl Iterator<Item = u16> {
+        LAGS.into_iter().map(move |lag| {
+            let place = self.next + KEPT - usize::from(lag);
+            let place = if place >= KEPT { place - KEPT } else { place };
+            self.ring.get(place).and_then(|signals| signals.get(index)).copied().unwrap_or(0)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_looks_back_as_far_as_the_lags() {
+        let mut history = History::default();
+        (0..100).for_each(|frame| history.push(&[frame; SIGNALS]));
+        for (value, lag) in history.back(3).zip(LAGS) {
+            assert_eq!(value, 100 - u16::from(lag));
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! The binary logarithm in sixteen bits.
+
+/// log2(1 + value) in Q8, at most 16,384; 3 units off at most.
+///
+/// The logarithm of the mantissa is f + 0.3465 f (1 - f), which is right at 0, 1 and nearly so at 1/2.
+pub const fn log2(value: u64) -> u16 {
+    let above = value.saturating_add(1);
+    let exponent = 63 - above.leading_zeros();
+    let fraction = ((above << above.leading_zeros()) << 1 >> 48) as u32;
+    let bend = (fraction >> 4) * ((65_536 - fraction) >> 4) >> 8;
+    (exponent << 8) as u16 + ((fraction + (bend * 89 >> 8)) >> 8) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_the_logarithm_of_one_more() {
+        let values =
+            (0..10_000u64).chain((13..64).flat_map(|bit| [1 << bit, 3 << (bit - 1), u64::MAX >> bit]));
+        for value in values.chain([u64::MAX]) {
+            let exact = (value as f64 + 1.0).log2() * 256.0;
+            assert!((f64::from(log2(value)) - exact).abs() <= 3.0, "{value}: {} of {exact}", log2(value));
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Touch over time: what a touch is by how it goes on, recognised by a model that was trained on recordings.
+//!
+//! Each frame of a sheet of any size becomes eight by eight cells, these nine numbers; of each number, and of the cells, sums are
+//! kept over a window of time, from which 300 features follow: levels, percentiles, rise and fall, change over twelve lags
+//! (what a spectrum tells), rhythm, and how the cells share in all that. A linear model scores the classes.
+//!
+//! | | |
+//! |---|---|
+//! | input | images of rows of pressures, `u16` |
+//! | output | [`Decision`]: class, scores in Q18 |
+//! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
+//! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
+//! | RAM | [`TouchState`], at most 8 KiB |
+//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 6.4 KB |
+
+mod cells;
+mod course;
+mod grid;
+mod histogram;
+mod history;
+mod log;
+mod model;
+mod signal;
+mod stage;
+mod window;
+
+pub use cells::{CELLS, Cells, SIDE, Sheet};
+pub use course::{COURSE, LAGS};
+pub use grid::GRID;
+pub use history::History;
+pub use model::{CLASSES, LARGEST, LIMIT, MAGIC, Model, ModelError, Scores, checksum};
+pub use signal::{NAMES, SIGNALS, Signals, signals};
+pub use stage::{Decision, TouchState, Touches};
+pub use window::{FEATURES, Features, LONGEST, Window};

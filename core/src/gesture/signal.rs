@@ -1,0 +1,127 @@
+//! What is told of each frame: nine numbers.
+
+use super::cells::{Cells, SIDE};
+use super::log::log2;
+
+/// Numbers of a frame.
+pub const SIGNALS: usize = 9;
+
+/// Names of the numbers, in their order.
+pub const NAMES: [&str; SIGNALS] =
+    ["total", "peak", "area", "x", "y", "spread", "anisotropy", "change", "evenness"];
+
+/// The numbers of a frame, each in 0 ..= 4095:
+/// log2 of total and of peak (Q8), cells above `pressed` (Q6), centroid (cells, Q9 of eight), spread about it (cells squared, Q7),
+/// anisotropy (Q11), log2 of the change of all cells since the frame before (Q8), log2 of sum f^2 / sum f (Q8).
+pub type Signals = [u16; SIGNALS];
+
+/// The numbers of a frame after that of `before`; a cell above `pressed` counts as touched.
+pub fn signals(cells: &Cells, before: &Cells, pressed: u16) -> Signals {
+    let (mut peak, mut area, mut change, mut squares) = (0, 0, 0, 0);
+    for (now, then) in cells.iter().zip(before) {
+        peak = peak.max(*now);
+        area += u16::from(*now > pressed);
+        change += u32::from(now.abs_diff(*then));
+        squares += u64::from(*now) * u64::from(*now);
+    }
+    let sums = Sums::of(cells);
+    let [x, y, spread, anisotropy] = sums.form();
+    let total = log2(sums.m.into());
+    let evenness = log2(squares).saturating_sub(total);
+    let all = [total, log2(peak.into()), area << 6, x, y, spread, anisotropy, log2(change.into()), evenness];
+    all.map(|signal| signal.min(4095))
+}
+
+/// Sums over the cells; at most 64 x 65,535 x 49, 28 bits.
+struct Sums {
+    m: u32,
+    x: u32,
+    y: u32,
+    xx: u32,
+    yy: u32,
+    xy: u32,
+}
+
+impl Sums {
+    fn of(cells: &Cells) -> Sums {
+        let mut sums = Sums { m: 0, x: 0, y: 0, xx: 0, yy: 0, xy: 0 };
+        for (row, y) in cells.chunks_exact(SIDE).zip(0u32..) {
+            let (mut m, mut sx) = (0, 0);
+            for (value, x) in row.iter().zip(0u32..) {
+                let value = u32::from(*value);
+                m += value;
+                sx += x * value;
+                sums.xx += x * x * value;
+            }
+            sums.m += m;
+            sums.x += sx;
+            sums.y += y * m;
+            sums.yy += y * y * m;
+            sums.xy += y * sx;
+        }
+        sums
+    }
+
+    /// x, y, spread, anisotropy. Sixteen counts more, in the middle of the sheet, keep a sheet that nobody touches from
+    /// having a place that jumps.
+    fn form(&self) -> [u16; 4] {
+        // The sums with 17 bits of mass, so that what follows fits 32 bits.
+        let m = self.m + REST;
+        let shift = m.ilog2().saturating_sub(16);
+        let rest = |sum: u32, share: u32| (sum + REST * share / 4) >> shift;
+        let m = (m >> shift).max(1);
+        // Of the middle, 3.5: 14 / 4, and 3.5^2 = 49 / 4.
+        let mean = |sum: u32| ((sum << 9) / m) as i32;
+        let (x, y) = (mean(rest(self.x, 14)), mean(rest(self.y, 14)));
+        let second = |sum: u32, a: i32, b: i32| mean(rest(sum, 49)) - (a * b >> 9);
+        let (xx, yy, xy) = (second(self.xx, x, x), second(self.yy, y, y), second(self.xy, x, y));
+        let spread = (xx + yy).max(0);
+        let (lean, skew) = ((xx - yy).unsigned_abs(), 2 * xy.unsigned_abs());
+        // The longer of two legs and three eighths of the shorter: the hypotenuse to 7 %.
+        let long = lean.max(skew) + lean.min(skew) * 3 / 8;
+        let anisotropy = (long << 11) / (spread as u32 + 32);
+        [x.max(0) as u16, y.max(0) as u16, (spread >> 2).min(4095) as u16, anisotropy.min(4095) as u16]
+    }
+}
+
+/// Counts that rest in the middle of the sheet.
+const REST: u32 = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(places: &[(usize, usize)], value: u16) -> Cells {
+        let mut cells = [0; 64];
+        places.iter().for_each(|(x, y)| cells[y * SIDE + x] = value);
+        cells
+    }
+
+    #[test]
+    fn a_press_on_one_cell() {
+        let have = signals(&at(&[(2, 6)], 60_000), &[0; 64], 10);
+        // log2(60,000) is 15.87.
+        assert!(have[0].abs_diff(4063) <= 3 && have[1] == have[0] && have[2] == 64, "{have:?}");
+        assert!(have[3].abs_diff(1024) < 4 && have[4].abs_diff(3072) < 4 && have[5] < 8, "{have:?}");
+        assert!(have[7] == have[0] && have[8].abs_diff(4063) < 8, "{have:?}");
+    }
+
+    #[test]
+    fn a_line_is_anisotropic_and_a_square_is_not() {
+        let line: [(usize, usize); 8] = core::array::from_fn(|x| (x, 3));
+        let have = signals(&at(&line, 9000), &at(&line, 9000), 10);
+        // The variance of eight places is 5.25.
+        assert!(have[5].abs_diff((5.25 * 128.0) as u16) < 4 && have[6] > 1900 && have[7] == 0, "{have:?}");
+        let square = signals(&at(&[(0, 0), (7, 0), (0, 7), (7, 7)], 9000), &[0; 64], 10);
+        assert!(square[6] < 20, "{square:?}");
+    }
+
+    #[test]
+    fn nothing_overflows() {
+        for cells in [[0; 64], [u16::MAX; 64], [1; 64]] {
+            let have = signals(&cells, &[u16::MAX; 64], 0);
+            assert!(have.iter().all(|signal| *signal < 4096));
+            assert_eq!((have[3], have[4]), (1792, 1792));
+        }
+    }
+}
