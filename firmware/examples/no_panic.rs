@@ -15,6 +15,7 @@ use taxel_core::acquire::{Scan, ScanError, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
+use taxel_core::gesture::{Model, TouchState, Touches};
 use taxel_core::scene::Scene;
 
 unsafe extern "C" {
@@ -49,12 +50,14 @@ pub struct Given {
     garment: Garment,
     scene: Scene,
     setup: Setup,
+    touch: TouchState,
+    image: &'static [u16],
 }
 
 /// One call; where a linker begins, and so what it keeps.
 #[unsafe(no_mangle)]
 pub extern "C" fn _start(given: &mut Given) {
-    let Given { board, now, bytes, codes, report, info, garment, scene, .. } = given;
+    let Given { board, now, bytes, codes, report, info, garment, scene, touch, image, .. } = given;
     let mut step = |input| keep(board.step(*now, input, &mut ()));
     match given.call {
         0 => step(Input::Received(bytes)),
@@ -73,8 +76,13 @@ pub extern "C" fn _start(given: &mut Given) {
         13 => board.restore(given.part, bytes),
         14 => keep(board.settings().write(given.part, given.buffer)),
         15 => board.forgot("any"),
+        16 => keep(Model::read(bytes).map(|model| {
+            let touches = Touches::new(model, given.count as u16, given.call.into());
+            touches.process(touch, image);
+            touches.decide(touch)
+        })),
         #[cfg(control)]
-        16 => keep(codes[given.count]),
+        17 => keep(codes[given.count]),
         _ => {}
     }
 }

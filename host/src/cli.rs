@@ -3,7 +3,9 @@
 use crate::bench::{self, BenchArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
+use crate::gestures::{self, GesturesArgs};
 use crate::health::{self, HealthArgs};
+use crate::intent::{self, IntentArgs};
 use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
 use crate::save::{self, SaveArgs};
@@ -37,6 +39,12 @@ enum Command {
     /// Fuzzy cognitive maps: run in f64 and in the board's arithmetic, validate
     #[command(after_help = FCM)]
     Fcm(FcmArgs),
+    /// Which gesture a touch is: train and evaluate models that fit the board
+    #[command(after_help = GESTURES)]
+    Gestures(GesturesArgs),
+    /// What a touch means, kindness, threat or attack: train and evaluate models that fit the board
+    #[command(after_help = INTENT)]
+    Intent(IntentArgs),
     /// Speed against error, as tables and charts
     #[command(after_help = BENCH)]
     Bench(BenchArgs),
@@ -78,6 +86,15 @@ const FCM: &str = "Examples:
   taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json
   taxel fcm tactile --input press=0.8 --input time=0.1
   taxel fcm check my-map.toml";
+
+const GESTURES: &str = "Examples:
+  taxel gestures eval --frames train.npz --labels train.csv --cross participant --json
+  taxel gestures train --frames train.npz --labels train.csv -o my.model
+  taxel gestures eval --model my.model --frames test.npz --labels test.csv";
+
+const INTENT: &str = "Examples:
+  taxel intent eval --frames frames.npz --labels labels.csv --cross day --json
+  taxel intent train --frames frames.npz --labels labels.csv -o my.model";
 
 const BENCH: &str = "Examples:
   taxel bench
@@ -122,6 +139,8 @@ impl Cli {
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),
+            Command::Gestures(args) => gestures::run(args),
+            Command::Intent(args) => intent::run(args),
             Command::Bench(args) => bench::run(args),
             Command::Setup(args) => setup::run(&args),
             Command::Settle(args) => settle::run(&args),

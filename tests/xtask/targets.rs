@@ -16,6 +16,7 @@ pub const APART: &[&str] = &[
     "emulator_store",
     "emulator_recorded",
     "recorded",
+    "touch_recorded",
     "cycles",
 ];
 
@@ -116,6 +117,12 @@ fn measuring() -> Command {
 pub fn recorded(log: &Path) -> Result<Result<(), String>, String> {
     recordings()?;
     Ok(process::run_into(&mut test_target("recorded"), log))
+}
+
+/// Recorded touches, recognised with people and days kept apart.
+pub fn touch_recorded(log: &Path) -> Result<Result<(), String>, String> {
+    recordings()?;
+    Ok(process::run_into(&mut test_target("touch_recorded"), log))
 }
 
 /// `cargo xtask recorded`: the recordings through the pipeline, in the open.

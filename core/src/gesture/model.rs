@@ -89,7 +89,7 @@ impl core::error::Error for ModelError {}
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Model<'a> {
     notes: &'a [u8],
-    classes: usize,
+    classes: u8,
     pressed: u16,
     part: u16,
     names: &'a [u8],
@@ -104,7 +104,7 @@ impl<'a> Model<'a> {
             return Err(ModelError::Large(bytes.len()));
         }
         let model = Model::split(bytes)?;
-        (0..model.classes).try_for_each(|class| match model.name(class) {
+        (0..model.classes()).try_for_each(|class| match model.name(class) {
             Some(name) if !name.is_empty() => Ok(()),
             _ => Err(ModelError::Nameless(class)),
         })?;
@@ -115,7 +115,7 @@ impl<'a> Model<'a> {
             }
             next = feature.index + 1;
         }
-        (0..model.classes).try_for_each(|class| {
+        (0..model.classes()).try_for_each(|class| {
             let weights = model.used().filter_map(|feature| feature.weights().nth(class));
             let most: i64 = weights.map(|w| i64::from(w.unsigned_abs()) * i64::from(LIMIT)).sum();
             let offset = model.offset(class).unsigned_abs();
@@ -161,7 +161,7 @@ impl<'a> Model<'a> {
             return Err(ModelError::Damaged);
         }
         let [pressed, part] = [u16::from_le_bytes([p0, p1]), u16::from_le_bytes([n0, n1])];
-        Ok(Model { notes, classes, pressed, part, names, offsets, features })
+        Ok(Model { notes, classes: classes as u8, pressed, part, names, offsets, features })
     }
 
     /// The provenance, as JSON.
@@ -171,7 +171,7 @@ impl<'a> Model<'a> {
 
     /// Number of classes.
     pub fn classes(&self) -> usize {
-        self.classes
+        self.classes.into()
     }
 
     /// A cell above this counts as touched.
@@ -211,7 +211,7 @@ impl<'a> Model<'a> {
     }
 
     fn used(&self) -> impl Iterator<Item = Used<'a>> {
-        self.features.chunks_exact(6 + 2 * self.classes).filter_map(|record| {
+        self.features.chunks_exact(6 + 2 * self.classes()).filter_map(|record| {
             let ([i0, i1, m0, m1, s0, s1], weights) = record.split_first_chunk::<6>()?;
             let [index, middle] = [[*i0, *i1], [*m0, *m1]].map(u16::from_le_bytes);
             Some(Used { index, middle, scale: u16::from_le_bytes([*s0, *s1]), weights })

@@ -67,7 +67,7 @@ impl Sums {
     fn form(&self) -> [u16; 4] {
         // The sums with 17 bits of mass, so that what follows fits 32 bits.
         let m = self.m + REST;
-        let shift = m.ilog2().saturating_sub(16);
+        let shift = (31 - m.leading_zeros()).saturating_sub(16);
         let rest = |sum: u32, share: u32| (sum + REST * share / 4) >> shift;
         let m = (m >> shift).max(1);
         // Of the middle, 3.5: 14 / 4, and 3.5^2 = 49 / 4.

@@ -93,7 +93,6 @@ impl LiveArgs {
             garment: None,
             scene: None,
             tare: None,
-            budget: None,
             realtime: false,
             seed: None,
             svg: None,

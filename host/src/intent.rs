@@ -1,0 +1,160 @@
+//! `taxel intent`: what a touch means, by a model that fits the board.
+
+use crate::arrays;
+use crate::gestures::{evaluate, print, write};
+use crate::learn::{self, Data, Report, Settings, Source, Table, Times, Touch};
+use anyhow::{Context, Result, bail, ensure};
+use clap::{Args, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// The model that is shipped: trained on the recordings its notes name; `docs/models.md` is its card.
+pub const SHIPPED: &[u8] = include_bytes!("../models/intent.model");
+
+/// Chosen by cross-validation by day.
+pub const SETTINGS: Settings =
+    Settings { pressed: 200, part: 0, penalty: 10.0, balance: 0.5, mirrored: true };
+
+/// Frames of observation.
+const FRAMES: [u16; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20, 40, 80];
+
+/// What each gesture means.
+const MEANINGS: [(&str, &[&str]); 3] = [
+    ("kindness", &["stroke", "hug", "tap", "tickle"]),
+    ("threat", &["grab", "squeez", "squeeze"]),
+    ("attack", &["punch"]),
+];
+
+/// Arguments of `taxel intent`.
+#[derive(Debug, Clone, Args)]
+pub struct IntentArgs {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum Command {
+    /// Train a model
+    Train {
+        #[command(flatten)]
+        files: Files,
+        /// Where to write the model
+        #[arg(short, long, value_name = "MODEL")]
+        output: PathBuf,
+    },
+    /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
+    Eval {
+        #[command(flatten)]
+        files: Files,
+        /// The model; without it the shipped one
+        #[arg(long, conflicts_with = "cross")]
+        model: Option<PathBuf>,
+        /// Keep each of these apart in turn
+        #[arg(long, value_name = "GROUPS")]
+        cross: Option<Cross>,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// What to keep apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Cross {
+    /// Each recording
+    Recording,
+    /// The recordings of each day, which is in their names
+    Day,
+}
+
+/// Recorded touches.
+#[derive(Debug, Clone, Args)]
+pub struct Files {
+    /// Frames of all recordings, one after the other
+    #[arg(long, value_name = "F.npz")]
+    pub frames: PathBuf,
+    /// A line for each frame, with columns recording and label
+    #[arg(long, value_name = "L.csv")]
+    pub labels: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: IntentArgs) -> Result<()> {
+    match args.command {
+        Command::Train { files, output } => write(&load(&files, Cross::Day)?, &SETTINGS, &output),
+        Command::Eval { files, model, cross, json } => {
+            let data = load(&files, cross.unwrap_or(Cross::Day))?;
+            let report = match cross {
+                Some(_) => learn::cross(&data, &SETTINGS, &times())?,
+                None => evaluate(&data, model.as_deref(), SHIPPED, &times())?,
+            };
+            print(&report, json);
+            Ok(())
+        }
+    }
+}
+
+/// What `eval --cross day` finds.
+pub fn across_days(files: &Files) -> Result<Report> {
+    learn::cross(&load(files, Cross::Day)?, &SETTINGS, &times())
+}
+
+fn times() -> Times {
+    let steps = FRAMES.iter().map(|frames| (f64::from(*frames), usize::from(*frames))).collect();
+    Times { unit: "frames", steps }
+}
+
+/// Reads recorded touches: each stretch of frames of one label is one.
+fn load(files: &Files, apart: Cross) -> Result<Data> {
+    let path = &files.frames;
+    let Some(labels) = &files.labels else {
+        bail!("{}: frames of touches hold no labels, name their file with --labels", path.display());
+    };
+    let frames = arrays::read(path, None)?;
+    let table = Table::read(labels)?;
+    let columns = || Ok::<_, anyhow::Error>((table.column("recording")?, table.column("label")?));
+    let (recordings, names) = columns().with_context(|| labels.display().to_string())?;
+    let (count, lines) = (frames.count, table.len());
+    ensure!(count == lines, "{}: {lines} labels for {count} frames", labels.display());
+    let lines: Vec<(&str, &str)> = recordings.into_iter().zip(names).collect();
+    let area = usize::from(frames.rows) * usize::from(frames.columns);
+    let (mut touches, mut idle, mut start) = (Vec::new(), Vec::new(), 0);
+    for stretch in lines.chunk_by(|a, b| a == b) {
+        let (recording, label) = stretch[0];
+        let values = frames.values[start * area..(start + stretch.len()) * area].to_vec();
+        start += stretch.len();
+        let group = if apart == Cross::Day { day(recording) } else { recording };
+        let class = meaning(label);
+        let touch = Touch { values, class: class.unwrap_or(0), label: label.into(), group: group.into() };
+        match class {
+            Some(_) => touches.push(touch),
+            None if label.eq_ignore_ascii_case("none") => idle.push(touch),
+            None => bail!("{}: the label {label} has no meaning here", labels.display()),
+        }
+    }
+    ensure!(!touches.is_empty(), "{}: there are no touches", labels.display());
+    let classes = MEANINGS.iter().map(|(name, _)| name.to_string()).collect();
+    let sources = vec![Source::of(path)?, Source::of(labels)?];
+    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, sources })
+}
+
+fn meaning(label: &str) -> Option<usize> {
+    let label = label.to_lowercase();
+    MEANINGS.iter().position(|(_, gestures)| gestures.contains(&label.as_str()))
+}
+
+/// The eight digits of the day in a name such as Tap_20250527135406; without them the name.
+fn day(recording: &str) -> &str {
+    let digits = |part: &&str| part.len() >= 8 && part.bytes().all(|byte| byte.is_ascii_digit());
+    recording.split('_').find(digits).map_or(recording, |part| &part[..8])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_their_day_and_labels_their_meaning() {
+        assert_eq!((day("Tap_20250527135406"), day("mine"), day("a_2025")), ("20250527", "mine", "a_2025"));
+        assert_eq!((meaning("Squeez"), meaning("Punch"), meaning("None")), (Some(1), Some(2), None));
+    }
+}

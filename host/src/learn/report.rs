@@ -1,0 +1,88 @@
+//! How well touches were recognised.
+
+use serde_json::{Map, Value, json};
+
+/// A touch that was recognised: what it was and what it was taken for.
+pub type Outcome = (usize, usize);
+
+/// Accuracy and confusion, and what else was measured.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    classes: Vec<String>,
+    outcomes: Vec<Outcome>,
+    more: Map<String, Value>,
+}
+
+impl Report {
+    /// Of touches of these classes.
+    pub fn new(classes: &[String], outcomes: Vec<Outcome>) -> Report {
+        Report { classes: classes.to_vec(), outcomes, more: Map::new() }
+    }
+
+    /// Share of those that were recognised; 0 of none.
+    pub fn accuracy(&self) -> f64 {
+        accuracy(&self.outcomes)
+    }
+
+    /// Adds what else was measured.
+    pub fn add(&mut self, key: &str, value: Value) {
+        self.more.insert(key.into(), value);
+    }
+
+    /// Rows are what touches were, columns what they were taken for.
+    fn confusion(&self) -> Vec<Vec<usize>> {
+        let mut confusion = vec![vec![0; self.classes.len()]; self.classes.len()];
+        self.outcomes.iter().for_each(|(was, taken)| confusion[*was][*taken] += 1);
+        confusion
+    }
+
+    /// The object that `--json` prints.
+    pub fn json(&self) -> Value {
+        let mut object = json!({
+            "accuracy": self.accuracy(),
+            "touches": self.outcomes.len(),
+            "chance": 1.0 / self.classes.len().max(1) as f64,
+            "classes": self.classes,
+            "confusion": self.confusion(),
+        });
+        if let Value::Object(object) = &mut object {
+            object.extend(self.more.clone());
+        }
+        object
+    }
+
+    /// The form for people.
+    pub fn text(&self) -> String {
+        let width = self.classes.iter().map(String::len).max().unwrap_or(0).max(6);
+        let mut text =
+            format!("accuracy {:.1} % of {} touches\n", 100.0 * self.accuracy(), self.outcomes.len());
+        text += &format!("{:>width$}  taken for\n{:>width$}", "was", "");
+        self.classes.iter().for_each(|class| text += &format!(" {class:>width$}"));
+        for (class, row) in self.classes.iter().zip(self.confusion()) {
+            text += &format!("\n{class:>width$}");
+            row.iter().for_each(|count| text += &format!(" {count:>width$}"));
+        }
+        text.push('\n');
+        self.more.iter().for_each(|(key, value)| text += &format!("{key}: {value}\n"));
+        text
+    }
+}
+
+/// Share of the touches that were taken for what they were.
+pub fn accuracy(outcomes: &[Outcome]) -> f64 {
+    outcomes.iter().filter(|(was, taken)| was == taken).count() as f64 / outcomes.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_what_touches_were() {
+        let classes = ["pat".to_string(), "rub".to_string()];
+        let report = Report::new(&classes, vec![(0, 0), (0, 1), (0, 1), (1, 1)]);
+        let json = report.json();
+        assert_eq!((report.accuracy(), &json["confusion"]), (0.5, &json!([[1, 2], [0, 1]])));
+        assert!(report.text().starts_with("accuracy 50.0 % of 4 touches\n"));
+    }
+}

@@ -1,0 +1,143 @@
+//! Linear classes by least squares: for each class the plane that is nearest to +1 on its examples and to -1 on the others.
+
+use taxel_core::gesture::{FEATURES, Features, LIMIT};
+
+/// Deviations beyond which a feature counts as that far, as on the board.
+const FARTHEST: f64 = LIMIT as f64 / 256.0;
+
+/// Planes over standardised features.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ridge {
+    /// Mean of each feature.
+    pub middle: Vec<f64>,
+    /// Standard deviation of each feature, and one unit.
+    pub deviation: Vec<f64>,
+    /// For each class the weight of each feature.
+    pub weights: Vec<Vec<f64>>,
+    /// For each class its offset.
+    pub offsets: Vec<f64>,
+}
+
+impl Ridge {
+    /// Fits examples with their classes, 0 .. `classes`. `penalty` draws the weights towards 0, per window of an example.
+    /// With `balance` 1 every class counts alike however many examples it has, with 0 every example.
+    pub fn fit(examples: &[(&Features, usize)], classes: usize, penalty: f64, balance: f64) -> Ridge {
+        let (middle, deviation) = standard(examples);
+        let mut counts = vec![0usize; classes];
+        examples.iter().for_each(|(_, class)| counts[*class] += 1);
+        let share = |class: usize| examples.len() as f64 / (classes * counts[class].max(1)) as f64;
+        let weigh: Vec<f64> = (0..classes).map(|class| share(class).powf(balance)).collect();
+        let size = FEATURES + 1;
+        let mut normal = vec![0.0; size * size];
+        let mut wanted = vec![vec![0.0; size]; classes];
+        let mut row = vec![1.0; size];
+        for (features, class) in examples {
+            standardise(features, &middle, &deviation, &mut row);
+            let weight = weigh[*class];
+            for (i, a) in row.iter().enumerate() {
+                let (a, line) = (a * weight, &mut normal[i * size..i * size + i + 1]);
+                line.iter_mut().zip(&row).for_each(|(sum, b)| *sum += a * b);
+                for (other, wanted) in wanted.iter_mut().enumerate() {
+                    wanted[i] += if other == *class { a } else { -a };
+                }
+            }
+        }
+        (0..size).for_each(|i| normal[i * size + i] += penalty);
+        factor(&mut normal, size);
+        let (mut weights, mut offsets) = (Vec::new(), Vec::new());
+        for mut plane in wanted {
+            solve(&normal, &mut plane);
+            offsets.extend(plane.pop());
+            weights.push(plane);
+        }
+        Ridge { middle, deviation, weights, offsets }
+    }
+}
+
+/// Mean and standard deviation of each feature.
+pub(super) fn standard(examples: &[(&Features, usize)]) -> (Vec<f64>, Vec<f64>) {
+    let count = examples.len().max(1) as f64;
+    let (mut middle, mut deviation) = (vec![0.0; FEATURES], vec![0.0; FEATURES]);
+    for (features, _) in examples {
+        middle.iter_mut().zip(features.iter()).for_each(|(sum, value)| *sum += f64::from(*value) / count);
+    }
+    for (features, _) in examples {
+        let values = middle.iter().zip(features.iter()).map(|(middle, value)| f64::from(*value) - middle);
+        deviation.iter_mut().zip(values).for_each(|(sum, value)| *sum += value * value / count);
+    }
+    // One unit more: a feature that hardly varies is no lever.
+    deviation.iter_mut().for_each(|value| *value = value.sqrt() + 1.0);
+    (middle, deviation)
+}
+
+/// The features as they count, into a row that ends with 1.
+fn standardise(features: &Features, middle: &[f64], deviation: &[f64], row: &mut [f64]) {
+    let standard = middle.iter().zip(deviation);
+    for ((place, value), (middle, deviation)) in row.iter_mut().zip(features).zip(standard) {
+        *place = ((f64::from(*value) - middle) / deviation).clamp(-FARTHEST, FARTHEST);
+    }
+}
+
+/// The Cholesky factor of a positive definite matrix in place of its lower half.
+fn factor(matrix: &mut [f64], size: usize) {
+    for i in 0..size {
+        let (above, line) = matrix.split_at_mut(i * size);
+        for j in 0..i {
+            let other = &above[j * size..j * size + j + 1];
+            let dot: f64 = line[..j].iter().zip(other).map(|(a, b)| a * b).sum();
+            line[j] = (line[j] - dot) / other[j];
+        }
+        let square: f64 = line[..i].iter().map(|a| a * a).sum();
+        line[i] = (line[i] - square).max(f64::MIN_POSITIVE).sqrt();
+    }
+}
+
+/// Solves for a right-hand side in place, by the factor.
+fn solve(factor: &[f64], side: &mut [f64]) {
+    let size = side.len();
+    for i in 0..size {
+        let dot: f64 = factor[i * size..i * size + i].iter().zip(side.iter()).map(|(a, b)| a * b).sum();
+        side[i] = (side[i] - dot) / factor[i * size + i];
+    }
+    for i in (0..size).rev() {
+        let dot: f64 = (i + 1..size).map(|j| factor[j * size + i] * side[j]).sum();
+        side[i] = (side[i] - dot) / factor[i * size + i];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_factor_solves() {
+        let matrix = [4.0, 2.0, 0.4, 2.0, 5.0, 1.0, 0.4, 1.0, 3.0];
+        let mut lower = matrix;
+        factor(&mut lower, 3);
+        let mut x = [1.0, -2.0, 0.5];
+        solve(&lower, &mut x);
+        for (row, want) in matrix.chunks(3).zip([1.0, -2.0, 0.5]) {
+            let have: f64 = row.iter().zip(x).map(|(a, b)| a * b).sum();
+            assert!((have - want).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn classes_apart_are_told_apart() {
+        let of = |shift: u16| -> Vec<Features> {
+            (0..40u16)
+                .map(|i| {
+                    std::array::from_fn(|f| {
+                        1000 + (i * 37 + f as u16 * 11) % 300 + if f == 5 { shift } else { 0 }
+                    })
+                })
+                .collect()
+        };
+        let (low, high) = (of(0), of(900));
+        let examples: Vec<_> = low.iter().map(|f| (f, 0)).chain(high.iter().map(|f| (f, 1))).collect();
+        let ridge = Ridge::fit(&examples, 2, 1.0, 0.5);
+        let heaviest =
+            (0..FEATURES).max_by(|a, b| ridge.weights[1][*a].abs().total_cmp(&ridge.weights[1][*b].abs()));
+        assert!(heaviest == Some(5) && ridge.weights[1][5] > 0.0);
+    }
+}

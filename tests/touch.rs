@@ -1,0 +1,133 @@
+//! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and whether it fits.
+
+use proptest::prelude::*;
+use taxel::learn::{Head, Ridge, Shipped, export};
+use taxel::{gestures, intent};
+use taxel_core::gesture::{FEATURES, Features, LARGEST, Model, ModelError, TouchState, Touches, checksum};
+
+/// Touches of a sheet that differ by how fast they go to and fro.
+fn rubbing(period: usize, seed: usize) -> impl Iterator<Item = Vec<u16>> {
+    (0..100).map(move |frame| {
+        let at = (frame + seed) % period * 8 / period;
+        (0..64)
+            .map(|cell| if cell % 8 == at { 300 + (seed * 7 % 50) as u16 } else { (cell % 3) as u16 })
+            .collect()
+    })
+}
+
+fn features(frames: impl Iterator<Item = Vec<u16>>) -> Features {
+    use taxel_core::gesture::{History, Sheet, Window, signals};
+    let (mut window, mut history, mut before) = (Window::default(), History::default(), None);
+    for frame in frames {
+        let cells = Sheet::new(8, 8).cells(&frame);
+        let then = before.unwrap_or(cells);
+        let signals = signals(&cells, &then, 12);
+        window.add(&cells, &then, &signals, &history);
+        history.push(&signals);
+        before = Some(cells);
+    }
+    window.features()
+}
+
+fn trained() -> (Ridge, Vec<u8>) {
+    let examples: Vec<(Features, usize)> =
+        (0..40).map(|seed| (features(rubbing(if seed % 2 == 0 { 8 } else { 40 }, seed)), seed % 2)).collect();
+    let examples: Vec<_> = examples.iter().map(|(features, class)| (features, *class)).collect();
+    let ridge = Ridge::fit(&examples, 2, 10.0, 0.0);
+    let names = ["fast".to_string(), "slow".to_string()];
+    let bytes = export(&ridge, Head { names: &names, pressed: 12, part: 40, notes: "{}" }).unwrap();
+    (ridge, bytes)
+}
+
+#[test]
+fn a_trained_model_tells_touches_apart_that_it_has_not_seen() {
+    let (_, bytes) = trained();
+    let touches = Touches::new(Model::read(&bytes).unwrap(), 8, 8);
+    for seed in 100..140 {
+        let mut state = TouchState::default();
+        rubbing(if seed % 2 == 0 { 8 } else { 40 }, seed)
+            .for_each(|frame| touches.process(&mut state, &frame));
+        assert_eq!(touches.decide(&state).class, seed % 2, "{seed}");
+    }
+}
+
+#[test]
+fn the_board_scores_as_the_planes_do() {
+    let (ridge, bytes) = trained();
+    let model = Model::read(&bytes).unwrap();
+    for seed in 0..20 {
+        let features = features(rubbing(5 + seed, seed));
+        let scores = model.scores(&features);
+        for (class, weights) in ridge.weights.iter().enumerate() {
+            let away =
+                |i: usize| ((f64::from(features[i]) - ridge.middle[i]) / ridge.deviation[i]).clamp(-2.5, 2.5);
+            let exact: f64 = (0..FEATURES).map(|i| weights[i] * away(i)).sum::<f64>() + ridge.offsets[class];
+            let have = f64::from(scores[class]) / 262_144.0;
+            // Half of 2^-10 of each weight and a unit of 2^-8 of each feature.
+            let most: f64 = weights.iter().map(|weight| weight.abs() / 100.0 + 2.5 / 2048.0).sum();
+            assert!((have - exact).abs() <= most, "{have} of {exact}");
+        }
+    }
+}
+
+#[test]
+fn the_shipped_models_fit_a_board_and_name_their_data() {
+    for (bytes, classes) in [(gestures::SHIPPED, 7), (intent::SHIPPED, 3)] {
+        let model = Model::read(bytes).unwrap();
+        assert_eq!(model.classes(), classes);
+        let notes = Shipped::of(&model).unwrap();
+        assert!(notes.data.len() == 2 && notes.touches > 200);
+    }
+    assert!(size_of::<TouchState>() <= 8 << 10, "{} bytes", size_of::<TouchState>());
+}
+
+#[test]
+fn bad_models_are_refused_with_a_sentence() {
+    let good = gestures::SHIPPED;
+    let with = |at: usize, byte: u8| {
+        let mut bytes = good[..good.len() - 4].to_vec();
+        bytes[at] = byte;
+        let sum = checksum(&bytes);
+        bytes.extend(sum.to_le_bytes());
+        Model::read(&bytes).unwrap_err()
+    };
+    assert_eq!(with(0, b'T'), ModelError::Foreign);
+    assert_eq!(with(7, 2).to_string(), "a model of version 2, known is 1");
+    let notes = u32::from_le_bytes(good[8..12].try_into().unwrap()) as usize;
+    assert_eq!(with(12 + notes, 9).to_string(), "9 classes, expected 2 to 8");
+    let names = 12 + notes + 8;
+    assert_eq!(with(names, 0), ModelError::Nameless(0));
+    assert_eq!(with(names, 0xff), ModelError::Nameless(0));
+    let features = names + 7 * 20;
+    assert_eq!(with(features + 1, 9), ModelError::Feature(0, 9 << 8));
+    assert_eq!(with(names + 7 * 16 + 3, 0x7f), ModelError::Heavy(0));
+    assert_eq!(Model::read(&[0; LARGEST + 1]), Err(ModelError::Large(LARGEST + 1)));
+    let longer = [good, &[0]].concat();
+    assert_eq!(Model::read(&longer), Err(ModelError::Longer(1)));
+    let mut damaged = good.to_vec();
+    damaged[features + 30] ^= 1;
+    assert_eq!(Model::read(&damaged), Err(ModelError::Damaged));
+    for length in 0..good.len() {
+        assert!(Model::read(&good[..length]).is_err(), "{length} bytes");
+    }
+}
+
+proptest! {
+    #[test]
+    fn whatever_the_bytes_and_the_frames_nothing_panics(
+        flips in proptest::collection::vec((12usize..6000, any::<u8>()), 0..20),
+        frames in proptest::collection::vec(proptest::collection::vec(any::<u16>(), 0..200), 1..60),
+        rows in any::<u16>(), columns in any::<u16>(),
+    ) {
+        let mut bytes = gestures::SHIPPED[..gestures::SHIPPED.len() - 4].to_vec();
+        flips.into_iter().for_each(|(at, byte)| bytes[at] = byte);
+        let sum = checksum(&bytes);
+        bytes.extend(sum.to_le_bytes());
+        if let Ok(model) = Model::read(&bytes) {
+            let touches = Touches::new(model, rows, columns);
+            let mut state = TouchState::default();
+            frames.iter().for_each(|frame| touches.process(&mut state, frame));
+            prop_assert!(touches.decide(&state).class < model.classes());
+        }
+    }
+}
