@@ -7,6 +7,7 @@ use taxel_core::contact::Phase;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros, Q15, name};
 use taxel_core::garment::{Garment, Pins};
+use taxel_core::intent::Feed;
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{self, Receiver, Report, Request, decode_image, image_sum};
@@ -146,6 +147,10 @@ fn every_wrong_request_is_refused_with_its_reason() {
     assert!(bench.answer(&Request::Concept { slot: 8, value: Q15(0) }).is_some());
     assert!(bench.answer(&Request::Concept { slot: 0, value: Q15(32769) }).is_some());
     assert_eq!(bench.answer(&Request::Concept { slot: 0, value: Q15(-32768) }), None);
+    let concept = name("joy");
+    let feed = Feed { concept, value: Q15(0), age_ms: 0, lasts_ms: 9, otherwise: Q15(0) };
+    let why = bench.answer(&Request::Feed(feed)).unwrap();
+    assert_eq!(why, "feed.concept must be a concept of the map that the host feeds");
     let bent = |joint| Posture { joints: [JointAngle { joint, centidegrees: 4500 }].into_iter().collect() };
     assert_eq!(bench.answer(&Request::Posture(bent(1))), None);
     let why = bench.answer(&Request::Posture(bent(2))).unwrap();

@@ -149,6 +149,59 @@ fn bad_maps_are_refused_by_name() {
     refused(&["fcm", "/no/such/map.json"], &["/no/such/map.json", "cannot be read"]);
 }
 
+/// From the shipped map to a combined, a merged, a taught and a drawn one, and back to answers.
+#[test]
+fn maps_are_made_of_maps() {
+    let at = |name: &str| file(name, b"");
+    let (ours, both, taught, drawn) = (at("ours.toml"), at("both.toml"), at("taught.toml"), at("map.svg"));
+    let combined = json(&["fcm", "combine", "tactile", "tactile", "-o", &ours, "--json"]);
+    assert_eq!(
+        (combined["map"].as_str(), combined["edges"].as_array().map(Vec::len)),
+        (Some("ours"), Some(24))
+    );
+    let merged = json(&["fcm", "merge", &ours, "shape", "-o", &both, "--json"]);
+    assert_eq!(merged["concepts"].as_array().map(Vec::len), Some(16));
+    assert!(
+        merged["conflicts"][0].as_str().is_some_and(|said| said.starts_with("lambda of shape")),
+        "{merged}"
+    );
+    let checked = json(&["fcm", "check", &both, "--json"]);
+    assert_eq!((checked["faults"].as_array().map(Vec::len), checked["cycles"].as_u64()), (Some(0), Some(0)));
+    let why = json(&["fcm", "why", &both, "--input", "press=0.9", "--set", "press=0.1", "--json"]);
+    let units = |list: &str| {
+        why[list].as_array().unwrap().iter().map(|one| one["units"].as_i64().unwrap()).sum::<i64>()
+    };
+    assert_eq!(
+        (why["concept"].as_str(), units("parts"), units("paths")),
+        (Some("attack"), units("paths"), why["sum_units"].as_i64().unwrap())
+    );
+    let attack = |value: &Value| value["activations"]["attack"].as_f64().unwrap();
+    assert!(attack(&why) > 0.9 && attack(&why["what_if"]) < 0.5, "{why}");
+    let touches =
+        file("touches.csv", b"press,time,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n");
+    let learned =
+        json(&["fcm", "learn", "tactile", "--touches", &touches, "-o", &taught, "--folds", "2", "--json"]);
+    assert_eq!((learned["touches"].as_u64(), learned["after"]["accuracy"].as_f64()), (Some(4), Some(1.0)));
+    answer(&["fcm", "draw", &taught, "-o", &drawn, "--input", "press=0.5"]);
+    assert!(std::fs::read_to_string(&drawn).unwrap().ends_with("</svg>\n"));
+    let run = json(&["fcm", &taught, "--input", "shape=1", "--json"]);
+    assert_eq!(run["f64"]["outcome"], "fixed");
+    let broken = file("broken.toml", b"name = \"m\"\n[[concept]]\nname = 3\n");
+    for command in [
+        &["fcm", "check", &broken][..],
+        &["fcm", &broken],
+        &["fcm", "why", &broken],
+        &["fcm", "draw", &broken, "-o", &drawn],
+    ] {
+        refused(command, &["broken.toml: line 3", "invalid type: integer"]);
+    }
+    refused(&["fcm", "new", "-o", &at("new.toml")], &["line 1: the answers end before the map is complete"]);
+    refused(
+        &["fcm", "learn", "tactile", "--touches", "/no/such.csv", "-o", &taught],
+        &["/no/such.csv", "cannot be read"],
+    );
+}
+
 #[test]
 fn bad_garments_are_refused_by_name() {
     let image = file("garment.npy", &npy(&[2, 3], &[1u16, 2, 3, 4, 5, 6]));

@@ -10,7 +10,7 @@ use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
 use taxel_core::health::TaxelHealth;
-use taxel_core::intent::{Leading, Outcome};
+use taxel_core::intent::{Feed, Leading, Outcome};
 use taxel_core::react::Reaction;
 use taxel_core::scene::Scene;
 use taxel_core::shape::{Class, Shape};
@@ -130,7 +130,9 @@ fn reports() -> [(&'static str, Report<'static>); 13] {
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 13] {
+fn requests() -> [(&'static str, Request<'static>); 14] {
+    let concept = name("warmth");
+    let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
     [
         ("SetGarment", Request::SetGarment(&[1, 2, 3])),
@@ -146,6 +148,7 @@ fn requests() -> [(&'static str, Request<'static>); 13] {
         ("Save", Request::Save),
         ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
         ("Budget", Request::Budget { hz: 65_535 }),
+        ("Feed", Request::Feed(feed)),
     ]
 }
 

@@ -2,11 +2,12 @@
 //! reference set where it lies beside the repository.
 
 use std::path::PathBuf;
+use taxel::fcm::{board::BoardMap, load};
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image, Rows};
-use taxel_core::contact::{ContactConfig, ContactState};
-use taxel_core::format::{Code, Micros};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::format::{Code, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::shape::{BUILT_IN, Base, Class, Shape, ShapeConfig, Shapes};
+use taxel_core::shape::{BUILT_IN, Base, Class, Shape, ShapeConfig, Shapes, nmi};
 
 const CLASSES: [Class; 3] = [Class::RECTANGLE, Class::ROUND, Class::FINGER];
 
@@ -86,18 +87,28 @@ fn shapes() -> Shapes<BUILT_IN> {
 
 /// The shape of the greatest contact of an image.
 fn shape_of(layout: &Layout, image: &Image) -> Option<Shape> {
+    greatest(layout, image, |moments, contact| shapes().process(moments, contact))
+}
+
+/// What is made of the greatest contact of an image.
+fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Contact) -> T) -> Option<T> {
     let mut state: ContactState<8, 1024> = ContactState::new();
     let contacts = ContactConfig::default().build().unwrap();
     let touches = contacts.process(&mut state, layout, image, Micros(0));
     let all = touches.moments.iter().zip(touches.present);
-    all.max_by_key(|(_, contact)| contact.total).map(|(moments, contact)| shapes().process(moments, contact))
+    all.max_by_key(|(_, contact)| contact.total).map(|(moments, contact)| of(moments, contact))
 }
 
 fn shape_of_codes(layout: &Layout, codes: &[Code]) -> Option<Shape> {
+    greatest_of_codes(layout, codes, |moments, contact| shapes().process(moments, contact))
+}
+
+/// The same from codes.
+fn greatest_of_codes<T>(layout: &Layout, codes: &[Code], of: impl Fn(&Moments, &Contact) -> T) -> Option<T> {
     let mut state: Box<ConditionState<2048>> = Box::default();
     state.reset(layout, Code(0));
     let condition = ConditionConfig::default().build().unwrap();
-    shape_of(layout, &condition.process(&mut state, layout, codes, false, 1, &Feedback::<8>::new()))
+    greatest(layout, &condition.process(&mut state, layout, codes, false, 1, &Feedback::<8>::new()), of)
 }
 
 fn recorded(rows: u16, columns: u16) -> Layout {
@@ -214,6 +225,30 @@ fn the_reference_set() {
         }
         let percent = 100.0 * f64::from(right) / f64::from(all);
         println!("reference set (learned from), {grid}: {percent:.1} % of {all} right");
+        assert!(percent >= f64::from(least));
+    }
+}
+
+/// The map that ships for shapes knows nothing but the NMI by peak: 0.399 for a disc, more for what is long.
+#[test]
+fn the_shape_map_stands_beside_the_knn() {
+    let map = BoardMap::build(&load::map("shape").unwrap()).unwrap();
+    let concepts = ["rectangle", "round", "finger"].map(|name| map.map.find(name).unwrap());
+    let mut rng = Rng(42);
+    for (rows, columns, least) in [(4u16, 16u16, 45), (16, 16, 80), (32, 64, 95)] {
+        let layout = recorded(rows, columns);
+        let (mut right, mut all) = (0, 0);
+        for (class, concept) in CLASSES.into_iter().zip(concepts).cycle().take(300) {
+            let touch = Touch::random(class, rows, columns, &mut rng);
+            let form = |moments: &Moments, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
+            let form = greatest_of_codes(&layout, &touch.codes(rows, columns), form).expect("a contact");
+            let run = map.infer(&map.map.encode(None, &[Q15((form.0 >> 9) as i32)]));
+            let answer = concepts.into_iter().max_by_key(|concept| run.state[*concept]);
+            right += u32::from(answer == Some(concept));
+            all += 1;
+        }
+        let percent = 100.0 * f64::from(right) / f64::from(all);
+        println!("drawn shapes by the map, {rows} x {columns}: {percent:.1} % of {all} right (chance 33 %)");
         assert!(percent >= f64::from(least));
     }
 }

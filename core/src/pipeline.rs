@@ -4,9 +4,9 @@ use crate::body::Placed;
 use crate::condition::{Condition, ConditionState, Image, Tare};
 use crate::contact::{ContactState, Contacts};
 use crate::fold::FoldState;
-use crate::format::{Code, Invalid, Micros, Q15};
+use crate::format::{Code, Invalid, Micros};
 use crate::garment::{Layout, PANELS};
-use crate::intent::{Intent, IntentState, MapError, Meaning, Touch};
+use crate::intent::{Fed, Intent, IntentState, MapError, Meaning, Touch};
 use crate::react::{ReactState, Reactions};
 use crate::scene::Scene;
 use crate::shape::{BUILT_IN, Base, Shape, Shapes};
@@ -16,8 +16,6 @@ use heapless::Vec;
 
 /// Contacts that are followed at a time.
 pub const CONTACTS: usize = 32;
-/// Concept values that the host may feed.
-pub const SLOTS: usize = 8;
 
 /// Stages, in the order of the data path, for whoever measures them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,8 +110,8 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize> {
     react: ReactState,
     /// How the joints stand.
     pub fold: FoldState,
-    /// Concept values that the host feeds, by slot.
-    pub host: [Q15; SLOTS],
+    /// Concept values that the host feeds.
+    pub fed: Fed,
 }
 
 /// What was perceived in one frame.
@@ -150,7 +148,7 @@ impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, R
             intent: IntentState::default(),
             react: ReactState::default(),
             fold: FoldState::default(),
-            host: [Q15(0); SLOTS],
+            fed: Fed::default(),
         }
     }
 }
@@ -237,7 +235,7 @@ impl Pipeline {
         now: Micros,
         probe: &mut impl Probe,
     ) -> Percept<'s> {
-        let PipelineState { condition, contact, present, released, symbol, intent, react, host, .. } = state;
+        let PipelineState { condition, contact, present, released, symbol, intent, react, fed, .. } = state;
         probe.begin(Stage::Condition);
         self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
         let condition = &*condition;
@@ -261,7 +259,7 @@ impl Pipeline {
         let meaning = self.intent.as_ref().and_then(|stage| {
             let mut felt: Vec<Touch, CONTACTS> = Vec::new();
             replace(&mut felt, present.iter().map(|placed| self.touch(layout, placed)));
-            stage.process(intent, &felt, host, now)
+            stage.process(intent, &felt, &fed.values(now), now)
         });
         probe.begin(Stage::React);
         self.react.process(react, symbol.regions(layout.regions().len()), meaning.as_ref(), now);

@@ -36,7 +36,7 @@ enum Command {
     /// Moments, NMI and axis of one recorded image as it stands
     #[command(after_help = FEATURES)]
     Features(FeaturesArgs),
-    /// Fuzzy cognitive maps: run in f64 and in the board's arithmetic, validate
+    /// Fuzzy cognitive maps: run, validate, explain, combine, teach, draw
     #[command(after_help = FCM)]
     Fcm(FcmArgs),
     /// Which gesture a touch is: train and evaluate models that fit the board
@@ -85,7 +85,10 @@ const FEATURES: &str = "Examples:
 const FCM: &str = "Examples:
   taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json
   taxel fcm tactile --input press=0.8 --input time=0.1
-  taxel fcm check my-map.toml";
+  taxel fcm why tactile --input press=0.8 --input time=0.1 --set shape=1
+  taxel fcm check my-map.toml
+  taxel fcm combine anna.toml ben.toml carla.toml -o ours.toml
+  taxel fcm draw tactile --input shape=1 -o tactile.svg";
 
 const GESTURES: &str = "Examples:
   taxel gestures eval --frames train.npz --labels train.csv --cross participant --json

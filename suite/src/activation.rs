@@ -37,6 +37,13 @@ impl Maps {
         Some(Maps { map: Map::build(&config).ok()?, weights, lambda: f32::from(config.lambda) / 1000.0 })
     }
 
+    /// A whole inference by the core, with the steps that a scene allows: the last state and the steps taken.
+    #[inline(never)]
+    pub fn infer(&self, start: &[i32; CONCEPTS]) -> ([i32; CONCEPTS], u16) {
+        let run = self.map.infer(start, 16);
+        (run.state, run.steps)
+    }
+
     /// The weights by effect and cause, and the steepness.
     pub const fn plain(&self) -> (&[[f32; CONCEPTS]; CONCEPTS], f32) {
         (&self.weights, self.lambda)

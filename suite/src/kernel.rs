@@ -22,6 +22,8 @@ pub enum Kernel {
     Measure(Measure),
     /// One step of the map in a format of numbers.
     Activate(Activation),
+    /// The map that ships, from its inputs until it settles.
+    Infer,
 }
 
 /// What a kernel works with.
@@ -42,7 +44,7 @@ impl Kernel {
         let plain = [Kernel::Read, Kernel::Compare, Kernel::Dense];
         let measures = Measure::ALL.map(Kernel::Measure);
         let activations = Activation::ALL.map(Kernel::Activate);
-        plain.into_iter().chain(measures).chain(activations)
+        plain.into_iter().chain(measures).chain(activations).chain([Kernel::Infer])
     }
 
     /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`] and [`Stage::Scan`].
@@ -77,17 +79,31 @@ impl Kernel {
                 fold(found.into_iter().flatten())
             }
             Kernel::Activate(activation) => {
-                let mut state = [0; CONCEPTS];
-                for (value, code) in state.iter_mut().zip(codes) {
-                    *value = i32::from(code.0) << 3;
-                }
+                let state = state(codes, CONCEPTS);
                 let Some(maps) = &bench.maps else { return 0 };
                 let next = activation.step(maps, &state);
                 probe.begin(Stage::Scan);
                 fold(next.into_iter())
             }
+            Kernel::Infer => {
+                // Four inputs; the others start at rest.
+                let start = state(codes, 4);
+                let Some(maps) = &bench.maps else { return 0 };
+                let (end, steps) = maps.infer(&start);
+                probe.begin(Stage::Scan);
+                fold(end.into_iter().map(|value| value as u32).chain([steps.into()]))
+            }
         }
     }
+}
+
+/// Codes as activations from 0 to 1, the first `count`.
+fn state(codes: &[Code], count: usize) -> [i32; CONCEPTS] {
+    let mut state = [0; CONCEPTS];
+    for (value, code) in state.iter_mut().zip(codes).take(count) {
+        *value = i32::from(code.0) << 3;
+    }
+    state
 }
 
 /// Reads every code: the least that a frame costs.

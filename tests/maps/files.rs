@@ -164,7 +164,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
     ] {
         assert_eq!(refused(from, to), message);
     }
-    let cut = load::parse(&WHOLE[..WHOLE.len() - 3], "map.toml").unwrap_err().to_string();
+    let cut = load::parse(&WHOLE[..WHOLE.len() - 16], "map.toml").unwrap_err().to_string();
     assert!(cut.starts_with("map.toml: line "), "{cut}");
     let empty = load::parse("name = \"m\"", "m.toml").unwrap_err();
     assert_eq!(format!("{empty:#}"), "m.toml: map m: it has no concept");

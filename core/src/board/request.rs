@@ -3,7 +3,7 @@
 use super::outbox::Refusal;
 use super::outputs::Outputs;
 use super::{Board, Work};
-use crate::format::{Micros, Q15};
+use crate::format::Micros;
 use crate::garment::Garment;
 use crate::scene::Scene;
 use crate::wire::{Request, decode};
@@ -64,7 +64,11 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             Request::Posture(posture) => {
                 self.state.fold.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
             }
-            Request::Concept { slot, value } => self.set_concept(slot, value),
+            Request::Concept { slot, value } => self.state.fed.set(slot, value).map_err(Refusal::of),
+            Request::Feed(feed) => {
+                let map = self.setup.pipeline.intent().map(crate::intent::Intent::map);
+                self.state.fed.accept(&feed, map, now).map_err(Refusal::of)
+            }
             Request::KeyFrame => {
                 self.outbox.forget_image();
                 Ok(())
@@ -114,15 +118,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
         self.state.condition.tare(frames);
         self.taring = true;
-        Ok(())
-    }
-
-    fn set_concept(&mut self, slot: u8, value: Q15) -> Result<(), Refusal> {
-        if value < Q15(-32768) || value > Q15::ONE {
-            return Err(Refusal::of("value must be -1 to 1"));
-        }
-        let held = self.state.host.get_mut(usize::from(slot)).ok_or(Refusal::of("there is no such slot"))?;
-        *held = value;
         Ok(())
     }
 

@@ -10,7 +10,7 @@
 
 use super::config::{CONCEPTS, DECIMALS, EDGES, MapConfig, Rule};
 use super::error::MapError;
-use super::input::Encoder;
+use super::input::{Encoder, Source};
 use super::transfer::{Gain, Transfer};
 use crate::format::{Name, Q15};
 use heapless::Vec;
@@ -105,6 +105,17 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// Index of a concept by its name.
     pub fn find(&self, concept: &str) -> Option<usize> {
         self.concepts.iter().position(|name| name == concept)
+    }
+
+    /// The slot that feeds a concept; none if the host does not feed it.
+    pub fn slot(&self, concept: &str) -> Option<u8> {
+        let at = self.find(concept)?;
+        self.inputs.iter().filter(|input| usize::from(input.concept) == at).find_map(|input| {
+            match input.source {
+                Source::Host(slot) => Some(slot),
+                _ => None,
+            }
+        })
     }
 
     /// A value of a state, which is within +-[`Map::one`], as Q15, rounded to the nearest. Total: beyond that, a smooth map gives

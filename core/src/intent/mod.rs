@@ -1,12 +1,13 @@
 //! Intent: what a touch means, by a fuzzy cognitive map over what was measured of it.
 //!
 //! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer functions, [`infer`] the inference, [`input`] the
-//! encoding of a touch, [`stage`] the decision with its debounce, [`why`] the reason for it, [`mod@tactile`] the map that
+//! encoding of a touch, [`fed`] what the host feeds, [`stage`] the decision with its debounce, [`why`] the reason for it, [`mod@tactile`] the map that
 //! ships.
 
 pub mod config;
 mod encode;
 pub mod error;
+pub mod fed;
 pub mod infer;
 pub mod input;
 pub mod map;
@@ -17,6 +18,7 @@ pub mod why;
 
 pub use config::{CONCEPTS, EDGES, Edge, MapConfig, Rule, Threshold};
 pub use error::MapError;
+pub use fed::{Fed, Feed, SLOTS};
 pub use infer::{Inference, Outcome};
 pub use input::{Input, Source, Touch};
 pub use map::Map;

@@ -5,7 +5,7 @@ use crate::fold::Posture;
 use crate::format::{Micros, Q15};
 use crate::garment::PANELS;
 use crate::health::TaxelHealth;
-use crate::intent::{CONCEPTS, Leading, Outcome};
+use crate::intent::{CONCEPTS, Feed, Leading, Outcome};
 use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::symbol::{EVENTS, RegionState, Symbol};
@@ -326,7 +326,7 @@ pub enum Request<'a> {
     },
     /// How the robot's joints stand.
     Posture(Posture),
-    /// Value of a concept that the host feeds.
+    /// Value of a concept that the host feeds, until the next one.
     Concept {
         /// slot of the map's input
         slot: u8,
@@ -351,6 +351,8 @@ pub enum Request<'a> {
         /// a second; 0: never, 65535: for each frame
         hz: u16,
     },
+    /// Value of a concept that the host feeds, with its age and what counts when it is too old.
+    Feed(Feed),
 }
 
 impl Request<'_> {
@@ -370,6 +372,7 @@ impl Request<'_> {
             Request::Save => 10,
             Request::SetGain { .. } => 11,
             Request::Budget { .. } => 12,
+            Request::Feed(_) => 13,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::decimal::Decimal;
 use super::engine::{Q15_CONCEPTS, Q15_EDGES};
 use super::map::MapFile;
 use anyhow::{Context, Result};
-use taxel_core::intent::{Inference, Map};
+use taxel_core::intent::{Inference, Map, Rule, Transfer};
 
 /// The core's map, with room for more concepts than the board has.
 pub type HostMap = Map<Q15_CONCEPTS, Q15_EDGES>;
@@ -18,6 +18,10 @@ pub const STEPS: u16 = 1000;
 pub struct BoardMap {
     /// The core's map.
     pub map: Box<HostMap>,
+    /// What is summed.
+    pub rule: Rule,
+    /// What the sum becomes.
+    pub transfer: Transfer,
 }
 
 impl BoardMap {
@@ -25,7 +29,7 @@ impl BoardMap {
     pub fn build(file: &MapFile) -> Result<BoardMap> {
         let config = file.to_config::<Q15_CONCEPTS, Q15_EDGES>()?;
         let map = Map::build(&*config).with_context(|| format!("map {}", file.name))?;
-        Ok(BoardMap { map: Box::new(map) })
+        Ok(BoardMap { map: Box::new(map), rule: file.rule, transfer: file.transfer })
     }
 
     /// The state with these activations, by the number of the concept; all others 0.

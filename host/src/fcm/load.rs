@@ -6,7 +6,8 @@ use anyhow::{Context, Result, anyhow};
 use std::path::Path;
 
 /// The maps that ship.
-pub const SHIPPED: [(&str, &str); 1] = [("tactile", include_str!("../../maps/tactile.toml"))];
+pub const SHIPPED: [(&str, &str); 2] =
+    [("tactile", include_str!("../../maps/tactile.toml")), ("shape", include_str!("../../maps/shape.toml"))];
 
 /// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place and the value.
 pub fn map(name_or_path: &str) -> Result<MapFile> {

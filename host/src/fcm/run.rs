@@ -49,7 +49,8 @@ fn rule(text: &str) -> Result<Rule, String> {
     }
 }
 
-fn transfer(text: &str) -> Result<Transfer, String> {
+/// Reads the option of that name.
+pub fn transfer(text: &str) -> Result<Transfer, String> {
     match text {
         "bivalent" => Ok(Transfer::Bivalent),
         "trivalent" => Ok(Transfer::Trivalent),
@@ -59,12 +60,14 @@ fn transfer(text: &str) -> Result<Transfer, String> {
     }
 }
 
-fn lambda(text: &str) -> Result<f64, String> {
+/// Reads the option of that name.
+pub fn lambda(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number".to_string())?;
     if (0.001..=65.535).contains(&value) { Ok(value) } else { Err("expected 0.001 ..= 65.535".into()) }
 }
 
-fn threshold(text: &str) -> Result<Decimal, String> {
+/// Reads the option of that name.
+pub fn threshold(text: &str) -> Result<Decimal, String> {
     Decimal::parse(text).filter(|t| t.is_fraction()).ok_or_else(|| "expected a number in -1 ..= 1".into())
 }
 

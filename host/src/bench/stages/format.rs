@@ -17,6 +17,9 @@ use taxel_suite::windows::{self, AREA, SIDE, WINDOWS};
 const MEASURED: u32 = 4;
 const COMPARED: u32 = 250;
 
+/// What the row of a whole inference is called.
+pub const INFERENCE: &str = "map, to its end";
+
 /// One kernel on one kind of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
@@ -55,6 +58,7 @@ impl Form {
             kernel: Kernel::Activate(activation),
             pattern: None,
         }));
+        all.push(Form { what: INFERENCE, form: "Q15", kernel: Kernel::Infer, pattern: None });
         all
     }
 

@@ -1,0 +1,151 @@
+//! Concepts that the host feeds (what a camera sees, how warm the skin is), each with an age after which it no longer counts.
+//!
+//! | | |
+//! |---|---|
+//! | input | [`Feed`]s, by the concept's name; or a value for a slot, which holds until the next |
+//! | output | a value for each slot of [`Source::Host`](super::input::Source::Host) |
+//! | saturation | none: what is outside -1 ..= 1 is refused |
+//! | latency | none |
+//! | RAM | 24 bytes a slot |
+
+use super::map::Map;
+use crate::format::{Invalid, Micros, Name, Q15};
+use serde::{Deserialize, Serialize};
+
+/// Concept values that the host may feed.
+pub const SLOTS: usize = 8;
+
+/// A value for a concept, as the host knows it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Feed {
+    /// The concept: one whose input is a slot of the host.
+    pub concept: Name,
+    /// -1 ..= 1
+    pub value: Q15,
+    /// How old the value is already, ms.
+    pub age_ms: u32,
+    /// Age from which the value no longer counts, ms; 0: it holds until the next.
+    pub lasts_ms: u32,
+    /// What counts then, -1 ..= 1.
+    pub otherwise: Q15,
+}
+
+/// What a slot holds.
+#[derive(Debug, Default, Clone, Copy)]
+struct Held {
+    value: Q15,
+    /// Until then; none: until the next value.
+    until: Option<Micros>,
+    otherwise: Q15,
+}
+
+/// What the host has fed.
+#[derive(Debug, Default, Clone)]
+pub struct Fed {
+    slots: [Held; SLOTS],
+}
+
+impl Fed {
+    /// Puts a value into a slot until the next one. A refused value changes nothing.
+    pub fn set(&mut self, slot: u8, value: Q15) -> Result<(), Invalid> {
+        let value = fraction(value, "value")?;
+        let must = "must be less than 8";
+        let held = self.slots.get_mut(usize::from(slot)).ok_or(Invalid { parameter: "slot", must })?;
+        *held = Held { value, until: None, otherwise: value };
+        Ok(())
+    }
+
+    /// Takes a value that arrived at `now` for a concept of `map`. A refused value changes nothing.
+    pub fn accept<const N: usize, const E: usize>(
+        &mut self,
+        feed: &Feed,
+        map: Option<&Map<N, E>>,
+        now: Micros,
+    ) -> Result<(), Invalid> {
+        let must = "must be a concept of the map that the host feeds";
+        let slot = map.and_then(|map| map.slot(&feed.concept));
+        let slot = slot.and_then(|slot| self.slots.get_mut(usize::from(slot)));
+        let held = slot.ok_or(Invalid { parameter: "feed.concept", must })?;
+        let (value, otherwise) =
+            (fraction(feed.value, "feed.value")?, fraction(feed.otherwise, "feed.otherwise")?);
+        let left = 1000 * u64::from(feed.lasts_ms.saturating_sub(feed.age_ms));
+        let until = (feed.lasts_ms > 0).then_some(Micros(now.0.saturating_add(left)));
+        *held = Held { value, until, otherwise };
+        Ok(())
+    }
+
+    /// What counts at `now`, by slot; 0 where nothing was fed.
+    pub fn values(&self, now: Micros) -> [Q15; SLOTS] {
+        self.slots.map(|held| match held.until {
+            Some(until) if now >= until => held.otherwise,
+            _ => held.value,
+        })
+    }
+}
+
+/// A value within -1 ..= 1.
+fn fraction(value: Q15, parameter: &'static str) -> Result<Q15, Invalid> {
+    if value < Q15(-Q15::ONE.0) || value > Q15::ONE {
+        return Err(Invalid { parameter, must: "must be -1 to 1" });
+    }
+    Ok(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::name;
+    use crate::intent::{Input, MapConfig, Source};
+
+    /// A map whose concept `warmth` is fed by slot 3, `press` by the touch.
+    fn map() -> Map {
+        let mut config = MapConfig { lambda: 1000, ..MapConfig::default() };
+        config.concepts.extend(["press", "warmth"].map(name));
+        let input =
+            |concept, source| Input { concept, source, low: -32768, high: 32768, at_low: -1, at_high: 1 };
+        config.inputs.extend([input(0, Source::Press), input(1, Source::Host(3))]);
+        Map::build(&config).unwrap()
+    }
+
+    fn feed(value: i32, age_ms: u32, lasts_ms: u32) -> Feed {
+        Feed { concept: name("warmth"), value: Q15(value), age_ms, lasts_ms, otherwise: Q15(-7) }
+    }
+
+    #[test]
+    fn a_value_counts_until_it_is_too_old() {
+        let (map, mut fed) = (map(), Fed::default());
+        let at = |fed: &Fed, ms: u64| fed.values(Micros(1000 * ms))[3].0;
+        assert_eq!(at(&fed, 0), 0, "nothing was fed");
+        fed.accept(&feed(500, 0, 100), Some(&map), Micros(1_000_000)).unwrap();
+        assert_eq!([1000, 1099, 1100, 9999].map(|ms| at(&fed, ms)), [500, 500, -7, -7]);
+        // It was 80 ms old when it came.
+        fed.accept(&feed(600, 80, 100), Some(&map), Micros(2_000_000)).unwrap();
+        assert_eq!([2000, 2019, 2020].map(|ms| at(&fed, ms)), [600, 600, -7]);
+        fed.accept(&feed(600, 100, 100), Some(&map), Micros(3_000_000)).unwrap();
+        assert_eq!(at(&fed, 3000), -7, "too old on arrival");
+        fed.accept(&feed(700, 5, 0), Some(&map), Micros(4_000_000)).unwrap();
+        assert_eq!(at(&fed, 999_999), 700, "until the next");
+        fed.set(3, Q15(800)).unwrap();
+        assert_eq!(at(&fed, 999_999), 800);
+        fed.accept(&feed(1, 0, u32::MAX), Some(&map), Micros(u64::MAX - 5)).unwrap();
+        assert_eq!(fed.values(Micros(u64::MAX - 1))[3].0, 1);
+        let state = map.encode(None, &fed.values(Micros(u64::MAX - 1)));
+        assert_eq!((state[0], state[1]), (0, 1));
+    }
+
+    #[test]
+    fn what_is_refused_changes_nothing() {
+        let (map, mut fed) = (map(), Fed::default());
+        let mut refused =
+            |feed: Feed, map: Option<&Map>| fed.accept(&feed, map, Micros(0)).unwrap_err().parameter;
+        assert_eq!(refused(Feed { concept: name("press"), ..feed(1, 0, 0) }, Some(&map)), "feed.concept");
+        assert_eq!(refused(Feed { concept: name("joy"), ..feed(1, 0, 0) }, Some(&map)), "feed.concept");
+        assert_eq!(refused(feed(1, 0, 0), None), "feed.concept");
+        assert_eq!(refused(feed(32769, 0, 0), Some(&map)), "feed.value");
+        assert_eq!(refused(feed(i32::MIN, 0, 0), Some(&map)), "feed.value");
+        assert_eq!(refused(Feed { otherwise: Q15(-32769), ..feed(1, 0, 0) }, Some(&map)), "feed.otherwise");
+        assert_eq!(fed.set(8, Q15(0)).unwrap_err().parameter, "slot");
+        assert_eq!(fed.set(0, Q15(32769)).unwrap_err().parameter, "value");
+        assert_eq!(fed.values(Micros(0)), [Q15(0); SLOTS]);
+    }
+}

@@ -1,0 +1,104 @@
+//! `taxel fcm combine` and `taxel fcm merge`: several maps as one, with their disagreement.
+
+use super::aggregate::Aggregation;
+use super::board::BoardMap;
+use super::load;
+use super::unite::{Shared, United, unite};
+use anyhow::{Context, Result};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `taxel fcm combine`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct CombineArgs {
+    /// Experts' maps of one thing
+    #[arg(required = true, num_args = 2..)]
+    pub maps: Vec<String>,
+    /// Where the combined map is written; it is named after the file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// How the fuzzy sets of an edge's weights become one, before the centroid is taken
+    #[arg(long, value_enum, default_value = "sum")]
+    pub how: Aggregation,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `taxel fcm merge`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct MergeArgs {
+    /// Maps of different things that share concepts
+    #[arg(required = true, num_args = 2..)]
+    pub maps: Vec<String>,
+    /// Where the merged map is written; it is named after the file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Make one weight of those that differ, instead of refusing them
+    #[arg(long, value_enum)]
+    pub combine: Option<Aggregation>,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs `combine`: who knows both concepts and draws no edge says `none`.
+pub fn combine(args: CombineArgs) -> Result<()> {
+    write(&args.maps, &args.output, Shared::Vote(args.how), args.json)
+}
+
+/// Runs `merge`: who draws no edge says nothing.
+pub fn merge(args: MergeArgs) -> Result<()> {
+    write(&args.maps, &args.output, args.combine.map_or(Shared::Agree, Shared::Combine), args.json)
+}
+
+fn write(paths: &[String], output: &Path, shared: Shared, as_json: bool) -> Result<()> {
+    let maps = paths.iter().map(|path| load::map(path)).collect::<Result<Vec<_>>>()?;
+    let name = output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
+    let united = unite(&maps, name, shared)?;
+    BoardMap::build(&united.map)?;
+    load::save(&united.map, output)?;
+    if as_json {
+        println!("{}", report(&united));
+    } else {
+        print!("{}", table(&united));
+    }
+    Ok(())
+}
+
+/// `{"map", "concepts", "edges": [{"from", "to", "weight", "said", "spread", "sign_conflict"}], "conflicts"}`.
+pub fn report(united: &United) -> Value {
+    json!({
+        "map": united.map.name,
+        "concepts": united.map.concept.iter().map(|concept| &concept.name).collect::<Vec<_>>(),
+        "edges": united.edges.iter().map(|edge| edge.json()).collect::<Value>(),
+        "conflicts": united.conflicts,
+    })
+}
+
+/// The readable form: one line for each edge, the widest disagreement first.
+pub fn table(united: &United) -> String {
+    let mut edges: Vec<_> = united.edges.iter().collect();
+    edges.sort_by(|a, b| b.spread().total_cmp(&a.spread()));
+    let name = |edge: &super::unite::Opinions| format!("{} -> {}", edge.from, edge.to);
+    let width = edges.iter().map(|edge| name(edge).chars().count()).max().unwrap_or(0).max(4);
+    let mut text = format!("{:width$} {:>7} {:>7}  said\n", "edge", "weight", "spread");
+    for edge in edges {
+        let said: Vec<String> = edge.said.iter().map(|(map, weight)| format!("{weight} ({map})")).collect();
+        let conflict = if edge.is_conflict() { "; SIGNS CONFLICT" } else { "" };
+        text += &format!(
+            "{:width$} {:>7} {:>7.2}  {}{conflict}\n",
+            name(edge),
+            edge.weight.value(),
+            edge.spread(),
+            said.join(", ")
+        );
+    }
+    united.conflicts.iter().for_each(|conflict| text += &format!("note: {conflict}\n"));
+    text + &format!(
+        "{}: {} concepts, {} edges\n",
+        united.map.name,
+        united.map.concept.len(),
+        united.map.edge.len()
+    )
+}

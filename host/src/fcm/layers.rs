@@ -1,0 +1,76 @@
+//! Where the concepts of a drawn map stand: causes left of their effects.
+
+use super::map::MapFile;
+
+/// The layer of each concept: 0 for those without a cause, else one behind the farthest of its causes. Edges that close a ring
+/// are left out of account.
+pub fn layers(map: &MapFile) -> Vec<usize> {
+    let n = map.concept.len();
+    let number = |name: &str| map.find(name);
+    let edges = map.edge.iter().filter(|edge| edge.weight.value() != 0.0);
+    let edges: Vec<(usize, usize)> =
+        edges.filter_map(|edge| Some((number(&edge.from)?, number(&edge.to)?))).collect();
+    let forward = forward(n, &edges);
+    let mut layers = vec![0; n];
+    // Without rings, no path is longer than the number of concepts.
+    for _ in 0..n {
+        for (from, to) in &forward {
+            layers[*to] = layers[*to].max(layers[*from] + 1);
+        }
+    }
+    layers
+}
+
+/// The edges without those that a search in depth finds to lead back to where it came from.
+fn forward(n: usize, edges: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let mut kept = Vec::new();
+    let mut done = vec![false; n];
+    // Those that nothing causes first, so that rings are entered where the map is.
+    let mut starts: Vec<usize> = (0..n).collect();
+    starts.sort_by_key(|at| edges.iter().any(|(_, to)| to == at));
+    for start in starts {
+        visit(start, edges, &mut done, &mut vec![false; n], &mut kept);
+    }
+    kept
+}
+
+fn visit(
+    at: usize,
+    edges: &[(usize, usize)],
+    done: &mut [bool],
+    under_way: &mut [bool],
+    kept: &mut Vec<(usize, usize)>,
+) {
+    if std::mem::replace(&mut done[at], true) {
+        return;
+    }
+    under_way[at] = true;
+    for edge in edges.iter().filter(|(from, _)| *from == at) {
+        if !under_way[edge.1] {
+            kept.push(*edge);
+            visit(edge.1, edges, done, under_way, kept);
+        }
+    }
+    under_way[at] = false;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fcm::load;
+
+    #[test]
+    fn the_shipped_map_reads_from_touch_to_mood() {
+        let map = load::map("tactile").unwrap();
+        assert_eq!(layers(&map), [0, 0, 0, 0, 1, 2, 3, 4, 4, 5]);
+    }
+
+    #[test]
+    fn a_ring_has_an_end() {
+        let edge = |from, to| format!("[[edge]]\nfrom = \"{from}\"\nto = \"{to}\"\nweight = 1\n");
+        let text =
+            "name = \"r\"\n[[concept]]\nname = \"b\"\n[[concept]]\nname = \"c\"\n[[concept]]\nname = \"a\"\n";
+        let text = text.to_string() + &edge("a", "b") + &edge("b", "c") + &edge("c", "b") + &edge("c", "c");
+        assert_eq!(layers(&load::parse(&text, "r").unwrap()), [1, 2, 0]);
+    }
+}

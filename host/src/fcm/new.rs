@@ -1,0 +1,169 @@
+//! `taxel fcm new`: a map in four steps, asked for line by line. The answers may as well come from a file.
+
+use super::board::BoardMap;
+use super::load;
+use super::map::{ConceptFile, EdgeFile, MapFile};
+use super::member::InputFile;
+use super::run::{lambda, threshold, transfer};
+use super::terms;
+use super::weight::Weight;
+use anyhow::{Context, Result, anyhow, bail};
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::PathBuf;
+use taxel_core::intent::Source;
+
+/// Arguments of `taxel fcm new`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct NewArgs {
+    /// Where the map is written; it is named after the file
+    #[arg(short, long)]
+    pub output: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(args: NewArgs) -> Result<()> {
+    let name = args.output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
+    let input = std::io::stdin();
+    let patient = input.is_terminal();
+    let map = Dialog { answers: input.lock(), questions: std::io::stderr(), patient, line: 0 }.map(name)?;
+    load::save(&map, &args.output)?;
+    println!("{}: {} concepts, {} edges", args.output.display(), map.concept.len(), map.edge.len());
+    Ok(())
+}
+
+/// Questions and answers.
+pub struct Dialog<R, W> {
+    /// Where answers come from.
+    pub answers: R,
+    /// Where questions go.
+    pub questions: W,
+    /// Ask again after a bad answer, instead of giving up with its line.
+    pub patient: bool,
+    /// Lines read so far.
+    pub line: usize,
+}
+
+impl<R: BufRead, W: Write> Dialog<R, W> {
+    /// Asks for a whole map.
+    pub fn map(&mut self, name: &str) -> Result<MapFile> {
+        let mut map = MapFile::empty(name);
+        self.say(
+            "1. Concepts: NAME or NAME: NOTE, one a line, in the order of the matrix; an empty line ends",
+        )?;
+        self.list(&mut map, concept)?;
+        self.say("2. Causes: CAUSE > EFFECT, one a line; an empty line ends")?;
+        self.list(&mut map, edge)?;
+        self.say(&format!("3. Weights: a number in -1 ..= 1, or {}", terms::list()))?;
+        for at in 0..map.edge.len() {
+            let EdgeFile { from, to, .. } = &map.edge[at];
+            let question = format!("{from} > {to}");
+            map.edge[at].weight = self.one(&question, |text| {
+                Weight::parse(text)
+                    .with_context(|| format!("{text:?} is neither a number in -1 ..= 1 nor a term"))
+            })?;
+        }
+        self.say(
+            "4. Threshold: what a sum becomes, and the level that it is measured from; empty: as in brackets",
+        )?;
+        map.transfer = self.or("bivalent, trivalent, sigmoid or tanh [tanh]", map.transfer, transfer)?;
+        map.threshold = self.or("threshold [0]", map.threshold, |text| Ok(threshold(text)?.to_f64()))?;
+        map.lambda = self.or("steepness [1]", map.lambda, lambda)?;
+        self.say(
+            "Inputs: SOURCE FORM POINTS, such as: press rise 0 30000, host 0 triangle 0 100 200; empty: none",
+        )?;
+        for entry in map.entries().into_iter().map(String::from).collect::<Vec<_>>() {
+            if let Some(own) = self.one(&entry, |text| input(&entry, text))? {
+                map.input.push(own);
+            }
+        }
+        BoardMap::build(&map)?;
+        Ok(map)
+    }
+
+    fn say(&mut self, text: &str) -> Result<()> {
+        Ok(writeln!(self.questions, "{text}")?)
+    }
+
+    /// Lines up to an empty one; each is taken into the map or refused.
+    fn list(&mut self, map: &mut MapFile, take: fn(&mut MapFile, &str) -> Result<()>) -> Result<()> {
+        while self.one("", |text| if text.is_empty() { Ok(false) } else { take(map, text).map(|()| true) })? {
+        }
+        Ok(())
+    }
+
+    /// An answer that may be empty.
+    fn or<T: Copy>(&mut self, question: &str, usual: T, read: fn(&str) -> Result<T, String>) -> Result<T> {
+        self.one(
+            question,
+            |text| if text.is_empty() { Ok(usual) } else { read(text).map_err(|why| anyhow!(why)) },
+        )
+    }
+
+    /// One answer.
+    fn one<T>(&mut self, question: &str, mut read: impl FnMut(&str) -> Result<T>) -> Result<T> {
+        loop {
+            write!(self.questions, "{question}> ")?;
+            self.questions.flush()?;
+            let mut text = String::new();
+            self.line += 1;
+            if self.answers.read_line(&mut text)? == 0 {
+                bail!("line {}: the answers end before the map is complete", self.line);
+            }
+            match read(text.trim()) {
+                Ok(answer) => return Ok(answer),
+                Err(why) if self.patient => self.say(&why.to_string())?,
+                Err(why) => bail!("line {}: {why}", self.line),
+            }
+        }
+    }
+}
+
+fn concept(map: &mut MapFile, text: &str) -> Result<()> {
+    let (name, note) =
+        text.split_once(':').map_or((text, ""), |(name, note)| (name.trim_end(), note.trim_start()));
+    if map.find(name).is_some() {
+        bail!("concept {name} is named twice");
+    }
+    map.concept.push(ConceptFile { name: name.into(), note: note.into(), threshold: None });
+    map.to_config::<1024, 0>().map(drop)
+}
+
+fn edge(map: &mut MapFile, text: &str) -> Result<()> {
+    let (from, to) = text.split_once('>').context("expected CAUSE > EFFECT")?;
+    let (from, to) = (from.trim(), to.trim());
+    for name in [from, to] {
+        map.find(name).with_context(|| format!("{name} is no concept"))?;
+    }
+    if map.edge(from, to).is_some() {
+        bail!("edge {from} > {to} is given twice");
+    }
+    let (from, to, weight) = (from.into(), to.into(), Weight::Number(0.0));
+    map.edge.push(EdgeFile { from, to, weight, fixed: false, note: String::new() });
+    Ok(())
+}
+
+fn input(concept: &str, text: &str) -> Result<Option<InputFile>> {
+    let mut words = text.split_whitespace();
+    let Some(word) = words.next() else { return Ok(None) };
+    let source = match word {
+        "host" => {
+            let slot = words.next().and_then(|slot| slot.parse().ok());
+            Source::Host(slot.context("host needs the number of a slot")?)
+        }
+        _ => serde_json::from_value(word.into()).with_context(|| format!("{word} is no source"))?,
+    };
+    let form = words.next().unwrap_or_default();
+    let points: Vec<i32> = words
+        .map(|word| word.parse().with_context(|| format!("{word} is no whole number")))
+        .collect::<Result<_>>()?;
+    let mut input = InputFile { concept: concept.into(), source: Some(source), ..InputFile::default() };
+    match (form, &points[..]) {
+        ("rise", [a, b]) => input.rise = Some([*a, *b]),
+        ("fall", [a, b]) => input.fall = Some([*a, *b]),
+        ("triangle", [a, b, c]) => input.triangle = Some([*a, *b, *c]),
+        ("trapezoid", [a, b, c, d]) => input.trapezoid = Some([*a, *b, *c, *d]),
+        _ => bail!("expected rise A B, fall A B, triangle A B C or trapezoid A B C D"),
+    }
+    input.inputs(0, 4)?;
+    Ok(Some(input))
+}
