@@ -99,7 +99,7 @@ mod tests {
 
     /// A map whose concept `warmth` is fed by slot 3, `press` by the touch.
     fn map() -> Map {
-        let mut config = MapConfig { lambda: 1000, ..MapConfig::default() };
+        let mut config: MapConfig = MapConfig { lambda: 1000, ..MapConfig::default() };
         config.concepts.extend(["press", "warmth"].map(name));
         let input =
             |concept, source| Input { concept, source, low: -32768, high: 32768, at_low: -1, at_high: 1 };
