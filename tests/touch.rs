@@ -1,7 +1,7 @@
 //! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and whether it fits.
 
 use proptest::prelude::*;
-use taxel::learn::{Head, Ridge, Shipped, export};
+use taxel::touches::{Head, Ridge, Shipped, export};
 use taxel::{gestures, intent};
 use taxel_core::gesture::{FEATURES, Features, LARGEST, Model, ModelError, TouchState, Touches, checksum};
 

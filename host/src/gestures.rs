@@ -1,7 +1,7 @@
 //! `taxel gestures`: which gesture a touch is, by a model that fits the board.
 
 use crate::arrays;
-use crate::learn::{self, Course, Data, Report, Settings, Shipped, Source, Table, Times, Touch};
+use crate::touches::{self, Course, Data, Report, Settings, Shipped, Source, Table, Times, Touch};
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ pub fn run(args: GesturesArgs) -> Result<()> {
         Command::Eval { files, model, cross, rate, json } => {
             let times = times(rate)?;
             let report = match cross {
-                Some(Cross::Participant) => learn::cross(&load(&files)?, &SETTINGS, &times)?,
+                Some(Cross::Participant) => touches::cross(&load(&files)?, &SETTINGS, &times)?,
                 None => evaluate(&load(&files)?, model.as_deref(), SHIPPED, &times)?,
             };
             print(&report, json);
@@ -95,7 +95,7 @@ pub fn run(args: GesturesArgs) -> Result<()> {
 
 /// What `eval --cross participant` finds.
 pub fn across_people(files: &Files) -> Result<Report> {
-    learn::cross(&load(files)?, &SETTINGS, &times(54.0)?)
+    touches::cross(&load(files)?, &SETTINGS, &times(54.0)?)
 }
 
 /// Times of observation at so many frames per second.
@@ -116,7 +116,7 @@ pub fn write(data: &Data, settings: &Settings, output: &Path) -> Result<()> {
         }
     }
     let examples: Vec<_> = courses.iter().map(|(course, class)| (course, *class)).collect();
-    let bytes = learn::train(data, &examples, settings)?;
+    let bytes = touches::train(data, &examples, settings)?;
     std::fs::write(output, &bytes).with_context(|| format!("{}: cannot be written", output.display()))?;
     eprintln!("{}: {} bytes", output.display(), bytes.len());
     Ok(())
@@ -125,12 +125,12 @@ pub fn write(data: &Data, settings: &Settings, output: &Path) -> Result<()> {
 /// Applies the model of a file, else the shipped one, as it is.
 pub fn evaluate(data: &Data, model: Option<&Path>, shipped: &[u8], times: &Times) -> Result<Report> {
     let bytes = match model {
-        Some(path) => learn::read(path)?,
+        Some(path) => touches::read(path)?,
         None => shipped.to_vec(),
     };
     let model = Model::read(&bytes)?;
     let trained_on = Shipped::of(&model)?.knows(&data.sources);
-    let mut report = learn::as_it_is(&model, data, times)?;
+    let mut report = touches::as_it_is(&model, data, times)?;
     if trained_on {
         eprintln!(
             "warning: the model was trained on this file; how well it does on others is what --cross tells"

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::gestures::{evaluate, print, write};
-use crate::learn::{self, Data, Report, Settings, Source, Table, Times, Touch};
+use crate::touches::{self, Data, Report, Settings, Source, Table, Times, Touch};
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -84,7 +84,7 @@ pub fn run(args: IntentArgs) -> Result<()> {
         Command::Eval { files, model, cross, json } => {
             let data = load(&files, cross.unwrap_or(Cross::Day))?;
             let report = match cross {
-                Some(_) => learn::cross(&data, &SETTINGS, &times())?,
+                Some(_) => touches::cross(&data, &SETTINGS, &times())?,
                 None => evaluate(&data, model.as_deref(), SHIPPED, &times())?,
             };
             print(&report, json);
@@ -95,7 +95,7 @@ pub fn run(args: IntentArgs) -> Result<()> {
 
 /// What `eval --cross day` finds.
 pub fn across_days(files: &Files) -> Result<Report> {
-    learn::cross(&load(files, Cross::Day)?, &SETTINGS, &times())
+    touches::cross(&load(files, Cross::Day)?, &SETTINGS, &times())
 }
 
 fn times() -> Times {

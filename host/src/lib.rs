@@ -24,3 +24,4 @@ pub mod setup;
 pub mod shapes;
 pub mod sim;
 pub mod source;
+pub mod touches;

@@ -80,7 +80,7 @@ impl Course {
         // The mean of value times time about the middle, of which the whole change of a straight line is six times.
         let middle = u64::from(self.sum) * u64::from(count - 1);
         let lean = ((2 * self.moment) as i64 - middle as i64) >> 8;
-        let trend = lean.unsigned_abs() as u32 / (count * count >> 8).max(1);
+        let trend = lean.unsigned_abs() as u32 / ((count * count) >> 8).max(1);
         put(if lean < 0 { 4096u32.saturating_sub(trend) } else { trend.saturating_add(4096) });
         self.spread.percentiles(&SHARES, count).into_iter().for_each(|value| put(value.into()));
         for (sum, lag) in self.changes.into_iter().zip(LAGS) {

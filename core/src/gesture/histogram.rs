@@ -29,13 +29,13 @@ impl<const SHIFT: u32> Histogram<SHIFT> {
         let mut bins = self.bins.iter().enumerate();
         let (mut below, mut bin, mut held) = (0u32, 0u32, 0u32);
         shares.map(|share| {
-            let rank = u32::from(share) * count >> 8;
+            let rank = (u32::from(share) * count) >> 8;
             while below + held <= rank {
                 let Some((index, next)) = bins.next() else { break };
                 below += held;
                 (bin, held) = (index as u32, (*next).into());
             }
-            let within = (rank.saturating_sub(below) << SHIFT) + (1 << SHIFT >> 1);
+            let within = (rank.saturating_sub(below) << SHIFT) + ((1 << SHIFT) >> 1);
             ((bin << SHIFT) + within / held.max(1)) as u16
         })
     }

@@ -6,9 +6,9 @@
 pub const fn log2(value: u64) -> u16 {
     let above = value.saturating_add(1);
     let exponent = 63 - above.leading_zeros();
-    let fraction = ((above << above.leading_zeros()) << 1 >> 48) as u32;
-    let bend = (fraction >> 4) * ((65_536 - fraction) >> 4) >> 8;
-    (exponent << 8) as u16 + ((fraction + (bend * 89 >> 8)) >> 8) as u16
+    let fraction = (((above << above.leading_zeros()) << 1) >> 48) as u32;
+    let bend = ((fraction >> 4) * ((65_536 - fraction) >> 4)) >> 8;
+    (exponent << 8) as u16 + ((fraction + ((bend * 89) >> 8)) >> 8) as u16
 }
 
 #[cfg(test)]

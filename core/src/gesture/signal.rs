@@ -73,7 +73,7 @@ impl Sums {
         // Of the middle, 3.5: 14 / 4, and 3.5^2 = 49 / 4.
         let mean = |sum: u32| ((sum << 9) / m) as i32;
         let (x, y) = (mean(rest(self.x, 14)), mean(rest(self.y, 14)));
-        let second = |sum: u32, a: i32, b: i32| mean(rest(sum, 49)) - (a * b >> 9);
+        let second = |sum: u32, a: i32, b: i32| mean(rest(sum, 49)) - ((a * b) >> 9);
         let (xx, yy, xy) = (second(self.xx, x, x), second(self.yy, y, y), second(self.xy, x, y));
         let spread = (xx + yy).max(0);
         let (lean, skew) = ((xx - yy).unsigned_abs(), 2 * xy.unsigned_abs());

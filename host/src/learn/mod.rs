@@ -1,26 +1,6 @@
-//! Learning from recordings: folds, confusion, hashes and least squares, whatever is learned; and of recorded touches the
-//! examples, a model that fits the board, what it is compared with, and the report.
+//! What training has in common, whatever is learned.
 
 pub mod confusion;
 pub mod fingerprint;
 pub mod folds;
 pub mod linear;
-
-mod compare;
-mod data;
-mod date;
-mod export;
-mod knn;
-mod map;
-mod model;
-mod report;
-mod ridge;
-mod table;
-
-pub use compare::{Times, as_it_is, cross};
-pub use data::{Data, Source, Touch};
-pub use export::{Head, export};
-pub use model::{Course, Settings, Shipped, apply, decide, read, train};
-pub use report::{Outcome, Report, accuracy};
-pub use ridge::Ridge;
-pub use table::Table;
