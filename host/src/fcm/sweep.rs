@@ -11,6 +11,9 @@ pub const STARTS: usize = 4096;
 /// Levels of an input, in quarters; a coarser list where there are many inputs.
 const LEVELS: [&[i128]; 3] = [&[-4, -3, -2, -1, 0, 1, 2, 3, 4], &[-4, 0, 2, 4], &[-4, 4]];
 
+/// Activations by the name of the concept.
+pub type Inputs = Vec<(String, Decimal)>;
+
 /// What a sweep found.
 #[derive(Debug, Default, Clone)]
 pub struct Sweep {
@@ -19,9 +22,9 @@ pub struct Sweep {
     /// The most steps until a map settled.
     pub steps: u16,
     /// Inferences that end in a cycle, and the first of them: its inputs and its period.
-    pub cycles: (usize, Option<(Vec<(String, Decimal)>, u16)>),
+    pub cycles: (usize, Option<(Inputs, u16)>),
     /// Inferences that never settled, and the inputs of the first of them.
-    pub unsettled: (usize, Option<Vec<(String, Decimal)>>),
+    pub unsettled: (usize, Option<Inputs>),
 }
 
 /// Runs a map from a grid of the activations of its entries (the finest of up to [`STARTS`] points; random ones of the same
