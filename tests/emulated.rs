@@ -1,6 +1,8 @@
 //! The firmware image on the emulated board, as a host sees it: messages on a TCP socket, and the harness's own lines.
 //! A part of the targets that run it; `tests/emulator/README.md` says what the harness does.
 
+#![allow(dead_code)] // each target that runs the emulator uses a part of it
+
 use serde_json::Value;
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -146,9 +148,8 @@ impl Emulated {
     }
 
     /// Waits until the harness's power cut has ended the run.
-    #[allow(dead_code)] // a part of every target that runs the emulator
     pub fn end_of_power(mut self) {
-        wait_for(&self.lines, "cut");
+        self.wait_for("cut");
         self.link.shutdown(std::net::Shutdown::Both).unwrap();
         assert!(self.child.wait().unwrap().success());
     }

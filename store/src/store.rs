@@ -19,7 +19,7 @@ const INDEX: u8 = 0;
 /// An item with its key, in whole words of any flash.
 const ITEM: usize = (CHUNK + 1).next_multiple_of(32);
 
-const _: () = assert!(1 + Part::ALL.len() * 2 * CHUNKS <= 256, "the keys fit a byte");
+const _: () = assert!(Part::ALL.len() * 2 * CHUNKS < 256, "the keys fit a byte");
 
 /// Why settings cannot be stored or read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -74,7 +74,7 @@ impl Course {
         }
         if settings.mirrored {
             let columns = usize::from(data.columns);
-            let images: [fn(&[u16], usize) -> Vec<u16>; 3] = [
+            let images: [Mirror; 3] = [
                 |frame, columns| frame.chunks(columns).flat_map(|row| row.iter().rev()).copied().collect(),
                 |frame, columns| frame.chunks(columns).rev().flatten().copied().collect(),
                 |frame, _| frame.iter().rev().copied().collect(),
@@ -87,6 +87,9 @@ impl Course {
         Course { whole: window(&cells), more }
     }
 }
+
+/// Another image of a frame with so many columns.
+type Mirror = fn(&[u16], usize) -> Vec<u16>;
 
 fn features(cells: &[Cells], pressed: u16) -> Features {
     let (mut window, mut history) = (Window::default(), History::default());
