@@ -7,8 +7,8 @@ use embassy_rp::{peripherals::USB, usb};
 use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, pipe::Pipe};
 use taxel_core::run::Link;
 
-/// Bytes to the host that may wait: what the bus carries in 2.5 ms, and what the fullest frame of 40 contacts takes.
-const TO_HOST: usize = 3072;
+/// Bytes to the host that may wait: what the bus carries in 2 ms, and what a frame of 40 contacts takes.
+const TO_HOST: usize = 2560;
 /// Bytes from the host, four packets: when they are full, the host is made to wait.
 const FROM_HOST: usize = 256;
 /// Bytes that are copied at once, with interrupts off: for less than 10 us.
