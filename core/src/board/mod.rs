@@ -213,6 +213,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
+        let touched = !percept.present.is_empty();
         for change in percept.reactions.changes() {
             if let Some(line) = pipeline.reactions().output(change.index) {
                 self.outputs.set(line.pin, change.active != line.inverted);
@@ -224,7 +225,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, None);
         }
         self.outbox.raw(scan.codes, layout.taxels());
-        self.watch(scan.codes);
+        self.watch(scan.codes, touched);
         probe.begin(Stage::Idle);
     }
 

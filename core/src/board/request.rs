@@ -53,6 +53,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 refused => refused,
             },
             Request::Start => {
+                // From here on the same codes are answered with the same reports, whatever was seen before.
+                self.monitor.again();
                 self.outbox.start();
                 Ok(())
             }

@@ -2,15 +2,16 @@
 
 use super::Board;
 use crate::format::Code;
-use crate::health::{IllTaxel, TaxelHealth};
+use crate::health::{Codes, IllTaxel, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
-    /// Watches the codes of a frame.
-    pub(super) fn watch(&mut self, codes: &[Code]) {
+    /// Watches the codes of a frame, in which something touches the garment or not.
+    pub(super) fn watch(&mut self, codes: &[Code], touched: bool) {
         let super::Setup { layout, circuit, scene, .. } = &self.setup;
         let condition = &mut self.state.condition;
         let rest = condition.baseline().filter(|_| self.tared);
-        let found = self.monitor.watch(layout, circuit, &scene.plan, (codes, rest, self.info.full_scale));
+        let shown = Codes { now: codes, rest, full: self.info.full_scale, touched };
+        let found = self.monitor.watch(layout, circuit, &scene.plan, shown);
         for (taxel, health) in &found {
             let gain = condition.gain().get(usize::from(*taxel)).copied().unwrap_or(0);
             if self.monitor.add(IllTaxel { taxel: *taxel, health: *health, gain }) {

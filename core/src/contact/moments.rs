@@ -85,7 +85,7 @@ impl Moments {
     /// Of a piece of a row whose first taxel is (x, y).
     pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
         let mut sum = Moments::default();
-        sum.add_run(x, y, values, u16::MAX);
+        sum.add_run(x, y, values, values.iter().copied().max().unwrap_or(0));
         sum
     }
 

@@ -11,7 +11,7 @@ const RAIL: u16 = 16;
 const SIGNAL: u16 = 3 * RAIL;
 /// Taxels are pressed from here on, counts above rest.
 const PRESSED: i32 = 128;
-/// Where the codes of many taxels range over less than this, one that does not move tells nothing.
+/// Where the codes of many taxels range over less than so many steps, one that does not move tells nothing.
 const LIVELY: u16 = 8;
 /// A code that ranges over so much more than four times what is usual is not merely noisier than most.
 const LOUD: u16 = 24;
@@ -25,6 +25,10 @@ pub(super) struct Shown<'a> {
     pub falling: bool,
     /// Mean range of the codes of the taxels that are watched together.
     pub usual: u16,
+    /// Step of the codes.
+    pub step: u16,
+    /// Something touches the garment: only then can a taxel be missed among its neighbours.
+    pub touched: bool,
 }
 
 impl Shown<'_> {
@@ -80,7 +84,7 @@ impl Shown<'_> {
     /// Judges a taxel by what was seen of it.
     pub fn judge(&self, seen: &Seen, area: &Area, row: u16, column: u16, taxel: usize) -> TaxelHealth {
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
-        let still = seen.range() == 0 && self.usual >= LIVELY;
+        let still = seen.range() == 0 && self.usual >= LIVELY.saturating_mul(self.step);
         if low >= self.full.saturating_sub(RAIL) {
             // What presses one taxel to full scale presses those beside it, too.
             let alone = self.rest.is_some() && !self.is_near_pressure(area, row, column);
@@ -99,7 +103,7 @@ impl Shown<'_> {
         if high <= RAIL && rest >= i32::from(SIGNAL) {
             return TaxelHealth::Open;
         }
-        if i32::from(high) - rest > i32::from(RAIL) {
+        if !self.touched || i32::from(high) - rest > i32::from(RAIL) {
             return TaxelHealth::Good;
         }
         match self.surroundings(area, row, column) {

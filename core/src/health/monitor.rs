@@ -36,8 +36,18 @@ pub struct IllTaxel {
     pub gain: u16,
 }
 
-/// What a garment shows: the codes, the codes at rest where they are known, and the largest there is.
-pub type Codes<'a> = (&'a [Code], Option<&'a [u16]>, u16);
+/// What a garment shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Codes<'a> {
+    /// The codes of a frame.
+    pub now: &'a [Code],
+    /// Codes at rest; none: not known.
+    pub rest: Option<&'a [u16]>,
+    /// The largest code there is.
+    pub full: u16,
+    /// Something touches the garment.
+    pub touched: bool,
+}
 
 /// Taxels that were found to be ill in a frame.
 pub type Found = Vec<(u16, TaxelHealth), FOUND>;
@@ -54,12 +64,14 @@ pub struct Monitor {
     frame: u8,
     /// Mean range of the last watch.
     usual: u16,
+    /// Step of the codes of the last watch.
+    step: u16,
 }
 
 impl Monitor {
     /// Nothing is known against any taxel.
     pub const fn new() -> Self {
-        Monitor { ill: Vec::new(), seen: [Seen::NOTHING; WATCHED], first: 0, frame: 0, usual: 0 }
+        Monitor { ill: Vec::new(), seen: [Seen::NOTHING; WATCHED], first: 0, frame: 0, usual: 0, step: 1 }
     }
 
     /// Forgets everything.
@@ -107,7 +119,7 @@ impl Monitor {
 
     /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].
     pub fn watch(&mut self, layout: &Layout, circuit: &Circuit, plan: &Plan, shown: Codes<'_>) -> Found {
-        let (codes, rest, full) = shown;
+        let Codes { now: codes, rest, full, touched } = shown;
         let mut found = Found::new();
         let watched = codes.get(usize::from(self.first)..).unwrap_or(&[]);
         match self.frame.checked_sub(FRAMES - JUDGING) {
@@ -117,9 +129,12 @@ impl Monitor {
             None => self.seen.iter_mut().zip(watched).for_each(|(seen, code)| seen.see(*code)),
             Some(part) => {
                 if part == 0 {
-                    self.usual = self.usual_range(layout.taxels());
+                    let watched = layout.taxels().saturating_sub(usize::from(self.first)).min(WATCHED);
+                    let watched = self.seen.get(..watched).unwrap_or(&[]);
+                    (self.usual, self.step) = (usual_range(watched), step(watched));
                 }
-                let shown = Shown { codes, rest, full, falling: circuit.falling(), usual: self.usual };
+                let (falling, usual, step) = (circuit.falling(), self.usual, self.step);
+                let shown = Shown { codes, rest, full, falling, usual, step, touched };
                 let first = usize::from(self.first) + usize::from(part) * JUDGED;
                 let taxels = first..(first + JUDGED).min(layout.taxels());
                 if self.suspect(layout, circuit, plan, &shown, taxels, &mut found).is_none() {
@@ -134,13 +149,6 @@ impl Monitor {
             self.first = if next < layout.taxels() { next as u16 } else { 0 };
         }
         found
-    }
-
-    /// Mean range of those that are watched; a touch does not count for much.
-    fn usual_range(&self, taxels: usize) -> u16 {
-        let watched = taxels.saturating_sub(usize::from(self.first)).min(WATCHED);
-        let ranges = self.seen.iter().take(watched).map(|seen| u32::from(seen.range().min(TOUCHED)));
-        ranges.sum::<u32>().checked_div(watched as u32).unwrap_or(0) as u16
     }
 
     /// Finds what is to be said against some taxels; none where that is too much.
@@ -181,4 +189,16 @@ impl Default for Monitor {
     fn default() -> Self {
         Monitor::new()
     }
+}
+
+/// Mean range of some taxels; a touch does not count for much.
+fn usual_range(watched: &[Seen]) -> u16 {
+    let sum: u32 = watched.iter().map(|seen| u32::from(seen.range().min(TOUCHED))).sum();
+    sum.checked_div(watched.len() as u32).unwrap_or(0) as u16
+}
+
+/// The power of two that all their codes are multiples of: 16 where a converter gives 8 bits of 12.
+fn step(watched: &[Seen]) -> u16 {
+    let bits = watched.iter().fold(0, |bits, seen| bits | seen.bits());
+    (bits & bits.wrapping_neg()).max(1)
 }

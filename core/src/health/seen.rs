@@ -32,6 +32,11 @@ impl Seen {
         self.high.saturating_sub(self.low)
     }
 
+    /// Bits that are set in its lowest or its highest code.
+    pub fn bits(&self) -> u16 {
+        self.low | self.high
+    }
+
     /// Sum of the distances from code to code.
     pub fn travel(&self) -> u16 {
         self.travel

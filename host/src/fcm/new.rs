@@ -25,7 +25,10 @@ pub fn run(args: NewArgs) -> Result<()> {
     let name = args.output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
     let input = std::io::stdin();
     let patient = input.is_terminal();
-    let map = Dialog { answers: input.lock(), questions: std::io::stderr(), patient, line: 0 }.map(name)?;
+    // A script is not asked.
+    let questions: Box<dyn Write> =
+        if patient { Box::new(std::io::stderr()) } else { Box::new(std::io::sink()) };
+    let map = Dialog { answers: input.lock(), questions, patient, line: 0 }.map(name)?;
     load::save(&map, &args.output)?;
     println!("{}: {} concepts, {} edges", args.output.display(), map.concept.len(), map.edge.len());
     Ok(())
