@@ -5,7 +5,7 @@ use super::seen::Seen;
 use super::taxel::TaxelHealth;
 use crate::acquire::Plan;
 use crate::format::Code;
-use crate::garment::{Circuit, Layout};
+use crate::garment::{Area, Circuit, Layout};
 use core::ops::Range;
 use heapless::Vec;
 
@@ -151,6 +151,20 @@ impl Monitor {
         found
     }
 
+    /// Whether the taxels beside, above and below one that were watched with it range over less than half as much as it does:
+    /// what touches or shakes it would move them, too.
+    fn is_alone(&self, taxel: usize, area: &Area, column: u16) -> bool {
+        let seen = |taxel: Option<usize>| self.seen.get(taxel?.checked_sub(usize::from(self.first))?);
+        let own = seen(Some(taxel)).map_or(0, Seen::range);
+        let columns = usize::from(area.columns);
+        let left = (column > 0).then(|| taxel.wrapping_sub(1));
+        let right = (column + 1 < area.columns).then_some(taxel + 1);
+        [left, right, taxel.checked_sub(columns), Some(taxel + columns)]
+            .into_iter()
+            .filter_map(seen)
+            .all(|beside| beside.range() < own / 2)
+    }
+
     /// Finds what is to be said against some taxels; none where that is too much.
     fn suspect(
         &self,
@@ -169,7 +183,10 @@ impl Monitor {
                 }
                 for (column, taxel) in (0..area.columns).zip(start..).filter(|(_, t)| taxels.contains(t)) {
                     let Some(seen) = self.seen.get(taxel - usize::from(self.first)) else { continue };
-                    let health = shown.judge(seen, area, row, column, taxel);
+                    let mut health = shown.judge(seen, area, row, column, taxel);
+                    if health == TaxelHealth::Noisy && !self.is_alone(taxel, area, column) {
+                        health = TaxelHealth::Good;
+                    }
                     // Whatever is not there, or not read, shows nothing.
                     if health != TaxelHealth::Good
                         && self.health(taxel) == TaxelHealth::Good
