@@ -103,7 +103,9 @@ impl Shown<'_> {
         if high <= RAIL && rest >= i32::from(SIGNAL) {
             return TaxelHealth::Open;
         }
-        if !self.touched || i32::from(high) - rest > i32::from(RAIL) {
+        // The frame in which it is judged counts, too: a touch may have begun since.
+        let now = self.codes.get(taxel).map_or(0, |code| self.pressure(code.0));
+        if !self.touched || i32::from(high).max(now) - rest > i32::from(RAIL) {
             return TaxelHealth::Good;
         }
         match self.surroundings(area, row, column) {
