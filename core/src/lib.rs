@@ -1,9 +1,8 @@
 //! `taxel-core`: everything between the converter's codes and the meaning of a touch.
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
-//! [`health`] (of every taxel), [`condition`]
-//! (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments, moments, tracks), [`shape`] (NMI, k-NN),
-//! [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
+//! [`health`] (of every taxel), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
+//! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
 //! [`scene`] (all their settings), [`pipeline`] (their composition), [`wire`] (messages, frames), [`board`] (a function
 //! of what happened) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
 #![no_std]

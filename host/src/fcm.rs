@@ -20,6 +20,7 @@ pub mod paths;
 pub mod run;
 pub mod scene;
 pub mod search;
+pub mod steps;
 pub mod sweep;
 pub mod terms;
 pub mod touches;

@@ -1,10 +1,10 @@
 //! Between a map file and the core's configuration, which numbers concepts and counts decimal steps.
 
-use super::decimal::Decimal;
 use super::map::{ConceptFile, EdgeFile, MapFile};
 use super::member::InputFile;
+use super::steps::{decimal, steps};
 use super::weight::Weight;
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};
 
@@ -94,21 +94,4 @@ fn fitting(text: &str, what: &str) -> Result<Name> {
         bail!("{what} {text} is longer than 16 bytes");
     }
     Ok(short)
-}
-
-/// `value` in steps of 10^-`decimals`; it must be a whole number of them.
-fn decimal(value: f64, decimals: u32, field: &str) -> Result<i128> {
-    let exact = Decimal::from_f64(value).filter(|d| d.decimals <= decimals);
-    let exact =
-        exact.with_context(|| format!("{field} = {value} is not a number of at most {decimals} decimals"))?;
-    Ok(exact.scaled(10i128.pow(decimals)))
-}
-
-/// A value in -1 ..= 1 in steps of 10^-`decimals`. The range is checked here because i16 ends at 3.2767.
-pub fn steps(value: f64, decimals: u32, field: impl Fn() -> String) -> Result<i16> {
-    if value.abs() > 1.0 {
-        bail!("{} = {value} is outside [-1, 1]", field());
-    }
-    let all = decimal(value, 4, &field())?;
-    Ok((all / 10i128.pow(4 - decimals)) as i16)
 }

@@ -1,9 +1,9 @@
 //! Maps as people write them: TOML that names concepts instead of numbering them, with notes.
 
-use super::config::steps;
 use super::decimal::Decimal;
 use super::engine::{Problem, Settings};
 use super::member::InputFile;
+use super::steps::steps;
 use super::weight::Weight;
 use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};

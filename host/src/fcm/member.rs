@@ -10,7 +10,7 @@
 //! `at` is `[0, 1]` where it is not given; between the points are straight lines. Points are in the unit of the source. Triangle and
 //! trapezoid are two inputs of the board, whose activations add up.
 
-use super::config::steps;
+use super::steps::steps;
 use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
 use taxel_core::intent::{Input, Source};
