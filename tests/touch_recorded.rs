@@ -5,7 +5,7 @@
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use taxel::{gestures, intent};
+use taxel::{gestures, intent, touches};
 
 fn data(file: &str) -> PathBuf {
     let named = std::env::var_os("TAXEL_DATA").map(PathBuf::from);
@@ -18,7 +18,7 @@ fn share(report: &Value, pointer: &str) -> f64 {
 
 #[test]
 fn gestures_of_people_who_were_kept_apart() {
-    let files = gestures::Files { frames: data("haart/train.npz"), labels: Some(data("haart/train.csv")) };
+    let files = touches::Files { frames: data("haart/train.npz"), labels: Some(data("haart/train.csv")) };
     let report = gestures::across_people(&files).unwrap().json();
     println!("gestures by participant: {report}");
     // Above the 78.6 % of 800 trees, and above what it is compared with.
@@ -29,7 +29,7 @@ fn gestures_of_people_who_were_kept_apart() {
 
 #[test]
 fn intentions_on_days_that_were_kept_apart() {
-    let files = intent::Files {
+    let files = touches::Files {
         frames: data("social_touch/frames.npz"),
         labels: Some(data("social_touch/labels.csv")),
     };

@@ -1,18 +1,24 @@
 //! `taxel gestures`: which gesture a touch is, by a model that fits the board.
 
 use crate::arrays;
-use crate::touches::{self, Course, Data, Report, Settings, Shipped, Source, Table, Times, Touch};
-use anyhow::{Context, Result, bail, ensure};
+use crate::touches::{
+    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
+};
+use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand, ValueEnum};
-use std::path::{Path, PathBuf};
-use taxel_core::gesture::{CLASSES, Model};
+use taxel_core::gesture::CLASSES;
 
 /// The model that is shipped: trained on the recordings its notes name; `docs/models.md` is its card.
 pub const SHIPPED: &[u8] = include_bytes!("../models/gestures.model");
 
 /// Chosen by cross-validation by participant.
-pub const SETTINGS: Settings =
-    Settings { pressed: 12, part: 216, penalty: 40.0, balance: 0.0, mirrored: false };
+const SETTINGS: Settings = Settings { pressed: 12, part: 216, penalty: 40.0, balance: 0.0, mirrored: false };
+
+const TASK: Task = Task {
+    shipped: SHIPPED,
+    settings: SETTINGS,
+    candidates: || grid(SETTINGS, &[0, 108, 216], &[10.0, 40.0, 160.0], &[0.0, 0.5]),
+};
 
 /// Times of observation, seconds.
 const TIMES: [f64; 7] = [0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0];
@@ -27,29 +33,14 @@ pub struct GesturesArgs {
 #[derive(Debug, Clone, Subcommand)]
 enum Command {
     /// Train a model
-    Train {
-        #[command(flatten)]
-        files: Files,
-        /// Where to write the model
-        #[arg(short, long, value_name = "MODEL")]
-        output: PathBuf,
-    },
+    Train(TrainArgs),
     /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
     Eval {
         #[command(flatten)]
-        files: Files,
-        /// The model; without it the shipped one
-        #[arg(long, conflicts_with = "cross")]
-        model: Option<PathBuf>,
-        /// Keep each of these apart in turn
-        #[arg(long, value_name = "GROUPS")]
-        cross: Option<Cross>,
+        eval: EvalArgs<Cross>,
         /// Frames per second, for the times observed
         #[arg(long, value_name = "HZ", default_value_t = 54.0)]
         rate: f64,
-        /// Print JSON
-        #[arg(long)]
-        json: bool,
     },
     /// The card of the shipped models: data, split, figures, where they fail
     Card,
@@ -62,30 +53,11 @@ enum Cross {
     Participant,
 }
 
-/// Recorded gestures.
-#[derive(Debug, Clone, Args)]
-pub struct Files {
-    /// Frames: all recordings of equal length, one after the other
-    #[arg(long, value_name = "F.npz")]
-    pub frames: PathBuf,
-    /// A line for each recording, with columns gesture and participant
-    #[arg(long, value_name = "L.csv")]
-    pub labels: Option<PathBuf>,
-}
-
 /// Runs the command.
 pub fn run(args: GesturesArgs) -> Result<()> {
     match args.command {
-        Command::Train { files, output } => write(&load(&files)?, &SETTINGS, &output),
-        Command::Eval { files, model, cross, rate, json } => {
-            let times = times(rate)?;
-            let report = match cross {
-                Some(Cross::Participant) => touches::cross(&load(&files)?, &SETTINGS, &times)?,
-                None => evaluate(&load(&files)?, model.as_deref(), SHIPPED, &times)?,
-            };
-            print(&report, json);
-            Ok(())
-        }
+        Command::Train(args) => TASK.train(&load(&args.files)?, &args.output),
+        Command::Eval { eval, rate } => TASK.eval(&eval, &load(&eval.files)?, &times(rate)?),
         Command::Card => {
             print!("{}", include_str!("../../docs/models.md"));
             Ok(())
@@ -105,57 +77,9 @@ fn times(rate: f64) -> Result<Times> {
     Ok(Times { unit: "seconds", steps: TIMES.iter().map(|t| (*t, frames(t))).collect() })
 }
 
-/// Trains on all touches and writes the model.
-pub fn write(data: &Data, settings: &Settings, output: &Path) -> Result<()> {
-    eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
-    let mut courses = Vec::new();
-    for (number, touch) in data.touches.iter().enumerate() {
-        courses.push((Course::of(data, touch, settings), touch.class));
-        if number % 50 == 49 {
-            eprintln!("features of {} of {} touches", number + 1, data.touches.len());
-        }
-    }
-    let examples: Vec<_> = courses.iter().map(|(course, class)| (course, *class)).collect();
-    let bytes = touches::train(data, &examples, settings)?;
-    std::fs::write(output, &bytes).with_context(|| format!("{}: cannot be written", output.display()))?;
-    eprintln!("{}: {} bytes", output.display(), bytes.len());
-    Ok(())
-}
-
-/// Applies the model of a file, else the shipped one, as it is.
-pub fn evaluate(data: &Data, model: Option<&Path>, shipped: &[u8], times: &Times) -> Result<Report> {
-    let bytes = match model {
-        Some(path) => touches::read(path)?,
-        None => shipped.to_vec(),
-    };
-    let model = Model::read(&bytes)?;
-    let trained_on = Shipped::of(&model)?.knows(&data.sources);
-    let mut report = touches::as_it_is(&model, data, times)?;
-    if trained_on {
-        eprintln!(
-            "warning: the model was trained on this file; how well it does on others is what --cross tells"
-        );
-    }
-    report.add("trained_on", trained_on.into());
-    report.add("model_bytes", bytes.len().into());
-    Ok(report)
-}
-
-/// Prints a report.
-pub fn print(report: &Report, json: bool) {
-    if json {
-        println!("{}", report.json());
-    } else {
-        print!("{}", report.text());
-    }
-}
-
 /// Reads recorded gestures.
 fn load(files: &Files) -> Result<Data> {
-    let path = &files.frames;
-    let Some(labels) = &files.labels else {
-        bail!("{}: frames of gestures hold no labels, name their file with --labels", path.display());
-    };
+    let (path, labels) = (&files.frames, labels(files)?);
     let frames = arrays::read(path, None)?;
     let table = Table::read(labels)?;
     let columns = || Ok::<_, anyhow::Error>((table.column("gesture")?, table.column("participant")?));

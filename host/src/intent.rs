@@ -1,18 +1,23 @@
 //! `taxel intent`: what a touch means, by a model that fits the board.
 
 use crate::arrays;
-use crate::gestures::{evaluate, print, write};
-use crate::touches::{self, Data, Report, Settings, Source, Table, Times, Touch};
+use crate::touches::{
+    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
+};
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
-use std::path::PathBuf;
 
 /// The model that is shipped: trained on the recordings its notes name; `docs/models.md` is its card.
 pub const SHIPPED: &[u8] = include_bytes!("../models/intent.model");
 
 /// Chosen by cross-validation by day.
-pub const SETTINGS: Settings =
-    Settings { pressed: 200, part: 0, penalty: 10.0, balance: 0.5, mirrored: true };
+const SETTINGS: Settings = Settings { pressed: 200, part: 0, penalty: 10.0, balance: 0.5, mirrored: true };
+
+const TASK: Task = Task {
+    shipped: SHIPPED,
+    settings: SETTINGS,
+    candidates: || grid(SETTINGS, &[0], &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
+};
 
 /// Frames of observation.
 const FRAMES: [u16; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20, 40, 80];
@@ -34,27 +39,9 @@ pub struct IntentArgs {
 #[derive(Debug, Clone, Subcommand)]
 enum Command {
     /// Train a model
-    Train {
-        #[command(flatten)]
-        files: Files,
-        /// Where to write the model
-        #[arg(short, long, value_name = "MODEL")]
-        output: PathBuf,
-    },
+    Train(TrainArgs),
     /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
-    Eval {
-        #[command(flatten)]
-        files: Files,
-        /// The model; without it the shipped one
-        #[arg(long, conflicts_with = "cross")]
-        model: Option<PathBuf>,
-        /// Keep each of these apart in turn
-        #[arg(long, value_name = "GROUPS")]
-        cross: Option<Cross>,
-        /// Print JSON
-        #[arg(long)]
-        json: bool,
-    },
+    Eval(EvalArgs<Cross>),
 }
 
 /// What to keep apart.
@@ -66,29 +53,13 @@ enum Cross {
     Day,
 }
 
-/// Recorded touches.
-#[derive(Debug, Clone, Args)]
-pub struct Files {
-    /// Frames of all recordings, one after the other
-    #[arg(long, value_name = "F.npz")]
-    pub frames: PathBuf,
-    /// A line for each frame, with columns recording and label
-    #[arg(long, value_name = "L.csv")]
-    pub labels: Option<PathBuf>,
-}
-
 /// Runs the command.
 pub fn run(args: IntentArgs) -> Result<()> {
     match args.command {
-        Command::Train { files, output } => write(&load(&files, Cross::Day)?, &SETTINGS, &output),
-        Command::Eval { files, model, cross, json } => {
-            let data = load(&files, cross.unwrap_or(Cross::Day))?;
-            let report = match cross {
-                Some(_) => touches::cross(&data, &SETTINGS, &times())?,
-                None => evaluate(&data, model.as_deref(), SHIPPED, &times())?,
-            };
-            print(&report, json);
-            Ok(())
+        Command::Train(args) => TASK.train(&load(&args.files, Cross::Day)?, &args.output),
+        Command::Eval(args) => {
+            let data = load(&args.files, args.cross.unwrap_or(Cross::Day))?;
+            TASK.eval(&args, &data, &times())
         }
     }
 }
@@ -105,10 +76,7 @@ fn times() -> Times {
 
 /// Reads recorded touches: each stretch of frames of one label is one.
 fn load(files: &Files, apart: Cross) -> Result<Data> {
-    let path = &files.frames;
-    let Some(labels) = &files.labels else {
-        bail!("{}: frames of touches hold no labels, name their file with --labels", path.display());
-    };
+    let (path, labels) = (&files.frames, labels(files)?);
     let frames = arrays::read(path, None)?;
     let table = Table::read(labels)?;
     let columns = || Ok::<_, anyhow::Error>((table.column("recording")?, table.column("label")?));

@@ -20,6 +20,11 @@ impl Square {
         &self.cells[i * self.n..][..self.n]
     }
 
+    /// Row `i`, to change.
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.cells[i * self.n..][..self.n]
+    }
+
     /// The cell at row `i` and column `j`.
     pub fn at(&mut self, i: usize, j: usize) -> &mut f64 {
         &mut self.cells[i * self.n + j]
@@ -32,7 +37,7 @@ impl Square {
         }
     }
 
-    /// The lower triangle L with L L^T = self, for a positive definite matrix.
+    /// The lower triangle L with L L^T = self, for a positive definite matrix, of which only the lower half is read.
     pub fn cholesky(&self) -> Square {
         let mut lower = Square::zero(self.n);
         for i in 0..self.n {

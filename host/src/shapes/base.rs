@@ -44,7 +44,7 @@ pub struct Base {
 pub struct Source {
     /// Name without folders.
     pub file: String,
-    /// See [`fingerprint`](crate::learn::fingerprint::of).
+    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint).
     pub fingerprint: String,
     /// The sets of it that were used; all if empty.
     pub sets: Vec<String>,

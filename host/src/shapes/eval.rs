@@ -5,7 +5,7 @@ use super::cross::{SEED, deal, predict, trained};
 use super::data::{Example, Examples, ImagesArgs};
 use super::train_command::{RecipeArgs, check, counted};
 use crate::learn::confusion::Confusion;
-use crate::learn::fingerprint;
+use crate::learn::fingerprint::Fingerprint;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -100,7 +100,7 @@ fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
         right.push(confusion.is_right(example.class, answer));
         found.push(recognised);
     }
-    let trained_on = base.knows_file(&fingerprint::of(&args.images.images)?);
+    let trained_on = base.knows_file(&Fingerprint::of(&args.images.images)?.to_string());
     Ok((examples, Outcome { confusion, found, right, base: json!(name), trained_on }))
 }
 

@@ -4,7 +4,7 @@ use super::base::{Base, Source};
 use super::cluster::centres;
 use super::view::ViewArgs;
 use crate::arrays;
-use crate::learn::fingerprint;
+use crate::learn::fingerprint::Fingerprint;
 use anyhow::{Result, ensure};
 use std::path::PathBuf;
 use taxel_core::format::name;
@@ -45,7 +45,7 @@ pub fn run(args: LearnArgs) -> Result<()> {
     let added = teach(&mut base, &args.name, &points, args.prototypes)?;
     base.trained_on.push(Source {
         file: args.images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        fingerprint: fingerprint::of(&args.images)?,
+        fingerprint: Fingerprint::of(&args.images)?.to_string(),
         sets: args.array.into_iter().collect(),
         images: points.len(),
     });

@@ -5,7 +5,7 @@ use super::cross::{FOLDS, trained};
 use super::data::{Example, Examples, ImagesArgs};
 use super::train::Recipe;
 use crate::learn::confusion::Confusion;
-use crate::learn::fingerprint;
+use crate::learn::fingerprint::Fingerprint;
 use anyhow::{Result, ensure};
 use std::path::PathBuf;
 use taxel_core::shape::{GALLERY_CLASSES, GALLERY_PROTOTYPES, Recognised};
@@ -89,7 +89,7 @@ pub fn train(images: &ImagesArgs, examples: &Examples, recipe: &Recipe) -> Resul
     let confusion = counted(&list, &examples.names, &found);
     let source = Source {
         file: images.images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        fingerprint: fingerprint::of(&images.images)?,
+        fingerprint: Fingerprint::of(&images.images)?.to_string(),
         sets: images.set.clone(),
         images: list.len(),
     };

@@ -129,3 +129,22 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
     report.add("beside", json!({ "knn": accuracy(&near), "map": accuracy(&map) }));
     Ok(report)
 }
+
+/// Trains on the touches of the groups that are known and applies to another group.
+pub(super) fn apart(
+    data: &Data,
+    courses: &[Course],
+    settings: &Settings,
+    known: &[&str],
+    group: &str,
+) -> Result<Vec<Outcome>> {
+    let touches = || data.touches.iter().zip(courses);
+    let examples: Vec<_> = touches()
+        .filter(|(touch, _)| known.contains(&touch.group.as_str()))
+        .map(|(touch, course)| (course, touch.class))
+        .collect();
+    let bytes = train(data, &examples, settings)?;
+    let asked: Vec<&Touch> = data.touches.iter().filter(|touch| touch.group == group).collect();
+    let taken = apply(&Model::read(&bytes)?, data, &asked, &[])?;
+    Ok(asked.iter().zip(taken).map(|(touch, (last, _))| (touch.class, last)).collect())
+}

@@ -1,5 +1,6 @@
 //! Learning from recorded touches: examples, a model that fits the board, what it is compared with, and the report.
 
+mod command;
 mod compare;
 mod data;
 mod date;
@@ -7,14 +8,16 @@ mod export;
 mod knn;
 mod map;
 mod model;
+mod nested;
 mod report;
 mod ridge;
 mod table;
 
-pub use compare::{Times, as_it_is, cross};
+pub use command::{EvalArgs, Files, Task, TrainArgs, grid, labels};
+pub use compare::{Times, cross};
 pub use data::{Data, Source, Touch};
 pub use export::{Head, export};
-pub use model::{Course, Settings, Shipped, apply, decide, read, train};
+pub use model::{Settings, Shipped, apply, decide, train};
 pub use report::{Outcome, Report, accuracy};
 pub use ridge::Ridge;
 pub use table::Table;

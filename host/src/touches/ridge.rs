@@ -1,5 +1,6 @@
 //! Linear classes by least squares: for each class the plane that is nearest to +1 on its examples and to -1 on the others.
 
+use crate::learn::linear::{Square, back, forward};
 use taxel_core::gesture::{FEATURES, Features, LIMIT};
 
 /// Deviations beyond which a feature counts as that far, as on the board.
@@ -28,25 +29,25 @@ impl Ridge {
         let share = |class: usize| examples.len() as f64 / (classes * counts[class].max(1)) as f64;
         let weigh: Vec<f64> = (0..classes).map(|class| share(class).powf(balance)).collect();
         let size = FEATURES + 1;
-        let mut normal = vec![0.0; size * size];
+        let mut normal = Square::zero(size);
         let mut wanted = vec![vec![0.0; size]; classes];
         let mut row = vec![1.0; size];
         for (features, class) in examples {
             standardise(features, &middle, &deviation, &mut row);
             let weight = weigh[*class];
             for (i, a) in row.iter().enumerate() {
-                let (a, line) = (a * weight, &mut normal[i * size..i * size + i + 1]);
-                line.iter_mut().zip(&row).for_each(|(sum, b)| *sum += a * b);
+                let a = a * weight;
+                normal.row_mut(i)[..=i].iter_mut().zip(&row).for_each(|(sum, b)| *sum += a * b);
                 for (other, wanted) in wanted.iter_mut().enumerate() {
                     wanted[i] += if other == *class { a } else { -a };
                 }
             }
         }
-        (0..size).for_each(|i| normal[i * size + i] += penalty);
-        factor(&mut normal, size);
+        (0..size).for_each(|i| *normal.at(i, i) += penalty);
+        let lower = normal.cholesky();
         let (mut weights, mut offsets) = (Vec::new(), Vec::new());
-        for mut plane in wanted {
-            solve(&normal, &mut plane);
+        for side in wanted {
+            let mut plane = back(&lower, &forward(&lower, &side));
             offsets.extend(plane.pop());
             weights.push(plane);
         }
@@ -78,49 +79,9 @@ fn standardise(features: &Features, middle: &[f64], deviation: &[f64], row: &mut
     }
 }
 
-/// The Cholesky factor of a positive definite matrix in place of its lower half.
-fn factor(matrix: &mut [f64], size: usize) {
-    for i in 0..size {
-        let (above, line) = matrix.split_at_mut(i * size);
-        for j in 0..i {
-            let other = &above[j * size..j * size + j + 1];
-            let dot: f64 = line[..j].iter().zip(other).map(|(a, b)| a * b).sum();
-            line[j] = (line[j] - dot) / other[j];
-        }
-        let square: f64 = line[..i].iter().map(|a| a * a).sum();
-        line[i] = (line[i] - square).max(f64::MIN_POSITIVE).sqrt();
-    }
-}
-
-/// Solves for a right-hand side in place, by the factor.
-fn solve(factor: &[f64], side: &mut [f64]) {
-    let size = side.len();
-    for i in 0..size {
-        let dot: f64 = factor[i * size..i * size + i].iter().zip(side.iter()).map(|(a, b)| a * b).sum();
-        side[i] = (side[i] - dot) / factor[i * size + i];
-    }
-    for i in (0..size).rev() {
-        let dot: f64 = (i + 1..size).map(|j| factor[j * size + i] * side[j]).sum();
-        side[i] = (side[i] - dot) / factor[i * size + i];
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_factor_solves() {
-        let matrix = [4.0, 2.0, 0.4, 2.0, 5.0, 1.0, 0.4, 1.0, 3.0];
-        let mut lower = matrix;
-        factor(&mut lower, 3);
-        let mut x = [1.0, -2.0, 0.5];
-        solve(&lower, &mut x);
-        for (row, want) in matrix.chunks(3).zip([1.0, -2.0, 0.5]) {
-            let have: f64 = row.iter().zip(x).map(|(a, b)| a * b).sum();
-            assert!((have - want).abs() < 1e-12);
-        }
-    }
 
     #[test]
     fn classes_apart_are_told_apart() {

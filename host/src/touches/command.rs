@@ -1,0 +1,143 @@
+//! What `taxel gestures` and `taxel intent` have in common: training and evaluation of a model of touches.
+
+use super::compare::{Times, as_it_is, cross};
+use super::data::Data;
+use super::model::{Course, Settings, Shipped, read, train};
+use super::nested::nested;
+use super::report::Report;
+use anyhow::{Context, Result, ensure};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+use taxel_core::gesture::Model;
+
+/// Recorded touches.
+#[derive(Debug, Clone, Args)]
+pub struct Files {
+    /// Frames of all recordings, one after the other
+    #[arg(long, value_name = "F.npz")]
+    pub frames: PathBuf,
+    /// A line for each recording (columns gesture and participant) or for each frame (columns recording and label)
+    #[arg(long, value_name = "L.csv")]
+    pub labels: Option<PathBuf>,
+}
+
+/// Arguments of `train`.
+#[derive(Debug, Clone, Args)]
+pub struct TrainArgs {
+    /// What to learn from
+    #[command(flatten)]
+    pub files: Files,
+    /// Where to write the model
+    #[arg(short, long, value_name = "MODEL")]
+    pub output: PathBuf,
+}
+
+/// Arguments of `eval`, where `C` names what may be kept apart.
+#[derive(Debug, Clone, Args)]
+pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
+    /// What to recognise
+    #[command(flatten)]
+    pub files: Files,
+    /// The model; without it the shipped one
+    #[arg(long, conflicts_with = "cross")]
+    pub model: Option<PathBuf>,
+    /// Keep each of these apart in turn
+    #[arg(long, value_name = "GROUPS")]
+    pub cross: Option<C>,
+    /// With --cross: choose the settings anew for each group, on the others alone; takes minutes
+    #[arg(long, requires = "cross")]
+    pub nested: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What a command knows of its task.
+#[derive(Debug, Clone, Copy)]
+pub struct Task {
+    /// The model that is shipped.
+    pub shipped: &'static [u8],
+    /// How it was trained.
+    pub settings: Settings,
+    /// Among which settings `--nested` chooses.
+    pub candidates: fn() -> Vec<Settings>,
+}
+
+impl Task {
+    /// Trains on all touches and writes the model.
+    pub fn train(&self, data: &Data, output: &Path) -> Result<()> {
+        eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
+        let mut courses = Vec::new();
+        for (number, touch) in data.touches.iter().enumerate() {
+            courses.push((Course::of(data, touch, &self.settings), touch.class));
+            if number % 50 == 49 {
+                eprintln!("features of {} of {} touches", number + 1, data.touches.len());
+            }
+        }
+        let examples: Vec<_> = courses.iter().map(|(course, class)| (course, *class)).collect();
+        let bytes = train(data, &examples, &self.settings)?;
+        std::fs::write(output, &bytes).with_context(|| format!("{}: cannot be written", output.display()))?;
+        eprintln!("{}: {} bytes", output.display(), bytes.len());
+        Ok(())
+    }
+
+    /// Evaluates as asked, and prints the report.
+    pub fn eval<C>(&self, args: &EvalArgs<C>, data: &Data, times: &Times) -> Result<()>
+    where
+        C: ValueEnum + Clone + Send + Sync + 'static,
+    {
+        let report = match (&args.cross, args.nested) {
+            (None, _) => self.apply(data, args.model.as_deref(), times)?,
+            (Some(_), false) => cross(data, &self.settings, times)?,
+            (Some(_), true) => nested(data, &(self.candidates)())?,
+        };
+        if args.json {
+            println!("{}", report.json());
+        } else {
+            print!("{}", report.text());
+        }
+        Ok(())
+    }
+
+    /// Applies the model of a file, else the shipped one, as it is.
+    fn apply(&self, data: &Data, model: Option<&Path>, times: &Times) -> Result<Report> {
+        let bytes = model.map_or_else(|| Ok(self.shipped.to_vec()), read)?;
+        let model = Model::read(&bytes)?;
+        let trained_on = Shipped::of(&model)?.knows(&data.sources);
+        let mut report = as_it_is(&model, data, times)?;
+        if trained_on {
+            eprintln!(
+                "warning: the model was trained on this file; how well it does on others is what --cross tells"
+            );
+        }
+        report.add("trained_on", trained_on.into());
+        report.add("model_bytes", bytes.len().into());
+        Ok(report)
+    }
+}
+
+/// Settings that differ from `one` in what is chosen by trial.
+pub fn grid(one: Settings, parts: &[u16], penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
+    let mut all = Vec::new();
+    for part in parts {
+        for penalty in penalties {
+            all.extend(balances.iter().map(|balance| Settings {
+                part: *part,
+                penalty: *penalty,
+                balance: *balance,
+                ..one
+            }));
+        }
+    }
+    all
+}
+
+/// The labels of recorded touches; the error says that they are missing.
+pub fn labels(files: &Files) -> Result<&Path> {
+    let frames = files.frames.display();
+    ensure!(
+        files.labels.is_some(),
+        "{frames}: frames of touches hold no labels of their own, name their file with --labels"
+    );
+    Ok(files.labels.as_deref().unwrap_or(&files.frames))
+}

@@ -1,0 +1,49 @@
+//! An honest figure: settings are chosen without the touches that they are judged by.
+
+use super::compare::apart;
+use super::data::Data;
+use super::model::{Course, Settings};
+use super::report::{Outcome, Report, accuracy};
+use anyhow::{Result, ensure};
+use serde_json::json;
+
+/// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn, trains with
+/// them on all the others, and applies to the group.
+pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
+    let groups = data.groups();
+    ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());
+    let courses: Vec<Vec<Course>> = candidates
+        .iter()
+        .map(|settings| data.touches.iter().map(|touch| Course::of(data, touch, settings)).collect())
+        .collect();
+    let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());
+    for group in &groups {
+        let others: Vec<&str> = groups.iter().filter(|other| *other != group).map(String::as_str).collect();
+        let mut best: Option<(f64, usize)> = None;
+        for (number, settings) in candidates.iter().enumerate() {
+            let mut inner: Vec<Outcome> = Vec::new();
+            for test in &others {
+                let known: Vec<&str> = others.iter().filter(|other| *other != test).copied().collect();
+                inner.extend(apart(data, &courses[number], settings, &known, test)?);
+            }
+            let share = accuracy(&inner);
+            if best.is_none_or(|(before, _)| share > before) {
+                best = Some((share, number));
+            }
+        }
+        let (share, number) = best.unwrap_or_default();
+        let own = apart(data, &courses[number], &candidates[number], &others, group)?;
+        eprintln!(
+            "{group}: {:.1} % of {} touches; the others {:.1} %",
+            100.0 * accuracy(&own),
+            own.len(),
+            100.0 * share
+        );
+        chosen.insert(group.clone(), json!(candidates[number]));
+        found.extend(own);
+    }
+    let mut report = Report::new(&data.classes, found);
+    report.add("candidates", candidates.len().into());
+    report.add("chosen", chosen.into());
+    Ok(report)
+}
