@@ -5,10 +5,11 @@ mod emulated;
 
 use emulated::Emulated;
 use serde_json::Value;
+use taxel_core::acquire::Depth;
 use taxel_core::format::name;
 use taxel_core::garment::Garment;
-use taxel_core::scene::Scene;
-use taxel_core::wire::Request;
+use taxel_core::scene::{Scene, StreamConfig};
+use taxel_core::wire::{Report, Request, decode_image};
 
 const TAXELS: usize = 2048;
 /// Frames that are shown in turn, no two of them alike.
@@ -108,6 +109,43 @@ fn one_panel_alone() {
     assert_eq!(spent.wrong, 0);
     assert_eq!(spent.taxels, spent.frames * TAXELS as u64 / 4);
     assert!(spent.rate * (spent.frames + spent.unseen) as f64 / spent.frames as f64 >= 480.0);
+}
+
+/// Codes that go up and down by 4 from scan to scan: the mean of an even number of scans lies between.
+#[test]
+fn a_mean_of_scans() {
+    let level = |taxel: usize| 100 + (taxel * 1367 % TAXELS) as u16;
+    let codes: Vec<u16> = (0..2 * TAXELS).map(|at| level(at % TAXELS) + 4 * (at / TAXELS) as u16).collect();
+    let mean: Vec<u16> = (0..TAXELS).map(|taxel| level(taxel) + 2).collect();
+    let garment = Garment::reference();
+    let mut scene = Scene::shipped();
+    scene.stream = StreamConfig { frames_hz: 0, raw_hz: 10, ..StreamConfig::default() };
+    let mut board = Emulated::start(&garment, &codes, 0, &["--loop"]);
+    board.receive();
+    board.obey(&Request::SetGarment(&postcard::to_allocvec(&garment).unwrap()));
+    board.play();
+    for depth in [Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8] {
+        scene.plan.depth = depth;
+        board.obey(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
+        board.obey(&Request::Start);
+        let mut told = 0;
+        while told < 3 {
+            let message = board.receive();
+            match message.report() {
+                Report::Raw(raw) => {
+                    let mut have = vec![0; TAXELS];
+                    decode_image(raw.data, None, &mut have).unwrap();
+                    assert_eq!(have, mean, "{depth:?}, frame {}", raw.frame);
+                    told += 1;
+                }
+                Report::Health(health) => {
+                    println!("{depth:?}: {} us a frame", health.scan_us);
+                }
+                _ => {}
+            }
+        }
+    }
+    board.end();
 }
 
 #[test]

@@ -55,6 +55,7 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
             }
+            Some(Job::Rest) => acquire.rest(),
             Some(Job::Save) => {
                 acquire.rest();
                 let result = platform.save(&board.settings());

@@ -93,7 +93,7 @@ pub trait Acquire {
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError>;
 
     /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the lines or the
-    /// memory. Has no effect on what only works when it is asked to.
+    /// memory, or the circuit changes, which it does at no other time. Has no effect on what only works when it is asked to.
     fn rest(&mut self) {}
 }
 

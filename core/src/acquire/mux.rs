@@ -59,7 +59,8 @@ impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
 /// Selects every address in turn, waits for the line to settle, and reads every converter input that has a block there:
 /// by select code, then row, then column. Only lines whose level changes are driven.
 ///
-/// Cost per address: the changed lines, the settling time of the garment, one conversion per input.
+/// Cost per address: the changed lines, the settling time of the garment, as many conversions per input as samples are
+/// averaged.
 pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     lines: &'l mut Lines<P, PINS>,
     delay: D,
@@ -155,10 +156,13 @@ where
     fn read(&mut self, cursors: &mut Cursors, column: u8, depth: Depth) -> Result<(), ScanError> {
         for cursor in cursors.iter_mut().filter(|c| column < c.columns_here) {
             let Cursor { input, taxel, .. } = *cursor;
-            let code =
-                self.adc.read(input).map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?;
+            let mut sum = 0;
+            for _ in 0..depth.scans() {
+                let code = self.adc.read(input);
+                sum += code.map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?.min(4095);
+            }
             if let Some(slot) = self.codes.get_mut(taxel as usize) {
-                *slot = Code(depth.keep(code));
+                *slot = Code(depth.mean(sum));
             }
             cursor.taxel += cursor.column_step;
         }

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Bits of a sample that are kept.
+/// How finely a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come as much
+/// more rarely.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Depth {
     /// The upper 8 bits of the converter's 12 (the source's 256 grey levels); codes still span 0 ..= 4095.
@@ -12,6 +13,15 @@ pub enum Depth {
     #[default]
     #[serde(rename = "12")]
     Twelve,
+    /// The mean of two scans of 12 bits, rounded to a whole code, as the next two.
+    #[serde(rename = "mean of 2")]
+    MeanOf2,
+    /// The mean of four scans.
+    #[serde(rename = "mean of 4")]
+    MeanOf4,
+    /// The mean of eight scans.
+    #[serde(rename = "mean of 8")]
+    MeanOf8,
 }
 
 impl Depth {
@@ -20,8 +30,28 @@ impl Depth {
         match self {
             // The upper bits are repeated below, so that full scale stays full scale.
             Depth::Eight => (code & 0xff0) | (code >> 8 & 0xf),
-            Depth::Twelve => code,
+            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 => code,
         }
+    }
+
+    /// log2 of the number of scans of a frame.
+    const fn doublings(self) -> u32 {
+        match self {
+            Depth::Eight | Depth::Twelve => 0,
+            Depth::MeanOf2 => 1,
+            Depth::MeanOf4 => 2,
+            Depth::MeanOf8 => 3,
+        }
+    }
+
+    /// Scans of a frame.
+    pub const fn scans(self) -> u16 {
+        1 << self.doublings()
+    }
+
+    /// The code for the sum of as many 12-bit codes as [`Depth::scans`] says; a half is rounded up.
+    pub const fn mean(self, sum: u16) -> u16 {
+        self.keep((sum + self.scans() / 2) >> self.doublings())
     }
 }
 
@@ -47,5 +77,23 @@ impl Plan {
     /// Whether a block of a panel is to be read.
     pub const fn reads(&self, panel: u8, block: u8) -> bool {
         self.panels as u32 >> panel & 1 == 1 && self.blocks >> block & 1 == 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_is_rounded_once() {
+        for (depth, scans) in
+            [(Depth::Twelve, 1), (Depth::MeanOf2, 2), (Depth::MeanOf4, 4), (Depth::MeanOf8, 8)]
+        {
+            assert_eq!((depth.scans(), depth.mean(4095 * scans)), (scans, 4095));
+            for sum in 0..=4095 * scans {
+                let exact = f64::from(sum) / f64::from(scans);
+                assert_eq!(f64::from(depth.mean(sum)), (exact + 0.5).floor());
+            }
+        }
     }
 }

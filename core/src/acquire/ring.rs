@@ -63,4 +63,43 @@ impl Ring {
         self.lent = Some(lent.place);
         Some(lent)
     }
+
+    /// The latest complete frame, once, beside the one that is lent, which stays so: to be read at once, and good if
+    /// [`Ring::is_whole`] afterwards.
+    pub fn show(&mut self) -> Option<Lent> {
+        self.fresh.take()
+    }
+
+    /// Whether the converter has not come to a place that was shown.
+    pub fn is_whole(&self, shown: Lent) -> bool {
+        self.filling != shown.place
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sum of frames: the first is lent, the others are shown beside it.
+    #[test]
+    fn what_is_summed_up_stays_while_others_are_shown() {
+        let mut ring = Ring::new(Micros(0));
+        ring.complete(Micros(5_000));
+        let sum = ring.lend().unwrap();
+        assert_eq!((sum.place, ring.show()), (0, None));
+        for frame in 2..200 {
+            ring.complete(Micros(5_000 * frame));
+            let shown = ring.show().unwrap();
+            assert!(shown.place != sum.place && ring.filling != sum.place && ring.next() != sum.place);
+            assert_eq!((shown.start, shown.missed), (Micros(5_000 * (frame - 1)), 0));
+            assert!(ring.is_whole(shown));
+        }
+        // Whoever looks at a frame for longer than the next two take may find the converter there.
+        ring.complete(Micros(2_000_000));
+        let shown = ring.show().unwrap();
+        ring.complete(Micros(2_005_000));
+        assert!(ring.is_whole(shown));
+        ring.complete(Micros(2_010_000));
+        assert!(!ring.is_whole(shown));
+    }
 }

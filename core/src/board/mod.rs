@@ -52,6 +52,8 @@ pub enum Job {
     Scan(Plan),
     /// Put a pin to a level.
     Drive(u8, bool),
+    /// Stop what reads the garment by itself: the circuit has changed.
+    Rest,
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
     /// Examine lines and taxels; answered by [`Input::Examined`].
@@ -79,6 +81,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     saving: Saving,
     scans: Pace,
     scanning: bool,
+    /// The circuit has changed since the last scan.
+    rewired: bool,
     health: Health,
     ledger: Ledger,
     frame: u32,
@@ -111,6 +115,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             works: Deque::new(),
             saving: Saving::new(),
             scanning: false,
+            rewired: false,
             health: Health::default(),
             ledger: Ledger::new(),
             frame: 0,
@@ -131,6 +136,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// The garment has changed: nothing that was known of the old one holds.
     fn worn(&mut self) {
         self.reset();
+        self.rewired = true;
         self.outbox.renew();
         if core::mem::take(&mut self.taring) {
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
@@ -187,7 +193,13 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         if let Some(job) = self.next_work(now) {
             return Some(job);
         }
-        if self.scanning || !self.scans.due(now) {
+        if self.scanning {
+            return None;
+        }
+        if core::mem::take(&mut self.rewired) {
+            return Some(Job::Rest);
+        }
+        if !self.scans.due(now) {
             return None;
         }
         self.scanning = true;

@@ -88,26 +88,55 @@ impl Frames {
         };
     }
 
-    /// Waits for a frame that was not lent yet. It stays as it is until this is called again.
-    pub async fn next(&mut self) -> Result<(&mut Frame, Lent), ScanError> {
-        let lent = poll_fn(|context| {
-            COMPLETE.register(context.waker());
-            BEAT.lock(|beat| {
-                let Beat { ring, astray } = &mut *beat.borrow_mut();
-                match ring.lend() {
-                    _ if *astray => Poll::Ready(Err(ScanError::OutOfStep)),
-                    Some(lent) => Poll::Ready(Ok(lent)),
-                    None => Poll::Pending,
-                }
-            })
-        })
-        .await?;
-        adc::check()?;
-        let place = usize::from(lent.place).min(PLACES - 1);
+    /// Waits for a frame that was not lent yet; of more `scans` than one, the sum. It stays as it is until this is called
+    /// again.
+    pub async fn next(&mut self, scans: u16) -> Result<(&mut Frame, Lent), ScanError> {
+        let mut lent = complete(Ring::lend).await?;
+        for _ in 1..scans {
+            let shown = complete(Ring::show).await?;
+            self.add(lent, shown);
+            if !BEAT.lock(|beat| beat.borrow().ring.is_whole(shown)) {
+                return Err(ScanError::OutOfStep);
+            }
+            lent.missed = lent.missed.saturating_add(shown.missed);
+            lent.duration_us = (shown.start.since(lent.start) as u32).saturating_add(shown.duration_us);
+        }
         #[allow(unsafe_code)]
-        // SAFETY: the place is within the memory of a static, taken once; the ring keeps the chain away from a lent
-        // place, and whoever holds the reference keeps the next one from being lent.
-        let frame = unsafe { &mut *self.0.cast::<Frame>().add(place) };
+        // SAFETY: the ring keeps the chain away from a lent place, and whoever holds the reference keeps the next one from
+        // being lent.
+        let frame = unsafe { &mut *self.frame(lent) };
         Ok((frame, lent))
     }
+
+    /// Adds the codes of a frame that is shown to the one that is lent.
+    fn add(&mut self, lent: Lent, shown: Lent) {
+        #[allow(unsafe_code)]
+        // SAFETY: a frame that is shown lies in another place than the one that is lent, and the chain comes to it a whole
+        // frame later at the earliest; should it have come to it nevertheless, the sum is thrown away.
+        let (sums, codes) = unsafe { (&mut *self.frame(lent), &*self.frame(shown)) };
+        sums.iter_mut().zip(codes).for_each(|(sum, code)| sum.0 = sum.0.wrapping_add(code.0));
+    }
+
+    /// The memory of a place, which is within that of a static, taken once.
+    fn frame(&self, lent: Lent) -> *mut Frame {
+        self.0.cast::<Frame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
+    }
+}
+
+/// Waits until the ring has what is asked for, and the conversions have gone well.
+async fn complete(ask: fn(&mut Ring) -> Option<Lent>) -> Result<Lent, ScanError> {
+    let lent = poll_fn(|context| {
+        COMPLETE.register(context.waker());
+        BEAT.lock(|beat| {
+            let Beat { ring, astray } = &mut *beat.borrow_mut();
+            match ask(ring) {
+                _ if *astray => Poll::Ready(Err(ScanError::OutOfStep)),
+                Some(lent) => Poll::Ready(Ok(lent)),
+                None => Poll::Pending,
+            }
+        })
+    })
+    .await?;
+    adc::check()?;
+    Ok(lent)
 }

@@ -86,9 +86,11 @@ impl Scanner {
 
     /// The latest frame of the chain that was not read yet.
     async fn next(&mut self) -> Result<Scan<'_>, ScanError> {
-        let (codes, lent) = self.frames.next().await.inspect_err(|_| self.by = By::Nobody)?;
-        if self.plan.depth == Depth::Eight {
-            codes.iter_mut().for_each(|code| code.0 = Depth::Eight.keep(code.0));
+        let depth = self.plan.depth;
+        let frame = self.frames.next(depth.scans()).await.inspect_err(|_| self.by = By::Nobody)?;
+        let (codes, lent) = frame;
+        if depth != Depth::Twelve {
+            codes.iter_mut().for_each(|code| code.0 = depth.mean(code.0));
         }
         let report = ScanReport { start: lent.start, duration_us: lent.duration_us, overruns: lent.missed };
         Ok(Scan { codes, report })
@@ -97,8 +99,7 @@ impl Scanner {
 
 impl Acquire for Scanner {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
-        let same = self.plan == *plan && self.circuit.as_ref() == Some(circuit);
-        if !same || matches!(self.by, By::Nobody) {
+        if self.plan != *plan || matches!(self.by, By::Nobody) {
             self.begin(circuit, plan);
         }
         let scan = match self.by {
