@@ -53,7 +53,8 @@ impl Bench {
     /// One scan of the present codes, 5 ms later.
     fn scan(&mut self) {
         self.now += 5_000;
-        let report = ScanReport { start: Micros(self.now), duration_us: 4_000, overruns: 0 };
+        let report =
+            ScanReport { start: Micros(self.now), duration_us: 4_000, overruns: 0, temperature: None };
         let scan = Scan { codes: &self.codes, report };
         self.board.step(Micros(self.now), Input::Scanned(Ok(scan)), &mut ());
     }

@@ -124,7 +124,7 @@ impl Twin {
     }
 
     fn scan(&mut self, codes: &[Code], start: Micros) {
-        let report = ScanReport { start, duration_us: 0, overruns: 0 };
+        let report = ScanReport { start, duration_us: 0, overruns: 0, temperature: None };
         self.board.step(start, Input::Scanned(Ok(Scan { codes, report })), &mut ());
         loop {
             let bytes = self.board.pending(start, &mut ()).to_vec();

@@ -121,6 +121,7 @@ fn a_mean_of_scans() {
     let mut scene = Scene::shipped();
     scene.stream = StreamConfig { frames_hz: 0, raw_hz: 10, ..StreamConfig::default() };
     let mut board = Emulated::start(&garment, &codes, 0, &["--loop"]);
+    let mut warm = 0;
     board.receive();
     board.obey(&Request::SetGarment(&postcard::to_allocvec(&garment).unwrap()));
     board.play();
@@ -138,14 +139,18 @@ fn a_mean_of_scans() {
                     assert_eq!(have, mean, "{depth:?}, frame {}", raw.frame);
                     told += 1;
                 }
-                Report::Health(health) => {
-                    println!("{depth:?}: {} us a frame", health.scan_us);
+                Report::Health(health) => println!("{depth:?}: {} us a frame", health.scan_us),
+                // The harness holds the thermometer at 27 degrees.
+                Report::Temperature(now) => {
+                    assert!(now.celsius.0.abs_diff(2700) < 50, "{:?}", now.celsius);
+                    warm += 1;
                 }
                 _ => {}
             }
         }
     }
     board.end();
+    assert!(warm >= 1);
 }
 
 #[test]

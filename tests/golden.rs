@@ -7,7 +7,7 @@ use std::fmt::Write;
 use taxel_core::body::Placed;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
-use taxel_core::format::{Fixed16, Fixed24, Micros, Q15, Turn, name};
+use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
@@ -58,7 +58,7 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 13] {
+fn reports() -> [(&'static str, Report<'static>); 14] {
     let (frame, time) = (300, Micros(5_000_000_000));
     let words = Words {
         strength: Strength::Firm,
@@ -127,6 +127,7 @@ fn reports() -> [(&'static str, Report<'static>); 13] {
         ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
         ("Budget", Report::Budget(budget)),
         ("HealthMap", Report::HealthMap(map)),
+        ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
     ]
 }
 

@@ -3,6 +3,7 @@
 use embassy_rp::adc::{Adc, Blocking, Channel};
 use rp_pac::ADC;
 use taxel_core::acquire::ScanError;
+use taxel_core::format::Celsius;
 
 /// GPIO number of the converter's first input.
 pub const FIRST_INPUT: u8 = 26;
@@ -62,6 +63,14 @@ impl<const INPUTS: usize> taxel_core::acquire::Adc for Converter<INPUTS> {
 
 /// The converter's channel of the thermometer.
 const THERMOMETER: u8 = 4;
+
+/// The temperature of a code of the thermometer: 27 degrees less one for each 1.721 mV above 0.706 V, at a reference of 3.3 V
+/// (RP2040 datasheet, 4.9.5). 0.1 degrees are lost here at most; two to three counts of noise are a degree.
+pub fn celsius(code: u16) -> Celsius {
+    // 2700 + 70_600 / 1.721, less 330_000 / 1.721 for each 4096 counts.
+    let hundredths = 43_723 - ((u32::from(code.min(4095)) * 191_749) >> 12) as i32;
+    Celsius(hundredths.clamp(i16::MIN.into(), i16::MAX.into()) as i16)
+}
 
 /// Clocks of a conversion: 2 us.
 const CONVERSION_CLOCKS: u32 = 96;

@@ -172,6 +172,7 @@ impl Client {
                 Event::Budget(budget)
             }
             Report::HealthMap(map) => self.take_map(&map),
+            Report::Temperature(temperature) => Event::Temperature(temperature),
         }
     }
 

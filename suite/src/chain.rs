@@ -69,7 +69,7 @@ impl Chain {
     pub fn scanned(&mut self, codes: &[Code], probe: &mut impl Probe, link: impl FnMut(&[u8])) -> Said {
         self.scans += 1;
         let now = self.now();
-        let report = ScanReport { start: now, duration_us: 0, overruns: 0 };
+        let report = ScanReport { start: now, duration_us: 0, overruns: 0, temperature: None };
         probe.begin(Stage::Idle);
         self.board.step(now, Input::Scanned(Ok(Scan { codes, report })), probe);
         let said = self.drain(probe, link);

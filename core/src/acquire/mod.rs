@@ -13,7 +13,7 @@ pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring};
 pub use sweep::{SWEEP_INPUTS, Stretch, Sweep, Unfit};
 
-use crate::format::{Code, Micros};
+use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;
 use core::fmt;
 
@@ -35,6 +35,8 @@ pub struct ScanReport {
     pub duration_us: u32,
     /// Frames that the converter produced and nobody fetched in time, since the last report.
     pub overruns: u32,
+    /// How warm the converter is; none: it has no thermometer.
+    pub temperature: Option<Celsius>,
 }
 
 /// Why a scan failed. The frame is dropped; nothing else is.

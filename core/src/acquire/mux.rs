@@ -242,7 +242,8 @@ where
             self.scan_select(circuit, plan, &columns, sites)?;
         }
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
-        Ok(Scan { codes: &self.codes, report: ScanReport { start, duration_us, overruns: 0 } })
+        let report = ScanReport { start, duration_us, overruns: 0, temperature: None };
+        Ok(Scan { codes: &self.codes, report })
     }
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {

@@ -222,6 +222,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.health.overruns = self.health.overruns.wrapping_add(scan.report.overruns);
         }
         self.health.scan_us = scan.report.duration_us;
+        self.outbox.warm(scan.report.start, scan.report.temperature);
         let Setup { pipeline, layout, circuit, .. } = &self.setup;
         let time = scan.report.start;
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);

@@ -1,12 +1,12 @@
 //! What waits to be sent, in the order of its urgency; encoded only when the link has room.
 
-use super::pace::Rates;
+use super::pace::{Pace, Rates};
 use super::setup::{BoardInfo, Setup};
 use super::under_way::UnderWay;
 use super::{Codes, Sentence};
 use crate::condition::Image;
 use crate::contact::Phase;
-use crate::format::{Code, Micros};
+use crate::format::{Celsius, Code, Micros};
 use crate::garment::{Layout, PANELS};
 use crate::health::Monitor;
 use crate::pipeline::{Percept, Probe, Stage};
@@ -61,6 +61,9 @@ pub(super) struct Outbox<const TAXELS: usize> {
     contacts_wait: bool,
     health: Option<Micros>,
     budget: Option<Budget>,
+    temperature: Option<Temperature>,
+    /// When the next temperature is due.
+    warm: Pace,
     /// First taxel of the next part of the map of health.
     map: Option<u16>,
     image: Waiting<TAXELS>,
@@ -97,6 +100,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             contacts_wait: false,
             health: None,
             budget: None,
+            temperature: None,
+            warm: Pace::new(1),
             map: None,
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
@@ -141,7 +146,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     fn drop_waiting(&mut self) {
         self.reactions.clear();
         self.changes.clear();
-        (self.intent, self.image.due, self.raw, self.budget) = (None, None, None, None);
+        (self.intent, self.image.due, self.raw) = (None, None, None);
+        (self.budget, self.temperature) = (None, None);
         self.contacts.contacts.clear();
         (self.symbols_wait, self.contacts_wait) = (false, false);
     }
@@ -183,6 +189,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn spend(&mut self, budget: impl FnOnce() -> Option<Budget>) {
         if self.streaming && self.budget.is_none() {
             self.budget = budget();
+        }
+    }
+
+    /// Takes a temperature, once a second.
+    pub fn warm(&mut self, time: Micros, celsius: Option<Celsius>) {
+        let Some(celsius) = celsius else { return };
+        if self.streaming && self.warm.due(time) {
+            self.temperature = Some(Temperature { time, celsius });
         }
     }
 
@@ -348,6 +362,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way.put(Report::HEALTH, &Health { time: now, ..*health })
         } else if let Some(budget) = self.budget.take() {
             under_way.put(Report::BUDGET, &budget)
+        } else if let Some(temperature) = self.temperature.take() {
+            under_way.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
             self.put_image(frame, time, &setup.layout, image, health)
         } else if let Some((frame, time)) = self.raw.take() {

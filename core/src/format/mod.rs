@@ -9,6 +9,7 @@
 //! | velocity | [`Fixed16`] | taxel/s | -32768 ..< 32768 | 2^-16 taxel/s |
 //! | angle | [`Turn`] | turn | -1/2 ..< 1/2 | 2^-32 turn (1.5e-9 rad) |
 //! | NMI and its forms | [`Fixed24`] | see `shape::nmi` | 0 ..< 256 | 2^-24 (6.0e-8) |
+//! | temperature | [`Celsius`] | degree | -327.68 ..= 327.67 | 0.01 degrees |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
 //! Largest errors of what the core tells are in `docs/bounds.md`, each with the test that asserts it. No function of this folder can
@@ -68,6 +69,18 @@ impl Micros {
     /// Time from `earlier` to `self` in milliseconds, rounded down, at most `u32::MAX`.
     pub const fn millis_since(self, earlier: Micros) -> u32 {
         Inverse::of(1000).quotient(self.since(earlier))
+    }
+}
+
+/// A temperature in hundredths of a degree.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Celsius(pub i16);
+
+impl Celsius {
+    /// In degrees.
+    pub fn to_f64(self) -> f64 {
+        f64::from(self.0) / 100.0
     }
 }
 
@@ -178,6 +191,7 @@ mod tests {
         assert!(Fixed24(u32::MAX).to_f64() < 256.0);
         assert!((Q15(1).to_f64() - 3.1e-5).abs() < 0.05e-5);
         assert_eq!(Q15::ONE.to_f64(), 1.0);
+        assert_eq!((Celsius(i16::MIN).to_f64(), Celsius(1).to_f64()), (-327.68, 0.01));
     }
 
     #[test]

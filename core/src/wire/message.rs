@@ -2,7 +2,7 @@
 
 use crate::body::Placed;
 use crate::fold::Posture;
-use crate::format::{Micros, Q15};
+use crate::format::{Celsius, Micros, Q15};
 use crate::garment::PANELS;
 use crate::health::TaxelHealth;
 use crate::intent::{CONCEPTS, Feed, Leading, Outcome};
@@ -54,6 +54,8 @@ pub enum Report<'a> {
     Budget(Budget),
     /// Which taxels are ill.
     HealthMap(HealthMap),
+    /// How warm it is.
+    Temperature(Temperature),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -84,6 +86,8 @@ impl Report<'_> {
     pub const BUDGET: u32 = 11;
     /// Of `HealthMap`.
     pub const HEALTH_MAP: u32 = 12;
+    /// Of `Temperature`.
+    pub const TEMPERATURE: u32 = 13;
 }
 
 /// Frozen.
@@ -234,6 +238,15 @@ pub struct Budget {
     pub overruns: u32,
     /// As in [`Health`].
     pub thinned_frames: u32,
+}
+
+/// How warm the converter is, which a sheet beside it follows slowly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Temperature {
+    /// Start of the scan in which it was measured.
+    pub time: Micros,
+    /// One sample of the converter's thermometer, which may be several degrees off but tells changes.
+    pub celsius: Celsius,
 }
 
 /// Which taxels are ill, of some that follow each other; those that are not named are good.

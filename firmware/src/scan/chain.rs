@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | 0 - 3 | a sample | stores the code of the converter's input 0 - 3 | the next input's channel, after the last `Word` |
 //! | `Word` | | gives the next levels to the select lines | `Settle` |
-//! | `Settle` | a sample | drops the thermometer's | the first input's channel |
+//! | `Settle` | a sample | stores the thermometer's | the first input's channel |
 //! | `Answer` | the answer to a word where a stretch begins | takes it away | `List` |
 //! | `List` | | finds the values for that stretch | `Target` |
 //! | `Target` | | tells `Value` the next register, or nothing at the end | |
@@ -127,7 +127,7 @@ impl Chain {
         word.control.set_incr_read(true);
         word.set_up(WORD);
         let first = channels().next().unwrap_or(0);
-        Step::new(CODE, samples, tables::nowhere(), SAMPLE, first).set_up(SETTLE);
+        Step::new(CODE, samples, tables::warmth(), SAMPLE, first).set_up(SETTLE);
         Step::new(SIZE_WORD, Select::answers(), tables::answer(), PIO0_RX0, LIST).set_up(ANSWER);
         let values = DMA.ch(VALUE);
         let (from, to) = (values.read_addr().as_ptr() as u32, values.al2_write_addr_trig().as_ptr() as u32);

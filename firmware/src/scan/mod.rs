@@ -92,7 +92,12 @@ impl Scanner {
         if depth != Depth::Twelve {
             codes.iter_mut().for_each(|code| code.0 = depth.mean(code.0));
         }
-        let report = ScanReport { start: lent.start, duration_us: lent.duration_us, overruns: lent.missed };
+        let report = ScanReport {
+            start: lent.start,
+            duration_us: lent.duration_us,
+            overruns: lent.missed,
+            temperature: Some(adc::celsius(tables::thermometer())),
+        };
         Ok(Scan { codes, report })
     }
 }

@@ -34,6 +34,7 @@ static VALUE: [[Values; STRETCHES]; PLACES] =
     [const { [const { [const { AtomicU32::new(0) }; VALUES] }; STRETCHES] }; PLACES];
 static AHEAD: AtomicU32 = AtomicU32::new(0);
 static NOWHERE: [AtomicU16; SPARE] = [const { AtomicU16::new(0) }; SPARE];
+static THERMOMETER: AtomicU16 = AtomicU16::new(0);
 static ANSWER: AtomicU32 = AtomicU32::new(0);
 /// Index of the last stretch.
 static LAST: AtomicU32 = AtomicU32::new(0);
@@ -65,6 +66,16 @@ pub fn answer() -> u32 {
 /// Where codes go that no taxel has.
 pub fn nowhere() -> u32 {
     address(&NOWHERE)
+}
+
+/// Where codes of the thermometer go.
+pub fn warmth() -> u32 {
+    address(&THERMOMETER)
+}
+
+/// The latest code of the thermometer.
+pub fn thermometer() -> u16 {
+    THERMOMETER.load(Relaxed)
 }
 
 /// Fills the tables. `code` is where the code of a taxel goes in a place; then come the registers that take the destinations

@@ -3,7 +3,7 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, WireError,
+    Budget, Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, Temperature, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -45,6 +45,8 @@ pub enum Event {
     Health(Health),
     /// Where the board's time goes.
     Budget(Budget),
+    /// How warm the board is.
+    Temperature(Temperature),
     /// Which taxels are ill; they are in the client.
     HealthMap {
         /// The board's time.

@@ -15,6 +15,7 @@ use std::io::Write;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::health::TaxelHealth;
+use taxel_core::wire::Temperature;
 
 /// Prints messages as JSON.
 pub struct Messages<W> {
@@ -128,6 +129,9 @@ fn small(client: &Client, event: &Event) -> Value {
             merge(&mut line, serde_json::to_value(budget).unwrap_or_default());
             rename_time(&mut line);
             line
+        }
+        Event::Temperature(Temperature { time, celsius }) => {
+            json!({ "type": "temperature", "time_us": time.0, "celsius": celsius.to_f64() })
         }
         Event::HealthMap { time, whole } => {
             let ill = |(taxel, health): (&u16, &TaxelHealth)| json!({ "taxel": taxel, "health": health.to_string() });
