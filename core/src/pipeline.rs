@@ -187,32 +187,39 @@ impl<const TAXELS: usize, const RUNS: usize> PipelineState<TAXELS, RUNS> {
 impl Pipeline {
     /// Checks a scene against the garment it is for.
     pub fn build(scene: &Scene, layout: &Layout) -> Result<Pipeline, SceneError> {
-        let intent = scene.intent.as_ref().map(Intent::build).transpose()?;
-        let mut friendliness = [0; PANELS];
-        for entry in &scene.friendliness {
-            if !(-100..=100).contains(&entry.percent) {
-                let must = "must be -100 to 100";
-                return Err(Invalid { parameter: "friendliness.percent", must }.into());
-            }
-            // A scene may speak of regions that this garment does not cover.
-            let region = layout.regions().iter().position(|region| *region == entry.region);
-            if let Some(percent) = region.and_then(|region| friendliness.get_mut(region)) {
-                *percent = entry.percent;
-            }
-        }
+        let friendliness = friendliness(scene, layout)?;
         if !(1..=1000).contains(&scene.stream.key_ms) {
             return Err(Invalid { parameter: "stream.key_ms", must: "must be 1 to 1000" }.into());
         }
-        Ok(Pipeline {
+        let mut pipeline = Pipeline {
             panels: scene.plan.panels,
             condition: scene.condition.build()?,
             contact: scene.contact.build()?,
-            shape: scene.shape.map(|shape| shape.build(Base::built_in())).transpose()?,
+            shape: None,
             symbol: scene.symbol.build()?,
             friendliness,
-            react: Reactions::build(&scene.react, layout, intent.as_ref().map(Intent::map))?,
-            intent,
-        })
+            intent: None,
+            react: Reactions::default(),
+        };
+        // One after the other, in place: on a microcontroller the stack is short.
+        pipeline.recognise(scene)?;
+        pipeline.mean(scene)?;
+        pipeline.react = Reactions::build(&scene.react, layout, pipeline.intent.as_ref().map(Intent::map))?;
+        Ok(pipeline)
+    }
+
+    #[inline(never)]
+    fn recognise(&mut self, scene: &Scene) -> Result<(), SceneError> {
+        self.shape = scene.shape.map(|shape| shape.build(Base::built_in())).transpose()?;
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn mean(&mut self, scene: &Scene) -> Result<(), SceneError> {
+        if let Some(intent) = &scene.intent {
+            self.intent = Some(Intent::build(intent)?);
+        }
+        Ok(())
     }
 
     /// The stage that infers the intention.
@@ -286,6 +293,22 @@ impl Pipeline {
             speed: placed.speed(layout),
         }
     }
+}
+
+/// How friendly it is to touch each region of a garment, percent.
+fn friendliness(scene: &Scene, layout: &Layout) -> Result<[i8; PANELS], Invalid> {
+    let mut friendliness = [0; PANELS];
+    for entry in &scene.friendliness {
+        if !(-100..=100).contains(&entry.percent) {
+            return Err(Invalid { parameter: "friendliness.percent", must: "must be -100 to 100" });
+        }
+        // A scene may speak of regions that this garment does not cover.
+        let region = layout.regions().iter().position(|region| *region == entry.region);
+        if let Some(percent) = region.and_then(|region| friendliness.get_mut(region)) {
+            *percent = entry.percent;
+        }
+    }
+    Ok(friendliness)
 }
 
 /// Fills a list anew; what does not fit is left out.

@@ -81,7 +81,7 @@ enum Watch {
 }
 
 /// The checked stage.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Reactions {
     rows: Vec<(ReactionConfig, Watch), REACTIONS>,
 }

@@ -70,7 +70,7 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep(Reference::with(*info, given.setup.clone())),
+        10 => keep(Reference::with(*info, &given.setup)),
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined)),
         13 => board.restore(given.part, bytes),

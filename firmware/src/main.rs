@@ -17,7 +17,7 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, MuxScan};
-use taxel_core::board::{Board, BoardInfo, Setup};
+use taxel_core::board::{Board, BoardInfo, Setup, SetupError};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
 
@@ -37,11 +37,17 @@ type Pool = Lines<pins::Line, { board::LINES }>;
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
+/// What ships, checked.
+#[inline(never)]
+fn shipped(info: &BoardInfo) -> Result<Setup, SetupError> {
+    Setup::build(info, Garment::reference(), Scene::shipped(), TAXELS)
+}
+
 /// The board with what ships. A function of its own: the main task's stack would keep room for ever for what is only needed
 /// here.
 #[inline(never)]
 fn begin(info: BoardInfo) -> Board<TAXELS, RUNS> {
-    match Setup::build(&info, Garment::reference(), Scene::shipped(), TAXELS) {
+    match &shipped(&info) {
         Ok(setup) => Board::with(info, setup),
         Err(error) => {
             defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));

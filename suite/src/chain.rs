@@ -49,7 +49,7 @@ impl Chain {
 
     /// A board with what was checked.
     #[inline(never)]
-    pub fn with(setup: Setup) -> Chain {
+    pub fn with(setup: &Setup) -> Chain {
         Chain { board: Board::with(Chain::info(), setup), scans: 0 }
     }
 

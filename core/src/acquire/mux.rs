@@ -126,6 +126,13 @@ where
         Ok(())
     }
 
+    /// All addresses. Not inlined: it needs stack only meanwhile.
+    #[inline(never)]
+    fn sweep(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
+        let columns = column_changes(circuit);
+        circuit.selects().try_for_each(|sites| self.scan_select(circuit, plan, &columns, sites))
+    }
+
     /// All addresses of the blocks that share one select code.
     fn scan_select(
         &mut self,
@@ -236,11 +243,8 @@ where
 {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
         self.rewire(circuit)?;
-        let columns = column_changes(circuit);
         let start = self.clock.now();
-        for sites in circuit.selects() {
-            self.scan_select(circuit, plan, &columns, sites)?;
-        }
+        self.sweep(circuit, plan)?;
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
         let report = ScanReport { start, duration_us, overruns: 0, temperature: None };
         Ok(Scan { codes: &self.codes, report })

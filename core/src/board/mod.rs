@@ -95,13 +95,19 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// A board that wears `garment` and is used for `scene`.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
-        Ok(Board::with(info, Setup::build(&info, garment, scene, TAXELS)?))
+        Ok(Board::with(info, &Setup::build(&info, garment, scene, TAXELS)?))
     }
 
-    /// A board with a setup built before. It is made where the caller keeps it, part by part, and what its stages remember is
-    /// put to rest there when it begins: the stack of a microcontroller has no room for the whole.
+    /// A board with a copy of a setup built before.
     #[inline(never)]
-    pub fn with(info: BoardInfo, setup: Setup) -> Self {
+    pub fn with(info: BoardInfo, setup: &Setup) -> Self {
+        Board::made(info, setup.clone())
+    }
+
+    /// It is made where the caller keeps it, part by part, and what its stages remember is put to rest there when it begins: the
+    /// stack of a microcontroller has no room for the whole.
+    #[inline(never)]
+    fn made(info: BoardInfo, setup: Setup) -> Self {
         // Before the large parts: a loop between them, and they would be made on the stack and copied.
         let (scans, outputs) = (Pace::new(setup.scan_rate()), Outputs::at_rest(setup.pipeline.reactions()));
         Board {

@@ -7,6 +7,7 @@ use crate::format::Micros;
 use crate::garment::Garment;
 use crate::scene::Scene;
 use crate::wire::{Request, decode};
+use serde::Deserialize;
 
 /// Number of `Tare`, whose answer comes when it is done.
 pub(super) const TARE: u8 = 2;
@@ -19,6 +20,12 @@ pub(super) fn number_of(work: Work) -> u8 {
         Work::SelfTest => Request::SelfTest.number(),
         Work::Save => Request::Save.number(),
     }
+}
+
+/// Reads something large. Not inlined: it needs stack only meanwhile.
+#[inline(never)]
+pub(super) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Refusal> {
+    decode(bytes).map_err(Refusal::of)
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
@@ -92,16 +99,15 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
     #[inline(never)]
     fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let garment: Garment = decode(bytes).map_err(Refusal::of)?;
-        let scene = self.setup.scene.clone();
-        self.setup = super::Setup::build(&self.info, garment, scene, TAXELS).map_err(Refusal::of)?;
+        let garment = read::<Garment>(bytes)?;
+        self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
         self.worn();
         Ok(())
     }
 
     #[inline(never)]
     pub(super) fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let scene: Scene = decode(bytes).map_err(Refusal::of)?;
+        let scene = read::<Scene>(bytes)?;
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
         // What the new scene does not drive must not stay where the old one left it.

@@ -1,13 +1,12 @@
 //! What survives a restart.
 
-use super::Board;
 use super::outbox::Refusal;
 use super::setup::Setup;
+use super::{Board, request};
 use crate::format::Code;
 use crate::garment::Garment;
 use crate::health::IllTaxel;
 use crate::scene::Scene;
-use crate::wire::decode;
 use core::fmt;
 use serde::Serialize;
 
@@ -122,6 +121,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     /// Takes a part of stored settings. What does not fit is left out, and the host is told why.
+    #[inline(never)] // it needs stack only meanwhile
     pub fn restore(&mut self, part: Part, bytes: &[u8]) {
         self.begin();
         let done = match part {
@@ -145,22 +145,29 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// With a scene that any garment fits; the stored one follows.
     #[inline(never)]
     fn restore_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let garment: Garment = decode(bytes).map_err(Refusal::of)?;
-        let mut scene = self.setup.scene.clone();
-        scene.react.clear();
-        self.setup = Setup::build(&self.info, garment, scene, TAXELS).map_err(Refusal::of)?;
-        self.worn();
-        Ok(())
+        let garment = request::read::<Garment>(bytes)?;
+        let reactions = core::mem::take(&mut self.setup.scene.react);
+        let done = self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of);
+        match done {
+            Ok(()) => self.worn(),
+            Err(_) => self.setup.scene.react = reactions,
+        }
+        done
     }
 
     fn restore_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let done = self.set_scene(bytes);
         if done.is_err() {
-            // What ships, where the garment leaves its pins free.
-            let _ = self.setup.change_scene(&self.info, Scene::shipped());
-            self.used();
+            self.ship_scene();
         }
         done
+    }
+
+    /// Takes the scene that ships, where the garment leaves its pins free.
+    #[inline(never)]
+    fn ship_scene(&mut self) {
+        let _ = self.setup.change_scene(&self.info, Scene::shipped());
+        self.used();
     }
 
     fn restore_numbers(&mut self, bytes: &[u8], set: fn(&mut Self, usize, u16)) -> Result<(), Refusal> {

@@ -73,6 +73,7 @@ const TYPICAL_CONTACTS: u32 = 5;
 
 impl Setup {
     /// Checks everything for a board that holds `capacity` taxels.
+    #[inline(never)] // its caller would keep room for what is only needed meanwhile
     pub fn build(
         info: &BoardInfo,
         garment: Garment,
@@ -86,7 +87,24 @@ impl Setup {
         Ok(Setup { garment, scene, layout, circuit, pipeline })
     }
 
+    /// Takes another garment for the same scene; nothing changes if it is refused. What is new is built beside what is there,
+    /// one part after the other: the stack of a microcontroller has no room for two setups.
+    #[inline(never)]
+    pub fn change_garment(
+        &mut self,
+        info: &BoardInfo,
+        garment: Garment,
+        capacity: usize,
+    ) -> Result<(), SetupError> {
+        let layout = Layout::build(&garment, capacity, u16::MAX)?;
+        let circuit = Circuit::build(&garment, &layout, info.pins)?;
+        self.pipeline = checked(info, &self.scene, &layout, &circuit)?;
+        (self.garment, self.layout, self.circuit) = (garment, layout, circuit);
+        Ok(())
+    }
+
     /// Takes another scene for the same garment; nothing changes if it is refused.
+    #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: Scene) -> Result<(), SetupError> {
         self.pipeline = checked(info, &scene, &self.layout, &self.circuit)?;
         self.scene = scene;
@@ -100,6 +118,7 @@ impl Setup {
 }
 
 /// The scene's stages, if the scene fits the garment and the board.
+#[inline(never)]
 fn checked(
     info: &BoardInfo,
     scene: &Scene,

@@ -64,7 +64,7 @@ impl Probe for Marks {
 
 #[entry]
 fn main() -> ! {
-    let Ok(setup) = Chain::setup() else { panic!("what ships does not fit this board") };
+    let Ok(setup) = &Chain::setup() else { panic!("what ships does not fit this board") };
     // Made where it stays: the stack has no room for a second one. The harness counts the stack below this frame.
     let chain = &mut Chain::with(setup);
     let bench = &mut Bench::default();

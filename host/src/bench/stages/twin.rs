@@ -56,7 +56,7 @@ impl Default for Twin {
     fn default() -> Twin {
         let setup = Chain::setup().expect("what ships fits");
         let receiver = Box::new(Receiver::new());
-        Twin { chain: Box::new(Chain::with(setup)), bench: Box::new(Bench::default()), receiver }
+        Twin { chain: Box::new(Chain::with(&setup)), bench: Box::new(Bench::default()), receiver }
     }
 }
 
