@@ -13,6 +13,7 @@ use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
 use crate::setup::{self, SetupArgs};
 use crate::shapes::{self, ShapesArgs};
+use crate::view::{self, ViewArgs};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
@@ -30,6 +31,9 @@ enum Command {
     /// See what a board tells, or a simulated one; what the program does by itself
     #[command(after_help = LIVE)]
     Live(LiveArgs),
+    /// See the same in the browser: panels, surface, body, map, health
+    #[command(after_help = VIEW)]
+    View(ViewArgs),
     /// Perceive recorded frames as the board would
     #[command(after_help = PROCESS)]
     Process(ProcessArgs),
@@ -73,6 +77,11 @@ const LIVE: &str = "Examples:
   taxel live --source sim:lash --frames 200 --json
   taxel live --source serial:/dev/ttyACM0 --save touch.taxel
   taxel live --source file:touch.taxel";
+
+const VIEW: &str = "Examples:
+  taxel view --open
+  taxel view --source sim:five
+  taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
 const PROCESS: &str = "Examples:
   taxel process subject_01.npz --array posture_03 --rate 1 --json
@@ -139,6 +148,7 @@ impl Cli {
         let live = || Cli::parse_from(["taxel", "live"]).command;
         match self.command.or_else(live).expect("live is a command") {
             Command::Live(args) => live::run(args),
+            Command::View(args) => view::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),

@@ -25,3 +25,4 @@ pub mod shapes;
 pub mod sim;
 pub mod source;
 pub mod touches;
+pub mod view;

@@ -3,7 +3,7 @@
 
 use super::board::BoardMap;
 use super::decimal::Decimal;
-use super::layers::layers;
+use super::layers;
 use super::load;
 use super::map::{EdgeFile, MapFile};
 use anyhow::{Context, Result};
@@ -53,7 +53,7 @@ fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {
 
 /// The graph; `activations` are by the number of the concept.
 pub fn svg(map: &MapFile, activations: Option<&[f64]>) -> String {
-    let layers = layers(map);
+    let layers = layers::of_map(map);
     let last = layers.iter().max().copied().unwrap_or(0);
     let count = |layer: usize| layers.iter().filter(|l| **l == layer).count();
     let tallest = (0..=last).map(count).max().unwrap_or(1);

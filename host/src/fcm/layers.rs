@@ -4,13 +4,17 @@ use super::map::MapFile;
 
 /// The layer of each concept: 0 for those without a cause, else one behind the farthest of its causes. Edges that close a ring
 /// are left out of account.
-pub fn layers(map: &MapFile) -> Vec<usize> {
-    let n = map.concept.len();
+pub fn of_map(map: &MapFile) -> Vec<usize> {
     let number = |name: &str| map.find(name);
     let edges = map.edge.iter().filter(|edge| edge.weight.value() != 0.0);
     let edges: Vec<(usize, usize)> =
         edges.filter_map(|edge| Some((number(&edge.from)?, number(&edge.to)?))).collect();
-    let forward = forward(n, &edges);
+    layers(map.concept.len(), &edges)
+}
+
+/// The layer of each of `n` concepts, from the edges as pairs of cause and effect.
+pub fn layers(n: usize, edges: &[(usize, usize)]) -> Vec<usize> {
+    let forward = forward(n, edges);
     let mut layers = vec![0; n];
     // Without rings, no path is longer than the number of concepts.
     for _ in 0..n {
@@ -62,7 +66,7 @@ mod tests {
     #[test]
     fn the_shipped_map_reads_from_touch_to_mood() {
         let map = load::map("tactile").unwrap();
-        assert_eq!(layers(&map), [0, 0, 0, 0, 1, 2, 3, 4, 4, 5]);
+        assert_eq!(of_map(&map), [0, 0, 0, 0, 1, 2, 3, 4, 4, 5]);
     }
 
     #[test]
@@ -71,6 +75,6 @@ mod tests {
         let text =
             "name = \"r\"\n[[concept]]\nname = \"b\"\n[[concept]]\nname = \"c\"\n[[concept]]\nname = \"a\"\n";
         let text = text.to_string() + &edge("a", "b") + &edge("b", "c") + &edge("c", "b") + &edge("c", "c");
-        assert_eq!(layers(&load::parse(&text, "r").unwrap()), [1, 2, 0]);
+        assert_eq!(of_map(&load::parse(&text, "r").unwrap()), [1, 2, 0]);
     }
 }

@@ -194,7 +194,15 @@ fn intent(client: &Client) -> Value {
 
 fn hello(client: &Client) -> Value {
     let Some(worn) = client.worn() else { return Value::Null };
-    let panel = |a: &taxel_core::garment::Area| json!({ "name": a.name, "link": a.link, "rows": a.rows, "columns": a.columns, "pitch_um": a.pitch_um });
+    let regions = worn.layout.regions();
+    let region =
+        |a: &taxel_core::garment::Area| regions.get(usize::from(a.region)).map_or("", |name| name.as_str());
+    let panel = |a: &taxel_core::garment::Area| {
+        json!({
+            "name": a.name, "link": a.link, "region": region(a), "rows": a.rows, "columns": a.columns,
+            "pitch_um": a.pitch_um,
+        })
+    };
     json!({
         "type": "hello",
         "time_us": worn.clock.0,
@@ -203,7 +211,7 @@ fn hello(client: &Client) -> Value {
         "scene": worn.scene.name,
         "calibration": worn.calibration,
         "taxels": worn.layout.taxels(),
-        "regions": worn.layout.regions(),
+        "regions": regions,
         "panels": worn.layout.areas().iter().map(panel).collect::<Vec<_>>(),
     })
 }

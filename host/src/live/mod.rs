@@ -3,18 +3,18 @@
 mod lines;
 mod map;
 mod messages;
-mod narrate;
+pub(crate) mod narrate;
 mod outfit;
 mod panes;
 mod ramp;
-mod rate;
+pub(crate) mod rate;
 mod screen;
 mod svg;
 mod taxel;
 mod view;
 
 pub use lines::Lines;
-pub use messages::Messages;
+pub use messages::{Messages, message};
 pub use svg::picture;
 pub use taxel::{TaxelLines, TaxelPlace};
 pub use view::View;
@@ -102,6 +102,9 @@ impl LiveArgs {
 
 /// Something that shows what comes.
 pub trait Show {
+    /// Bytes have come; the events that they make are told next.
+    fn bytes(&mut self, _bytes: &[u8]) {}
+
     /// Takes an event; the client is in the state after it.
     fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
 
@@ -185,6 +188,7 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         source.port.write(&client.take_requests()).with_context(lost)?;
         let Some(count) = source.port.read(&mut buffer).with_context(lost)? else { break };
         tell_time(&mut client, source.real_time);
+        show.bytes(&buffer[..count]);
         let mut taken = 0;
         for byte in &buffer[..count] {
             taken += 1;

@@ -9,7 +9,7 @@ use taxel_core::symbol::{Extent, Strength, Symbol};
 
 /// Tells what came.
 #[derive(Debug, Clone)]
-pub(super) struct Narrator {
+pub(crate) struct Narrator {
     pub counts_per_newton: Option<f32>,
     leading: Leading,
     /// Garbage has been told, and nothing else has come since.

@@ -1,0 +1,110 @@
+//! The files of the page, which are part of the program.
+
+/// A file.
+pub struct Asset {
+    /// Its media type.
+    pub kind: &'static str,
+    /// What is in it.
+    pub bytes: &'static [u8],
+}
+
+const HTML: &str = "text/html; charset=utf-8";
+const CSS: &str = "text/css; charset=utf-8";
+const SCRIPT: &str = "text/javascript; charset=utf-8";
+
+macro_rules! files {
+    ($($kind:ident $name:literal),* $(,)?) => {
+        &[$((concat!("/", $name), Asset { kind: $kind, bytes: include_bytes!(concat!("page/", $name)) })),*]
+    };
+}
+
+const FILES: &[(&str, Asset)] = files![
+    HTML "index.html",
+    CSS "style.css",
+    CSS "layout.css",
+    SCRIPT "main.js",
+    SCRIPT "socket.js",
+    SCRIPT "store.js",
+    SCRIPT "garment.js",
+    SCRIPT "units.js",
+    SCRIPT "colours.js",
+    SCRIPT "panels.js",
+    SCRIPT "raster.js",
+    SCRIPT "contours.js",
+    SCRIPT "marks.js",
+    SCRIPT "peaks.js",
+    SCRIPT "surface.js",
+    SCRIPT "ranges.js",
+    SCRIPT "strips.js",
+    SCRIPT "body.js",
+    SCRIPT "fcm.js",
+    SCRIPT "health.js",
+    SCRIPT "contacts.js",
+    SCRIPT "link.js",
+    SCRIPT "hover.js",
+    SCRIPT "player.js",
+    SCRIPT "save.js",
+    SCRIPT "controls.js",
+    SCRIPT "dom.js",
+];
+
+/// The file that a path names.
+pub fn find(path: &str) -> Option<Asset> {
+    if path == "/plotly.js" {
+        return Some(Asset { kind: SCRIPT, bytes: plotly()?.as_bytes() });
+    }
+    let path = if path == "/" { "/index.html" } else { path };
+    let found = FILES.iter().find(|(name, _)| *name == path);
+    found.map(|(_, asset)| Asset { kind: asset.kind, bytes: asset.bytes })
+}
+
+/// plotly.js out of the tags between which its crate gives it.
+#[cfg(feature = "surface")]
+fn plotly() -> Option<&'static str> {
+    use std::sync::OnceLock;
+    static SOURCES: OnceLock<String> = OnceLock::new();
+    let sources = SOURCES.get_or_init(plotly::Plot::offline_js_sources);
+    let (_, script) = sources.split_once("<script type=\"text/javascript\">")?;
+    Some(script.split_once("</script>")?.0)
+}
+
+#[cfg(not(feature = "surface"))]
+fn plotly() -> Option<&'static str> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_folder_is_served_and_every_import_is_there() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/view/page");
+        let mut names: Vec<_> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| format!("/{}", entry.unwrap().file_name().to_str().unwrap()))
+            .collect();
+        names.sort();
+        let mut served: Vec<_> = FILES.iter().map(|(name, _)| name.to_string()).collect();
+        served.sort();
+        assert_eq!(served, names);
+        for (name, asset) in FILES {
+            let text = std::str::from_utf8(asset.bytes).unwrap();
+            for import in text.split("from \"./").skip(1) {
+                let import = import.split('"').next().unwrap();
+                assert!(find(&format!("/{import}")).is_some(), "{name} imports {import}");
+            }
+            // Nothing is fetched from elsewhere; names of SVG's own language are no addresses.
+            let foreign = text.replace("http://www.w3.org/2000/svg", "");
+            assert!(!foreign.contains("http://") && !foreign.contains("https://"), "{name}");
+        }
+        assert!(find("/").is_some() && find("/../mod.rs").is_none() && find("").is_none());
+    }
+
+    #[cfg(feature = "surface")]
+    #[test]
+    fn plotly_is_whole() {
+        let script = plotly().unwrap();
+        assert!(script.len() > 1_000_000 && script.contains("plotly.js v3") && !script.contains("<script"));
+    }
+}

@@ -1,0 +1,19 @@
+//! The user's browser.
+
+use anyhow::{Context, Result};
+use std::process::{Command, Stdio};
+
+/// Opens an address in the browser that the system prefers.
+pub fn open(url: &str) -> Result<()> {
+    let mut command = if cfg!(target_os = "windows") {
+        let mut start = Command::new("cmd");
+        start.args(["/C", "start", ""]);
+        start
+    } else if cfg!(target_os = "macos") {
+        Command::new("open")
+    } else {
+        Command::new("xdg-open")
+    };
+    command.arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().map(drop).with_context(|| format!("no browser could be started; open {url} yourself"))
+}

@@ -1,0 +1,231 @@
+//! As much of HTTP as one page on this machine needs: the head of a request, and an answer after which the connection is closed.
+
+use std::io::{self, Read, Write};
+use std::time::{Duration, Instant};
+
+/// Longest head of a request.
+const HEAD: usize = 16 * 1024;
+/// How long a request may take to come.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in places, makes functions.
+const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
+                      style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; frame-ancestors 'none'; base-uri 'none'";
+
+/// How a request is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Refusal {
+    /// `400 Bad Request`
+    pub status: &'static str,
+    /// Why, in a sentence.
+    pub why: &'static str,
+}
+
+const fn refusal(status: &'static str, why: &'static str) -> Refusal {
+    Refusal { status, why }
+}
+
+/// The head of a request, as far as it matters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Request {
+    /// Without what follows a `?`.
+    pub path: String,
+    /// `Sec-WebSocket-Key` of a request for a WebSocket.
+    pub key: Option<String>,
+    /// Bytes that came after the head.
+    pub rest: Vec<u8>,
+}
+
+/// Reads a request; none: the other side has gone, or is too slow.
+pub fn read(stream: &mut impl Read) -> Option<Result<Request, Refusal>> {
+    let (mut bytes, mut buffer, begun) = (Vec::new(), [0; 2048], Instant::now());
+    loop {
+        let count = stream.read(&mut buffer).ok()?;
+        if count == 0 || begun.elapsed() > PATIENCE {
+            return None;
+        }
+        bytes.extend_from_slice(&buffer[..count]);
+        match parse(&bytes) {
+            Ok(None) if bytes.len() > HEAD => {
+                let why = "the head of the request is too long";
+                return Some(Err(refusal("431 Request Header Fields Too Large", why)));
+            }
+            Ok(None) => {}
+            Ok(Some(request)) => return Some(Ok(request)),
+            Err(refusal) => return Some(Err(refusal)),
+        }
+    }
+}
+
+/// Reads the head of a request; none: it has not ended.
+pub fn parse(bytes: &[u8]) -> Result<Option<Request>, Refusal> {
+    let mut headers = [httparse::EMPTY_HEADER; 64];
+    let mut head = httparse::Request::new(&mut headers);
+    let bad = refusal("400 Bad Request", "this is no request of a browser");
+    let length = match head.parse(bytes).map_err(|_| bad)? {
+        httparse::Status::Complete(length) => length,
+        httparse::Status::Partial => return Ok(None),
+    };
+    let value = |name: &str| {
+        let mut all = head.headers.iter().filter(|header| header.name.eq_ignore_ascii_case(name));
+        let one = all.next().and_then(|header| std::str::from_utf8(header.value).ok());
+        // Two of a kind could be read in two ways.
+        one.filter(|_| all.next().is_none())
+    };
+    check_names(
+        value("host"),
+        head.headers.iter().any(|h| h.name.eq_ignore_ascii_case("origin")),
+        value("origin"),
+    )?;
+    if head.method != Some("GET") {
+        return Err(refusal("405 Method Not Allowed", "only GET is answered"));
+    }
+    let path = head.path.and_then(|path| path.split('?').next()).unwrap_or("/").to_string();
+    let upgrade = value("upgrade").is_some_and(|to| to.eq_ignore_ascii_case("websocket"));
+    let key = upgrade.then(|| value("sec-websocket-key").map(String::from)).flatten();
+    if upgrade && (key.is_none() || value("sec-websocket-version") != Some("13")) {
+        return Err(refusal("400 Bad Request", "this is no request for a WebSocket of version 13"));
+    }
+    Ok(Some(Request { path, key, rest: bytes.get(length..).unwrap_or_default().to_vec() }))
+}
+
+/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in. Programs other than
+/// browsers send no `Origin`. The port may be another one, where it is forwarded.
+fn check_names(host: Option<&str>, has_origin: bool, origin: Option<&str>) -> Result<(), Refusal> {
+    let host = host.unwrap_or_default();
+    if !is_this_machine(host) {
+        return Err(refusal("403 Forbidden", "the page is called 127.0.0.1 or localhost, and nothing else"));
+    }
+    let same = origin.and_then(|origin| origin.strip_prefix("http://")) == Some(host);
+    if has_origin && !same {
+        return Err(refusal("403 Forbidden", "pages of other sites are not answered"));
+    }
+    Ok(())
+}
+
+fn is_this_machine(host: &str) -> bool {
+    let (name, port) = match host.strip_prefix("[::1]") {
+        Some("") => ("[::1]", None),
+        Some(port) => ("[::1]", port.strip_prefix(':').or(Some("none"))),
+        None => host.split_once(':').map_or((host, None), |(name, port)| (name, Some(port))),
+    };
+    let known = ["127.0.0.1", "localhost", "[::1]"].iter().any(|known| name.eq_ignore_ascii_case(known));
+    known && port.is_none_or(|port| port.parse::<u16>().is_ok())
+}
+
+/// Answers with a file.
+pub fn answer(stream: &mut impl Write, kind: &str, more: &str, body: &[u8]) -> io::Result<()> {
+    send(stream, "200 OK", kind, more, body)
+}
+
+/// Answers with a sentence.
+pub fn refuse(stream: &mut impl Write, refusal: Refusal) -> io::Result<()> {
+    send(stream, refusal.status, "text/plain; charset=utf-8", "", format!("{}\n", refusal.why).as_bytes())
+}
+
+fn send(stream: &mut impl Write, status: &str, kind: &str, more: &str, body: &[u8]) -> io::Result<()> {
+    let length = body.len();
+    let head = format!(
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\nConnection: close\r\n\
+         Cache-Control: no-cache\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\
+         Referrer-Policy: no-referrer\r\nContent-Security-Policy: {POLICY}\r\n{more}\r\n"
+    );
+    stream.write_all(head.as_bytes())?;
+    stream.write_all(body)?;
+    stream.flush()
+}
+
+/// Agrees to a WebSocket.
+pub fn upgrade(stream: &mut impl Write, key: &str) -> io::Result<()> {
+    let accept = tungstenite::handshake::derive_accept_key(key.as_bytes());
+    let head = format!(
+        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: {accept}\r\n\r\n"
+    );
+    stream.write_all(head.as_bytes())?;
+    stream.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Option<Request>, &'static str> {
+        parse(text.replace('\n', "\r\n").as_bytes()).map_err(|refusal| &refusal.status[..3])
+    }
+
+    #[test]
+    fn a_request_is_read_in_any_split() {
+        let text = b"GET /panels.js?x=1 HTTP/1.1\r\nHost: localhost:8295\r\n\r\nrest";
+        for end in 0..text.len() - 4 {
+            assert_eq!(parse(&text[..end]), Ok(None), "{end}");
+        }
+        let request = parse(text).unwrap().unwrap();
+        assert_eq!(
+            (request.path.as_str(), request.key, request.rest.as_slice()),
+            ("/panels.js", None, &b"rest"[..])
+        );
+        assert!(read(&mut &text[..40]).is_none());
+        let long = [b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ".as_slice(), &[b'x'; 2 * HEAD]].concat();
+        assert!(read(&mut long.as_slice()).unwrap().unwrap_err().status.starts_with("431"));
+    }
+
+    #[test]
+    fn only_this_machine_and_this_page_are_answered() {
+        let get = |headers: &str| {
+            parsed(&format!("GET / HTTP/1.1\n{headers}\n\n")).map(|request| request.is_some())
+        };
+        for host in ["localhost", "127.0.0.1", "127.0.0.1:8295", "LocalHost:1", "[::1]", "[::1]:80"] {
+            assert_eq!(get(&format!("Host: {host}")), Ok(true), "{host}");
+        }
+        let wrong = [
+            "",
+            "X: y",
+            "Host: evil.example",
+            "Host: localhost.evil.example:8295",
+            "Host: 127.0.0.1.evil",
+            "Host: [::1]x",
+            "Host: localhost:x",
+            "Host: localhost\nHost: localhost",
+            "Host: 127.0.0.2",
+        ];
+        for headers in wrong {
+            assert_eq!(get(headers), Err("403"), "{headers}");
+        }
+        assert_eq!(get("Host: localhost:1\nOrigin: http://localhost:1"), Ok(true));
+        for origin in ["http://evil.example", "null", "https://localhost:1", "http://localhost:2", ""] {
+            assert_eq!(get(&format!("Host: localhost:1\nOrigin: {origin}")), Err("403"), "{origin}");
+        }
+        let twice = "Host: localhost:1\nOrigin: http://localhost:1\nOrigin: http://localhost:1";
+        assert_eq!(get(twice), Err("403"));
+    }
+
+    #[test]
+    fn what_is_no_request_is_refused() {
+        assert_eq!(parsed("GET\n\n"), Err("400"));
+        assert_eq!(parse(&[0xff; 64]).unwrap_err().status, "400 Bad Request");
+        assert_eq!(parsed("POST / HTTP/1.1\nHost: localhost\n\n"), Err("405"));
+        let many: String = (0..100).map(|n| format!("X{n}: y\n")).collect();
+        assert_eq!(parsed(&format!("GET / HTTP/1.1\nHost: localhost\n{many}\n")), Err("400"));
+        let socket = "GET /socket HTTP/1.1\nHost: localhost\nUpgrade: websocket\n";
+        assert_eq!(parsed(&format!("{socket}\n")), Err("400"));
+        assert_eq!(
+            parsed(&format!("{socket}Sec-WebSocket-Key: a\nSec-WebSocket-Version: 8\n\n")),
+            Err("400")
+        );
+        let asked = parsed(&format!("{socket}Sec-WebSocket-Key: a\nSec-WebSocket-Version: 13\n\n"));
+        assert_eq!(asked.unwrap().unwrap().key.as_deref(), Some("a"));
+    }
+
+    #[test]
+    fn garbage_never_panics() {
+        let mut noise = fastrand::Rng::with_seed(5);
+        let good = b"GET /a HTTP/1.1\r\nHost: localhost:8295\r\nOrigin: http://localhost:8295\r\n\r\n";
+        for _ in 0..20_000 {
+            let mut bytes = good.to_vec();
+            for _ in 0..noise.usize(1..6) {
+                let at = noise.usize(..bytes.len());
+                bytes[at] = noise.u8(..);
+            }
+            let _ = parse(&bytes);
+        }
+    }
+}

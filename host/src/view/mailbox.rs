@@ -1,0 +1,225 @@
+//! What waits for one page: never more than one image and a few lines, however slow the page is.
+
+use super::message;
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Lines of the log that wait at most.
+const LINES: usize = 64;
+/// Samples that wait at most: more than a second of them.
+const SAMPLES: usize = 256;
+/// Shortest time between two images of a page: 60 a second, and a little for clocks that differ.
+const PERIOD: Duration = Duration::from_micros(16_500);
+
+/// An image with what was found in it.
+#[derive(Debug, Clone)]
+pub struct Shot {
+    /// The line that `taxel live --json` prints of it.
+    pub line: Arc<str>,
+    /// Pressure by taxel, counts.
+    pub image: Arc<[u16]>,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Sum of all contacts, counts.
+    pub total: u32,
+}
+
+/// What is sent at a time.
+#[derive(Debug, PartialEq)]
+pub enum Parcel {
+    /// A text message.
+    Line(Arc<str>),
+    /// A binary message, see [`message`].
+    Image(Vec<u8>),
+    /// The page has gone.
+    Closed,
+}
+
+/// The waiting place.
+#[derive(Debug, Default)]
+pub struct Mailbox {
+    waiting: Mutex<Waiting>,
+    changed: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Waiting {
+    /// The newest of each kind.
+    states: BTreeMap<&'static str, Arc<str>>,
+    lines: VecDeque<Arc<str>>,
+    shot: Option<Shot>,
+    /// Greatest pressure of each taxel since the last image was taken.
+    highest: Vec<u16>,
+    /// Time and total of each frame since then.
+    samples: VecDeque<(u64, u32)>,
+    /// Images that another one replaced before they were taken.
+    replaced: u64,
+    /// Samples and lines that found no place.
+    missed: u64,
+    sent: Option<Instant>,
+    hovered: Option<u16>,
+    closed: bool,
+}
+
+impl Mailbox {
+    /// A thread that panicked leaves everything as it was.
+    fn lock(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut Waiting)) {
+        change(&mut self.lock());
+        self.changed.notify_all();
+    }
+
+    /// What holds until the next of its kind.
+    pub fn state(&self, kind: &'static str, line: Arc<str>) {
+        self.change(|waiting| _ = waiting.states.insert(kind, line));
+    }
+
+    /// A line that is to be seen besides all others.
+    pub fn line(&self, line: Arc<str>) {
+        self.change(|waiting| {
+            waiting.lines.push_back(line);
+            while waiting.lines.len() > LINES {
+                waiting.lines.pop_front();
+                waiting.missed += 1;
+            }
+        });
+    }
+
+    /// The newest image.
+    pub fn shot(&self, shot: &Shot) {
+        self.change(|waiting| waiting.take(shot));
+    }
+
+    /// The taxel under the pointer.
+    pub fn hover(&self, taxel: Option<u16>) {
+        self.lock().hovered = taxel;
+    }
+
+    /// See [`Mailbox::hover`].
+    pub fn hovered(&self) -> Option<u16> {
+        self.lock().hovered
+    }
+
+    /// Nobody reads any more.
+    pub fn close(&self) {
+        self.change(|waiting| waiting.closed = true);
+    }
+
+    /// Waits for what is to be sent next: lines at once, images when it is time for one.
+    pub fn next(&self) -> Parcel {
+        let mut waiting = self.lock();
+        loop {
+            let now = Instant::now();
+            if let Some(parcel) = waiting.due(now) {
+                return parcel;
+            }
+            let longest = Duration::from_secs(1);
+            let rest = match (&waiting.shot, waiting.sent) {
+                (Some(_), Some(sent)) => (sent + PERIOD).saturating_duration_since(now),
+                _ => longest,
+            };
+            let waited = self.changed.wait_timeout(waiting, rest.min(longest));
+            waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl Waiting {
+    fn take(&mut self, shot: &Shot) {
+        if self.highest.len() != shot.image.len() {
+            self.highest.clear();
+            self.highest.resize(shot.image.len(), 0);
+        }
+        for (highest, value) in self.highest.iter_mut().zip(shot.image.iter()) {
+            *highest = (*highest).max(*value);
+        }
+        self.samples.push_back((shot.time_us, shot.total));
+        while self.samples.len() > SAMPLES {
+            self.samples.pop_front();
+            self.missed += 1;
+        }
+        self.replaced += u64::from(self.shot.replace(shot.clone()).is_some());
+    }
+
+    fn due(&mut self, now: Instant) -> Option<Parcel> {
+        if self.closed {
+            return Some(Parcel::Closed);
+        }
+        let line = self.states.pop_first().map(|(_, line)| line).or_else(|| self.lines.pop_front());
+        if let Some(line) = line {
+            return Some(Parcel::Line(line));
+        }
+        let due = self.sent.is_none_or(|sent| now >= sent + PERIOD);
+        let shot = self.shot.take_if(|_| due)?;
+        self.sent = Some(now);
+        let samples: Vec<_> = self.samples.drain(..).collect();
+        let parcel = message::image(&shot, &self.highest, &samples, self.replaced, self.missed);
+        self.highest.fill(0);
+        Some(Parcel::Image(parcel))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shot(number: u64, image: &[u16]) -> Shot {
+        Shot { line: format!("{number}").into(), image: image.into(), time_us: number, total: number as u32 }
+    }
+
+    fn image(parcel: Parcel) -> (serde_json::Value, Vec<u16>) {
+        let Parcel::Image(bytes) = parcel else { panic!("{parcel:?} is no image") };
+        let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
+        let (head, images) = bytes[4..].split_at(length);
+        let values = images.chunks(2).map(|b| u16::from_le_bytes([b[0], b[1]])).collect();
+        (serde_json::from_slice(head).unwrap(), values)
+    }
+
+    #[test]
+    fn the_newest_image_replaces_and_the_highest_pressure_stays() {
+        let mailbox = Mailbox::default();
+        for (number, values) in [(1, [3, 9]), (2, [8, 2]), (3, [1, 4])] {
+            mailbox.shot(&shot(number, &values));
+        }
+        let (head, values) = image(mailbox.next());
+        assert_eq!(values, [1, 4, 8, 9]);
+        assert_eq!(head["replaced"], 2);
+        assert_eq!(head["samples"], serde_json::json!([[1, 1], [2, 2], [3, 3]]));
+        mailbox.shot(&shot(4, &[5, 5]));
+        let (head, values) = image(mailbox.next());
+        assert_eq!((head["frame"].as_u64(), values), (Some(4), vec![5, 5, 5, 5]));
+    }
+
+    #[test]
+    fn nothing_grows_while_nobody_reads() {
+        let mailbox = Mailbox::default();
+        for number in 0..10_000 {
+            mailbox.shot(&shot(number, &[number as u16; 4]));
+            mailbox.line(format!("line {number}").into());
+            mailbox.state("health", format!("{number}").into());
+        }
+        let waiting = mailbox.lock();
+        assert_eq!((waiting.lines.len(), waiting.samples.len(), waiting.states.len()), (LINES, SAMPLES, 1));
+        assert_eq!(waiting.missed, 2 * 10_000 - (LINES + SAMPLES) as u64);
+        assert_eq!(waiting.replaced, 9_999);
+        drop(waiting);
+        assert_eq!(mailbox.next(), Parcel::Line("9999".into()));
+        mailbox.close();
+        assert_eq!(mailbox.next(), Parcel::Closed);
+    }
+
+    #[test]
+    fn images_come_no_faster_than_they_are_drawn() {
+        let mailbox = Mailbox::default();
+        let begun = Instant::now();
+        for number in 0..4 {
+            mailbox.shot(&shot(number, &[0]));
+            image(mailbox.next());
+        }
+        assert!(begun.elapsed() >= 3 * PERIOD);
+    }
+}

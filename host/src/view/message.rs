@@ -1,0 +1,134 @@
+//! What is said between the program and a page, over one WebSocket at `/socket`.
+//!
+//! Text messages to a page are JSON objects with a `type`. Those that `taxel live --json` also prints are the same: `hello`,
+//! `health`, `health_map`, `budget`. A page has besides:
+//!
+//! | type | holds |
+//! |---|---|
+//! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (places without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
+//! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
+//! | `say` | `text`: a line of the log |
+//! | `taxel` | of the taxel under the pointer: `taxel`, `code` (raw; null until it comes), `frame`, `block`, `wired_row`, `wired_column` (null where it has no block) |
+//! | `end` | nothing more comes, `text` says why |
+//!
+//! A binary message is an image, all numbers little-endian:
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 4 | length h of the head |
+//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` that `taxel live --json` prints; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images that were not sent because a newer one came; `missed`, samples and lines that found no place because the page did not read |
+//! | 2 n | pressure of the n taxels, counts, in the order of the garment |
+//! | 2 n | the greatest pressure of each since the last image that was sent |
+//!
+//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`; everything else is ignored.
+
+use super::mailbox::Shot;
+use crate::client::Client;
+use crate::fcm;
+use crate::live::message;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use taxel_core::garment::Circuit;
+
+/// The binary message.
+pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64, missed: u64) -> Vec<u8> {
+    let samples: Vec<_> = samples.iter().map(|(time, total)| format!("[{time},{total}]")).collect();
+    let (samples, line) = (samples.join(","), &shot.line);
+    let mut head =
+        format!(r#"{{"frame":{line},"samples":[{samples}],"replaced":{replaced},"missed":{missed}}}"#);
+    if head.len() % 2 == 1 {
+        head.push(' ');
+    }
+    let mut bytes = Vec::with_capacity(4 + head.len() + 2 * (shot.image.len() + highest.len()));
+    bytes.extend_from_slice(&(head.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(head.as_bytes());
+    bytes.extend(shot.image.iter().chain(highest).flat_map(|value| value.to_le_bytes()));
+    bytes
+}
+
+/// `hello`
+pub fn hello(client: &Client, label: &str, counts_per_newton: Option<f32>) -> Value {
+    let mut line = message(client, &crate::client::Event::Hello);
+    let Some(worn) = client.worn() else { return line };
+    line["label"] = json!(label);
+    line["counts_per_newton"] = json!(counts_per_newton);
+    line["low"] = json!(worn.scene.contact.low);
+    line["absent"] = json!(worn.garment.absent);
+    line["map"] = worn.scene.intent.as_ref().map_or(Value::Null, |intent| map(&intent.map));
+    line
+}
+
+/// The cognitive map; layers as `taxel fcm draw` has them.
+fn map(map: &taxel_core::intent::MapConfig) -> Value {
+    let one = 10f64.powi(map.decimals.into());
+    let edges: Vec<_> = map.edges.iter().filter(|edge| edge.weight != 0).collect();
+    let ends: Vec<_> = edges.iter().map(|edge| (usize::from(edge.from), usize::from(edge.to))).collect();
+    let layers = fcm::layers::layers(map.concepts.len(), &ends);
+    let concepts = map.concepts.iter().zip(layers);
+    let concepts: Vec<_> =
+        concepts.map(|(name, layer)| json!({ "name": name.as_str(), "layer": layer })).collect();
+    let edges = edges
+        .iter()
+        .map(|edge| json!({ "from": edge.from, "to": edge.to, "weight": f64::from(edge.weight) / one }));
+    json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
+}
+
+/// `taxel`
+pub fn taxel(taxel: u16, circuit: Option<&Circuit>, code: Option<(u32, u16)>) -> Value {
+    let wired = circuit.and_then(|circuit| circuit.wired(usize::from(taxel)));
+    json!({
+        "type": "taxel",
+        "taxel": taxel,
+        "frame": code.map(|(frame, _)| frame),
+        "code": code.map(|(_, code)| code),
+        "block": wired.map(|w| w.0),
+        "wired_row": wired.map(|w| w.1),
+        "wired_column": wired.map(|w| w.2),
+    })
+}
+
+/// What a page asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Wish {
+    /// The taxel under the pointer.
+    Hover(Option<u16>),
+    /// A baseline over so many frames.
+    Tare(u16),
+}
+
+/// Reads what a page said; none: nothing that is known.
+pub fn wish(text: &str) -> Option<Wish> {
+    let wish: Wish = serde_json::from_str(text).ok()?;
+    let known = !matches!(wish, Wish::Tare(frames) if !(1..=4096).contains(&frames));
+    known.then_some(wish)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_known_is_a_wish() {
+        assert_eq!(wish(r#"{"hover": 7}"#), Some(Wish::Hover(Some(7))));
+        assert_eq!(wish(r#"{"hover": null}"#), Some(Wish::Hover(None)));
+        assert_eq!(wish(r#"{"tare": 32}"#), Some(Wish::Tare(32)));
+        for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
+            assert_eq!(wish(nonsense), None, "{nonsense}");
+        }
+    }
+
+    #[test]
+    fn images_lie_at_even_places() {
+        for line in ["{}", "[7]"] {
+            let shot = Shot { line: line.into(), image: [513, 2].into(), time_us: 5, total: 6 };
+            let bytes = image(&shot, &[3, 4], &[(5, 6)], 1, 2);
+            let end = bytes.len() - 8;
+            assert_eq!(end % 2, 0);
+            assert_eq!(bytes[end..], [1, 2, 2, 0, 3, 0, 4, 0]);
+            let head: Value = serde_json::from_slice(&bytes[4..end]).unwrap();
+            assert_eq!(head["samples"], json!([[5, 6]]));
+            assert_eq!((&head["replaced"], &head["missed"]), (&json!(1), &json!(2)));
+        }
+    }
+}

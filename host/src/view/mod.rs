@@ -1,0 +1,98 @@
+//! `taxel view`: what a board tells, live in the browser.
+//!
+//! One program serves one page with all that it needs, on this machine alone, and tells each page over a WebSocket what
+//! comes; see [`message`] for what is said. Three rules keep the board's stream free of its watchers: a page has one
+//! [`Mailbox`] that never grows, the newest image replaces the one before it, and whoever writes to a page is a thread of its own.
+
+mod assets;
+mod browser;
+mod http;
+mod hub;
+mod mailbox;
+pub mod message;
+mod pace;
+mod page;
+mod raw;
+mod recent;
+mod server;
+mod viewer;
+
+pub use hub::Hub;
+pub use mailbox::{Mailbox, Parcel, Shot};
+pub use recent::Recent;
+pub use server::serve;
+pub use viewer::Viewer;
+
+use crate::live::{self, LiveArgs};
+use crate::source::{self, SourceOptions, SourceSpec};
+use anyhow::{Context, Result};
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The port where none is given, unless it is taken: T, A, X, L on a telephone.
+const PORT: u16 = 8295;
+
+/// Arguments of `taxel view`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ViewArgs {
+    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub open: bool,
+    /// Garment that a real or emulated board is to wear: a preset or a TOML file
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// Scene that the board is used for: a TOML file; what it does not say is as shipped
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
+    pub tare: Option<u16>,
+    /// Seed of a simulation
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// Runs the command.
+pub fn run(args: ViewArgs) -> Result<()> {
+    let listener = bind(args.port)?;
+    let options = SourceOptions { seed: args.seed, realtime: true, repeat: true, ..SourceOptions::default() };
+    let source = source::open(&args.source, &options)?;
+    let hub = Arc::new(Hub::default());
+    let port = serve(listener, hub.clone())?;
+    let url = format!("http://127.0.0.1:{port}/");
+    println!("{} at {url} (Ctrl-C ends)", source.label);
+    if args.open {
+        browser::open(&url)?;
+    }
+    let mut viewer = Viewer::new(&source, hub);
+    let live = LiveArgs {
+        garment: args.garment,
+        scene: args.scene,
+        tare: args.tare,
+        seed: args.seed,
+        ..LiveArgs::of(args.source)
+    };
+    live::watch(&live, source, &mut viewer)?;
+    println!("Nothing more comes; what came last is kept on the page (Ctrl-C ends).");
+    loop {
+        std::thread::park();
+    }
+}
+
+/// Listens on this machine alone.
+fn bind(port: Option<u16>) -> Result<TcpListener> {
+    let listen = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    let wanted = port.unwrap_or(PORT);
+    let listener = match (listen(wanted), port) {
+        (Err(_), None) => listen(0),
+        (result, _) => result,
+    };
+    listener.with_context(|| format!("port {wanted} of this machine cannot be used for the page"))
+}

@@ -1,0 +1,41 @@
+//! What was saved is shown as fast as it was taken.
+
+use std::time::{Duration, Instant};
+use taxel_core::format::Micros;
+
+/// A gap that nobody wants to wait for.
+const GAP: Duration = Duration::from_secs(2);
+
+/// Remembers which time of the board is now.
+#[derive(Debug, Default)]
+pub struct Pace(Option<(Instant, Micros)>);
+
+impl Pace {
+    /// How long a frame of that time is to wait. Time that went back or leapt is not waited for.
+    pub fn wait(&mut self, time: Micros, now: Instant) -> Duration {
+        let (began, first) = *self.0.get_or_insert((now, time));
+        let due = began + Duration::from_micros(time.since(first));
+        let wait = due.saturating_duration_since(now);
+        if time < first || wait > GAP || now.saturating_duration_since(due) > GAP {
+            self.0 = Some((now, time));
+            return Duration::ZERO;
+        }
+        wait
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_wait_for_their_time_and_leaps_are_not_waited_for() {
+        let (mut pace, start) = (Pace::default(), Instant::now());
+        assert_eq!(pace.wait(Micros(7_000_000), start), Duration::ZERO);
+        assert_eq!(pace.wait(Micros(7_005_000), start), Duration::from_millis(5));
+        assert_eq!(pace.wait(Micros(7_010_000), start + Duration::from_millis(12)), Duration::ZERO);
+        assert_eq!(pace.wait(Micros(99_000_000), start), Duration::ZERO);
+        assert_eq!(pace.wait(Micros(99_001_000), start), Duration::from_millis(1));
+        assert_eq!(pace.wait(Micros(3), start), Duration::ZERO);
+    }
+}

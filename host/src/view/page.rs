@@ -1,0 +1,85 @@
+//! The WebSocket of one page: one thread reads what the page asks for, this one writes what it is told.
+
+use super::hub::Hub;
+use super::mailbox::{Mailbox, Parcel};
+use super::message;
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::sync::Arc;
+use std::thread;
+use tungstenite::protocol::{Role, WebSocketConfig};
+use tungstenite::{Bytes, Message, Utf8Bytes, WebSocket};
+
+/// Longest message of a page.
+const LONGEST: usize = 4096;
+
+/// Talks to a page until it goes, or has not read for as long as the stream's timeout.
+pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Arc<Mailbox>) -> io::Result<()> {
+    let end = stream.try_clone()?;
+    let reading = stream.try_clone()?;
+    // A page may say nothing for ever.
+    reading.set_read_timeout(None)?;
+    thread::scope(|scope| {
+        let reader = thread::Builder::new().name("page reader".into());
+        let reader = reader.spawn_scoped(scope, || {
+            read(reading, rest, hub, mailbox);
+            mailbox.close();
+        })?;
+        let written = write(stream, mailbox);
+        // Wakes the reader.
+        let _ = end.shutdown(Shutdown::Both);
+        let _ = reader.join();
+        written
+    })
+}
+
+fn config() -> WebSocketConfig {
+    WebSocketConfig::default()
+        .max_message_size(Some(LONGEST))
+        .max_frame_size(Some(LONGEST))
+        .write_buffer_size(0)
+}
+
+fn write(stream: TcpStream, mailbox: &Mailbox) -> io::Result<()> {
+    let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
+    loop {
+        let message = match mailbox.next() {
+            Parcel::Line(line) => Message::Text(Utf8Bytes::from(&*line)),
+            Parcel::Image(bytes) => Message::Binary(Bytes::from(bytes)),
+            Parcel::Closed => return Ok(()),
+        };
+        socket.send(message).map_err(io::Error::other)?;
+    }
+}
+
+fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
+    let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
+    // Any error ends it: the page has gone, or does not speak WebSocket.
+    while let Ok(said) = socket.read() {
+        if let Message::Text(text) = said
+            && let Some(wish) = message::wish(&text)
+        {
+            hub.wish(mailbox, wish);
+        }
+    }
+}
+
+/// A stream to which the reader writes nothing: an answer of its own would fall into a message of the writer's. Pages are not
+/// answered when they close or ping; browsers do not ping.
+struct Mute(TcpStream);
+
+impl Read for Mute {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer)
+    }
+}
+
+impl Write for Mute {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

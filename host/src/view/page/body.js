@@ -1,0 +1,120 @@
+// The panels laid out on the outline of a body, seen from the front and from the back.
+
+import { colour, fit, make } from "./dom.js";
+import { Raster } from "./raster.js";
+import { label } from "./marks.js";
+
+// Where a region lies, by what its name holds: figure (0 front, 1 back), left edge, top, width, height. A figure is 100 high and
+// its middle is 0; the robot's left is at the right of the one who faces it.
+const SLOTS = [
+  [/left.*(leg|thigh|shin|foot)/, [0, 3, 55, 10, 40]],
+  [/right.*(leg|thigh|shin|foot)/, [0, -13, 55, 10, 40]],
+  [/left.*(hand|palm)/, [0, 18, 53, 9, 9]],
+  [/right.*(hand|palm)/, [0, -27, 53, 9, 9]],
+  [/left.*(arm|sleeve|shoulder|elbow)/, [0, 17.5, 20, 10, 32]],
+  [/right.*(arm|sleeve|shoulder|elbow)/, [0, -27.5, 20, 10, 32]],
+  [/back|spine/, [1, -14, 20, 28, 33]],
+  [/chest|front|torso|belly|breast/, [0, -14, 20, 28, 33]],
+  [/head|face/, [0, -5, 3, 10, 11]],
+];
+
+/** Regions of no known name stand beside the figures, so many to a column. */
+const BESIDE = 3;
+
+/** The view. */
+export class Body {
+  constructor(root) {
+    this.canvas = make("canvas", { role: "img", "aria-label": "Panels on the body, front and back" });
+    root.append(this.canvas);
+    this.raster = new Raster();
+  }
+
+  draw(store, settings) {
+    const shown = store.shown();
+    const context = shown && fit(this.canvas);
+    if (!context) return;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const unit = Math.min((height - 24) / 100, width / 130);
+    const middles = [width / 2 - 32 * unit, width / 2 + 32 * unit];
+    const top = 22 + (height - 24 - 100 * unit) / 2;
+    context.clearRect(0, 0, width, height);
+    ["front", "back"].forEach((name, figure) => {
+      context.save();
+      context.translate(middles[figure], top);
+      context.scale(unit, unit);
+      outline(context, unit);
+      context.restore();
+      context.fillStyle = colour("quiet");
+      context.font = "12px system-ui, sans-serif";
+      context.textAlign = "center";
+      context.textBaseline = "bottom";
+      context.fillText(name, middles[figure], top - 2);
+    });
+    const image = settings.held ? store.held : shown.image;
+    const { garment } = store;
+    const places = placesOf(garment);
+    garment.panels.forEach((panel, index) => {
+      const [figure, x, y, w, h] = places[index];
+      const [left, upper] = [middles[figure] + x * unit, top + y * unit];
+      const box = [left, upper, w * unit, h * unit];
+      context.imageSmoothingEnabled = settings.smooth;
+      context.drawImage(this.raster.paint(image, panel, { ...settings, absent: garment.absent }), ...box);
+      context.strokeStyle = colour("quiet");
+      context.lineWidth = 1;
+      context.strokeRect(...box);
+      for (const touch of shown.head.frame.contacts.filter((c) => c.panel === index)) {
+        const at = [left + ((touch.x + 0.5) / panel.columns) * box[2], upper + ((touch.y + 0.5) / panel.rows) * box[3]];
+        context.beginPath();
+        context.arc(...at, 11, 0, 2 * Math.PI);
+        context.strokeStyle = colour("mark");
+        context.lineWidth = 2;
+        context.stroke();
+        label(context, String(touch.id), ...at);
+      }
+      context.fillStyle = colour("ink");
+      context.font = "12px system-ui, sans-serif";
+      context.textAlign = "center";
+      context.textBaseline = "top";
+      context.fillText(panel.name, left + box[2] / 2, upper + box[3] + 3);
+    });
+  }
+}
+
+/** The place of each panel; those that share one lie below each other in it. */
+function placesOf(garment) {
+  const slotOf = ({ name, region, link }) => {
+    const words = `${region} ${name} ${link}`.toLowerCase().replaceAll("_", " ");
+    const own = [region, name, words].map((text) => SLOTS.find(([known]) => known.test(text.toLowerCase())));
+    return own.find(Boolean)?.[1] ?? null;
+  };
+  const slots = garment.panels.map(slotOf);
+  let beside = 0;
+  return slots.map((slot, index) => {
+    if (!slot) {
+      const at = beside;
+      beside += 1;
+      return [1, 32 + Math.floor(at / BESIDE) * 18, 8 + (at % BESIDE) * 30, 15, 24];
+    }
+    const sharing = slots.filter((other) => other === slot).length;
+    const above = slots.slice(0, index).filter((other) => other === slot).length;
+    const [figure, x, y, w, h] = slot;
+    return [figure, x, y + (h / sharing) * above, w, h / sharing - (sharing > 1 ? 1 : 0)];
+  });
+}
+
+/** Head, trunk, arms and legs, in the units of a figure. */
+function outline(context, unit) {
+  context.beginPath();
+  context.ellipse(0, 8, 6, 8, 0, 0, 2 * Math.PI);
+  context.roundRect(-16, 18, 32, 37, 6);
+  for (const side of [-1, 1]) {
+    context.roundRect(side < 0 ? -28.5 : 16.5, 18, 12, 36, 5);
+    context.roundRect(side < 0 ? -27 : 18, 55, 9, 9, 4);
+    context.roundRect(side < 0 ? -14 : 2, 54, 12, 45, 4);
+  }
+  context.fillStyle = colour("grid");
+  context.fill();
+  context.strokeStyle = colour("line");
+  context.lineWidth = 1.2 / unit;
+  context.stroke();
+}

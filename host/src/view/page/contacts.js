@@ -1,0 +1,58 @@
+// What is said of contacts and of the touch, in words and numbers.
+
+import { make, say } from "./dom.js";
+import { force } from "./units.js";
+
+/** The table. */
+export function contacts(table, count, store) {
+  const shown = store.shown();
+  const list = shown ? shown.head.frame.contacts : [];
+  say(count, list.length ? String(list.length) : "none");
+  const body = table.tBodies[0];
+  while (body.rows.length > list.length) body.deleteRow(-1);
+  list.forEach((touch, at) => {
+    const row = body.rows[at] ?? body.insertRow();
+    const { panels } = store.garment;
+    const mm = panels[touch.panel].mm;
+    const speed = Math.hypot(touch.vx * mm[0], touch.vy * mm[1]);
+    const cells = [
+      String(touch.id), touch.region, touch.shape, force(store.garment, touch.total), String(touch.area),
+      `${speed.toFixed(0)} mm/s${touch.slip ? " slips" : ""}`,
+    ];
+    cells.forEach((text, column) => say(row.cells[column] ?? row.insertCell(), text));
+  });
+}
+
+/** The activation of each concept as a bar from the middle. */
+export class Concepts {
+  constructor(list, leading) {
+    Object.assign(this, { list, leading, key: "", parts: [] });
+  }
+
+  draw(store) {
+    const shown = store.shown();
+    if (!shown) return;
+    const { concepts, leading } = shown.head.frame.intent;
+    say(this.leading, leading);
+    const names = Object.keys(concepts);
+    if (names.join() !== this.key) this.build(names);
+    for (const { name, item, bar, value } of this.parts) {
+      const activation = concepts[name];
+      item.classList.toggle("leads", name === leading);
+      bar.classList.toggle("less", activation < 0);
+      bar.style.transform = `scaleX(${Math.max(-1, Math.min(1, activation))})`;
+      say(value, activation.toFixed(2));
+    }
+  }
+
+  build(names) {
+    this.key = names.join();
+    this.parts = names.map((name) => {
+      const bar = make("b");
+      const value = make("output");
+      const item = make("li", {}, make("span", {}, name), make("i", {}, bar), value);
+      return { name, item, bar, value };
+    });
+    this.list.replaceChildren(...this.parts.map(({ item }) => item));
+  }
+}

@@ -1,0 +1,98 @@
+// The cognitive map with its live activations. As in `taxel fcm draw`: blue and unbroken increases, vermilion and dashed decreases,
+// width is strength, and what is written is the activation.
+
+import { draw, make, say } from "./dom.js";
+
+const [WIDTH, HEIGHT, ACROSS, DOWN] = [112, 42, 150, 84];
+
+/** The view. */
+export class CognitiveMap {
+  constructor(root) {
+    Object.assign(this, { root, key: "" });
+  }
+
+  draw(store) {
+    const { garment } = store;
+    if (!garment) return;
+    this.build(garment.map);
+    const shown = store.shown();
+    if (!shown || !garment.map) return;
+    const { concepts, leading } = shown.head.frame.intent;
+    const value = (name) => concepts[name] ?? 0;
+    for (const { name, box, text } of this.nodes) {
+      const activation = value(name);
+      box.style.fillOpacity = Math.min(1, Math.abs(activation)) * 0.75;
+      box.style.fill = activation < 0 ? "var(--less)" : "var(--more)";
+      box.style.strokeWidth = name === leading ? 3 : 1;
+      say(text, activation.toFixed(2));
+    }
+    for (const { from, weight, line } of this.edges) {
+      line.style.opacity = 0.22 + 0.78 * Math.min(1, Math.abs(value(from) * weight));
+    }
+  }
+
+  build(map) {
+    const key = JSON.stringify(map);
+    if (key === this.key) return;
+    this.key = key;
+    if (!map) {
+      this.root.replaceChildren(make("p", { class: "empty" }, "This scene has no cognitive map."));
+      return;
+    }
+    const places = placesOf(map.concepts);
+    const extent = (at) => Math.max(...places.map((place) => place[at]));
+    const svg = draw("svg", {
+      viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`, role: "img",
+      "aria-label": "Concepts and causes of the cognitive map, with their activations",
+    });
+    svg.append(draw("defs", {}, marker("more"), marker("less")));
+    this.edges = map.edges.map(({ from, to, weight }) => {
+      const line = arrow(places[from], places[to], weight);
+      line.append(draw("title", {}, `${map.concepts[from].name} → ${map.concepts[to].name}: ${weight}`));
+      svg.append(line);
+      return { from: map.concepts[from].name, weight, line };
+    });
+    this.nodes = map.concepts.map(({ name }, at) => {
+      const [x, y] = places[at];
+      const box = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, stroke: "var(--quiet)" });
+      const text = draw("text", { x: x + WIDTH / 2, y: y + 33, "text-anchor": "middle", "font-size": 12, fill: "var(--ink)" });
+      const title = { x: x + WIDTH / 2, y: y + 17, "text-anchor": "middle", "font-size": 13, "font-weight": 600, fill: "var(--ink)" };
+      const back = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, fill: "var(--card)" });
+      svg.append(back, box, draw("text", title, name), text);
+      return { name, box, text };
+    });
+    this.root.replaceChildren(svg);
+  }
+}
+
+/** Causes left of effects; layers stand a little askew, so that few edges run through a concept. */
+function placesOf(concepts) {
+  const count = (layer) => concepts.filter((concept) => concept.layer === layer).length;
+  const tallest = Math.max(...concepts.map(({ layer }) => count(layer)));
+  const seen = new Map();
+  return concepts.map(({ layer }) => {
+    const above = seen.get(layer) ?? 0;
+    seen.set(layer, above + 1);
+    const top = (tallest - count(layer)) / 2;
+    return [layer * ACROSS, (above + top) * DOWN + (layer % 2 ? DOWN * 0.37 : 0)];
+  });
+}
+
+function marker(kind) {
+  const shape = draw("path", { d: "M0 0 8 4 0 8z", fill: `var(--${kind})` });
+  return draw("marker", { id: `to-${kind}`, viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 9, markerHeight: 9, markerUnits: "userSpaceOnUse", orient: "auto" }, shape);
+}
+
+/** From the side of the cause to the side of the effect; back where the effect lies before it. */
+function arrow([x0, y0], [x1, y1], weight) {
+  const kind = weight < 0 ? "less" : "more";
+  const forward = x1 > x0;
+  const [from, to] = forward ? [x0 + WIDTH, x1] : [x0 + WIDTH / 2, x1 + WIDTH / 2];
+  const [up, down] = forward ? [y0 + HEIGHT / 2, y1 + HEIGHT / 2] : [y0, y1 + HEIGHT];
+  const bend = forward ? Math.max(24, (to - from) / 2) : 0;
+  const d = `M${from} ${up}C${from + bend} ${up} ${to - bend} ${down} ${to} ${down}`;
+  return draw("path", {
+    d, fill: "none", stroke: `var(--${kind})`, "stroke-width": 1 + 3 * Math.abs(weight),
+    "stroke-dasharray": weight < 0 ? "7 4" : "none", "marker-end": `url(#to-${kind})`,
+  });
+}

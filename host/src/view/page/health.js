@@ -1,0 +1,92 @@
+// Which taxels are ill, and of what: a letter besides the colour.
+
+import { colour, fit, make } from "./dom.js";
+import { placeOf } from "./garment.js";
+
+/** Letter and colour (Okabe and Ito) of each class. */
+const CLASSES = {
+  dead: ["D", "#000000"], stuck: ["S", "#e69f00"], open: ["O", "#56b4e9"], shorted: ["X", "#d55e00"], noisy: ["N", "#cc79a7"],
+};
+/** Ill taxels of the list at most; the map shows all. */
+const LISTED = 200;
+const [GAP, CAPTION] = [14, 18];
+
+/** The view. */
+export class Health {
+  constructor(root) {
+    this.canvas = make("canvas", { role: "img", "aria-label": "Map of ill taxels" });
+    this.list = make("div", { class: "list", tabindex: 0 });
+    root.append(this.canvas, this.list);
+    this.told = null;
+  }
+
+  draw(store) {
+    const context = store.garment && fit(this.canvas);
+    if (!context) return;
+    this.map(context, store);
+    const told = [store.states.health_map, store.states.health];
+    if (this.told?.every((line, at) => line === told[at])) return;
+    this.told = told;
+    this.list.replaceChildren(...lists(store));
+  }
+
+  map(context, { garment, ...store }) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { panels } = garment;
+    const ill = new Map((store.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
+    const wide = panels.reduce((sum, panel) => sum + panel.columns * panel.mm[0], 0);
+    const tall = Math.max(...panels.map((panel) => panel.rows * panel.mm[1]));
+    const scale = Math.min((width - GAP * (panels.length - 1)) / wide, (height - CAPTION) / tall);
+    context.clearRect(0, 0, width, height);
+    let left = 0;
+    for (const panel of panels) {
+      const [sx, sy] = panel.mm.map((mm) => mm * scale);
+      context.font = "600 12px system-ui, sans-serif";
+      context.textAlign = "left";
+      context.textBaseline = "top";
+      context.fillStyle = colour("ink");
+      context.fillText(panel.name, left, 0);
+      for (let at = 0; at < panel.rows * panel.columns; at += 1) {
+        const taxel = panel.base + at;
+        if (garment.absent[taxel]) continue;
+        const [x, y] = [left + (at % panel.columns) * sx, CAPTION + Math.floor(at / panel.columns) * sy];
+        cell(context, ill.get(taxel), x, y, sx, sy);
+      }
+      left += panel.columns * sx + GAP;
+    }
+  }
+}
+
+function cell(context, health, x, y, sx, sy) {
+  const [letter, fill] = CLASSES[health] ?? ["", colour("grid")];
+  context.fillStyle = fill;
+  context.fillRect(x, y, sx - 1, sy - 1);
+  if (!letter) return;
+  context.fillStyle = health === "dead" || health === "shorted" ? "#ffffff" : "#000000";
+  context.font = `700 ${Math.min(sx, sy) * 0.85}px system-ui, sans-serif`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText(letter, x + (sx - 1) / 2, y + (sy - 1) / 2 + 0.5);
+}
+
+/** What the board counts, and the ill taxels. */
+function lists({ garment, states }) {
+  const board = states.health;
+  const ill = states.health_map?.ill || [];
+  const line = ({ taxel, health }) => {
+    const { panel, row, column } = placeOf(garment, taxel);
+    return make("li", {}, `${health}: ${panel.name}, row ${row}, column ${column}`);
+  };
+  const counts = board
+    ? [["scans", board.scans], ["failed", board.failed], ["overruns", board.overruns], ["lost on the board", board.lost],
+       ["requests refused", board.refused], ["scan", `${board.scan_us} us`], ["perception", `${board.process_us} us`]]
+    : [];
+  const cells = counts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, String(value))));
+  const title = ill.length ? `${ill.length} of ${garment.taxels} taxels are ill` : "Nothing is known against any taxel.";
+  return [
+    make("h2", {}, title),
+    make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...ill.slice(0, LISTED).map(line)),
+    make("h2", {}, "The board"),
+    make("table", {}, make("tbody", {}, ...cells)),
+  ];
+}

@@ -1,0 +1,79 @@
+// The taxel under the pointer, or under the cursor that the arrow keys move.
+
+import { make } from "./dom.js";
+import { pressure } from "./units.js";
+
+/** Which taxel it is, and the note beside it. `ask` tells the program, which then sends its raw code. */
+export class Hover {
+  constructor(element, ask, changed) {
+    Object.assign(this, { element, ask, changed, place: null });
+  }
+
+  /** Watches the canvas of a panel. */
+  watch(canvas, panel) {
+    const at = (event) => {
+      const { left, top, width, height } = canvas.getBoundingClientRect();
+      const column = Math.floor(((event.clientX - left) / width) * panel.columns);
+      const row = Math.floor(((event.clientY - top) / height) * panel.rows);
+      this.set({ panel, row, column, x: event.clientX, y: event.clientY });
+    };
+    canvas.addEventListener("pointermove", at);
+    canvas.addEventListener("pointerdown", at);
+    canvas.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && this.set(null));
+    canvas.addEventListener("blur", () => this.set(null));
+    canvas.addEventListener("keydown", (event) => this.key(event, canvas, panel));
+  }
+
+  key(event, canvas, panel) {
+    const way = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
+    if (event.key === "Escape") this.set(null);
+    if (!way) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const same = this.place?.panel.index === panel.index;
+    const { row, column } = same ? this.place : { row: panel.rows >> 1, column: panel.columns >> 1 };
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    const next = { panel, row: row + way[0], column: column + way[1] };
+    const x = left + ((next.column + 0.5) / panel.columns) * width;
+    const y = top + ((next.row + 0.5) / panel.rows) * height;
+    this.set({ ...next, x, y });
+  }
+
+  set(place) {
+    const inside = (p) => p.row >= 0 && p.column >= 0 && p.row < p.panel.rows && p.column < p.panel.columns;
+    if (place && !inside(place)) return;
+    const taxel = (p) => (p ? p.panel.base + p.row * p.panel.columns + p.column : null);
+    const before = taxel(this.place);
+    this.place = place;
+    if (taxel(place) !== before) this.ask({ hover: taxel(place) });
+    this.changed();
+  }
+
+  draw(store) {
+    const { element, place } = this;
+    element.hidden = !place;
+    const shown = store.shown();
+    if (!place || !shown) return;
+    const { garment, states } = store;
+    const taxel = place.panel.base + place.row * place.panel.columns + place.column;
+    const told = states.taxel?.taxel === taxel ? states.taxel : {};
+    const counts = shown.image[taxel];
+    const rows = [
+      ["pressure", pressure(garment, counts)],
+      ["counts", String(counts)],
+      ["raw code", store.paused ? "live only" : (told.code ?? "waiting …")],
+      ["health", store.ill().get(taxel) ?? "good"],
+      ["highest", pressure(garment, store.held[taxel])],
+      ["wired", told.block == null ? "–" : `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`],
+    ];
+    element.replaceChildren(
+      make("b", {}, `${place.panel.name}, row ${place.row}, column ${place.column}`),
+      make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, String(value))])),
+    );
+    const { offsetWidth: width, offsetHeight: height } = element;
+    const left = place.x + 18 + width > innerWidth ? place.x - 18 - width : place.x + 18;
+    const top = Math.min(innerHeight - height - 6, place.y + 14);
+    element.style.transform = `translate(${Math.max(4, left)}px, ${Math.max(4, top)}px)`;
+    element.style.left = element.style.top = "0";
+  }
+}

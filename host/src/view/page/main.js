@@ -1,0 +1,88 @@
+// Puts the page together: what comes is stored at once, and drawn when the screen is.
+
+import { $, make } from "./dom.js";
+import { Body } from "./body.js";
+import { CognitiveMap } from "./fcm.js";
+import { Concepts, contacts } from "./contacts.js";
+import { Controls } from "./controls.js";
+import { Health } from "./health.js";
+import { Hover } from "./hover.js";
+import { Link } from "./link.js";
+import { Panels } from "./panels.js";
+import { Player } from "./player.js";
+import { Save } from "./save.js";
+import { Store } from "./store.js";
+import { Surface } from "./surface.js";
+import { connect } from "./socket.js";
+import * as ranges from "./ranges.js";
+import * as strips from "./strips.js";
+
+const store = new Store();
+const link = new Link($("link"), $("source"), $("provenance"));
+let stale = true;
+const changed = () => (stale = true);
+const change = (act) => (...what) => {
+  act(...what);
+  changed();
+};
+
+const socket = connect({
+  image: change((message) => {
+    store.image(message);
+    link.image();
+  }),
+  line: change((line) => store.line(line)),
+  connected: change((connected) => (link.connected = connected)),
+});
+const ask = (wish) => socket.ask(wish);
+const hover = new Hover($("hover"), ask, changed);
+const controls = new Controls(store, ask, changed);
+const player = new Player(store, changed);
+const concepts = new Concepts($("concepts"), $("leading"));
+const views = {
+  panels: new Panels($("view-panels"), hover),
+  surface: new Surface($("view-surface"), changed),
+  body: new Body($("view-body")),
+  map: new CognitiveMap($("view-map")),
+  health: new Health($("view-health")),
+};
+const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
+
+let told = null;
+function log() {
+  if (told === store.log[0] && $("log").childElementCount) return;
+  told = store.log[0];
+  $("log").replaceChildren(...store.log.map((text) => make("li", {}, text)));
+}
+
+function draw() {
+  requestAnimationFrame(draw);
+  if (!stale) return;
+  stale = false;
+  const { settings } = controls;
+  $("empty").hidden = Boolean(store.latest);
+  views[settings.view].draw(store, settings);
+  controls.draw();
+  player.draw();
+  hover.draw(store);
+  link.draw(store);
+  concepts.draw(store);
+  contacts($("contacts"), $("contact-count"), store);
+  ranges.draw($("ranges"), store, settings);
+  strips.draw($("strips"), store);
+  log();
+}
+requestAnimationFrame(draw);
+
+window.addEventListener("resize", changed);
+window.addEventListener("keydown", (event) => {
+  const { target, ctrlKey, altKey, metaKey, key } = event;
+  const typed = target.matches("input") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
+  if (typed || ctrlKey || altKey || metaKey) return;
+  if (key === "s") save.toggle();
+  else if (!player.key(event) && !controls.key(event)) return;
+  event.preventDefault();
+});
+
+// For tests and the curious.
+window.taxel = { store, settings: controls.settings, hover };

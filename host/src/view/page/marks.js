@@ -1,0 +1,98 @@
+// What is drawn over a panel: ellipses of contacts with id, axis and slip arrow, and local maxima. White with a dark halo, so
+// that it is seen on every colour of the scale.
+
+import { colour } from "./dom.js";
+
+/** Taxels a second below which a contact counts as still. */
+const STILL = 1.5;
+/** Seconds of way that an arrow shows. */
+const AHEAD = 0.25;
+
+/** Half axes, in taxels, of the ellipse with a contact's area and elongation. */
+export function halfAxes({ area, anisotropy }) {
+  const ratio = Math.sqrt((1 - anisotropy) / (1 + anisotropy)) || 0.1;
+  const major = Math.sqrt(Math.max(area, 1) / Math.PI / Math.max(ratio, 0.1));
+  return [major, major * Math.max(ratio, 0.1)];
+}
+
+/** Strokes the path that `path` makes, first wide and dark, then narrow and light. */
+function stroke(context, width, path) {
+  context.beginPath();
+  path();
+  context.strokeStyle = colour("halo");
+  context.lineWidth = width + 2;
+  context.stroke();
+  context.strokeStyle = colour("mark");
+  context.lineWidth = width;
+  context.stroke();
+}
+
+/** A contact; `sx` and `sy` are the pixels of a taxel. */
+export function contact(context, touch, sx, sy) {
+  const [x, y] = [(touch.x + 0.5) * sx, (touch.y + 0.5) * sy];
+  const [major, minor] = halfAxes(touch);
+  const angle = touch.azimuth ?? 0;
+  const to = (along, across) => [
+    x + (along * Math.cos(angle) - across * Math.sin(angle)) * sx,
+    y + (along * Math.sin(angle) + across * Math.cos(angle)) * sy,
+  ];
+  stroke(context, 1.5, () => {
+    for (let step = 0; step <= 48; step += 1) {
+      const turn = (step / 48) * 2 * Math.PI;
+      context.lineTo(...to(major * Math.cos(turn), minor * Math.sin(turn)));
+    }
+  });
+  if (touch.azimuth !== null) {
+    stroke(context, 1, () => {
+      context.moveTo(...to(-major, 0));
+      context.lineTo(...to(major, 0));
+    });
+  }
+  if (Math.hypot(touch.vx, touch.vy) > STILL) arrow(context, touch, x, y, sx, sy);
+  label(context, String(touch.id), x, y);
+}
+
+/** Where it goes; wide where it slips. */
+function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
+  const [dx, dy] = [vx * AHEAD * sx, vy * AHEAD * sy];
+  const length = Math.max(18, Math.hypot(dx, dy));
+  const angle = Math.atan2(dy, dx);
+  const [ex, ey] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
+  const barb = (turn) => [ex - 8 * Math.cos(angle + turn), ey - 8 * Math.sin(angle + turn)];
+  stroke(context, slip ? 3.5 : 1.5, () => {
+    context.moveTo(x, y);
+    context.lineTo(ex, ey);
+    context.moveTo(...barb(0.5));
+    context.lineTo(ex, ey);
+    context.lineTo(...barb(-0.5));
+  });
+}
+
+/** Text with a halo, centred. */
+export function label(context, text, x, y, size = 13) {
+  context.font = `650 ${size}px system-ui, sans-serif`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.lineJoin = "round";
+  context.strokeStyle = colour("halo");
+  context.lineWidth = 3.5;
+  context.strokeText(text, x, y);
+  context.fillStyle = colour("mark");
+  context.fillText(text, x, y);
+}
+
+/** A local maximum. */
+export function peak(context, { row, column }, sx, sy) {
+  const [x, y] = [(column + 0.5) * sx, (row + 0.5) * sy];
+  stroke(context, 1.2, () => {
+    context.moveTo(x - 4, y);
+    context.lineTo(x + 4, y);
+    context.moveTo(x, y - 4);
+    context.lineTo(x, y + 4);
+  });
+}
+
+/** The taxel under the pointer. */
+export function frame(context, row, column, sx, sy) {
+  stroke(context, 1.5, () => context.rect(column * sx, row * sy, sx, sy));
+}

@@ -1,0 +1,102 @@
+// Panels in two dimensions.
+
+import { fit, make, say } from "./dom.js";
+import { BANDS } from "./colours.js";
+import { force } from "./units.js";
+import { Raster } from "./raster.js";
+import { trace } from "./contours.js";
+import { maxima } from "./peaks.js";
+import * as marks from "./marks.js";
+
+const GAP = 8;
+const CAPTION = 20;
+
+/** The view; `hover` is told which taxel is under the pointer. */
+export class Panels {
+  constructor(root, hover) {
+    this.root = root;
+    this.hover = hover;
+    this.key = "";
+    this.raster = new Raster();
+  }
+
+  draw(store, settings) {
+    const { garment } = store;
+    if (!garment) return;
+    this.build(garment);
+    const shown = store.shown();
+    if (!shown) return;
+    const image = settings.held ? store.held : shown.image;
+    const { contacts } = shown.head.frame;
+    for (const { panel, canvas, note } of this.parts) {
+      const own = contacts.filter((touch) => touch.panel === panel.index);
+      this.panel(canvas, panel, image, settings.held ? [] : own, garment, settings);
+      const total = own.reduce((sum, touch) => sum + touch.total, 0);
+      say(note, settings.held ? "highest since cleared" : own.length ? force(garment, total) : "");
+    }
+  }
+
+  /** A figure for each panel, as large as all of them fit. */
+  build(garment) {
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const key = `${garment.key} ${width} ${height}`;
+    if (key === this.key || !width || !height) return;
+    this.key = key;
+    const scale = bestScale(garment.panels, width, height);
+    this.parts = garment.panels.map((panel) => {
+      const canvas = make("canvas", {
+        tabindex: 0,
+        role: "img",
+        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns`,
+        style: `width:${panel.columns * panel.mm[0] * scale}px;height:${panel.rows * panel.mm[1] * scale}px`,
+      });
+      this.hover.watch(canvas, panel);
+      return { panel, canvas, note: make("span", { class: "quiet" }) };
+    });
+    const figure = ({ panel, canvas, note }) =>
+      make("figure", { style: `width:${panel.columns * panel.mm[0] * scale}px` },
+        make("figcaption", {}, make("b", {}, panel.name), note), canvas);
+    this.root.replaceChildren(...this.parts.map(figure));
+  }
+
+  panel(canvas, panel, image, contacts, garment, settings) {
+    const context = fit(canvas);
+    if (!context) return;
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const [sx, sy] = [width / panel.columns, height / panel.rows];
+    const { top, smooth } = settings;
+    context.clearRect(0, 0, width, height);
+    context.imageSmoothingEnabled = smooth;
+    context.drawImage(this.raster.paint(image, panel, { top, smooth, absent: garment.absent }), 0, 0, width, height);
+    if (settings.contours) contours(context, image, panel, top, sx, sy);
+    if (settings.peaks) for (const peak of maxima(image, panel, garment.low)) marks.peak(context, peak, sx, sy);
+    if (settings.contacts) for (const touch of contacts) marks.contact(context, touch, sx, sy);
+    const { place } = this.hover;
+    if (place?.panel.index === panel.index) marks.frame(context, place.row, place.column, sx, sy);
+  }
+}
+
+/** The most pixels of a millimetre with which all panels fit, in as many rows as are best. */
+function bestScale(panels, width, height) {
+  let best = 0;
+  for (let across = 1; across <= panels.length; across += 1) {
+    const down = Math.ceil(panels.length / across);
+    const widest = Math.max(...panels.map((panel) => panel.columns * panel.mm[0]));
+    const tallest = Math.max(...panels.map((panel) => panel.rows * panel.mm[1]));
+    const room = [(width - (across - 1) * GAP) / across, (height - (down - 1) * GAP) / down - CAPTION];
+    best = Math.max(best, Math.min((room[0] - 1) / widest, (room[1] - 1) / tallest));
+  }
+  return best;
+}
+
+/** Between the bands of the scale. */
+function contours(context, image, panel, top, sx, sy) {
+  context.save();
+  context.scale(sx, sy);
+  context.beginPath();
+  for (let band = 1; band < BANDS; band += 1) trace(context, image, panel, (top * band) / BANDS);
+  context.restore();
+  context.strokeStyle = "rgb(255 255 255 / 70%)";
+  context.lineWidth = 1;
+  context.stroke();
+}

@@ -1,0 +1,88 @@
+// What is seen, as a file: a picture, this moment's numbers, or the bytes of the board's last half minute.
+
+import { $, colour, make } from "./dom.js";
+
+/** Space around a saved picture, pixels. */
+const MARGIN = 12;
+
+/** The menu. `context` has store and the name of the view. */
+export class Save {
+  constructor(context) {
+    const menu = $("savings");
+    const show = (open) => {
+      menu.hidden = !open;
+      $("save").setAttribute("aria-expanded", String(open));
+      if (open) menu.querySelector("button").focus();
+    };
+    this.toggle = () => show(menu.hidden);
+    $("save").addEventListener("click", this.toggle);
+    menu.addEventListener("keydown", ({ key }) => key === "Escape" && show(false));
+    menu.addEventListener("click", ({ target }) => {
+      show(false);
+      const kind = target.dataset.save;
+      if (kind === "png") picture(context.view()).then((url) => download(url, "taxel.png"));
+      if (kind === "json") download(moment(context.store), "taxel.json");
+      if (kind === "taxel") download("recording.taxel", "recording.taxel");
+    });
+  }
+}
+
+function download(href, name) {
+  make("a", { href, download: name }).click();
+  if (href.startsWith("blob:")) setTimeout(() => URL.revokeObjectURL(href), 10_000);
+}
+
+/** The frame, with the pressure of every taxel by panel and row, counts. */
+export function momentOf(store) {
+  const { garment } = store;
+  const { head, image } = store.shown();
+  const rows = ({ base, rows, columns }) =>
+    Array.from({ length: rows }, (_, row) => [...image.subarray(base + row * columns, base + (row + 1) * columns)]);
+  const panels = garment.panels.map((panel) => ({ name: panel.name, rows: rows(panel) }));
+  return { ...head.frame, garment: garment.garment, calibration: garment.calibration, unit: "counts", panels };
+}
+
+function moment(store) {
+  return URL.createObjectURL(new Blob([JSON.stringify(momentOf(store))], { type: "application/json" }));
+}
+
+/** A view as PNG. */
+async function picture(root) {
+  const plot = root.querySelector(".js-plotly-plot");
+  if (plot) {
+    const { clientWidth: width, clientHeight: height } = root;
+    return window.Plotly.toImage(plot, { format: "png", width, height, scale: 2 });
+  }
+  const { left, top, width, height } = root.getBoundingClientRect();
+  const ratio = window.devicePixelRatio || 1;
+  const canvas = make("canvas", { width: (width + 2 * MARGIN) * ratio, height: (height + 2 * MARGIN) * ratio });
+  const context = canvas.getContext("2d");
+  context.scale(ratio, ratio);
+  context.fillStyle = colour("card");
+  context.fillRect(0, 0, width + 2 * MARGIN, height + 2 * MARGIN);
+  context.translate(MARGIN, MARGIN);
+  for (const part of root.querySelectorAll("canvas, svg, figcaption b")) {
+    const box = part.getBoundingClientRect();
+    const place = [box.left - left, box.top - top];
+    if (part.tagName === "CANVAS") context.drawImage(part, ...place, box.width, box.height);
+    else if (part.tagName === "B") caption(context, part.textContent, place);
+    else context.drawImage(await drawing(part), ...place, box.width, box.height);
+  }
+  return canvas.toDataURL("image/png");
+}
+
+function caption(context, text, [x, y]) {
+  context.font = "600 12px system-ui, sans-serif";
+  context.textBaseline = "top";
+  context.fillStyle = colour("ink");
+  context.fillText(text, x, y + 2);
+}
+
+/** An SVG as an image: its colours are written out, since the style sheet stays behind. */
+async function drawing(svg) {
+  const text = new XMLSerializer().serializeToString(svg).replace(/var\(--(\w+)\)/g, (_, name) => colour(name));
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(text)}`;
+  await image.decode();
+  return image;
+}

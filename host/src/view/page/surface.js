@@ -1,0 +1,129 @@
+// Pressure as a surface in three dimensions, drawn by plotly.js, which is loaded when it is first looked at.
+
+import { make, colour } from "./dom.js";
+import { RAMP } from "./colours.js";
+import { maxima } from "./peaks.js";
+import { isPascal, pascalsOf } from "./units.js";
+
+/** Columns left free between two panels. */
+const GAP = 2;
+
+const COLOURS = RAMP.filter((_, step) => step % 15 === 0).map((rgb, at, all) => [at / (all.length - 1), `rgb(${rgb})`]);
+
+/** The view. */
+export class Surface {
+  constructor(root, changed) {
+    Object.assign(this, { root, changed, key: "", state: "absent" });
+  }
+
+  load() {
+    this.state = "loading";
+    const say = (text) => this.root.replaceChildren(make("p", { class: "empty", role: "status" }, text));
+    say("Loading …");
+    const failed = () => {
+      this.state = "failed";
+      say("This program was built without its feature \"surface\", or this browser cannot draw in three dimensions.");
+    };
+    const loaded = () => {
+      this.state = "ready";
+      this.changed();
+    };
+    document.head.append(make("script", { src: "plotly.js", load: loaded, error: failed }));
+  }
+
+  draw(store, settings) {
+    if (this.state === "absent") this.load();
+    const shown = store.shown();
+    if (this.state !== "ready" || !shown) return;
+    const { garment } = store;
+    const image = settings.held ? store.held : shown.image;
+    const unit = isPascal(garment) ? pascalsOf(garment) : 1;
+    const peaks = settings.peaks ? this.peaks(garment, image, shown, settings, unit) : { x: [], y: [], z: [], text: [] };
+    const grid = this.grid(garment, image, unit);
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const key = [garment.key, unit, settings.top, width, height, document.documentElement.dataset.theme].join(" ");
+    if (key !== this.key) {
+      this.key = key;
+      this.build(garment, grid, peaks, settings.top * unit, unit === 1 ? "counts" : "kPa");
+      return;
+    }
+    // The last picture has been drawn: what comes too fast is left out.
+    if (this.busy) return;
+    this.busy = true;
+    const { x, y, z, text } = peaks;
+    const data = { z: [grid.z, z], x: [grid.x, x], y: [grid.y, y], text: [null, text] };
+    window.Plotly.restyle(this.plot, data, [0, 1]).finally(() => (this.busy = false));
+  }
+
+  /** All panels beside each other, as one grid with gaps. */
+  grid({ panels, absent }, image, unit) {
+    const rows = Math.max(...panels.map((panel) => panel.rows));
+    const z = Array.from({ length: rows }, () => []);
+    for (const panel of panels) {
+      for (let row = 0; row < rows; row += 1) {
+        if (panel.index) for (let gap = 0; gap < GAP; gap += 1) z[row].push(null);
+        for (let column = 0; column < panel.columns; column += 1) {
+          const taxel = panel.base + row * panel.columns + column;
+          z[row].push(row < panel.rows && !absent[taxel] ? image[taxel] * unit : null);
+        }
+      }
+    }
+    return { z, x: z[0].map((_, at) => at), y: z.map((_, at) => at) };
+  }
+
+  /** Every local maximum; those of contacts bear the id. */
+  peaks({ panels, low }, image, shown, { held }, unit) {
+    const all = { x: [], y: [], z: [], text: [] };
+    let start = 0;
+    for (const panel of panels) {
+      for (const { row, column, value } of maxima(image, panel, low)) {
+        const of = (touch) => touch.panel === panel.index && touch.peak_row === row && touch.peak_column === column;
+        const touch = held ? null : shown.head.frame.contacts.find(of);
+        all.x.push(start + column);
+        all.y.push(row);
+        all.z.push(value * unit);
+        all.text.push(touch ? String(touch.id) : "");
+      }
+      start += panel.columns + GAP;
+    }
+    return all;
+  }
+
+  build({ panels }, grid, peaks, top, unit) {
+    this.plot ??= make("div");
+    if (this.plot.parentNode !== this.root) this.root.replaceChildren(this.plot);
+    let start = -GAP;
+    const middles = panels.map((panel) => {
+      start += GAP;
+      const middle = start + (panel.columns - 1) / 2;
+      start += panel.columns;
+      return middle;
+    });
+    const [ink, line] = [colour("ink"), colour("line")];
+    const axis = { color: ink, gridcolor: line, zerolinecolor: line, showspikes: false };
+    const rows = grid.y.length;
+    const surface = {
+      type: "surface", ...grid, cmin: 0, cmax: top, colorscale: COLOURS, showscale: false, hoverinfo: "none",
+      lighting: { ambient: 0.75, diffuse: 0.5, specular: 0.08, roughness: 0.8 },
+      contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } },
+    };
+    const marks = {
+      type: "scatter3d", mode: "markers+text", ...peaks, hoverinfo: "none", textfont: { color: ink, size: 15 },
+      marker: { symbol: "diamond", size: 4, color: ink, line: { color: colour("card"), width: 1 } },
+    };
+    const layout = {
+      margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "rgba(0,0,0,0)", showlegend: false, uirevision: "keep",
+      font: { family: "system-ui, sans-serif", size: 12 },
+      scene: {
+        uirevision: "keep",
+        xaxis: { ...axis, title: { text: "" }, tickvals: middles, ticktext: panels.map((panel) => panel.name) },
+        yaxis: { ...axis, title: { text: "row" }, range: [rows - 0.5, -0.5] },
+        zaxis: { ...axis, title: { text: unit }, range: [0, top] },
+        aspectmode: "manual", aspectratio: { x: 1.7, y: 0.95, z: 0.5 },
+        camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
+      },
+    };
+    const config = { displayModeBar: false, responsive: false, doubleClick: "reset" };
+    window.Plotly.react(this.plot, [surface, marks], layout, config);
+  }
+}

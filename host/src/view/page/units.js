@@ -1,0 +1,43 @@
+// Counts as people read them. Only where the program knows how many counts a newton gives are there newtons and pascals.
+
+const unit = { kpa: true };
+
+/** Pressures in kPa (where they can be) or in counts. */
+export const toggleUnit = () => (unit.kpa = !unit.kpa);
+
+/** Whether pressures are shown in kPa: the scale must be the same on all panels. */
+export function isPascal(garment) {
+  const areas = new Set(garment.panels.map((panel) => panel.mm[0] * panel.mm[1]));
+  const known = garment.panels.every((panel) => panel.known);
+  return unit.kpa && known && areas.size === 1 && garment.counts_per_newton > 0;
+}
+
+/** kPa of one count, where isPascal. */
+export function pascalsOf(garment) {
+  const [x, y] = garment.panels[0].mm;
+  return 1000 / garment.counts_per_newton / (x * y);
+}
+
+const digits = (value) => (value >= 100 ? value.toFixed(0) : value.toFixed(1));
+
+/** The pressure of a taxel. */
+export function pressure(garment, counts) {
+  return isPascal(garment) ? `${digits(counts * pascalsOf(garment))} kPa` : `${Math.round(counts)} counts`;
+}
+
+/** The force of a contact. */
+export function force(garment, counts) {
+  return garment.counts_per_newton > 0
+    ? `${digits(counts / garment.counts_per_newton)} N`
+    : `${Math.round(counts)} counts`;
+}
+
+/** What the numbers are, and how sure they are. */
+export function provenance(garment) {
+  if (garment.calibration) return `calibrated: ${garment.calibration}`;
+  if (garment.counts_per_newton > 0) return "simulated gain, not calibrated";
+  return "counts: not calibrated";
+}
+
+/** Seconds of the board. */
+export const seconds = (us) => (us / 1e6).toFixed(2);

@@ -1,0 +1,34 @@
+// Pictures of the page: node picture.mjs [--source SOURCE] [--view VIEW] [--dark] [--size WxH] [--wait S] FILE.png
+
+import { writeFile } from "node:fs/promises";
+import { parseArgs } from "node:util";
+import { Chromium } from "./chromium.mjs";
+import { View } from "./program.mjs";
+
+const { values, positionals } = parseArgs({
+  allowPositionals: true,
+  options: {
+    source: { type: "string", default: "sim:pat" },
+    view: { type: "string", default: "panels" },
+    dark: { type: "boolean", default: false },
+    size: { type: "string", default: "1280x800" },
+    /** An expression of the page that is waited for. */
+    until: { type: "string", default: "true" },
+    keys: { type: "string", default: "" },
+  },
+});
+const [width, height] = values.size.split("x").map(Number);
+const program = await View.start("--source", values.source);
+const browser = await Chromium.start();
+try {
+  await browser.open(program.url, { width, height, dark: values.dark, mobile: width < 600 });
+  await browser.value(`document.getElementById("tab-${values.view}").click()`);
+  for (const key of values.keys) await browser.key(key);
+  await browser.until(values.until, 40);
+  await browser.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))");
+  await writeFile(positionals[0], await browser.picture());
+  for (const complaint of browser.complaints) console.error(complaint);
+} finally {
+  await browser.stop();
+  await program.stop();
+}
