@@ -1,14 +1,22 @@
 //! `cargo xtask campaign`: runs that take longer than a check may, each of which prints a table.
 
-use crate::{paths, targets};
+use crate::{browser, paths, targets};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// The runs: a test target, whether it runs the firmware image, and what of it takes longer where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, bool, &str); 3] = [
-    ("emulator_usb", true, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
-    ("emulator_latency", true, "onset and reflex: 500 touches of one to five contacts (emulated)"),
-    ("setup", false, "setup by touch: 1,000 random wirings (simulated)"),
+/// What a run needs besides its test target.
+enum Needs {
+    Image,
+    Nothing,
+    Browser,
+}
+
+/// The runs: a test target, what it needs, and what of it takes longer where TAXEL_CAMPAIGN is set.
+const RUNS: [(&str, Needs, &str); 4] = [
+    ("emulator_usb", Needs::Image, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
+    ("emulator_latency", Needs::Image, "onset and reflex: 500 touches of one to five contacts (emulated)"),
+    ("setup", Needs::Nothing, "setup by touch: 1,000 random wirings (simulated)"),
+    ("stream.test.mjs", Needs::Browser, "taxel view: ten minutes of five contacts at full speed (simulated)"),
 ];
 
 /// Runs all of them; `--write`: and writes what they print.
@@ -23,15 +31,15 @@ pub fn run(args: &[String]) -> Result<(), String> {
     let mut table = String::from(
         "Long runs on the emulated and the simulated board; `cargo xtask campaign --write` writes this.\n",
     );
-    for (target, image, what) in RUNS {
+    for (target, needs, what) in RUNS {
         println!("{what} ...");
         let log = logs.join(format!("campaign-{target}.log"));
         let _ = std::fs::remove_file(&log);
         let longer = [("TAXEL_CAMPAIGN", "1")];
-        let end = if image {
-            targets::measured(target, &log, &longer)?
-        } else {
-            targets::printed(target, &log, &longer)
+        let end = match needs {
+            Needs::Image => targets::measured(target, &log, &longer)?,
+            Needs::Nothing => targets::printed(target, &log, &longer),
+            Needs::Browser => browser::measured(&[target], &log, &longer)?,
         };
         let lines = end.map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
         let said = lines.iter().filter(|line| !line.starts_with("test ") && !line.is_empty());

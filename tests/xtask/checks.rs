@@ -3,7 +3,7 @@
 use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
-use crate::{firmware, install, locks, no_panic, paths, process, sizes, targets};
+use crate::{browser, firmware, install, locks, no_panic, paths, process, sizes, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -23,6 +23,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("firmware-clippy", firmware_clippy),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
+    ("view", browser::check),
     ("cycles", targets::cycles),
     ("emulator", targets::emulator),
     ("emulator-stack", targets::emulator_stack),

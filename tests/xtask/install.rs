@@ -1,13 +1,17 @@
 //! What is missing on the machine is installed where that is allowed, and otherwise named.
 
 use crate::process;
+use std::path::Path;
 use std::process::Command;
 
 /// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's source.
 pub const CROSS: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy", "lld"];
 
-/// What the emulator needs.
+/// What the emulator and the browser need.
 pub const NODE: &[&str] = &["nodejs", "npm"];
+
+/// What shows the page of `taxel view`.
+pub const BROWSER: &[&str] = &["chromium"];
 
 /// Installs Debian packages, or says what to type.
 pub fn packages(names: &[&str]) -> Result<(), String> {
@@ -38,16 +42,30 @@ fn is_root() -> bool {
 
 /// Node and the emulator's packages.
 pub fn emulator() -> Result<(), String> {
+    node(&crate::paths::emulator(), "rp2040js")
+}
+
+/// A browser without a screen, and Node with what drives it.
+pub fn browser() -> Result<(), String> {
+    if !process::exists("chromium") {
+        packages(BROWSER)?;
+    }
+    node(&crate::paths::browser(), "ws")
+}
+
+/// Node, and the packages of a folder, of which `package` is one.
+fn node(folder: &Path, package: &str) -> Result<(), String> {
     if !process::exists("node") || !process::exists("npm") {
         packages(NODE)?;
     }
-    let folder = crate::paths::emulator();
-    if folder.join("node_modules/rp2040js").exists() {
+    if folder.join("node_modules").join(package).exists() {
         return Ok(());
     }
     let mut npm = Command::new("npm");
     npm.args(["ci", "--no-audit", "--no-fund"]).current_dir(folder);
-    process::output(&mut npm)
-        .map(|_| ())
-        .ok_or(format!("`{}` in tests/emulator failed", process::shown(&npm)))
+    process::output(&mut npm).map(|_| ()).ok_or(format!(
+        "`{}` in {} failed",
+        process::shown(&npm),
+        folder.display()
+    ))
 }

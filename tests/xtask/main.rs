@@ -1,5 +1,6 @@
 //! `cargo xtask`: what cargo alone does not do. Runs without dependencies, so that it is built in a second.
 
+mod browser;
 mod campaign;
 mod checks;
 mod counts;

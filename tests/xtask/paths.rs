@@ -17,6 +17,11 @@ pub fn emulator() -> PathBuf {
     root().join("tests/emulator")
 }
 
+/// What drives the page of `taxel view` in a browser.
+pub fn browser() -> PathBuf {
+    root().join("tests/browser")
+}
+
 /// Cargo's target folder.
 pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)

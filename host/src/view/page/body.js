@@ -62,7 +62,8 @@ export class Body {
       context.strokeStyle = colour("quiet");
       context.lineWidth = 1;
       context.strokeRect(...box);
-      for (const touch of shown.head.frame.contacts.filter((c) => c.panel === index)) {
+      const touches = settings.contacts && !settings.held ? shown.head.frame.contacts : [];
+      for (const touch of touches.filter((c) => c.panel === index)) {
         const at = [left + ((touch.x + 0.5) / panel.columns) * box[2], upper + ((touch.y + 0.5) / panel.rows) * box[3]];
         context.beginPath();
         context.arc(...at, 11, 0, 2 * Math.PI);

@@ -17,7 +17,7 @@ export function contacts(table, count, store) {
     const speed = Math.hypot(touch.vx * mm[0], touch.vy * mm[1]);
     const cells = [
       String(touch.id), touch.region, touch.shape, force(store.garment, touch.total), String(touch.area),
-      `${speed.toFixed(0)} mm/s${touch.slip ? " slips" : ""}`,
+      `${touch.slip ? "slips " : ""}${speed.toFixed(0)}`,
     ];
     cells.forEach((text, column) => say(row.cells[column] ?? row.insertCell(), text));
   });

@@ -22,6 +22,8 @@ const KEYS = [
 const STORED = "taxel-view";
 const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
+/** Width below which the scale has no label in its middle. */
+const ROOM = 280;
 
 /** The settings, kept by the browser, and whatever changes them. */
 export class Controls {
@@ -114,7 +116,8 @@ export class Controls {
     context.font = "11px system-ui, sans-serif";
     context.textBaseline = "bottom";
     context.fillStyle = ink;
-    for (const [share, align] of [[0, "left"], [0.5, "center"], [1, "right"]]) {
+    const labels = [[0, "left"], [0.5, "center"], [1, "right"]];
+    for (const [share, align] of width < ROOM ? [labels[0], labels[2]] : labels) {
       context.textAlign = align;
       const text = pressure(garment, this.settings.top * share);
       context.fillText(share === 1 ? `${text} and more` : text, width * share, 28);

@@ -9,7 +9,7 @@ const CLASSES = {
 };
 /** Ill taxels of the list at most; the map shows all. */
 const LISTED = 200;
-const [GAP, CAPTION] = [14, 18];
+const [GAP, CAPTION, LEGEND] = [14, 18, 30];
 
 /** The view. */
 export class Health {
@@ -36,7 +36,7 @@ export class Health {
     const ill = new Map((store.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
     const wide = panels.reduce((sum, panel) => sum + panel.columns * panel.mm[0], 0);
     const tall = Math.max(...panels.map((panel) => panel.rows * panel.mm[1]));
-    const scale = Math.min((width - GAP * (panels.length - 1)) / wide, (height - CAPTION) / tall);
+    const scale = Math.min((width - GAP * (panels.length - 1)) / wide, (height - CAPTION - LEGEND) / tall);
     context.clearRect(0, 0, width, height);
     let left = 0;
     for (const panel of panels) {
@@ -54,6 +54,20 @@ export class Health {
       }
       left += panel.columns * sx + GAP;
     }
+    legend(context, CAPTION + tall * scale + 12);
+  }
+}
+
+/** Letter and name of each class. */
+function legend(context, y) {
+  let x = 0;
+  for (const health of Object.keys(CLASSES)) {
+    cell(context, health, x, y, 15, 15);
+    context.font = "12px system-ui, sans-serif";
+    context.textAlign = "left";
+    context.fillStyle = colour("ink");
+    context.fillText(health, x + 20, y + 8);
+    x += 78;
   }
 }
 

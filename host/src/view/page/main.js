@@ -85,4 +85,4 @@ window.addEventListener("keydown", (event) => {
 });
 
 // For tests and the curious.
-window.taxel = { store, settings: controls.settings, hover };
+window.taxel = { store, settings: controls.settings, changed };

@@ -11,6 +11,7 @@ const SECOND = 60;
 export class Player {
   constructor(store, changed) {
     Object.assign(this, { store, changed });
+    $("seek").min = -KEPT_S;
     const on = (id, act) => $(id).addEventListener("click", (event) => this.do(() => act(event)));
     on("pause", () => store.pause());
     on("back", (event) => store.step(event.shiftKey ? -SECOND : -1));

@@ -2,8 +2,8 @@
 
 import { garmentOf } from "./garment.js";
 
-/** Seconds that can be stepped back. */
-export const KEPT_S = 30;
+/** Seconds that can be stepped back: 30, or as the address says (`/?keep=5`). */
+export const KEPT_S = Math.max(1, Math.min(120, Number(new URLSearchParams(location.search).get("keep")) || 30));
 /** Images a second that come at most. */
 const RATE = 62;
 

@@ -34,13 +34,13 @@ export function draw(canvas, store) {
 /** A line for every five seconds. */
 function lines(context, width, height) {
   context.textBaseline = "bottom";
-  for (let second = 0; second <= KEPT_S; second += 5) {
+  for (let second = 0; second <= KEPT_S; second += KEPT_S / 6) {
     const at = Math.round(width * (1 - second / KEPT_S)) - 0.5;
     context.fillStyle = colour("grid");
     context.fillRect(at, 0, 1, height - SECONDS);
     context.fillStyle = colour("quiet");
     context.textAlign = second === 0 ? "right" : second === KEPT_S ? "left" : "center";
-    context.fillText(second ? `−${second} s` : "now", at, height);
+    context.fillText(second ? `−${Number(second.toFixed(1))} s` : "now", at, height);
   }
 }
 

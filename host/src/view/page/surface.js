@@ -10,6 +10,14 @@ const GAP = 2;
 
 const COLOURS = RAMP.filter((_, step) => step % 15 === 0).map((rgb, at, all) => [at / (all.length - 1), `rgb(${rgb})`]);
 
+/** The scale's end doubled until all that was felt lies below it: the height jumps seldom. */
+function heightOf(held, top) {
+  const greatest = held.reduce((most, value) => Math.max(most, value), 0);
+  let height = top;
+  while (height < greatest) height *= 2;
+  return height;
+}
+
 /** The view. */
 export class Surface {
   constructor(root, changed) {
@@ -41,10 +49,13 @@ export class Surface {
     const peaks = settings.peaks ? this.peaks(garment, image, shown, settings, unit) : { x: [], y: [], z: [], text: [] };
     const grid = this.grid(garment, image, unit);
     const { clientWidth: width, clientHeight: height } = this.root;
-    const key = [garment.key, unit, settings.top, width, height, document.documentElement.dataset.theme].join(" ");
+    const highest = heightOf(store.held, settings.top);
+    const { theme } = document.documentElement.dataset;
+    const key = [garment.key, unit, settings.top, highest, width, height, theme].join(" ");
     if (key !== this.key) {
       this.key = key;
-      this.build(garment, grid, peaks, settings.top * unit, unit === 1 ? "counts" : "kPa");
+      const scale = { top: settings.top * unit, highest: highest * unit, unit: isPascal(garment) ? "kPa" : "counts" };
+      this.build(garment, grid, peaks, scale);
       return;
     }
     // The last picture has been drawn: what comes too fast is left out.
@@ -89,7 +100,7 @@ export class Surface {
     return all;
   }
 
-  build({ panels }, grid, peaks, top, unit) {
+  build({ panels }, grid, peaks, { top, highest, unit }) {
     this.plot ??= make("div");
     if (this.plot.parentNode !== this.root) this.root.replaceChildren(this.plot);
     let start = -GAP;
@@ -118,7 +129,7 @@ export class Surface {
         uirevision: "keep",
         xaxis: { ...axis, title: { text: "" }, tickvals: middles, ticktext: panels.map((panel) => panel.name) },
         yaxis: { ...axis, title: { text: "row" }, range: [rows - 0.5, -0.5] },
-        zaxis: { ...axis, title: { text: unit }, range: [0, top] },
+        zaxis: { ...axis, title: { text: unit }, range: [0, highest] },
         aspectmode: "manual", aspectratio: { x: 1.7, y: 0.95, z: 0.5 },
         camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
       },

@@ -1,0 +1,80 @@
+// The stream at full speed: no memory and no queue grows, and whoever does not read holds up nobody.
+
+import { test } from "node:test";
+import assert from "node:assert/strict";
+import { connect } from "node:net";
+import { setTimeout as sleep } from "node:timers/promises";
+import { page } from "./page.fixture.mjs";
+
+// Seconds that are watched. The first have passed when everything that is kept for a while is full.
+const [KEPT, BEFORE, WATCHED] = process.env.TAXEL_CAMPAIGN ? [30, 35, 600] : [5, 6, 20];
+const MB = 1 << 20;
+const both = page("sim:five", { search: `?keep=${KEPT}` });
+
+/** What there is now; the page's memory without what is waiting to be collected. */
+async function state() {
+  const { browser, view } = both;
+  await browser.send("HeapProfiler.collectGarbage");
+  const { usedSize, embedderHeapUsedSize, backingStorageSize } = await browser.send("Runtime.getHeapUsage");
+  const recording = await (await fetch(`${view.url}recording.taxel`)).arrayBuffer();
+  const link = await browser.value("taxel.store.states.link");
+  const head = await browser.value("taxel.store.latest.head");
+  const count = await browser.value("taxel.store.count");
+  return { heap: usedSize + embedderHeapUsedSize + backingStorageSize, host: await view.memory(), kept: recording.byteLength, link, head, count };
+}
+
+test("nothing grows at 195 frames a second, while three pages do not read", async (t) => {
+  const { browser, view } = both;
+  // Fetching the recording takes memory once.
+  await state();
+  await sleep(BEFORE * 1000);
+  const before = await state();
+  const sockets = await Promise.all(Array.from({ length: 3 }, () => dead(view)));
+  await browser.until("taxel.store.states.link.pages === 4");
+  await sleep(WATCHED * 1000);
+  const after = await state();
+  sockets.forEach((socket) => socket.destroy());
+  const frames = after.link.frames - before.link.frames;
+  const seconds = (after.head.frame.time_us - before.head.frame.time_us) / 1e6;
+  const images = after.count - before.count;
+  const replaced = after.head.replaced - before.head.replaced;
+  t.diagnostic(`view: ${(frames / seconds).toFixed(1)} frames/s of the board, ${(images / seconds).toFixed(1)} images/s to the page over ${seconds.toFixed(0)} s`);
+  const mb = (bytes) => (bytes / MB).toFixed(1);
+  t.diagnostic(`view: memory of the page ${mb(before.heap)} to ${mb(after.heap)} MB, of the host ${mb(before.host)} to ${mb(after.host)} MB (its recording ${mb(before.kept)} to ${mb(after.kept)} MB)`);
+  t.diagnostic(`view: ${images} images shown and ${replaced} replaced by newer ones, of ${frames} frames; beside 3 pages that do not read`);
+  assert.equal(after.link.lost, 0);
+  assert.equal(after.head.missed, 0);
+  // Each frame was shown or replaced: what is neither is under way, and does not get more. A quarter of a second lies between
+  // two counts of the link.
+  const waiting = Math.abs(frames - images - replaced);
+  assert.ok(waiting < 250, `${waiting} of ${frames} frames wait`);
+  assert.ok(after.heap - before.heap < 4 * MB, `the page grew by ${mb(after.heap - before.heap)} MB`);
+  // What is kept lies in pieces with some room, and each page that does not read has an image that waits.
+  const grown = after.host - before.host - 2 * Math.max(0, after.kept - before.kept);
+  assert.ok(grown < 8 * MB, `the host grew by ${mb(grown)} MB besides what it keeps`);
+  // Their writers stood still until their time was over, which held up nobody.
+  await browser.until("taxel.store.states.link.pages === 1");
+});
+
+/** A page that asks for everything and reads nothing. */
+async function dead({ port }) {
+  const socket = connect(port, "127.0.0.1");
+  await new Promise((done, fail) => socket.once("connect", done).once("error", fail));
+  socket.on("error", () => {});
+  socket.pause();
+  socket.write(`GET /socket HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  return socket;
+}
+
+test("two pages show the same frames", async () => {
+  const { browser, view } = both;
+  const { targetId } = await browser.send("Target.createTarget", { url: view.url });
+  await browser.until("taxel.store.states.link.pages === 2");
+  const count = await browser.value("taxel.store.count");
+  await browser.until(`taxel.store.count > ${count + 60}`);
+  await browser.send("Target.closeTarget", { targetId });
+  await browser.until("taxel.store.states.link.pages === 1");
+});
+
+test("the page has complained of nothing", () => assert.deepEqual(both.browser.complaints, []));
