@@ -1,4 +1,4 @@
-// Pictures of the page: node picture.mjs [--source SOURCE] [--view VIEW] [--dark] [--size WxH] [--wait S] FILE.png
+// Pictures of the page: node picture.mjs [--source SOURCE] [--view VIEW] [--dark] [--size WxH] [--until EXPRESSION] [--keys KEYS] FILE.png
 
 import { writeFile } from "node:fs/promises";
 import { parseArgs } from "node:util";
@@ -12,7 +12,7 @@ const { values, positionals } = parseArgs({
     view: { type: "string", default: "panels" },
     dark: { type: "boolean", default: false },
     size: { type: "string", default: "1280x800" },
-    /** An expression of the page that is waited for. */
+    // An expression of the page that is waited for.
     until: { type: "string", default: "true" },
     keys: { type: "string", default: "" },
   },

@@ -77,6 +77,21 @@ test("bands and strips are filled", async () => {
   assert.ok(pressed > 50);
 });
 
+test("every view can be saved as a picture", async () => {
+  const { browser } = both;
+  for (const view of ["panels", "surface", "body", "map", "health"]) {
+    await show(browser, view);
+    const size = await browser.value(`(async () => {
+      const { picture } = await import("./save.js");
+      const image = new Image();
+      image.src = await picture(document.getElementById("view-${view}"));
+      await image.decode();
+      return [image.width, image.height, image.src.length, image.src.slice(0, 22)];
+    })()`);
+    assert.ok(size[0] > 600 && size[1] > 300 && size[2] > 5000 && size[3] === "data:image/png;base64,", `${view}: ${size}`);
+  }
+});
+
 test("light and dark, and a telephone, fit", async () => {
   const { browser, view } = both;
   const back = () => browser.value("getComputedStyle(document.body).backgroundColor");

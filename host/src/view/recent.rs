@@ -30,14 +30,22 @@ pub struct Recent {
     begun: Vec<u8>,
     /// The message of the last `Hello`.
     hello: Vec<u8>,
+    /// The garment that it names.
+    garment: Vec<u8>,
     pieces: VecDeque<Piece>,
     held: usize,
 }
 
 impl Default for Recent {
     fn default() -> Self {
-        let pieces = VecDeque::new();
-        Recent { receiver: Box::default(), begun: Vec::new(), hello: Vec::new(), pieces, held: 0 }
+        Recent {
+            receiver: Box::default(),
+            begun: Vec::new(),
+            hello: Vec::new(),
+            garment: Vec::new(),
+            pieces: VecDeque::new(),
+            held: 0,
+        }
     }
 }
 
@@ -50,16 +58,20 @@ impl Recent {
                 self.begun.truncate(LONGEST);
                 continue;
             };
-            let frame = std::mem::take(&mut self.begun);
+            let frame = self.begun.clone();
+            self.begun.clear();
             let before = self.pieces.back().map_or(Micros(0), |piece| piece.time);
             let Some((seq, report)) = message.ok().and_then(read) else { continue };
             let (time, key) = match &report {
-                Report::Hello(_) => {
+                Report::Hello(hello) => {
+                    if self.garment != hello.garment {
+                        self.garment = hello.garment.to_vec();
+                        // What came before cannot be read any more.
+                        self.pieces.clear();
+                        self.held = 0;
+                    }
                     self.hello = postcard::to_allocvec(&report).unwrap_or_default();
-                    // Another garment may be worn: what came before cannot be read any more.
-                    self.pieces.clear();
-                    self.held = 0;
-                    continue;
+                    (before, false)
                 }
                 Report::Frame(image) => (image.time, image.base.is_none()),
                 _ => (before, false),

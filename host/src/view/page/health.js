@@ -67,7 +67,7 @@ function legend(context, y) {
     context.textAlign = "left";
     context.fillStyle = colour("ink");
     context.fillText(health, x + 20, y + 8);
-    x += 78;
+    x += 88;
   }
 }
 

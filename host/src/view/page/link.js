@@ -9,8 +9,8 @@ export class Link {
     Object.assign(this, { list, source, note, cells: new Map(), images: [], connected: false });
   }
 
-  /** An image has come. */
-  image() {
+  /** An image has been drawn. */
+  drawn() {
     const now = performance.now();
     this.images.push(now);
     while (this.images[0] < now - 1000) this.images.shift();
@@ -25,7 +25,7 @@ export class Link {
     if (garment) say(this.note, provenance(garment));
     if (!link) return;
     this.set("board", `${link.rate.toFixed(1)} /s`, "Images a second of the board");
-    this.set("page", `${this.images.length} /s`, "Images a second that this page takes; it takes the newest");
+    this.set("page", `${this.images.length} /s`, "Images a second that this page draws; it draws the newest");
     this.set("lost", String(link.lost), "Messages that the board sent and that did not come", link.lost > 0);
     this.set("thinned", String(link.thinned), "Images that the board left out, because the line had no room");
     const missed = latest?.head.missed ?? 0;

@@ -27,10 +27,7 @@ const change = (act) => (...what) => {
 };
 
 const socket = connect({
-  image: change((message) => {
-    store.image(message);
-    link.image();
-  }),
+  image: change((message) => store.image(message)),
   line: change((line) => store.line(line)),
   connected: change((connected) => (link.connected = connected)),
 });
@@ -48,7 +45,7 @@ const views = {
 };
 const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
 
-let told = null;
+let [told, drawn] = [null, null];
 function log() {
   if (told === store.log[0] && $("log").childElementCount) return;
   told = store.log[0];
@@ -60,6 +57,8 @@ function draw() {
   if (!stale) return;
   stale = false;
   const { settings } = controls;
+  if (store.latest !== drawn) link.drawn();
+  drawn = store.latest;
   $("empty").hidden = Boolean(store.latest);
   views[settings.view].draw(store, settings);
   controls.draw();

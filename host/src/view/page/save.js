@@ -46,8 +46,8 @@ function moment(store) {
   return URL.createObjectURL(new Blob([JSON.stringify(momentOf(store))], { type: "application/json" }));
 }
 
-/** A view as PNG. */
-async function picture(root) {
+/** A view as PNG, in a URL. */
+export async function picture(root) {
   const plot = root.querySelector(".js-plotly-plot");
   if (plot) {
     const { clientWidth: width, clientHeight: height } = root;

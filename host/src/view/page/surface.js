@@ -10,12 +10,10 @@ const GAP = 2;
 
 const COLOURS = RAMP.filter((_, step) => step % 15 === 0).map((rgb, at, all) => [at / (all.length - 1), `rgb(${rgb})`]);
 
-/** The scale's end doubled until all that was felt lies below it: the height jumps seldom. */
+/** As many times the scale's end as all that was felt needs: the height jumps seldom. */
 function heightOf(held, top) {
-  const greatest = held.reduce((most, value) => Math.max(most, value), 0);
-  let height = top;
-  while (height < greatest) height *= 2;
-  return height;
+  const greatest = held.reduce((most, value) => Math.max(most, value), 1);
+  return top * Math.ceil(greatest / top);
 }
 
 /** The view. */
@@ -130,7 +128,7 @@ export class Surface {
         xaxis: { ...axis, title: { text: "" }, tickvals: middles, ticktext: panels.map((panel) => panel.name) },
         yaxis: { ...axis, title: { text: "row" }, range: [rows - 0.5, -0.5] },
         zaxis: { ...axis, title: { text: unit }, range: [0, highest] },
-        aspectmode: "manual", aspectratio: { x: 1.7, y: 0.95, z: 0.5 },
+        aspectmode: "manual", aspectratio: { x: 1.7, y: 0.95, z: 0.6 },
         camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
       },
     };
