@@ -10,8 +10,16 @@ import WebSocket from "ws";
 const PROGRAM = process.env.TAXEL_CHROMIUM ?? "chromium";
 // WebGL by software; no sandbox, because checks may run as root.
 const OPTIONS = [
-  "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-  "--remote-debugging-port=0", "--hide-scrollbars", "--no-first-run", "--disable-extensions", "--enable-precise-memory-info",
+  "--headless=new",
+  "--no-sandbox",
+  "--disable-dev-shm-usage",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--remote-debugging-port=0",
+  "--hide-scrollbars",
+  "--no-first-run",
+  "--disable-extensions",
+  "--enable-precise-memory-info",
   "--js-flags=--expose-gc",
 ];
 const STARTS_MS = 30_000;
@@ -25,7 +33,9 @@ export class Chromium {
     const failed = new Promise((_, fail) => process.once("error", fail));
     const port = await Promise.race([portOf(folder), failed]);
     const pages = await (await fetch(`http://127.0.0.1:${port}/json/list`)).json();
-    const socket = new WebSocket(pages.find(({ type }) => type === "page").webSocketDebuggerUrl, { maxPayload: 1 << 28 });
+    const socket = new WebSocket(pages.find(({ type }) => type === "page").webSocketDebuggerUrl, {
+      maxPayload: 1 << 28,
+    });
     await new Promise((open, fail) => socket.once("open", open).once("error", fail));
     const browser = new Chromium(process, folder, socket);
     await Promise.all(["Page", "Runtime", "Log"].map((domain) => browser.send(`${domain}.enable`)));
@@ -44,7 +54,8 @@ export class Chromium {
       return error ? fail(new Error(error.message)) : done(result);
     }
     if (method === "Runtime.exceptionThrown") this.complaints.push(params.exceptionDetails.exception?.description);
-    if (method === "Log.entryAdded" && params.entry.level === "error") this.complaints.push(`${params.entry.text} ${params.entry.url}`);
+    if (method === "Log.entryAdded" && params.entry.level === "error")
+      this.complaints.push(`${params.entry.text} ${params.entry.url}`);
   }
 
   /** A command of the protocol. */
@@ -57,14 +68,20 @@ export class Chromium {
   /** Shows a page of that size. */
   async open(url, { width = 1280, height = 800, dark = false, mobile = false } = {}) {
     await this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile });
-    await this.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }] });
+    await this.send("Emulation.setEmulatedMedia", {
+      features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }],
+    });
     await this.send("Page.navigate", { url });
     await this.until("document.readyState === 'complete' && window.taxel?.store.latest");
   }
 
   /** The value of an expression in the page. */
   async value(expression) {
-    const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, returnByValue: true, awaitPromise: true });
+    const { result, exceptionDetails } = await this.send("Runtime.evaluate", {
+      expression,
+      returnByValue: true,
+      awaitPromise: true,
+    });
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   }
@@ -82,7 +99,13 @@ export class Chromium {
 
   /** Moves the pointer. */
   pointer(x, y, type = "mouseMoved") {
-    return this.send("Input.dispatchMouseEvent", { type, x, y, button: type === "mouseMoved" ? "none" : "left", clickCount: 1 });
+    return this.send("Input.dispatchMouseEvent", {
+      type,
+      x,
+      y,
+      button: type === "mouseMoved" ? "none" : "left",
+      clickCount: 1,
+    });
   }
 
   /** Presses a key. */

@@ -56,9 +56,11 @@ export async function screen(browser) {
     window.seen = context.getImageData(0, 0, image.width, image.height);
   })()`);
   return {
-    at: (x, y) => browser.value(`[...seen.data.slice((${Math.floor(y)} * seen.width + ${Math.floor(x)}) * 4).slice(0, 3)]`),
+    at: (x, y) =>
+      browser.value(`[...seen.data.slice((${Math.floor(y)} * seen.width + ${Math.floor(x)}) * 4).slice(0, 3)]`),
     /** Colours within a rectangle, each once. */
-    colours: ({ left, top, width, height }) => browser.value(`(() => {
+    colours: ({ left, top, width, height }) =>
+      browser.value(`(() => {
       const found = new Set();
       for (let y = ${Math.ceil(top)}; y < ${Math.floor(top + height)}; y += 1)
         for (let x = ${Math.ceil(left)}; x < ${Math.floor(left + width)}; x += 1)
@@ -70,4 +72,6 @@ export async function screen(browser) {
 
 /** Where an element is. */
 export const box = (browser, selector) =>
-  browser.value(`(({ left, top, width, height }) => ({ left, top, width, height }))(document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect())`);
+  browser.value(
+    `(({ left, top, width, height }) => ({ left, top, width, height }))(document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect())`,
+  );

@@ -8,7 +8,11 @@ import { box, drawn, page, pauseAtTouch, screen, show } from "./page.fixture.mjs
 const [PANEL, COLUMN, ROW] = [1, 7.5, 11];
 const [ROWS, COLUMNS] = [32, 16];
 // The ends of cividis (Nunez, Anderton, Renslow 2018), and the colour in its middle.
-const [LOW, MIDDLE, HIGH] = [[0, 34, 78], [125, 124, 120], [254, 232, 56]];
+const [LOW, MIDDLE, HIGH] = [
+  [0, 34, 78],
+  [125, 124, 120],
+  [254, 232, 56],
+];
 
 const both = page("sim:pat");
 const figure = (panel) => `#view-panels figure:nth-child(${panel + 1}) canvas`;
@@ -61,8 +65,13 @@ test("layers are drawn where the contact is, and interpolation makes steps small
   assert.ok((await count()) > 1.5 * raw);
   for (const layer of ["contours", "contacts", "peaks"]) {
     await show(browser, "panels", layer);
-    const white = (await (await screen(browser)).colours(await box(browser, figure(PANEL)))).map((c) => c.split(",").map(Number));
-    assert.ok(white.some((rgb) => Math.min(...rgb) > 150 && rgb[2] > 150), layer);
+    const white = (await (await screen(browser)).colours(await box(browser, figure(PANEL)))).map((c) =>
+      c.split(",").map(Number),
+    );
+    assert.ok(
+      white.some((rgb) => Math.min(...rgb) > 150 && rgb[2] > 150),
+      layer,
+    );
   }
 });
 
@@ -71,7 +80,8 @@ test("the pointer reads code, pressure, health and wiring of a taxel", async () 
   await browser.value("taxel.store.pause(false)");
   const { left, top, width, height } = await box(browser, figure(PANEL));
   await browser.pointer(left + (7.5 * width) / COLUMNS, top + (11.5 * height) / ROWS);
-  const cell = (name) => `[...document.querySelectorAll("#hover dt")].find((dt) => dt.textContent === "${name}")?.nextSibling.textContent`;
+  const cell = (name) =>
+    `[...document.querySelectorAll("#hover dt")].find((dt) => dt.textContent === "${name}")?.nextSibling.textContent`;
   await browser.until(`/^\\d+$/.test(${cell("raw code")})`);
   assert.equal(await browser.value('document.querySelector("#hover b").textContent'), "back, row 11, column 7");
   assert.equal(await browser.value(cell("health")), "good");

@@ -20,7 +20,14 @@ async function state() {
   const link = await browser.value("taxel.store.states.link");
   const head = await browser.value("taxel.store.latest.head");
   const count = await browser.value("taxel.store.count");
-  return { heap: usedSize + embedderHeapUsedSize + backingStorageSize, host: await view.memory(), kept: recording.byteLength, link, head, count };
+  return {
+    heap: usedSize + embedderHeapUsedSize + backingStorageSize,
+    host: await view.memory(),
+    kept: recording.byteLength,
+    link,
+    head,
+    count,
+  };
 }
 
 test("nothing grows at 195 frames a second, while three pages do not read", async (t) => {
@@ -38,10 +45,16 @@ test("nothing grows at 195 frames a second, while three pages do not read", asyn
   const seconds = (after.head.frame.time_us - before.head.frame.time_us) / 1e6;
   const images = after.count - before.count;
   const replaced = after.head.replaced - before.head.replaced;
-  t.diagnostic(`view: ${((after.head.frame.frame - before.head.frame.frame) / seconds).toFixed(1)} frames/s of the board, ${(images / seconds).toFixed(1)} images/s to the page over ${seconds.toFixed(0)} s`);
+  t.diagnostic(
+    `view: ${((after.head.frame.frame - before.head.frame.frame) / seconds).toFixed(1)} frames/s of the board, ${(images / seconds).toFixed(1)} images/s to the page over ${seconds.toFixed(0)} s`,
+  );
   const mb = (bytes) => (bytes / MB).toFixed(1);
-  t.diagnostic(`view: memory of the page ${mb(before.heap)} to ${mb(after.heap)} MB, of the host ${mb(before.host)} to ${mb(after.host)} MB (its recording ${mb(before.kept)} to ${mb(after.kept)} MB)`);
-  t.diagnostic(`view: ${images} images shown and ${replaced} replaced by newer ones, of ${frames} frames; beside 3 pages that do not read`);
+  t.diagnostic(
+    `view: memory of the page ${mb(before.heap)} to ${mb(after.heap)} MB, of the host ${mb(before.host)} to ${mb(after.host)} MB (its recording ${mb(before.kept)} to ${mb(after.kept)} MB)`,
+  );
+  t.diagnostic(
+    `view: ${images} images shown and ${replaced} replaced by newer ones, of ${frames} frames; beside 3 pages that do not read`,
+  );
   assert.equal(after.link.lost, 0);
   assert.equal(after.head.missed, 0);
   // Each frame was shown or replaced: what is neither is under way, and does not get more. A quarter of a second lies between
@@ -62,8 +75,10 @@ async function dead({ port }) {
   await new Promise((done, fail) => socket.once("connect", done).once("error", fail));
   socket.on("error", () => {});
   socket.pause();
-  socket.write(`GET /socket HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
-    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  socket.write(
+    `GET /socket HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n",
+  );
   return socket;
 }
 

@@ -11,7 +11,9 @@ import { drawn, page, show } from "./page.fixture.mjs";
 
 const folder = await mkdtemp(join(tmpdir(), "taxel-view-"));
 const scene = join(folder, "ill.toml");
-await writeFile(scene, `title = "three ill taxels"
+await writeFile(
+  scene,
+  `title = "three ill taxels"
 description = "A pat on a garment with three ill taxels."
 duration_s = 2
 [faults]
@@ -30,14 +32,17 @@ hold_s = 0.4
 fall_s = 0.06
 repeat = 2
 period_s = 0.8
-`);
+`,
+);
 const both = page(`sim:${scene}`, { search: "?keep=8" });
 test.after(() => rm(folder, { recursive: true }));
 const time = (browser) => browser.value("taxel.store.shown().head.frame.time_us");
 
 test("a paused page stands still while images go on coming, and steps back through them", async () => {
   const { browser } = both;
-  await browser.until("taxel.store.latest.head.frame.time_us - taxel.store.at(taxel.store.span()[0]).head.frame.time_us > 3e6");
+  await browser.until(
+    "taxel.store.latest.head.frame.time_us - taxel.store.at(taxel.store.span()[0]).head.frame.time_us > 3e6",
+  );
   await browser.key(" ");
   const still = await time(browser);
   const image = await browser.value("[...taxel.store.shown().image]");
@@ -67,7 +72,7 @@ test("what is kept has an end", async () => {
   const { browser } = both;
   await browser.until("taxel.store.count > taxel.store.size", 30);
   const [first, end] = await browser.value("taxel.store.span()");
-  assert.ok(end - first <= await browser.value("taxel.store.size"));
+  assert.ok(end - first <= (await browser.value("taxel.store.size")));
   await browser.key(" ");
   await browser.value("taxel.store.step(-1e6)");
   // Standing at the oldest image: the ones before it go, and the page moves on with what is left.
@@ -81,14 +86,22 @@ test("a moment is saved as JSON, and the board's bytes as a recording", async ()
   const { browser, view } = both;
   const saved = await browser.value(`(async () => (await import("./save.js")).momentOf(taxel.store))()`);
   assert.equal(saved.type, "frame");
-  assert.deepEqual(saved.panels.map(({ name, rows }) => [name, rows.length, rows[0].length]),
-    ["chest", "back", "left arm", "right arm"].map((name) => [name, 32, 16]));
+  assert.deepEqual(
+    saved.panels.map(({ name, rows }) => [name, rows.length, rows[0].length]),
+    ["chest", "back", "left arm", "right arm"].map((name) => [name, 32, 16]),
+  );
   const answer = await fetch(`${view.url}recording.taxel`);
   const file = join(folder, "recording.taxel");
   await writeFile(file, Buffer.from(await answer.arrayBuffer()));
   const run = promisify(execFile);
-  const { stdout } = await run(process.env.TAXEL_PROGRAM, ["live", "--source", `file:${file}`, "--json"], { maxBuffer: 1 << 28 });
-  const frames = stdout.split("\n").filter(Boolean).map((line) => JSON.parse(line)).filter(({ type }) => type === "frame");
+  const { stdout } = await run(process.env.TAXEL_PROGRAM, ["live", "--source", `file:${file}`, "--json"], {
+    maxBuffer: 1 << 28,
+  });
+  const frames = stdout
+    .split("\n")
+    .filter(Boolean)
+    .map((line) => JSON.parse(line))
+    .filter(({ type }) => type === "frame");
   assert.ok(frames.length > 600, `${frames.length} frames`);
   assert.ok(frames.every(({ decoded, lost }) => decoded && lost === 0));
 });
@@ -98,7 +111,11 @@ test("ill taxels are on the map of health", async () => {
   await browser.until("taxel.store.ill().size >= 3", 30);
   await show(browser, "health");
   const said = await browser.value("document.querySelector('#view-health .list').textContent");
-  for (const text of ["open: chest, row 2, column 8", "shorted: back, row 5, column 8", "stuck: left arm, row 4, column 12"]) {
+  for (const text of [
+    "open: chest, row 2, column 8",
+    "shorted: back, row 5, column 8",
+    "stuck: left arm, row 4, column 12",
+  ]) {
     assert.ok(said.includes(text), said);
   }
 });

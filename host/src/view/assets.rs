@@ -35,6 +35,7 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "peaks.js",
     SCRIPT "surface.js",
     SCRIPT "ranges.js",
+    SCRIPT "scale.js",
     SCRIPT "strips.js",
     SCRIPT "body.js",
     SCRIPT "fcm.js",

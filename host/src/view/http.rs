@@ -9,7 +9,8 @@ const HEAD: usize = 16 * 1024;
 const PATIENCE: Duration = Duration::from_secs(5);
 /// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in places, makes functions.
 const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
-                      style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; frame-ancestors 'none'; base-uri 'none'";
+                      style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; \
+                      frame-ancestors 'none'; base-uri 'none'";
 
 /// How a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,7 +139,8 @@ fn send(stream: &mut impl Write, status: &str, kind: &str, more: &str, body: &[u
 pub fn upgrade(stream: &mut impl Write, key: &str) -> io::Result<()> {
     let accept = tungstenite::handshake::derive_accept_key(key.as_bytes());
     let head = format!(
-        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: {accept}\r\n\r\n"
+        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Accept: {accept}\r\n\r\n"
     );
     stream.write_all(head.as_bytes())?;
     stream.flush()

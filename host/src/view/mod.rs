@@ -96,3 +96,21 @@ fn bind(port: Option<u16>) -> Result<TcpListener> {
     };
     listener.with_context(|| format!("port {wanted} of this machine cannot be used for the page"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_that_is_taken_is_named_unless_nobody_asked_for_it() {
+        let taken = bind(Some(0)).unwrap();
+        let port = taken.local_addr().unwrap().port();
+        assert!(taken.local_addr().unwrap().ip().is_loopback());
+        let why = format!("{:#}", bind(Some(port)).unwrap_err());
+        assert!(
+            why.starts_with(&format!("port {port} of this machine cannot be used for the page: ")),
+            "{why}"
+        );
+        assert!(bind(None).is_ok());
+    }
+}

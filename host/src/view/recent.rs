@@ -24,6 +24,7 @@ struct Piece {
 }
 
 /// Keeps what came last.
+#[derive(Default)]
 pub struct Recent {
     receiver: Box<Receiver<LONGEST>>,
     /// Bytes of the frame that has not ended.
@@ -34,19 +35,6 @@ pub struct Recent {
     garment: Vec<u8>,
     pieces: VecDeque<Piece>,
     held: usize,
-}
-
-impl Default for Recent {
-    fn default() -> Self {
-        Recent {
-            receiver: Box::default(),
-            begun: Vec::new(),
-            hello: Vec::new(),
-            garment: Vec::new(),
-            pieces: VecDeque::new(),
-            held: 0,
-        }
-    }
 }
 
 impl Recent {
@@ -107,4 +95,63 @@ impl Recent {
 fn read(message: &[u8]) -> Option<(u32, Report<'_>)> {
     let (seq, rest) = postcard::take_from_bytes::<u32>(message).ok()?;
     Some((seq, decode(rest).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::client::{Client, Event};
+    use taxel_core::wire::{Frame, Hello, MAGIC, PROTOCOL};
+
+    fn sent(seq: u32, report: &Report<'_>) -> Vec<u8> {
+        let (mut body, mut frame) = (vec![0; LONGEST], vec![0; frame_bound(LONGEST)]);
+        let length = encode(&(seq, report), &mut body, &mut frame).unwrap();
+        frame.truncate(length);
+        frame
+    }
+
+    fn hello(garment: &[u8]) -> Report<'_> {
+        let empty: &[u8] = &[];
+        let said = Hello {
+            magic: MAGIC,
+            protocol: PROTOCOL,
+            garment,
+            firmware: empty,
+            clock: empty,
+            scene: empty,
+            calibration: empty,
+        };
+        Report::Hello(said)
+    }
+
+    /// An image a tenth of a second, each tenth of which stands alone.
+    fn image(number: u32) -> Report<'static> {
+        let base = (!number.is_multiple_of(10)).then(|| number - 1);
+        Report::Frame(Frame {
+            frame: number,
+            time: Micros(u64::from(number) * 100_000),
+            base,
+            sum: 0,
+            data: &[],
+        })
+    }
+
+    #[test]
+    fn half_a_minute_is_kept_from_a_whole_image_on() {
+        let mut recent = Recent::default();
+        assert!(recent.recording().is_none());
+        let mut bytes = [b"noise\0".to_vec(), sent(0, &hello(b"one"))].concat();
+        (1..=1234).for_each(|number| bytes.extend(sent(number, &image(number))));
+        bytes.chunks(7).for_each(|part| recent.push(part));
+        let mut client = Client::new();
+        let events = recent.recording().unwrap().into_iter().filter_map(|byte| client.push(byte));
+        let frames: Vec<u32> = events
+            .filter_map(|event| if let Event::Frame { frame, .. } = event { Some(frame) } else { None })
+            .collect();
+        assert_eq!((frames.first(), frames.last(), frames.len()), (Some(&940), Some(&1234), 295));
+        assert_eq!((client.counts().lost, client.counts().messages), (0, 296));
+        // Another garment: nothing of before is of use.
+        recent.push(&sent(1235, &hello(b"two")));
+        assert!(recent.recording().is_none());
+    }
 }

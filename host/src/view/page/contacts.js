@@ -16,7 +16,11 @@ export function contacts(table, count, store) {
     const mm = panels[touch.panel].mm;
     const speed = Math.hypot(touch.vx * mm[0], touch.vy * mm[1]);
     const cells = [
-      String(touch.id), touch.region, touch.shape, force(store.garment, touch.total), String(touch.area),
+      String(touch.id),
+      touch.region,
+      touch.shape,
+      force(store.garment, touch.total),
+      String(touch.area),
       `${touch.slip ? "slips " : ""}${speed.toFixed(0)}`,
     ];
     cells.forEach((text, column) => say(row.cells[column] ?? row.insertCell(), text));

@@ -1,11 +1,16 @@
-// Views, layers, scale, theme and keys.
+// Views, layers, theme and keys.
 
-import { $, fit, forgetColours, make, say } from "./dom.js";
-import { css } from "./colours.js";
-import { isPascal, pressure, toggleUnit } from "./units.js";
+import { $, forgetColours, make } from "./dom.js";
+import { toggleUnit } from "./units.js";
 
 /** Name, label and key of each view. */
-const VIEWS = [["panels", "Panels", "1"], ["surface", "3-D", "2"], ["body", "Body", "3"], ["map", "Map", "4"], ["health", "Health", "5"]];
+const VIEWS = [
+  ["panels", "Panels", "1"],
+  ["surface", "3-D", "2"],
+  ["body", "Body", "3"],
+  ["map", "Map", "4"],
+  ["health", "Health", "5"],
+];
 /** Layers of pressure: setting, label, key, what it shows. */
 const LAYERS = [
   ["smooth", "Smooth", "i", "Interpolate between taxels"],
@@ -16,20 +21,34 @@ const LAYERS = [
 ];
 /** Keys besides those of views and layers. */
 const KEYS = [
-  ["space", "pause, go on"], ["← →", "one image back, forward; with shift one second"], ["+ −", "scale"], ["u", "kPa or counts"],
-  ["x", "clear what is held"], ["t", "tare over 32 frames"], ["s", "save"], ["d", "light or dark"], ["?", "these keys"],
+  ["space", "pause, go on"],
+  ["← →", "one image back, forward; with shift one second"],
+  ["+ −", "scale"],
+  ["u", "kPa or counts"],
+  ["x", "clear what is held"],
+  ["t", "tare over 32 frames"],
+  ["s", "save"],
+  ["d", "light or dark"],
+  ["?", "these keys"],
 ];
 const STORED = "taxel-view";
 const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
-/** Width below which the scale has no label in its middle. */
-const ROOM = 280;
 
 /** The settings, kept by the browser, and whatever changes them. */
 export class Controls {
   constructor(store, ask, changed) {
     Object.assign(this, { store, ask, changed });
-    this.settings = { view: "panels", smooth: false, contours: true, contacts: true, peaks: true, held: false, top: 200, theme: null };
+    this.settings = {
+      view: "panels",
+      smooth: false,
+      contours: true,
+      contacts: true,
+      peaks: true,
+      held: false,
+      top: 200,
+      theme: null,
+    };
     try {
       Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED)));
     } catch {
@@ -42,17 +61,31 @@ export class Controls {
 
   buttons() {
     const tab = ([name, text, key]) =>
-      make("button", { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}`, title: `${text} (${key})`, click: () => this.set({ view: name }) }, text);
+      make(
+        "button",
+        {
+          role: "tab",
+          id: `tab-${name}`,
+          "aria-controls": `view-${name}`,
+          title: `${text} (${key})`,
+          click: () => this.set({ view: name }),
+        },
+        text,
+      );
     $("views").replaceChildren(...VIEWS.map(tab));
     const layer = ([name, text, key, title]) =>
       make("button", { id: `layer-${name}`, title: `${title} (${key})`, click: () => this.toggle(name) }, text);
     $("layers").replaceChildren(...LAYERS.map(layer));
     const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t" };
     for (const [id, key] of Object.entries(acts)) $(id).addEventListener("click", () => this.key({ key }));
-    const rows = [...VIEWS.map(([, text, key]) => [key, text]), ...LAYERS.map(([, , key, title]) => [key, title]), ...KEYS];
-    $("keys").querySelector("dl").replaceChildren(
-      ...rows.flatMap(([key, what]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]),
-    );
+    const rows = [
+      ...VIEWS.map(([, text, key]) => [key, text]),
+      ...LAYERS.map(([, , key, title]) => [key, title]),
+      ...KEYS,
+    ];
+    $("keys")
+      .querySelector("dl")
+      .replaceChildren(...rows.flatMap(([key, what]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]));
   }
 
   toggle(name) {
@@ -90,8 +123,12 @@ export class Controls {
   /** Whether a key was meant for this. */
   key({ key }) {
     const acts = {
-      "+": () => this.zoom(2), "=": () => this.zoom(2), "-": () => this.zoom(0.5),
-      u: () => this.set({}, toggleUnit()), x: () => this.set({}, this.store.clearHeld()), t: () => this.ask({ tare: TARE }),
+      "+": () => this.zoom(2),
+      "=": () => this.zoom(2),
+      "-": () => this.zoom(0.5),
+      u: () => this.set({}, toggleUnit()),
+      x: () => this.set({}, this.store.clearHeld()),
+      t: () => this.ask({ tare: TARE }),
       d: () => this.set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }),
       "?": () => $("keys").showModal(),
     };
@@ -99,29 +136,5 @@ export class Controls {
     for (const [name, , its] of LAYERS) acts[its] = () => this.toggle(name);
     acts[key]?.();
     return key in acts;
-  }
-
-  /** The scale below the picture. */
-  draw() {
-    const { garment } = this.store;
-    const context = garment && fit($("ramp"));
-    if (!context) return;
-    const { clientWidth: width } = $("ramp");
-    const ink = getComputedStyle($("ramp")).color;
-    context.clearRect(0, 0, width, 28);
-    for (let x = 0; x < width; x += 1) {
-      context.fillStyle = css(x / width);
-      context.fillRect(x, 0, 1, 12);
-    }
-    context.font = "11px system-ui, sans-serif";
-    context.textBaseline = "bottom";
-    context.fillStyle = ink;
-    const labels = [[0, "left"], [0.5, "center"], [1, "right"]];
-    for (const [share, align] of width < ROOM ? [labels[0], labels[2]] : labels) {
-      context.textAlign = align;
-      const text = pressure(garment, this.settings.top * share);
-      context.fillText(share === 1 ? `${text} and more` : text, width * share, 28);
-    }
-    say($("unit"), isPascal(garment) ? "kPa" : "counts");
   }
 }

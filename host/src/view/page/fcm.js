@@ -42,7 +42,8 @@ export class CognitiveMap {
     const places = placesOf(map.concepts);
     const extent = (at) => Math.max(...places.map((place) => place[at]));
     const svg = draw("svg", {
-      viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`, role: "img",
+      viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`,
+      role: "img",
       "aria-label": "Concepts and causes of the cognitive map, with their activations",
     });
     svg.append(draw("defs", {}, marker("more"), marker("less")));
@@ -55,8 +56,21 @@ export class CognitiveMap {
     this.nodes = map.concepts.map(({ name }, at) => {
       const [x, y] = places[at];
       const box = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, stroke: "var(--quiet)" });
-      const text = draw("text", { x: x + WIDTH / 2, y: y + 33, "text-anchor": "middle", "font-size": 12, fill: "var(--ink)" });
-      const title = { x: x + WIDTH / 2, y: y + 17, "text-anchor": "middle", "font-size": 13, "font-weight": 600, fill: "var(--ink)" };
+      const text = draw("text", {
+        x: x + WIDTH / 2,
+        y: y + 33,
+        "text-anchor": "middle",
+        "font-size": 12,
+        fill: "var(--ink)",
+      });
+      const title = {
+        x: x + WIDTH / 2,
+        y: y + 17,
+        "text-anchor": "middle",
+        "font-size": 13,
+        "font-weight": 600,
+        fill: "var(--ink)",
+      };
       const back = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, fill: "var(--card)" });
       svg.append(back, box, draw("text", title, name), text);
       return { name, box, text };
@@ -80,7 +94,20 @@ function placesOf(concepts) {
 
 function marker(kind) {
   const shape = draw("path", { d: "M0 0 8 4 0 8z", fill: `var(--${kind})` });
-  return draw("marker", { id: `to-${kind}`, viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 9, markerHeight: 9, markerUnits: "userSpaceOnUse", orient: "auto" }, shape);
+  return draw(
+    "marker",
+    {
+      id: `to-${kind}`,
+      viewBox: "0 0 8 8",
+      refX: 7,
+      refY: 4,
+      markerWidth: 9,
+      markerHeight: 9,
+      markerUnits: "userSpaceOnUse",
+      orient: "auto",
+    },
+    shape,
+  );
 }
 
 /** From the side of the cause to the side of the effect; back where the effect lies before it. */
@@ -92,7 +119,11 @@ function arrow([x0, y0], [x1, y1], weight) {
   const bend = forward ? Math.max(24, (to - from) / 2) : 0;
   const d = `M${from} ${up}C${from + bend} ${up} ${to - bend} ${down} ${to} ${down}`;
   return draw("path", {
-    d, fill: "none", stroke: `var(--${kind})`, "stroke-width": 1 + 3 * Math.abs(weight),
-    "stroke-dasharray": weight < 0 ? "7 4" : "none", "marker-end": `url(#to-${kind})`,
+    d,
+    fill: "none",
+    stroke: `var(--${kind})`,
+    "stroke-width": 1 + 3 * Math.abs(weight),
+    "stroke-dasharray": weight < 0 ? "7 4" : "none",
+    "marker-end": `url(#to-${kind})`,
   });
 }

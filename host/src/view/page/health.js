@@ -5,7 +5,11 @@ import { placeOf } from "./garment.js";
 
 /** Letter and colour (Okabe and Ito) of each class. */
 const CLASSES = {
-  dead: ["D", "#000000"], stuck: ["S", "#e69f00"], open: ["O", "#56b4e9"], shorted: ["X", "#d55e00"], noisy: ["N", "#cc79a7"],
+  dead: ["D", "#000000"],
+  stuck: ["S", "#e69f00"],
+  open: ["O", "#56b4e9"],
+  shorted: ["X", "#d55e00"],
+  noisy: ["N", "#cc79a7"],
 };
 /** Ill taxels of the list at most; the map shows all. */
 const LISTED = 200;
@@ -92,11 +96,20 @@ function lists({ garment, states }) {
     return make("li", {}, `${health}: ${panel.name}, row ${row}, column ${column}`);
   };
   const counts = board
-    ? [["scans", board.scans], ["failed", board.failed], ["overruns", board.overruns], ["lost on the board", board.lost],
-       ["requests refused", board.refused], ["scan", `${board.scan_us} us`], ["perception", `${board.process_us} us`]]
+    ? [
+        ["scans", board.scans],
+        ["failed", board.failed],
+        ["overruns", board.overruns],
+        ["lost on the board", board.lost],
+        ["requests refused", board.refused],
+        ["scan", `${board.scan_us} us`],
+        ["perception", `${board.process_us} us`],
+      ]
     : [];
   const cells = counts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, String(value))));
-  const title = ill.length ? `${ill.length} of ${garment.taxels} taxels are ill` : "Nothing is known against any taxel.";
+  const title = ill.length
+    ? `${ill.length} of ${garment.taxels} taxels are ill`
+    : "Nothing is known against any taxel.";
   return [
     make("h2", {}, title),
     make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...ill.slice(0, LISTED).map(line)),

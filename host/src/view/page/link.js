@@ -19,7 +19,9 @@ export class Link {
   draw(store) {
     const { garment, states, latest } = store;
     const { link, end } = states;
-    const about = garment && `${garment.label} · ${garment.garment}, ${garment.taxels} taxels · scene ${garment.scene} · ${garment.firmware}`;
+    const about =
+      garment &&
+      `${garment.label} · ${garment.garment}, ${garment.taxels} taxels · scene ${garment.scene} · ${garment.firmware}`;
     const closed = this.connected ? "" : "The program has gone; trying again … ";
     say(this.source, closed + (end ? `${end.text} · ` : "") + (about ?? "waiting for a board …"));
     if (garment) say(this.note, provenance(garment));

@@ -15,16 +15,19 @@ import { Store } from "./store.js";
 import { Surface } from "./surface.js";
 import { connect } from "./socket.js";
 import * as ranges from "./ranges.js";
+import * as scale from "./scale.js";
 import * as strips from "./strips.js";
 
 const store = new Store();
 const link = new Link($("link"), $("source"), $("provenance"));
 let stale = true;
 const changed = () => (stale = true);
-const change = (act) => (...what) => {
-  act(...what);
-  changed();
-};
+const change =
+  (act) =>
+  (...what) => {
+    act(...what);
+    changed();
+  };
 
 const socket = connect({
   image: change((message) => store.image(message)),
@@ -61,7 +64,7 @@ function draw() {
   drawn = store.latest;
   $("empty").hidden = Boolean(store.latest);
   views[settings.view].draw(store, settings);
-  controls.draw();
+  scale.draw(store, settings);
   player.draw();
   hover.draw(store);
   link.draw(store);
@@ -76,7 +79,8 @@ requestAnimationFrame(draw);
 window.addEventListener("resize", changed);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
-  const typed = target.matches("input") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
+  const typed =
+    target.matches("input") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
   if (typed || ctrlKey || altKey || metaKey) return;
   if (key === "s") save.toggle();
   else if (!player.key(event) && !controls.key(event)) return;

@@ -54,8 +54,12 @@ export class Panels {
       return { panel, canvas, note: make("span", { class: "quiet" }) };
     });
     const figure = ({ panel, canvas, note }) =>
-      make("figure", { style: `width:${panel.columns * panel.mm[0] * scale}px` },
-        make("figcaption", {}, make("b", {}, panel.name), note), canvas);
+      make(
+        "figure",
+        { style: `width:${panel.columns * panel.mm[0] * scale}px` },
+        make("figcaption", {}, make("b", {}, panel.name), note),
+        canvas,
+      );
     this.root.replaceChildren(...this.parts.map(figure));
   }
 

@@ -27,7 +27,11 @@ export class Player {
   /** Whether a key was meant for this. */
   key({ key, shiftKey }) {
     const far = shiftKey ? SECOND : 1;
-    const acts = { " ": () => this.store.pause(), ArrowLeft: () => this.store.step(-far), ArrowRight: () => this.store.step(far) };
+    const acts = {
+      " ": () => this.store.pause(),
+      ArrowLeft: () => this.store.step(-far),
+      ArrowRight: () => this.store.step(far),
+    };
     if (!acts[key]) return false;
     this.do(acts[key]);
     return true;

@@ -91,7 +91,8 @@ function ribbon(context, store, x, top) {
     context.fillStyle = INTENTIONS[leading] ?? colour("quiet");
     context.fillRect(left, top, Math.max(1.5, right - left), RIBBON - 6);
     context.fillStyle = INK[leading] ?? colour("card");
-    if (context.measureText(leading).width + 8 < right - left) context.fillText(leading, left + 4, top + RIBBON / 2 - 3);
+    if (context.measureText(leading).width + 8 < right - left)
+      context.fillText(leading, left + 4, top + RIBBON / 2 - 3);
   };
   let leading = null;
   for (let number = first; number < end; number += 1) {

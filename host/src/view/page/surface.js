@@ -28,7 +28,7 @@ export class Surface {
     say("Loading …");
     const failed = () => {
       this.state = "failed";
-      say("This program was built without its feature \"surface\", or this browser cannot draw in three dimensions.");
+      say('This program was built without its feature "surface", or this browser cannot draw in three dimensions.');
     };
     const loaded = () => {
       this.state = "ready";
@@ -44,7 +44,9 @@ export class Surface {
     const { garment } = store;
     const image = settings.held ? store.held : shown.image;
     const unit = isPascal(garment) ? pascalsOf(garment) : 1;
-    const peaks = settings.peaks ? this.peaks(garment, image, shown, settings, unit) : { x: [], y: [], z: [], text: [] };
+    const peaks = settings.peaks
+      ? this.peaks(garment, image, shown, settings, unit)
+      : { x: [], y: [], z: [], text: [] };
     const grid = this.grid(garment, image, unit);
     const { clientWidth: width, clientHeight: height } = this.root;
     const highest = heightOf(store.held, settings.top);
@@ -112,23 +114,37 @@ export class Surface {
     const axis = { color: ink, gridcolor: line, zerolinecolor: line, showspikes: false };
     const rows = grid.y.length;
     const surface = {
-      type: "surface", ...grid, cmin: 0, cmax: top, colorscale: COLOURS, showscale: false, hoverinfo: "none",
+      type: "surface",
+      ...grid,
+      cmin: 0,
+      cmax: top,
+      colorscale: COLOURS,
+      showscale: false,
+      hoverinfo: "none",
       lighting: { ambient: 0.75, diffuse: 0.5, specular: 0.08, roughness: 0.8 },
       contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } },
     };
     const marks = {
-      type: "scatter3d", mode: "markers+text", ...peaks, hoverinfo: "none", textfont: { color: ink, size: 15 },
+      type: "scatter3d",
+      mode: "markers+text",
+      ...peaks,
+      hoverinfo: "none",
+      textfont: { color: ink, size: 15 },
       marker: { symbol: "diamond", size: 4, color: ink, line: { color: colour("card"), width: 1 } },
     };
     const layout = {
-      margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "rgba(0,0,0,0)", showlegend: false, uirevision: "keep",
+      margin: { l: 0, r: 0, t: 0, b: 0 },
+      paper_bgcolor: "rgba(0,0,0,0)",
+      showlegend: false,
+      uirevision: "keep",
       font: { family: "system-ui, sans-serif", size: 12 },
       scene: {
         uirevision: "keep",
         xaxis: { ...axis, title: { text: "" }, tickvals: middles, ticktext: panels.map((panel) => panel.name) },
         yaxis: { ...axis, title: { text: "row" }, range: [rows - 0.5, -0.5] },
         zaxis: { ...axis, title: { text: unit }, range: [0, highest] },
-        aspectmode: "manual", aspectratio: { x: 1.7, y: 0.95, z: 0.6 },
+        aspectmode: "manual",
+        aspectratio: { x: 1.7, y: 0.95, z: 0.6 },
         camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
       },
     };
