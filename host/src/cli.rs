@@ -5,9 +5,12 @@ use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
 use crate::gestures::{self, GesturesArgs};
 use crate::health::{self, HealthArgs};
+use crate::info::{self, InfoArgs};
 use crate::intent::{self, IntentArgs};
 use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
+use crate::record::{self, RecordArgs};
+use crate::replay::{self, ReplayArgs};
 use crate::save::{self, SaveArgs};
 use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
@@ -34,6 +37,15 @@ enum Command {
     /// See the same in the browser: panels, surface, body, map, health
     #[command(after_help = VIEW)]
     View(ViewArgs),
+    /// Record what a board tells, for Foxglove, Rerun, Python and ROS 2
+    #[command(after_help = RECORD)]
+    Record(RecordArgs),
+    /// What is in a recording; and the end for one that a kill has left without
+    #[command(after_help = INFO)]
+    Info(InfoArgs),
+    /// Play a recording as if its board were there
+    #[command(after_help = REPLAY)]
+    Replay(ReplayArgs),
     /// Perceive recorded frames as the board would
     #[command(after_help = PROCESS)]
     Process(ProcessArgs),
@@ -82,6 +94,20 @@ const VIEW: &str = "Examples:
   taxel view --open
   taxel view --source sim:five
   taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
+const RECORD: &str = "Examples:
+  taxel record -o touch.mcap
+  taxel record --source sim:pat -o pat.mcap --ros2
+  taxel record -o day.mcap --rotate 10min";
+
+const INFO: &str = "Examples:
+  taxel info touch.mcap
+  taxel info touch.mcap --repair";
+
+const REPLAY: &str = "Examples:
+  taxel replay touch.mcap
+  taxel replay touch.mcap --speed 0.25
+  taxel live --source replay:touch.mcap@max --json";
 
 const PROCESS: &str = "Examples:
   taxel process subject_01.npz --array posture_03 --rate 1 --json
@@ -149,6 +175,9 @@ impl Cli {
         match self.command.or_else(live).expect("live is a command") {
             Command::Live(args) => live::run(args),
             Command::View(args) => view::run(args),
+            Command::Record(args) => record::run(args),
+            Command::Info(args) => info::run(args),
+            Command::Replay(args) => replay::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),

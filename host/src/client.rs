@@ -47,6 +47,8 @@ const LONGEST_REPORT: usize = 8192;
 pub struct Client {
     receiver: Box<Receiver<LONGEST_REPORT>>,
     message: Vec<u8>,
+    /// Bytes since the last 0x00.
+    line: Vec<u8>,
     requests: Vec<u8>,
     counts: Counts,
     syncs: Syncs,
@@ -77,6 +79,7 @@ impl Client {
         Client {
             receiver: Box::new(Receiver::new()),
             message: Vec::new(),
+            line: Vec::new(),
             // Ends whatever the board may have received before.
             requests: vec![0],
             counts: Counts::default(),
@@ -99,6 +102,7 @@ impl Client {
     /// Takes one byte. When it ends a message, the state is that of the message, and this says what it was.
     pub fn push(&mut self, byte: u8) -> Option<Event> {
         self.counts.bytes += 1;
+        self.keep(byte);
         let ended = self.receiver.push(byte)?;
         let mut message = std::mem::take(&mut self.message);
         let copied = ended.map(|bytes| {
@@ -114,6 +118,16 @@ impl Client {
         };
         self.message = message;
         Some(event)
+    }
+
+    /// Keeps a byte for [`Client::line`]; of what is longer than any frame, the beginning.
+    fn keep(&mut self, byte: u8) {
+        if self.line.last() == Some(&0) {
+            self.line.clear();
+        }
+        if self.line.len() < LONGEST_REPORT || byte == 0 {
+            self.line.push(byte);
+        }
     }
 
     /// Takes the message of an intact frame.

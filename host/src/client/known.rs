@@ -15,6 +15,11 @@ impl Client {
         &self.counts
     }
 
+    /// The bytes of the last message as they came, its 0x00 included, when [`Client::push`] has just told of it.
+    pub fn line(&self) -> &[u8] {
+        &self.line
+    }
+
     /// Garment, scene and firmware; none before the first `Hello`.
     pub fn worn(&self) -> Option<&Worn> {
         self.worn.as_ref()

@@ -217,7 +217,7 @@ fn hello(client: &Client) -> Value {
 }
 
 /// The image, panel by panel, row by row.
-fn pixels(client: &Client) -> Value {
+pub fn pixels(client: &Client) -> Value {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return json!([]) };
     let panel = |area: &taxel_core::garment::Area| {
         let start = usize::from(area.base);

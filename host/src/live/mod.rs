@@ -14,7 +14,7 @@ mod taxel;
 mod view;
 
 pub use lines::Lines;
-pub use messages::{Messages, message};
+pub use messages::{Messages, message, pixels};
 pub use svg::picture;
 pub use taxel::{TaxelLines, TaxelPlace};
 pub use view::View;
@@ -108,6 +108,11 @@ pub trait Show {
     /// Takes an event; the client is in the state after it.
     fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
 
+    /// These bytes are about to be sent to the board.
+    fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<()> {
+        Ok(())
+    }
+
     /// Bytes have been taken, or none came for a while: whether to go on.
     fn idle(&mut self, _client: &mut Client) -> Result<bool> {
         Ok(true)
@@ -185,7 +190,9 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     while !limits.ended {
         tell_time(&mut client, source.real_time);
         let lost = || format!("{} is gone", source.label);
-        source.port.write(&client.take_requests()).with_context(lost)?;
+        let requests = client.take_requests();
+        show.asked(&client, &requests)?;
+        source.port.write(&requests).with_context(lost)?;
         let Some(count) = source.port.read(&mut buffer).with_context(lost)? else { break };
         tell_time(&mut client, source.real_time);
         show.bytes(&buffer[..count]);

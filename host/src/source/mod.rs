@@ -1,15 +1,18 @@
-//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the emulator, a file.
+//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the emulator, a file, a
+//! recording.
 
 mod auto;
 mod emulator;
 mod file;
 mod pipe;
+mod replay;
 mod scene;
 mod serial;
 mod sim;
 mod spec;
 mod tcp;
 
+pub use replay::Speed;
 pub use scene::scene_of;
 pub use spec::SourceSpec;
 
@@ -86,5 +89,6 @@ pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::File(path) => {
             Ok(Source::new(format!("file:{}", path.display()), file::Saved::open(path)?))
         }
+        SourceSpec::Replay { path, speed } => replay::open(path, *speed, options),
     }
 }

@@ -1,5 +1,6 @@
 //! The words for a source on the command line.
 
+use super::replay::Speed;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -31,6 +32,13 @@ pub enum SourceSpec {
     Emulator(String),
     /// Bytes that were saved.
     File(PathBuf),
+    /// A recording.
+    Replay {
+        /// The file.
+        path: PathBuf,
+        /// How fast.
+        speed: Speed,
+    },
 }
 
 impl SourceSpec {
@@ -55,9 +63,10 @@ impl FromStr for SourceSpec {
             ("serial", Some(port)) if !port.is_empty() => serial(port),
             ("tcp", Some(address)) => tcp(address),
             ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
+            ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
             _ => {
                 Err("known are auto, usb, sim[:SCENE], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:SCENE], \
-                      file:FILE"
+                      file:FILE, replay:FILE[@SPEED]"
                     .into())
             }
         }
@@ -72,6 +81,15 @@ fn serial(port: &str) -> Result<SourceSpec, String> {
         Ok(baud) if baud > 0 && !path.is_empty() => Ok(SourceSpec::Serial { path: path.into(), baud }),
         _ => Err(format!("serial:PATH@BAUD needs a whole number of bits per second, not \"{baud}\"")),
     }
+}
+
+/// What stands behind the last `@` and is no speed belongs to the file's name.
+fn replay(text: &str) -> SourceSpec {
+    let (path, speed) = match text.rsplit_once('@').map(|(path, speed)| (path, speed.parse())) {
+        Some((path, Ok(speed))) if !path.is_empty() => (path, speed),
+        _ => (text, Speed::AsAsked),
+    };
+    SourceSpec::Replay { path: path.into(), speed }
 }
 
 fn tcp(address: &str) -> Result<SourceSpec, String> {
@@ -93,6 +111,7 @@ impl fmt::Display for SourceSpec {
             SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
             SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
             SourceSpec::File(path) => write!(f, "file:{}", path.display()),
+            SourceSpec::Replay { path, speed } => write!(f, "replay:{}{speed}", path.display()),
         }
     }
 }
@@ -111,6 +130,9 @@ mod tests {
             "tcp:[::1]:80",
             "file:a b",
             "sim:x/y.toml",
+            "replay:a@b.mcap",
+            "replay:a.mcap@2.5",
+            "replay:a.mcap@max",
         ] {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }
@@ -118,9 +140,19 @@ mod tests {
         assert_eq!(read("sim").unwrap(), SourceSpec::simulation());
         assert_eq!(read("emulator").unwrap(), SourceSpec::Emulator("pat".into()));
         assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");
-        for wrong in
-            ["", "auto:", "sim:", "serial:", "serial:a@b", "tcp:a", "tcp:a:99999", "tcp::1", "file", "usb:"]
-        {
+        for wrong in [
+            "",
+            "auto:",
+            "sim:",
+            "serial:",
+            "serial:a@b",
+            "tcp:a",
+            "tcp:a:99999",
+            "tcp::1",
+            "file",
+            "usb:",
+            "replay:",
+        ] {
             assert!(read(wrong).is_err(), "{wrong}");
         }
     }

@@ -1,0 +1,129 @@
+//! One file of a recording: its channels, and messages as they go into them.
+
+use super::ros2::Ros2;
+use super::stamps::Stamp;
+use super::topics::{self, Topics};
+use crate::client::{Client, Event, ImageNews};
+use crate::live;
+use crate::recording::{Store, Writer};
+use anyhow::Result;
+use serde_json::{Value, json};
+use taxel_core::fold::Posture;
+
+/// Nanoseconds of a microsecond.
+pub const NS: u64 = 1000;
+
+/// One file.
+#[derive(Debug)]
+pub struct RecordingFile<S: Store> {
+    /// What is written to.
+    pub writer: Writer<S>,
+    topics: Topics,
+    ros2: Option<Ros2<S>>,
+}
+
+impl<S: Store> RecordingFile<S> {
+    /// Begins a file, and another one beside it for ROS 2's messages.
+    pub fn create(store: S, ros2: Option<S>) -> Result<RecordingFile<S>> {
+        let mut writer = Writer::create(store, "")?;
+        Ok(RecordingFile {
+            topics: Topics::open(&mut writer)?,
+            writer,
+            ros2: ros2.map(Ros2::create).transpose()?,
+        })
+    }
+
+    /// A frame of the wire from the board.
+    pub fn wire(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
+        self.writer.message(self.topics.wire, stamp.host_us * NS, stamp.board_us * NS, bytes)
+    }
+
+    /// Frames of the wire to the board.
+    pub fn requests(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
+        self.writer.message(self.topics.requests, stamp.host_us * NS, stamp.board_us * NS, bytes)
+    }
+
+    /// A posture that was told the board; `names` are the scene's joints.
+    pub fn posture(
+        &mut self,
+        stamp: Stamp,
+        posture: &Posture,
+        names: &[taxel_core::format::Name],
+    ) -> Result<()> {
+        let joint = |told: &taxel_core::fold::JointAngle| {
+            let name = names.get(usize::from(told.joint)).map_or("", |name| name.as_str());
+            json!({ "joint": name, "degrees": f64::from(told.centidegrees) / 100.0 })
+        };
+        let joints: Vec<_> = posture.joints.iter().map(joint).collect();
+        self.json("posture", stamp, json!({ "type": "posture", "time_us": stamp.board_us, "joints": joints }))
+    }
+
+    /// What an event says, as JSON and, where asked for, as ROS 2's messages.
+    pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
+        if let Some(ros2) = &mut self.ros2 {
+            ros2.event(client, event, stamp, scale)?;
+        }
+        let Some(topic) = topics::of(event) else { return Ok(()) };
+        let message = match event {
+            Event::Frame { .. } => frame(client, event),
+            _ => live::message(client, event),
+        };
+        self.json(topic, stamp, message)
+    }
+
+    fn json(&mut self, topic: &str, stamp: Stamp, mut message: Value) -> Result<()> {
+        let Some(channel) = self.topics.json(topic) else { return Ok(()) };
+        message["host_time_us"] = json!(stamp.host_us);
+        if let Some(uncertainty) = stamp.uncertainty_us {
+            message["host_time_uncertainty_us"] = json!(uncertainty);
+        }
+        let bytes = serde_json::to_vec(&message)?;
+        self.writer.message(channel, stamp.host_us * NS, stamp.board_us * NS, &bytes)
+    }
+
+    /// Ends the chunk.
+    pub fn close(&mut self) -> Result<()> {
+        self.writer.close()?;
+        self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.close())
+    }
+
+    /// Writes what came so far through to the disk.
+    pub fn flush(&mut self) -> Result<()> {
+        self.writer.flush()?;
+        self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.flush())
+    }
+
+    /// Bytes so far.
+    pub fn bytes(&self) -> u64 {
+        self.writer.bytes() + self.ros2.as_ref().map_or(0, |ros2| ros2.writer.bytes())
+    }
+
+    /// Writes the end; of both files, even where the one fails. Their bytes.
+    pub fn finish(self) -> Result<u64> {
+        let beside = self.ros2.map_or(Ok(0), |ros2| ros2.writer.finish());
+        Ok(self.writer.finish()? + beside?)
+    }
+}
+
+/// A frame with the pressure of every taxel; contacts and intention have topics of their own.
+fn frame(client: &Client, event: &Event) -> Value {
+    let mut message = live::message(client, event);
+    if let Some(fields) = message.as_object_mut() {
+        ["contacts", "intent", "released"].iter().for_each(|name| _ = fields.shift_remove(*name));
+    }
+    if matches!(event, Event::Frame { image: ImageNews::Whole, .. }) {
+        let mut panels = live::pixels(client);
+        let all = panels.as_array_mut().map(Vec::as_mut_slice).unwrap_or_default();
+        let mut total = 0;
+        for panel in all {
+            let rows = panel["rows"].as_array().map(Vec::as_slice).unwrap_or_default();
+            let values = rows.iter().filter_map(Value::as_array).flatten().filter_map(Value::as_u64);
+            let sum: u64 = values.sum();
+            panel["total"] = json!(sum);
+            total += sum;
+        }
+        message["total"] = json!(total);
+        message["panels"] = panels;
+    }
+    message
+}

@@ -1,0 +1,52 @@
+//! When a recording goes on in another file.
+
+use std::str::FromStr;
+use std::time::Duration;
+
+/// Units of time, s, and of size, bytes.
+const SECONDS: [(&str, u64); 4] = [("s", 1), ("min", 60), ("h", 3600), ("d", 86_400)];
+const BYTES: [(&str, u64); 4] = [("B", 1), ("kB", 1000), ("MB", 1_000_000), ("GB", 1_000_000_000)];
+
+/// How large a file may become.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotate {
+    /// By the board's time.
+    After(Duration),
+    /// By its bytes.
+    Bytes(u64),
+}
+
+impl FromStr for Rotate {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Rotate, String> {
+        let unit = text.trim_start_matches(|c: char| c.is_ascii_digit());
+        let number = text[..text.len() - unit.len()].parse::<u64>().ok().filter(|number| *number > 0);
+        let of = |units: &[(&str, u64)]| {
+            let (_, size) = units.iter().find(|(name, _)| *name == unit.trim_start())?;
+            number?.checked_mul(*size)
+        };
+        of(&SECONDS)
+            .map(|seconds| Rotate::After(Duration::from_secs(seconds)))
+            .or_else(|| of(&BYTES).map(Rotate::Bytes))
+            .ok_or_else(|| {
+                format!("\"{text}\": it must be a time or a size such as 30s, 10min, 2h, 500MB, 1GB")
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_and_sizes_are_read() {
+        let read = |text: &str| text.parse::<Rotate>();
+        assert_eq!(read("10min"), Ok(Rotate::After(Duration::from_secs(600))));
+        assert_eq!(read("90 s"), Ok(Rotate::After(Duration::from_secs(90))));
+        assert_eq!(read("1GB"), Ok(Rotate::Bytes(1_000_000_000)));
+        for wrong in ["", "10", "min", "0s", "-1s", "1.5h", "99999999999999999999B", "10 m"] {
+            assert!(read(wrong).unwrap_err().contains("10min"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! `taxel record`: what a board tells, kept in a file that Foxglove, Rerun, Python and ROS 2 read.
+//!
+//! Log time is the host's time of what a message tells of, publish time the board's; both are in the JSON messages, too
+//! (`host_time_us`, `time_us`).
+//!
+//! | topic | encoding | what |
+//! |---|---|---|
+//! | `/taxel/wire` | `taxel-wire` | each frame of the wire as it came: COBS of postcard and CRC-32, then 0x00 |
+//! | `/taxel/requests` | `taxel-wire` | what the host asked, the same way |
+//! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
+//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
+//!
+//! Attached are `garment.toml`, `scene.json`, `geometry.json`; metadata `taxel` names versions, host, board, source and
+//! calibration.
+
+mod command;
+mod file;
+mod limit;
+mod names;
+mod provenance;
+mod recorder;
+mod ros2;
+mod schemas;
+mod stamps;
+mod standing;
+mod topics;
+
+pub use command::{RecordArgs, run};
+pub use limit::Rotate;
+pub use recorder::{Plan, Recorder};
+pub use topics::{REQUESTS, WIRE};

@@ -1,0 +1,39 @@
+//! Names of files and topics.
+
+use std::path::{Path, PathBuf};
+
+/// The file of a number, from 1: the first as it was named, then `NAME-0002.mcap`, `NAME-0003.mcap`.
+pub fn numbered(path: &Path, number: u32) -> PathBuf {
+    if number <= 1 {
+        return path.into();
+    }
+    let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, extension) = (part(path.file_stem()), part(path.extension()));
+    let dot = if extension.is_empty() { "" } else { "." };
+    path.with_file_name(format!("{stem}-{number:04}{dot}{extension}"))
+}
+
+/// The file with ROS 2's messages beside a recording: `NAME.ros2.mcap`.
+pub fn beside(path: &Path) -> PathBuf {
+    path.with_extension("ros2.mcap")
+}
+
+/// A name as part of a topic of ROS: letters, digits and underscores, no digit first.
+pub fn topic(name: &str) -> String {
+    let word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if word.starts_with(|c: char| c.is_ascii_digit()) || word.is_empty() { format!("_{word}") } else { word }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_numbered_and_made_topics() {
+        assert_eq!(numbered(Path::new("a/b.mcap"), 1), Path::new("a/b.mcap"));
+        assert_eq!(numbered(Path::new("a/b.mcap"), 12), Path::new("a/b-0012.mcap"));
+        assert_eq!(numbered(Path::new("b"), 2), Path::new("b-0002"));
+        assert_eq!(beside(Path::new("a/b.mcap")), Path::new("a/b.ros2.mcap"));
+        assert_eq!((topic("left arm").as_str(), topic("3").as_str()), ("left_arm", "_3"));
+    }
+}

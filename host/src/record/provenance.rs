@@ -1,0 +1,63 @@
+//! Where a recording comes from: what is attached to it.
+
+use crate::client::Worn;
+use crate::garments;
+use crate::recording::{Store, Writer};
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use taxel_core::garment::Layout;
+use taxel_core::wire::PROTOCOL;
+
+/// Attaches garment, scene and geometry, and names versions, source, calibration and scale.
+pub fn attach<S: Store>(
+    writer: &mut Writer<S>,
+    worn: &Worn,
+    label: &str,
+    counts_per_newton: Option<f32>,
+    ns: u64,
+) -> Result<()> {
+    let garment = garments::text(&worn.garment, "the garment of a recording")?;
+    writer.attach("garment.toml", "application/toml", garment.as_bytes(), ns)?;
+    writer.attach("scene.json", "application/json", &serde_json::to_vec_pretty(&worn.scene)?, ns)?;
+    let geometry = serde_json::to_vec(&geometry(&worn.layout))?;
+    writer.attach("geometry.json", "application/json", &geometry, ns)?;
+    let scale = counts_per_newton.map_or(String::new(), |counts| counts.to_string());
+    let words = [
+        ("program", concat!("taxel ", env!("CARGO_PKG_VERSION")).to_string()),
+        ("firmware", worn.firmware.clone()),
+        ("protocol", PROTOCOL.to_string()),
+        ("source", label.to_string()),
+        ("host", host()),
+        ("garment", worn.garment.name.to_string()),
+        ("scene", worn.scene.name.to_string()),
+        ("calibration", worn.calibration.clone()),
+        ("counts_per_newton", scale),
+    ];
+    let words: BTreeMap<_, _> = words.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    writer.metadata("taxel", words)
+}
+
+/// The host's name, where it has one.
+fn host() -> String {
+    let known = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let known = known.or_else(|| std::env::var("HOSTNAME").or_else(|_| std::env::var("COMPUTERNAME")).ok());
+    known.unwrap_or_default().trim().to_string()
+}
+
+/// Panels in their order: first taxel, size, pitch, link, region. Taxel `first + row * columns + column` lies at
+/// (`column * pitch_mm[0]`, `row * pitch_mm[1]`) of its panel.
+fn geometry(layout: &Layout) -> Value {
+    let panel = |area: &taxel_core::garment::Area| {
+        json!({
+            "name": area.name,
+            "link": area.link,
+            "region": layout.regions().get(usize::from(area.region)),
+            "first": area.base,
+            "rows": area.rows,
+            "columns": area.columns,
+            "pitch_mm": area.pitch_um.map(|um| f64::from(um) / 1000.0),
+        })
+    };
+    json!({ "taxels": layout.taxels(), "panels": layout.areas().iter().map(panel).collect::<Vec<_>>() })
+}

@@ -1,0 +1,221 @@
+//! Keeps what a board tells, second by second, file after file.
+
+use super::file::{NS, RecordingFile};
+use super::limit::Rotate;
+use super::names::{beside, numbered};
+use super::stamps::{Stamp, Stamps};
+use super::standing::{self, Standing};
+use super::{command::Progress, provenance};
+use crate::client::{Client, Event, Worn};
+use crate::live::Show;
+use anyhow::{Context, Result, bail};
+use std::fs::{File, OpenOptions};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use taxel_core::wire::{self, Request};
+
+/// Time between two chunks: what a kill loses at most, and as much again for the disk to take it.
+const CHUNK: Duration = Duration::from_millis(500);
+/// The same by the board's time, for those that are faster than time, us: who reads can go to any second.
+const CHUNK_US: u64 = 1_000_000;
+
+/// What is to be recorded, and where.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The first file.
+    pub path: PathBuf,
+    /// When to go on in another.
+    pub rotate: Option<Rotate>,
+    /// Also as ROS 2's messages.
+    pub ros2: bool,
+    /// Files that are there already are written over.
+    pub force: bool,
+    /// What the source is, in a few words.
+    pub label: String,
+    /// Counts per newton on a taxel, where that is known.
+    pub counts_per_newton: Option<f32>,
+    /// Turns true when somebody has asked for the end.
+    pub stop: Arc<AtomicBool>,
+}
+
+/// A recording under way.
+#[derive(Debug)]
+pub struct Recorder {
+    plan: Plan,
+    file: Option<RecordingFile<File>>,
+    path: PathBuf,
+    number: u32,
+    stamps: Stamps,
+    standing: Standing,
+    worn: Option<Worn>,
+    /// The board's time at which the file began, us.
+    began_us: Option<u64>,
+    /// The board's time at which the chunk began, us.
+    chunk_us: u64,
+    kept: Instant,
+    progress: Progress,
+}
+
+impl Recorder {
+    /// Begins the first file.
+    pub fn create(plan: Plan) -> Result<Recorder> {
+        Ok(Recorder {
+            file: Some(begin(&plan, &plan.path)?),
+            path: plan.path.clone(),
+            number: 1,
+            stamps: Stamps::start(),
+            standing: Standing::default(),
+            worn: None,
+            began_us: None,
+            chunk_us: 0,
+            kept: Instant::now(),
+            progress: Progress::default(),
+            plan,
+        })
+    }
+
+    /// What has been recorded so far, in words.
+    pub fn progress(&self) -> String {
+        let bytes = self.file.as_ref().map_or(0, |file| file.bytes());
+        self.progress.line(&self.path, bytes)
+    }
+
+    /// Writes the end of the file. Does nothing where it has been written.
+    pub fn finish(&mut self) -> Result<()> {
+        let Some(file) = self.file.take() else { return Ok(()) };
+        file.finish().map(|bytes| self.progress.ended(bytes)).with_context(|| self.incomplete())
+    }
+
+    fn incomplete(&self) -> String {
+        format!("{} could not be completed: `taxel info --repair` completes it", self.path.display())
+    }
+
+    /// What could not be written ends the recording; what was written before stays, with an end.
+    fn guard(&mut self, done: Result<()>) -> Result<()> {
+        let Err(error) = done else { return Ok(()) };
+        let ended = self.file.take().map(RecordingFile::finish).transpose();
+        let kept = match ended {
+            Ok(_) => "what was recorded before is whole".to_string(),
+            // The last messages are known to be lost: the rest may be whole for all that.
+            Err(_) if crate::recording::scan(&self.path).is_ok_and(|scan| scan.whole) => {
+                "what was recorded before is whole".into()
+            }
+            Err(_) => self.incomplete(),
+        };
+        Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
+    }
+
+    fn take(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let stamp = self.stamps.of(client, event);
+        self.standing.take(client, event);
+        self.rotate(client, event, stamp)?;
+        let began = *self.began_us.get_or_insert(stamp.board_us);
+        self.progress.take(client, event, stamp.board_us.saturating_sub(began));
+        let Some(file) = &mut self.file else { return Ok(()) };
+        if *event == Event::Hello && client.worn() != self.worn.as_ref() {
+            self.worn = client.worn().cloned();
+            attach(&self.plan, self.worn.as_ref(), file, stamp)?;
+        }
+        if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
+            self.chunk_us = stamp.board_us;
+            file.close()?;
+        }
+        file.wire(stamp, client.line())?;
+        file.event(client, event, stamp, self.plan.counts_per_newton)
+    }
+
+    /// Goes on in another file where it is time: with an image that stands alone, so that the file does, too.
+    fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
+        let Event::Frame { alone: true, .. } = event else { return Ok(()) };
+        let Some(file) = &self.file else { return Ok(()) };
+        let passed = stamp.board_us.saturating_sub(self.began_us.unwrap_or(stamp.board_us));
+        let due = match self.plan.rotate {
+            None => false,
+            Some(Rotate::After(time)) => passed >= time.as_micros() as u64,
+            Some(Rotate::Bytes(bytes)) => file.bytes() >= bytes,
+        };
+        if !due {
+            return Ok(());
+        }
+        self.finish()?;
+        self.number += 1;
+        self.path = numbered(&self.plan.path, self.number);
+        self.began_us = None;
+        let file = self.file.insert(begin(&self.plan, &self.path)?);
+        attach(&self.plan, self.worn.as_ref(), file, stamp)?;
+        for bytes in self.standing.frames(standing::sequence(client.line())?)? {
+            file.wire(stamp, &bytes)?;
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self) -> Result<()> {
+        if self.kept.elapsed() < CHUNK {
+            return Ok(());
+        }
+        if let Some(file) = &mut self.file {
+            file.flush()?;
+        }
+        self.kept = Instant::now();
+        if self.progress.is_shown() {
+            eprint!("\r{} ", self.progress());
+        }
+        Ok(())
+    }
+}
+
+fn attach(plan: &Plan, worn: Option<&Worn>, file: &mut RecordingFile<File>, stamp: Stamp) -> Result<()> {
+    let Some(worn) = worn else { return Ok(()) };
+    provenance::attach(&mut file.writer, worn, &plan.label, plan.counts_per_newton, stamp.host_us * NS)
+}
+
+/// Begins a file, and the one beside it.
+fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
+    let store = create(plan, path)?;
+    let ros2 = plan.ros2.then(|| create(plan, &beside(path))).transpose()?;
+    RecordingFile::create(store, ros2).with_context(|| format!("{} cannot be written", path.display()))
+}
+
+/// A file, which must not be there unless it may be written over.
+fn create(plan: &Plan, path: &Path) -> Result<File> {
+    if !plan.force && path.exists() {
+        bail!("{} is there already: give another name, or --force", path.display());
+    }
+    let mut options = OpenOptions::new();
+    options.write(true).create(true).truncate(true);
+    options.open(path).with_context(|| format!("{} cannot be written", path.display()))
+}
+
+impl Show for Recorder {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let done = self.take(client, event);
+        self.guard(done)
+    }
+
+    fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
+        let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
+        let stamp = self.stamps.now(client);
+        let mut done = file.requests(stamp, bytes);
+        for frame in bytes.split(|byte| *byte == 0) {
+            let mut frame = frame.to_vec();
+            let request = wire::open(&mut frame).and_then(wire::decode::<Request<'_>>);
+            if let (Ok(Request::Posture(posture)), true) = (request, done.is_ok()) {
+                let names = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+                done = file.posture(stamp, &posture, names);
+            }
+        }
+        self.guard(done)
+    }
+
+    fn idle(&mut self, _: &mut Client) -> Result<bool> {
+        let done = self.keep();
+        self.guard(done)?;
+        Ok(!self.plan.stop.load(Ordering::Relaxed))
+    }
+
+    fn end(&mut self, _: &Client) -> Result<()> {
+        self.finish()
+    }
+}

@@ -1,0 +1,88 @@
+//! Which message goes where.
+
+use super::super::file::NS;
+use super::super::names;
+use super::super::stamps::Stamp;
+use super::{messages, schemas};
+use crate::client::{Client, Event, ImageNews};
+use crate::recording::{Format, Store, Writer};
+use anyhow::Result;
+use std::collections::BTreeMap;
+
+/// A file with these messages alone: readers of ROS bags refuse a file in which there are others. Its channels are made when
+/// their first message comes.
+#[derive(Debug)]
+pub struct Ros2<S: Store> {
+    /// What is written to.
+    pub writer: Writer<S>,
+    ids: BTreeMap<String, u16>,
+}
+
+/// A message for a topic.
+struct Sent {
+    topic: String,
+    schema: &'static str,
+    text: &'static str,
+    data: Vec<u8>,
+}
+
+impl<S: Store> Ros2<S> {
+    /// Begins a file.
+    pub fn create(store: S) -> Result<Ros2<S>> {
+        Ok(Ros2 { writer: Writer::create(store, "ros2")?, ids: BTreeMap::new() })
+    }
+
+    /// Writes what an event says.
+    pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
+        let all = match event {
+            Event::Frame { image: ImageNews::Whole, .. } => frame(client, stamp, scale),
+            Event::Health(health) => {
+                let board = client.worn().map_or("", |worn| worn.firmware.as_str());
+                let data = messages::diagnostics(stamp.host_us, board, health, client.ill().len());
+                let schema = "diagnostic_msgs/msg/DiagnosticArray";
+                vec![Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }]
+            }
+            _ => return Ok(()),
+        };
+        for Sent { topic, schema, text, data } in all {
+            let id = match self.ids.get(&topic) {
+                Some(id) => *id,
+                None => {
+                    let format = Format { encoding: "cdr", schema, schema_encoding: "ros2msg", text };
+                    let id = self.writer.channel(&topic, &format)?;
+                    self.ids.insert(topic, id);
+                    id
+                }
+            };
+            self.writer.message(id, stamp.host_us * NS, stamp.board_us * NS, &data)?;
+        }
+        Ok(())
+    }
+}
+
+/// Image, points and force of each panel.
+fn frame(client: &Client, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
+    let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
+    let mut all = Vec::new();
+    for area in layout.areas() {
+        let start = usize::from(area.base);
+        let taxels = usize::from(area.rows) * usize::from(area.columns);
+        let values = image.get(start..start + taxels).unwrap_or(&[]);
+        let mut send = |what: &str, schema, text, data| {
+            let topic = format!("/tactile/{}/{what}", names::topic(&area.name));
+            all.push(Sent { topic, schema, text, data });
+        };
+        let time = stamp.host_us;
+        send("image", "sensor_msgs/msg/Image", schemas::IMAGE, messages::image(time, area, values));
+        if !area.pitch_um.contains(&0) {
+            let data = messages::points(time, area, values);
+            send("points", "sensor_msgs/msg/PointCloud2", schemas::POINT_CLOUD, data);
+        }
+        if let Some(scale) = scale {
+            let counts: u32 = values.iter().map(|value| u32::from(*value)).sum();
+            let data = messages::wrench(time, area, f64::from(counts) / f64::from(scale));
+            send("wrench", "geometry_msgs/msg/WrenchStamped", schemas::WRENCH, data);
+        }
+    }
+    all
+}

@@ -1,0 +1,17 @@
+//! ROS 2's own messages of what a board tells, in a file beside the recording (`NAME.ros2.mcap`), so that `ros2 bag play` and RViz know them without a node of ours.
+//!
+//! | topic | message | what |
+//! |---|---|---|
+//! | `/tactile/PANEL/image` | sensor_msgs/Image, mono16 | pressure, counts |
+//! | `/tactile/PANEL/points` | sensor_msgs/PointCloud2 | x, y, z in m on the panel, pressure in counts; where the pitch is known |
+//! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | sum of the normal forces, N; where counts per newton are known |
+//! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second |
+//!
+//! The frame of a panel's messages is its link. Stamps are the host's time.
+
+mod cdr;
+mod channels;
+mod messages;
+mod schemas;
+
+pub use channels::Ros2;

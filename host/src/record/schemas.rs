@@ -1,0 +1,174 @@
+//! JSON schemas of the messages, so that Foxglove and others offer the fields by name before a message has come.
+
+use serde_json::{Map, Value, json};
+
+type Fields<'a> = &'a [(&'a str, Value)];
+
+fn is(kind: &str) -> Value {
+    json!({ "type": kind })
+}
+
+fn integer() -> Value {
+    is("integer")
+}
+
+fn number() -> Value {
+    is("number")
+}
+
+fn text() -> Value {
+    is("string")
+}
+
+fn flag() -> Value {
+    is("boolean")
+}
+
+fn list(of: Value) -> Value {
+    json!({ "type": "array", "items": of })
+}
+
+fn object(fields: Fields<'_>) -> Value {
+    let properties: Map<String, Value> =
+        fields.iter().map(|(name, value)| (name.to_string(), value.clone())).collect();
+    json!({ "type": "object", "properties": properties })
+}
+
+/// Fields of that name and one type each.
+fn all<const N: usize>(kind: fn() -> Value, names: [&str; N]) -> Vec<(&str, Value)> {
+    names.map(|name| (name, kind())).to_vec()
+}
+
+/// A message: its type and its times before the other fields.
+fn message(fields: &[(&str, Value)]) -> Value {
+    let times = ["time_us", "host_time_us", "host_time_uncertainty_us"];
+    object(&[&[("type", text())], all(integer, times).as_slice(), fields].concat())
+}
+
+/// A message of a scan.
+fn of_frame(fields: &[(&str, Value)]) -> Value {
+    message(&[&[("frame", integer())], fields].concat())
+}
+
+fn contact() -> Value {
+    let integers =
+        ["id", "panel", "total", "peak", "peak_row", "peak_column", "area", "perimeter", "peak_total"];
+    let numbers = [
+        "x",
+        "y",
+        "x_mm",
+        "y_mm",
+        "azimuth",
+        "anisotropy",
+        "breadth_mm",
+        "nmi",
+        "nmi_peak",
+        "nmi_s2",
+        "confidence",
+        "dx",
+        "dy",
+        "vx",
+        "vy",
+        "duration",
+        "peak_breadth_mm",
+    ];
+    let texts = ["phase", "panel_name", "region", "link", "shape"];
+    object(
+        &[all(integer, integers), all(number, numbers), all(text, texts), all(flag, ["edge", "slip"])]
+            .concat(),
+    )
+}
+
+/// Garment, scene and firmware.
+pub fn hello() -> Value {
+    let panel =
+        [all(text, ["name", "link"]), all(integer, ["rows", "columns"]), vec![("pitch_um", list(integer()))]];
+    let fields = [
+        all(text, ["firmware", "garment", "scene", "calibration"]),
+        vec![("taxels", integer()), ("regions", list(text())), ("panels", list(object(&panel.concat())))],
+    ];
+    message(&fields.concat())
+}
+
+/// The conditioned image, panel by panel, row by row, counts; `total` is their sum.
+pub fn frames() -> Value {
+    let panel = object(&[("name", text()), ("total", integer()), ("rows", list(list(integer())))]);
+    let fields = [
+        all(flag, ["key", "decoded"]),
+        all(integer, ["lost", "thinned", "total"]),
+        vec![("panels", list(panel))],
+    ];
+    of_frame(&fields.concat())
+}
+
+/// Contacts that are there and that have gone.
+pub fn contacts() -> Value {
+    of_frame(&[("contacts", list(contact())), ("released", list(contact())), ("dropped", integer())])
+}
+
+/// What was said of contacts.
+pub fn symbols() -> Value {
+    let words = [all(text, ["strength", "extent", "span", "class"]), vec![("moving", flag())]];
+    let event = [
+        all(integer, ["contact", "peak_total", "duration_ms"]),
+        all(text, ["phase", "region"]),
+        vec![("words", object(&words.concat()))],
+    ];
+    let region = [all(integer, ["contacts", "total", "peak"]), vec![("region", text()), ("moving", flag())]];
+    of_frame(&[("events", list(object(&event.concat()))), ("regions", list(object(&region.concat())))])
+}
+
+/// What the touch means: the leading intention, and each concept's activation, -1 ..= 1.
+pub fn intent() -> Value {
+    let concepts = json!({ "type": "object", "additionalProperties": number() });
+    let intent = object(&[("leading", text()), ("concepts", concepts)]);
+    of_frame(&[("intent", intent), ("outcome", text()), ("steps", integer())])
+}
+
+/// What the garment did by itself.
+pub fn reactions() -> Value {
+    of_frame(&[("index", integer()), ("name", text()), ("active", flag()), ("value", integer())])
+}
+
+/// How the board is.
+pub fn health() -> Value {
+    message(&all(
+        integer,
+        [
+            "scans",
+            "failed",
+            "overruns",
+            "thinned_frames",
+            "thinned_contacts",
+            "lost",
+            "refused",
+            "scan_us",
+            "process_us",
+        ],
+    ))
+}
+
+/// Which taxels are ill.
+pub fn health_map() -> Value {
+    let ill = object(&[("taxel", integer()), ("health", text())]);
+    message(&[("whole", flag()), ("ill", list(ill))])
+}
+
+/// Where the board's time goes.
+pub fn budget() -> Value {
+    of_frame(&all(
+        integer,
+        ["frames", "scan_us", "process_us", "encode_us", "send_us", "overruns", "thinned_frames"],
+    ))
+}
+
+/// How the joints stand, as the host told the board.
+pub fn posture() -> Value {
+    let joint = object(&[("joint", text()), ("degrees", number())]);
+    message(&[("joints", list(joint))])
+}
+
+/// A sentence of the board.
+pub fn log() -> Value {
+    message(&all(text, ["level", "text"]))
+}

@@ -1,0 +1,77 @@
+//! The host's time of what a board tells.
+
+use crate::client::{Client, Event};
+use crate::clock::SteadyTime;
+use taxel_core::format::Micros;
+
+/// Times of a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    /// The board's time, us.
+    pub board_us: u64,
+    /// The host's time of it, us since 1970.
+    pub host_us: u64,
+    /// How far that can be from the truth; none: no round trip has told.
+    pub uncertainty_us: Option<u64>,
+}
+
+/// Finds the host's times.
+#[derive(Debug)]
+pub struct Stamps {
+    time: SteadyTime,
+    /// A time of the board, and the host's when it was heard of first.
+    heard: Option<(u64, u64)>,
+    last: u64,
+}
+
+impl Stamps {
+    /// From now on.
+    pub fn start() -> Stamps {
+        Stamps { time: SteadyTime::start(), heard: None, last: 0 }
+    }
+
+    /// Of an event: by the clock of a board that has answered a `Sync`, else by when the first message came and the
+    /// board's own time since. An event without a time has that of the one before.
+    pub fn of(&mut self, client: &Client, event: &Event) -> Stamp {
+        let board_us = time_of(client, event).unwrap_or(self.last);
+        self.last = board_us;
+        self.at(client, board_us)
+    }
+
+    /// Of what the host does now: by the last message.
+    pub fn now(&mut self, client: &Client) -> Stamp {
+        self.at(client, self.last)
+    }
+
+    fn at(&mut self, client: &Client, board_us: u64) -> Stamp {
+        if let Some(time) = client.host_time(Micros(board_us)) {
+            return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };
+        }
+        let (board, host) = match self.heard {
+            // A board that started anew is heard of anew.
+            Some((board, host)) if board_us >= board => (board, host),
+            _ => *self.heard.insert((board_us, self.time.now_us())),
+        };
+        Stamp { board_us, host_us: host + (board_us - board), uncertainty_us: None }
+    }
+}
+
+/// The board's time that an event tells of, us.
+fn time_of(client: &Client, event: &Event) -> Option<u64> {
+    let time = match event {
+        Event::Hello => client.worn()?.clock,
+        Event::Frame { time, .. }
+        | Event::Contacts { time, .. }
+        | Event::HealthMap { time, .. }
+        | Event::Log { time, .. }
+        | Event::Raw { time, .. } => *time,
+        Event::Symbols(list) => list.time,
+        Event::Intent(report) => report.time,
+        Event::Reaction(report) => report.time,
+        Event::Health(health) => health.time,
+        Event::Budget(budget) => budget.time,
+        Event::Sync(report) => report.sent,
+        Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
+    };
+    Some(time.0)
+}

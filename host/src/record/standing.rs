@@ -1,0 +1,54 @@
+//! What a board said once and what holds since: a file that goes on another begins with it, and so stands alone.
+
+use crate::client::{Client, Event};
+use taxel_core::wire::{self, Report, WireError};
+
+/// Frames of the wire, their 0x00 included.
+#[derive(Debug, Default, Clone)]
+pub struct Standing {
+    hello: Vec<u8>,
+    ill: Vec<Vec<u8>>,
+    whole: bool,
+}
+
+impl Standing {
+    /// Takes what came.
+    pub fn take(&mut self, client: &Client, event: &Event) {
+        match event {
+            Event::Hello => self.hello = client.line().to_vec(),
+            Event::HealthMap { whole, .. } => {
+                if std::mem::replace(&mut self.whole, *whole) {
+                    self.ill.clear();
+                }
+                self.ill.push(client.line().to_vec());
+            }
+            _ => {}
+        }
+    }
+
+    /// The frames, numbered so that the message of the number `next` follows them.
+    pub fn frames(&self, next: u32) -> Result<Vec<Vec<u8>>, WireError> {
+        let all: Vec<_> = std::iter::once(&self.hello).chain(&self.ill).filter(|f| !f.is_empty()).collect();
+        let first = next.wrapping_sub(all.len() as u32);
+        all.iter().zip(0u32..).map(|(frame, index)| renumbered(frame, first.wrapping_add(index))).collect()
+    }
+}
+
+/// The number of a frame's message.
+pub fn sequence(frame: &[u8]) -> Result<u32, WireError> {
+    let mut bytes = frame.strip_suffix(&[0]).unwrap_or(frame).to_vec();
+    postcard::take_from_bytes(wire::open(&mut bytes)?).map(|(seq, _)| seq).map_err(|_| WireError::Message)
+}
+
+/// A frame with another number.
+fn renumbered(frame: &[u8], seq: u32) -> Result<Vec<u8>, WireError> {
+    let mut bytes = frame.strip_suffix(&[0]).unwrap_or(frame).to_vec();
+    let message = wire::open(&mut bytes)?;
+    let (_, report): (u32, Report<'_>) = wire::decode(message)?;
+    // A number takes 5 bytes at most.
+    let mut body = vec![0; message.len() + 16];
+    let mut out = vec![0; wire::frame_bound(body.len())];
+    let length = wire::encode(&(seq, report), &mut body, &mut out)?;
+    out.truncate(length);
+    Ok(out)
+}

@@ -1,0 +1,80 @@
+//! The topics of a recording, and what of an event goes to which.
+
+use super::schemas;
+use crate::client::Event;
+use crate::recording::{Format, Store, Writer};
+use anyhow::Result;
+use serde_json::Value;
+
+/// Frames of the wire from the board.
+pub const WIRE: &str = "/taxel/wire";
+/// Frames of the wire to the board.
+pub const REQUESTS: &str = "/taxel/requests";
+/// How both are to be read: as `taxel_core::wire` describes.
+const WIRE_ENCODING: &str = "taxel-wire";
+
+/// A topic with JSON messages: its name below `/taxel/`, and their schema.
+pub type JsonTopic = (&'static str, fn() -> Value);
+
+/// All of them.
+pub const JSON: [JsonTopic; 11] = [
+    ("hello", schemas::hello),
+    ("frames", schemas::frames),
+    ("contacts", schemas::contacts),
+    ("symbols", schemas::symbols),
+    ("intent", schemas::intent),
+    ("reactions", schemas::reactions),
+    ("health", schemas::health),
+    ("health_map", schemas::health_map),
+    ("budget", schemas::budget),
+    ("posture", schemas::posture),
+    ("log", schemas::log),
+];
+
+/// Numbers of the channels in one file.
+#[derive(Debug, Clone)]
+pub struct Topics {
+    /// Of [`WIRE`].
+    pub wire: u16,
+    /// Of [`REQUESTS`].
+    pub requests: u16,
+    json: Vec<(&'static str, u16)>,
+}
+
+impl Topics {
+    /// Tells a file of them.
+    pub fn open<S: Store>(writer: &mut Writer<S>) -> Result<Topics> {
+        let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
+        let (wire, requests) = (writer.channel(WIRE, &plain)?, writer.channel(REQUESTS, &plain)?);
+        let mut json = Vec::new();
+        for (name, schema) in JSON {
+            let (title, text) = (format!("taxel.{name}"), schema().to_string());
+            let format =
+                Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text: &text };
+            json.push((name, writer.channel(&format!("/taxel/{name}"), &format)?));
+        }
+        Ok(Topics { wire, requests, json })
+    }
+
+    /// The channel of a JSON topic.
+    pub fn json(&self, name: &str) -> Option<u16> {
+        self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id)
+    }
+}
+
+/// The JSON topic of an event; none: it is on the wire alone.
+pub fn of(event: &Event) -> Option<&'static str> {
+    Some(match event {
+        Event::Hello => "hello",
+        Event::Frame { .. } => "frames",
+        Event::Contacts { .. } => "contacts",
+        Event::Symbols(_) => "symbols",
+        Event::Intent(_) => "intent",
+        Event::Reaction(_) => "reactions",
+        Event::Health(_) => "health",
+        Event::HealthMap { .. } => "health_map",
+        Event::Budget(_) => "budget",
+        Event::Log { .. } => "log",
+        _ => return None,
+    })
+}

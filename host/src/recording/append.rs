@@ -1,0 +1,41 @@
+//! One record as bytes: its number, its length, its body.
+
+use anyhow::{Context, Result};
+use binrw::BinWrite;
+use std::io::Cursor;
+
+/// Bytes before a record's body: its number (u8) and its length (u64).
+pub const HEAD: usize = 9;
+
+/// Appends a record whose body is `fields` and then `data`.
+pub fn append<F>(out: &mut Vec<u8>, op: u8, fields: &F, data: &[u8]) -> Result<()>
+where
+    F: for<'a> BinWrite<Args<'a> = ()>,
+{
+    let start = out.len();
+    out.push(op);
+    out.extend([0; HEAD - 1]);
+    write(out, fields)?;
+    out.extend_from_slice(data);
+    let length = (out.len() - start - HEAD) as u64;
+    out[start + 1..start + HEAD].copy_from_slice(&length.to_le_bytes());
+    Ok(())
+}
+
+/// Appends fields alone.
+pub fn write<F>(out: &mut Vec<u8>, fields: &F) -> Result<()>
+where
+    F: for<'a> BinWrite<Args<'a> = ()>,
+{
+    let end = out.len() as u64;
+    let mut cursor = Cursor::new(out);
+    cursor.set_position(end);
+    fields.write_options(&mut cursor, binrw::Endian::Little, ()).context("a record cannot be written")
+}
+
+/// Bytes with their length (u32) before them.
+pub fn sized(data: &[u8]) -> Vec<u8> {
+    let mut out = (data.len() as u32).to_le_bytes().to_vec();
+    out.extend_from_slice(data);
+    out
+}

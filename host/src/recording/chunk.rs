@@ -1,0 +1,125 @@
+//! Messages of a short time, compressed together, with their index.
+
+use super::append::append;
+use anyhow::{Context, Result, bail, ensure};
+use lz4_flex::frame::{FrameDecoder, FrameEncoder};
+use mcap::records::{ChunkHeader, ChunkIndex, MessageHeader, MessageIndex, MessageIndexEntry, op};
+use std::collections::BTreeMap;
+use std::io::{Read, Write};
+
+/// How chunks are compressed, in MCAP's words.
+const LZ4: &str = "lz4";
+/// Largest chunk that is read, bytes: a claim beyond it is no reason to ask for memory.
+const LARGEST: u64 = 1 << 30;
+
+/// Where the messages of a chunk lie in its plain bytes, by channel.
+pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;
+
+/// A chunk that grows.
+#[derive(Debug, Default)]
+pub struct Chunk {
+    body: Vec<u8>,
+    index: Index,
+    span: Option<[u64; 2]>,
+}
+
+impl Chunk {
+    /// Adds a message.
+    pub fn message(&mut self, header: &MessageHeader, data: &[u8]) -> Result<()> {
+        let entry = MessageIndexEntry { log_time: header.log_time, offset: self.body.len() as u64 };
+        append(&mut self.body, op::MESSAGE, header, data)?;
+        self.index.entry(header.channel_id).or_default().push(entry);
+        let [first, last] = self.span.unwrap_or([header.log_time; 2]);
+        self.span = Some([first.min(header.log_time), last.max(header.log_time)]);
+        Ok(())
+    }
+
+    /// Plain bytes so far.
+    pub fn bytes(&self) -> usize {
+        self.body.len()
+    }
+
+    /// Appends the chunk and its index to `out`, which will lie at `offset` in the file. None: there is no message.
+    pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
+        let Some([first, last]) = self.span.take() else { return Ok(None) };
+        let mut encoder = FrameEncoder::new(Vec::new());
+        encoder.write_all(&self.body)?;
+        let data = encoder.finish().context("a chunk cannot be compressed")?;
+        let header = ChunkHeader {
+            message_start_time: first,
+            message_end_time: last,
+            uncompressed_size: self.body.len() as u64,
+            uncompressed_crc: crc32fast::hash(&self.body),
+            compression: LZ4.into(),
+            compressed_size: data.len() as u64,
+        };
+        let start = out.len();
+        append(out, op::CHUNK, &header, &data)?;
+        let length = (out.len() - start) as u64;
+        let closed = Closed::indexed(&header, &self.index, offset, length, out)?;
+        self.body.clear();
+        self.index.clear();
+        Ok(Some(closed))
+    }
+}
+
+/// A chunk that is written: its place and how many messages it has by channel.
+#[derive(Debug, Clone)]
+pub struct Closed {
+    /// What the summary says of it.
+    pub index: ChunkIndex,
+    /// Messages by channel.
+    pub counts: BTreeMap<u16, u64>,
+}
+
+impl Closed {
+    /// Of a chunk record of `length` bytes at `offset`, behind which its message indexes are appended to `out`.
+    pub fn indexed(
+        header: &ChunkHeader,
+        messages: &Index,
+        offset: u64,
+        length: u64,
+        out: &mut Vec<u8>,
+    ) -> Result<Closed> {
+        let (start, behind) = (out.len(), offset + length);
+        let mut offsets = BTreeMap::new();
+        for (channel, entries) in messages {
+            offsets.insert(*channel, behind + (out.len() - start) as u64);
+            let index = MessageIndex { channel_id: *channel, records: entries.clone() };
+            append(out, op::MESSAGE_INDEX, &index, &[])?;
+        }
+        let index = ChunkIndex {
+            message_start_time: header.message_start_time,
+            message_end_time: header.message_end_time,
+            chunk_start_offset: offset,
+            chunk_length: length,
+            message_index_offsets: offsets,
+            message_index_length: (out.len() - start) as u64,
+            compression: header.compression.clone(),
+            compressed_size: header.compressed_size,
+            uncompressed_size: header.uncompressed_size,
+        };
+        let counts = messages.iter().map(|(channel, entries)| (*channel, entries.len() as u64)).collect();
+        Ok(Closed { index, counts })
+    }
+
+    /// Where the file goes on behind the chunk and its index.
+    pub fn end(&self) -> u64 {
+        self.index.chunk_start_offset + self.index.chunk_length + self.index.message_index_length
+    }
+}
+
+/// The plain records of a chunk, its checksum checked.
+pub fn plain(header: &ChunkHeader, data: &[u8]) -> Result<Vec<u8>> {
+    ensure!(header.uncompressed_size <= LARGEST, "a chunk claims to hold {} bytes", header.uncompressed_size);
+    let mut body = Vec::new();
+    match header.compression.as_str() {
+        "" => body.extend_from_slice(data),
+        LZ4 => _ = FrameDecoder::new(data).take(LARGEST + 1).read_to_end(&mut body)?,
+        other => bail!("its chunks are compressed with {other}: known are lz4 and none"),
+    }
+    ensure!(body.len() as u64 == header.uncompressed_size, "a chunk holds less or more than it says");
+    let sum = header.uncompressed_crc;
+    ensure!(sum == 0 || sum == crc32fast::hash(&body), "a chunk does not fit its checksum");
+    Ok(body)
+}

@@ -1,0 +1,191 @@
+//! A recording being written.
+//!
+//! What is written is whole at any time: records outside chunks and chunks with their index are appended in one piece, and
+//! what could not be written is cut off again. A kill between two pieces leaves a file without its end, which
+//! [`repair`](super::repair()) adds.
+
+use super::append::{append, sized, write};
+use super::chunk::Chunk;
+use super::contents::Contents;
+use super::store::Store;
+use anyhow::{Context, Result};
+use mcap::MAGIC;
+use mcap::records::{
+    AttachmentHeader, AttachmentIndex, Channel, Header, MessageHeader, Metadata, MetadataIndex, SchemaHeader,
+    op,
+};
+use std::collections::BTreeMap;
+
+/// Plain bytes of a chunk after which it is closed whatever the time.
+const LARGE: usize = 4 << 20;
+
+/// How messages of a channel are to be read.
+#[derive(Debug, Clone, Copy)]
+pub struct Format<'a> {
+    /// Of messages: `json`, `cdr`, ...
+    pub encoding: &'a str,
+    /// Name of the schema; empty: none.
+    pub schema: &'a str,
+    /// Of the schema: `jsonschema`, `ros2msg`.
+    pub schema_encoding: &'a str,
+    /// The schema.
+    pub text: &'a str,
+}
+
+/// A recording being written.
+#[derive(Debug)]
+pub struct Writer<S: Store> {
+    store: S,
+    /// Bytes that are written, all of them whole.
+    length: u64,
+    contents: Contents,
+    chunk: Chunk,
+    sequences: BTreeMap<u16, u32>,
+}
+
+impl<S: Store> Writer<S> {
+    /// Begins a file. `profile` is MCAP's: `ros2`, or empty.
+    pub fn create(store: S, profile: &str) -> Result<Writer<S>> {
+        let mut writer = Writer {
+            store,
+            length: 0,
+            contents: Contents::default(),
+            chunk: Chunk::default(),
+            sequences: BTreeMap::new(),
+        };
+        let mut out = MAGIC.to_vec();
+        let library = concat!("taxel ", env!("CARGO_PKG_VERSION")).into();
+        append(&mut out, op::HEADER, &Header { profile: profile.into(), library }, &[])?;
+        writer.put(&out)?;
+        Ok(writer)
+    }
+
+    /// Appends all of it, or nothing.
+    fn put(&mut self, bytes: &[u8]) -> Result<()> {
+        let written = self.store.write_all(bytes).and_then(|()| self.store.flush());
+        if let Err(error) = written {
+            self.store.cut(self.length).context("what was written in part cannot be cut off")?;
+            return Err(error.into());
+        }
+        self.length += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Adds a channel and its schema; its number.
+    pub fn channel(&mut self, topic: &str, format: &Format<'_>) -> Result<u16> {
+        let mut out = Vec::new();
+        let schema_id = if format.schema.is_empty() { 0 } else { self.schema(format, &mut out)? };
+        let id = self.contents.channels.len() as u16 + 1;
+        let channel = Channel {
+            id,
+            schema_id,
+            topic: topic.into(),
+            message_encoding: format.encoding.into(),
+            metadata: BTreeMap::new(),
+        };
+        append(&mut out, op::CHANNEL, &channel, &[])?;
+        self.put(&out)?;
+        self.contents.channels.insert(id, channel);
+        Ok(id)
+    }
+
+    fn schema(&mut self, format: &Format<'_>, out: &mut Vec<u8>) -> Result<u16> {
+        let known = self.contents.schemas.values().find(|(header, _)| header.name == format.schema);
+        if let Some((header, _)) = known {
+            return Ok(header.id);
+        }
+        let id = self.contents.schemas.len() as u16 + 1;
+        let header = SchemaHeader { id, name: format.schema.into(), encoding: format.schema_encoding.into() };
+        append(out, op::SCHEMA, &header, &sized(format.text.as_bytes()))?;
+        self.contents.schemas.insert(id, (header, format.text.as_bytes().to_vec()));
+        Ok(id)
+    }
+
+    /// Adds a message; times in ns. It is on the disk after the next [`Writer::flush`].
+    pub fn message(&mut self, channel_id: u16, log_time: u64, publish_time: u64, data: &[u8]) -> Result<()> {
+        let sequence = self.sequences.entry(channel_id).or_insert(0);
+        let header = MessageHeader { channel_id, sequence: *sequence, log_time, publish_time };
+        *sequence = sequence.wrapping_add(1);
+        self.chunk.message(&header, data)?;
+        if self.chunk.bytes() > LARGE { self.close() } else { Ok(()) }
+    }
+
+    /// Adds a file, of the time `ns`.
+    pub fn attach(&mut self, name: &str, media_type: &str, data: &[u8], ns: u64) -> Result<()> {
+        let header = AttachmentHeader {
+            log_time: ns,
+            create_time: ns,
+            name: name.into(),
+            media_type: media_type.into(),
+        };
+        let mut body = Vec::new();
+        write(&mut body, &header)?;
+        let mut rest = (data.len() as u64).to_le_bytes().to_vec();
+        rest.extend_from_slice(data);
+        body.extend_from_slice(&rest);
+        rest.extend(crc32fast::hash(&body).to_le_bytes());
+        let mut out = Vec::new();
+        append(&mut out, op::ATTACHMENT, &header, &rest)?;
+        let index = AttachmentIndex {
+            offset: self.length,
+            length: out.len() as u64,
+            log_time: ns,
+            create_time: ns,
+            data_size: data.len() as u64,
+            name: header.name,
+            media_type: header.media_type,
+        };
+        self.put(&out)?;
+        self.contents.attachments.push(index);
+        Ok(())
+    }
+
+    /// Adds words by name.
+    pub fn metadata(&mut self, name: &str, words: BTreeMap<String, String>) -> Result<()> {
+        let mut out = Vec::new();
+        append(&mut out, op::METADATA, &Metadata { name: name.into(), metadata: words }, &[])?;
+        let index = MetadataIndex { offset: self.length, length: out.len() as u64, name: name.into() };
+        self.put(&out)?;
+        self.contents.metadata.push(index);
+        Ok(())
+    }
+
+    /// Ends the chunk: those who read can go to the next directly.
+    pub fn close(&mut self) -> Result<()> {
+        let mut out = Vec::new();
+        let Some(closed) = self.chunk.close(self.length, &mut out)? else { return Ok(()) };
+        self.put(&out)?;
+        self.contents.chunks.push(closed);
+        Ok(())
+    }
+
+    /// Writes the messages so far through to the disk. An error: they are lost, the file is as it was before.
+    pub fn flush(&mut self) -> Result<()> {
+        self.close()?;
+        Ok(self.store.keep()?)
+    }
+
+    /// Writes the end. Where there is no room even for it, chunks are given up from behind until it fits. The bytes of the file.
+    pub fn finish(mut self) -> Result<u64> {
+        let closed = self.close();
+        loop {
+            let end = self.contents.end(self.length)?;
+            match (self.put(&end), self.contents.chunks.last()) {
+                (Ok(()), _) => break,
+                (Err(error), None) => return Err(error),
+                (Err(_), Some(last)) => {
+                    self.length = last.index.chunk_start_offset;
+                    self.store.cut(self.length)?;
+                    self.contents.cut(self.length);
+                }
+            }
+        }
+        self.store.keep()?;
+        closed.map(|()| self.length)
+    }
+
+    /// Bytes so far, those of the last moment not included.
+    pub fn bytes(&self) -> u64 {
+        self.length
+    }
+}

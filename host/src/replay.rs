@@ -1,0 +1,40 @@
+//! `taxel replay`: a recording as if its board were there; `--source replay:FILE` does the same for every other command.
+
+use crate::live::{self, LiveArgs};
+use crate::source::{SourceSpec, Speed};
+use anyhow::Result;
+use clap::Args;
+use std::io::{IsTerminal, stdout};
+use std::path::PathBuf;
+
+/// What `taxel replay` takes.
+#[derive(Debug, Clone, Args)]
+pub struct ReplayArgs {
+    /// Recording: .mcap
+    pub file: PathBuf,
+    /// How many times as fast as it was, or `max` [default: 1 in a terminal, else max]
+    #[arg(long, value_name = "N|max")]
+    pub speed: Option<Speed>,
+    /// End after N images
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u64>,
+    /// Print messages as JSON, one a line
+    #[arg(long)]
+    pub json: bool,
+    /// With --json: also the pressure of every taxel
+    #[arg(long, requires = "json")]
+    pub pixels: bool,
+}
+
+/// Runs the command.
+pub fn run(args: ReplayArgs) -> Result<()> {
+    let speed = args.speed.unwrap_or_default();
+    let source = SourceSpec::Replay { path: args.file, speed };
+    live::run(LiveArgs {
+        frames: args.frames,
+        json: args.json,
+        pixels: args.pixels,
+        realtime: stdout().is_terminal(),
+        ..LiveArgs::of(source)
+    })
+}

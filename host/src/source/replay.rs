@@ -1,0 +1,133 @@
+//! A recording, played: the bytes that the board sent, when it sent them, faster, slower, or as fast as they can be read.
+
+use super::{Port, Source, SourceOptions};
+use crate::record::WIRE;
+use crate::recording::{Messages, scan};
+use anyhow::{Context, Result, bail};
+use std::fmt;
+use std::io;
+use std::path::Path;
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+/// How long a read waits at most.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// How fast a recording is played.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub enum Speed {
+    /// As it was where somebody watches, else as fast as it can be read: as a simulation.
+    #[default]
+    AsAsked,
+    /// So many times as fast as it was.
+    Times(f64),
+    /// As fast as it can be read.
+    Max,
+}
+
+impl Eq for Speed {}
+
+impl FromStr for Speed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Speed, String> {
+        match text.parse::<f64>() {
+            _ if text == "max" => Ok(Speed::Max),
+            Ok(times) if times.is_finite() && times > 0.0 => Ok(Speed::Times(times)),
+            _ => Err(format!("\"{text}\": a speed is a number above 0, or max")),
+        }
+    }
+}
+
+impl fmt::Display for Speed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Speed::AsAsked => Ok(()),
+            Speed::Times(times) => write!(f, "@{times}"),
+            Speed::Max => f.write_str("@max"),
+        }
+    }
+}
+
+/// Opens a recording.
+pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source> {
+    let speed = match speed {
+        Speed::AsAsked if options.realtime => Some(1.0),
+        Speed::Times(times) => Some(times),
+        Speed::AsAsked | Speed::Max => None,
+    };
+    let scanned = scan(path)?;
+    if !scanned.contents.channels().any(|info| info.channel.topic == WIRE) {
+        bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
+    }
+    let words = scanned.metadata.iter().find(|metadata| metadata.name == "taxel");
+    let scale = words.and_then(|words| words.metadata.get("counts_per_newton")?.parse().ok());
+    let replay = Replay { messages: Messages::open(path)?, speed, began: None, next: Vec::new(), due: None };
+    let label = format!("replay:{}", path.display());
+    Ok(Source { counts_per_newton: scale, ..Source::new(label, replay) })
+}
+
+/// A recording being played.
+#[derive(Debug)]
+struct Replay {
+    messages: Messages,
+    speed: Option<f64>,
+    /// When the first message was played, and its log time, ns.
+    began: Option<(Instant, u64)>,
+    /// Bytes that wait, and when they are due.
+    next: Vec<u8>,
+    due: Option<Instant>,
+}
+
+impl Replay {
+    /// The bytes of the next message; false: there are no more.
+    fn fetch(&mut self) -> Result<bool> {
+        while let Some(message) = self.messages.next() {
+            let message = message?;
+            if self.messages.topic(message.header.channel_id) != Some(WIRE) {
+                continue;
+            }
+            let time = message.header.log_time;
+            let (start, first) = *self.began.get_or_insert_with(|| (Instant::now(), time));
+            let passed = Duration::from_nanos(time.saturating_sub(first));
+            self.due = self.speed.and_then(|speed| {
+                start.checked_add(Duration::try_from_secs_f64(passed.as_secs_f64() / speed).ok()?)
+            });
+            self.next = message.data;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+}
+
+impl Port for Replay {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        let mut count = 0;
+        loop {
+            if self.next.is_empty()
+                && !self.fetch().context("the recording ends").map_err(io::Error::other)?
+            {
+                return Ok((count > 0).then_some(count));
+            }
+            let wait = self.due.map_or(Duration::ZERO, |due| due.saturating_duration_since(Instant::now()));
+            if !wait.is_zero() {
+                if count == 0 {
+                    std::thread::sleep(wait.min(PATIENCE));
+                }
+                return Ok(Some(count));
+            }
+            let taken = self.next.len().min(buffer.len() - count);
+            buffer[count..count + taken].copy_from_slice(&self.next[..taken]);
+            self.next.drain(..taken);
+            count += taken;
+            if count == buffer.len() {
+                return Ok(Some(count));
+            }
+        }
+    }
+
+    /// Nobody listens.
+    fn write(&mut self, _: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+}
