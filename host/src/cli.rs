@@ -1,6 +1,7 @@
 //! The command line: one variant for each subcommand, each with an example.
 
 use crate::bench::{self, BenchArgs};
+use crate::export::{self, ExportArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
 use crate::gestures::{self, GesturesArgs};
@@ -11,6 +12,7 @@ use crate::live::{self, LiveArgs};
 use crate::process::{self, ProcessArgs};
 use crate::record::{self, RecordArgs};
 use crate::replay::{self, ReplayArgs};
+use crate::report::{self, ReportArgs};
 use crate::save::{self, SaveArgs};
 use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
@@ -46,6 +48,12 @@ enum Command {
     /// Play a recording as if its board were there
     #[command(after_help = REPLAY)]
     Replay(ReplayArgs),
+    /// A recording as CSV, NumPy arrays or images
+    #[command(after_help = EXPORT)]
+    Export(ExportArgs),
+    /// What a recording or a board shows, as one page to send
+    #[command(after_help = REPORT)]
+    Report(ReportArgs),
     /// Perceive recorded frames as the board would
     #[command(after_help = PROCESS)]
     Process(ProcessArgs),
@@ -108,6 +116,15 @@ const REPLAY: &str = "Examples:
   taxel replay touch.mcap
   taxel replay touch.mcap --speed 0.25
   taxel live --source replay:touch.mcap@max --json";
+
+const EXPORT: &str = "Examples:
+  taxel export touch.mcap --to npz -o touch.npz
+  taxel export touch.mcap --to csv --touched -o touch.csv
+  taxel export touch.mcap --to png -o images";
+
+const REPORT: &str = "Examples:
+  taxel report touch.mcap -o report.html
+  taxel report --source sim:source -o source.html";
 
 const PROCESS: &str = "Examples:
   taxel process subject_01.npz --array posture_03 --rate 1 --json
@@ -178,6 +195,8 @@ impl Cli {
             Command::Record(args) => record::run(args),
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),
+            Command::Export(args) => export::run(args),
+            Command::Report(args) => report::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
             Command::Fcm(args) => fcm::run(args),

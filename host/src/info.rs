@@ -1,8 +1,8 @@
 //! `taxel info`: what is in a recording; and the end for one that has none.
 
-use crate::client::{Client, Counts};
-use crate::record::WIRE;
-use crate::recording::{self, ChannelInfo, Messages, Scan};
+use crate::client::Counts;
+use crate::record::Play;
+use crate::recording::{self, ChannelInfo, Scan};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde_json::{Value, json};
@@ -139,14 +139,9 @@ impl Found<'_> {
     }
 }
 
-/// What a board that is played counts as lost, thinned, restarted.
+/// What a board that is played counts as lost, thinned, restarted; as far as the file can be read.
 fn counted(file: &Path) -> Result<Counts> {
-    let (mut client, mut messages) = (Client::new(), Messages::open(file)?);
-    while let Some(message) = messages.next() {
-        let Ok(message) = message else { break };
-        if messages.topic(message.header.channel_id) == Some(WIRE) {
-            message.data.iter().for_each(|byte| _ = client.push(*byte));
-        }
-    }
-    Ok(client.counts().clone())
+    let mut play = Play::open(file)?;
+    while let Ok(Some(_)) = play.next_event() {}
+    Ok(play.client().counts().clone())
 }

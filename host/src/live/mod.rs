@@ -6,7 +6,7 @@ mod messages;
 pub(crate) mod narrate;
 mod outfit;
 mod panes;
-mod ramp;
+pub(crate) mod ramp;
 pub(crate) mod rate;
 mod screen;
 mod svg;

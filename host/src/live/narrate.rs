@@ -38,7 +38,7 @@ impl Narrator {
     }
 }
 
-pub(super) fn seconds(time: Micros) -> String {
+pub(crate) fn seconds(time: Micros) -> String {
     format!("{:8.3} s", time.0 as f64 / 1e6)
 }
 
@@ -109,24 +109,24 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
 }
 
 /// A total in newtons, where that is known, else in counts.
-pub(super) fn force(total: u32, counts_per_newton: Option<f32>) -> String {
+pub(crate) fn force(total: u32, counts_per_newton: Option<f32>) -> String {
     match counts_per_newton {
         Some(counts) => format!("{:.1} N", total as f32 / counts),
         None => format!("{total} counts"),
     }
 }
 
-pub(super) fn region_name(client: &Client, region: u8) -> &str {
+pub(crate) fn region_name(client: &Client, region: u8) -> &str {
     let regions = client.layout().map_or(&[][..], |layout| layout.regions());
     regions.get(usize::from(region)).map_or("?", Name::as_str)
 }
 
-pub(super) fn shape_name(class: Class) -> String {
+pub(crate) fn shape_name(class: Class) -> String {
     Base::<BUILT_IN>::built_in().name(class).into()
 }
 
 /// The name of a request by its number.
-pub(super) fn request_name(number: u8) -> &'static str {
+pub(crate) fn request_name(number: u8) -> &'static str {
     const NAMES: [&str; 13] = [
         "set-garment",
         "set-scene",

@@ -17,6 +17,7 @@ mod command;
 mod file;
 mod limit;
 mod names;
+mod play;
 mod provenance;
 mod recorder;
 mod ros2;
@@ -27,5 +28,6 @@ mod topics;
 
 pub use command::{RecordArgs, run};
 pub use limit::Rotate;
+pub use play::Play;
 pub use recorder::{Plan, Recorder};
 pub use topics::{REQUESTS, WIRE};

@@ -23,7 +23,7 @@ macro_rules! scenes {
 }
 
 /// Names and texts.
-const SCENES: [(&str, &str); 12] = scenes![
+const SCENES: [(&str, &str); 13] = scenes![
     "pat",
     "lash",
     "stroke",
@@ -35,6 +35,7 @@ const SCENES: [(&str, &str); 12] = scenes![
     "elbow",
     "press",
     "five",
+    "source",
     "idle",
 ];
 

@@ -1,0 +1,142 @@
+//! The page.
+
+use super::seen::{Moment, Seen, of};
+use super::strips::Strip;
+use super::svg::{escaped, nice_top};
+use super::{plane, ranges, surface, tables};
+use crate::live::narrate;
+use anyhow::{Result, bail};
+use taxel_core::body::Placed;
+use taxel_core::garment::Area;
+
+/// Concepts whose activation never goes beyond this are left out of the drawing.
+const QUIET: f64 = 0.02;
+
+const STYLE: &str = "
+:root{--paper:#fff;--ink:#1c2430;--soft:#5d6878;--line:#d7dce3}
+@media(prefers-color-scheme:dark){:root{--paper:#12141a;--ink:#d8dee9;--soft:#97a1b3;--line:#2e3440}}
+body{margin:2rem auto;max-width:1120px;padding:0 1rem;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,'DejaVu Sans',sans-serif}
+h1{font-size:1.5rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2rem 0 .4rem}p{margin:.3rem 0;max-width:75ch}
+.panels{display:flex;flex-wrap:wrap;gap:12px}svg{max-width:100%;height:auto}svg text{fill:var(--ink);font-size:12px}svg .title{font-size:14px;font-weight:600}svg .mark{fill:var(--soft);font-size:10px}
+.level{fill:none;stroke:#fff;stroke-opacity:.75;stroke-width:.7}.axis{stroke:#fff;stroke-width:1.6}.centre{fill:#fff;stroke:#000;stroke-width:.8}.peak{stroke:#e8123c;stroke-width:1.8;fill:none}svg .id{fill:#fff;font-weight:600;paint-order:stroke;stroke:#000;stroke-width:2.5px}
+.face path{stroke:#0006;stroke-width:.3}.stalk{stroke:#e8123c;stroke-width:1.4}svg .value{font-size:11px;font-weight:600;paint-order:stroke;stroke:var(--paper);stroke-width:3px}
+.line{fill:none;stroke-width:1.6;stroke-linejoin:round}.grid{stroke:var(--line);fill:none}
+table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}td,th{padding:3px 12px 3px 0;text-align:left;border-bottom:1px solid var(--line)}th{color:var(--soft);font-weight:500}
+.bar{display:inline-block;height:10px;margin-right:6px}.swatch{display:inline-block;width:16px;height:12px}pre{font-size:12.5px;overflow-x:auto;white-space:pre-wrap}.scroll{overflow-x:auto}
+";
+
+/// The report as HTML. An error: there was no image.
+pub fn page(seen: &Seen) -> Result<String> {
+    if seen.top.image.is_empty() {
+        bail!("{}: no image came, there is nothing to report", seen.label);
+    }
+    let top = nice_top(f64::from(seen.hold.iter().copied().max().unwrap_or(0))).min(65535.0) as u16;
+    let Moment { time_us, total, image, contacts } = &seen.top;
+    let moment = format!("{:.3} s", *time_us as f64 / 1e6);
+    let limits = ranges::limits(top);
+    let each = |draw: &dyn Fn(&Area, &[u16], &[Placed]) -> String| -> String {
+        let panels = seen.areas().iter().zip(0u8..);
+        let drawn = panels.map(|(area, panel)| {
+            let here: Vec<_> = contacts.iter().filter(|c| c.contact.panel == panel).cloned().collect();
+            draw(area, of(area, image), &here)
+        });
+        format!("<div class=\"panels\">\n{}</div>\n", drawn.collect::<String>())
+    };
+    let force = narrate::force(u32::try_from(*total).unwrap_or(u32::MAX), seen.counts_per_newton);
+    let sections = [
+        (
+            "Pressure, 2-D",
+            format!(
+                "<p>At {moment}, the moment of the greatest force: {force} in {} contacts. Lines are the limits of the ranges \
+             below, dots centroids with the main axis, red crosses peaks; marks are taxels.</p>\n{}",
+                contacts.len(),
+                each(&|area, values, contacts| plane::draw(area, values, contacts, top, &limits))
+            ),
+        ),
+        (
+            "Pressure, 3-D",
+            format!(
+                "<p>The same moment; the number on each peak is its pressure in counts. Row 0, column 0 is at the back.</p>\n{}",
+                each(&|area, values, contacts| surface::draw(area, values, contacts, top))
+            ),
+        ),
+        ("Ranges of pressure", ranges::table(image, &seen.hold, top)),
+        ("Force over time", totals(seen)),
+        ("Intention over time", intention(seen)),
+        ("Contacts", format!("<div class=\"scroll\">{}</div>\n", tables::contacts(seen))),
+        ("Events", tables::events(seen)),
+        ("Health", tables::health(seen)),
+    ];
+    let body: String = sections.iter().map(|(title, text)| format!("<h2>{title}</h2>\n{text}")).collect();
+    Ok(format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>{STYLE}</style></head><body>\n\
+         <h1>{0}</h1>\n{1}{body}</body></html>\n",
+        escaped(&seen.label),
+        head(seen)
+    ))
+}
+
+/// What was watched, and for how long.
+fn head(seen: &Seen) -> String {
+    let Some(worn) = &seen.worn else { return String::new() };
+    let [first, last] = span(seen);
+    let calibration =
+        if worn.calibration.is_empty() { "none, pressure is in counts" } else { &worn.calibration };
+    let text = format!(
+        "{}; garment {} of {} taxels in {} panels, scene {}; calibration: {calibration}; {:.2} s, {} frames. \
+         taxel {}.",
+        worn.firmware,
+        worn.garment.name,
+        worn.layout.taxels(),
+        worn.layout.areas().len(),
+        worn.scene.name,
+        last.saturating_sub(first) as f64 / 1e6,
+        seen.counts.frames,
+        env!("CARGO_PKG_VERSION")
+    );
+    format!("<p>{}</p>\n", escaped(&text))
+}
+
+/// First and last time of an image, us.
+fn span(seen: &Seen) -> [u64; 2] {
+    let time = |point: Option<&(u64, Vec<u32>)>| point.map_or(0, |(time, _)| *time);
+    [time(seen.totals.first()), time(seen.totals.last())]
+}
+
+fn totals(seen: &Seen) -> String {
+    let (scale, label) = match seen.counts_per_newton {
+        Some(counts) => (f64::from(counts), "force, N"),
+        None => (1.0, "total, counts"),
+    };
+    let values = |totals: &[u32]| totals.iter().map(|total| f64::from(*total) / scale).collect();
+    Strip {
+        names: seen.areas().iter().map(|area| area.name.as_str()).collect(),
+        points: seen.totals.iter().map(|(time, totals)| (*time, values(totals))).collect(),
+        label,
+        steps: false,
+        span: span(seen),
+    }
+    .draw()
+}
+
+fn intention(seen: &Seen) -> String {
+    let loud = |index: &usize| {
+        let values = seen.activations.iter().filter_map(|(_, values)| values.get(*index));
+        values.map(|value| value.abs()).fold(0.0, f64::max) > QUIET
+    };
+    let shown: Vec<usize> = (0..seen.concepts.len()).filter(loud).collect();
+    if shown.is_empty() {
+        return "<p>No concept of the map was active.</p>\n".into();
+    }
+    let pick =
+        |values: &[f64]| shown.iter().map(|index| values.get(*index).copied().unwrap_or(0.0)).collect();
+    Strip {
+        names: shown.iter().map(|index| seen.concepts[*index].as_str()).collect(),
+        points: seen.activations.iter().map(|(time, values)| (*time, pick(values))).collect(),
+        label: "activation",
+        steps: true,
+        span: span(seen),
+    }
+    .draw()
+}

@@ -1,0 +1,65 @@
+//! Ranges of pressure: how many taxels lie in which.
+
+use super::svg::colour;
+use std::fmt::Write;
+
+/// Ranges above no pressure.
+const RANGES: u16 = 5;
+
+/// Where the ranges begin: even parts of `top`, the first at 0.
+pub fn limits(top: u16) -> Vec<u16> {
+    (0..RANGES).map(|index| (u32::from(top) * u32::from(index) / u32::from(RANGES)) as u16).collect()
+}
+
+/// Taxels with no pressure, and then in each range.
+pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
+    let mut counts = vec![0; limits.len() + 1];
+    for value in values {
+        let range = if *value == 0 { 0 } else { limits.partition_point(|limit| limit < value) };
+        counts[range] += 1;
+    }
+    counts
+}
+
+/// The table: a row a range, its colour, taxels then and at their greatest, as bars.
+pub fn table(then: &[u16], hold: &[u16], top: u16) -> String {
+    let limits = limits(top);
+    let (now, held) = (counts(then, &limits), counts(hold, &limits));
+    let most = now.iter().chain(&held).skip(1).copied().max().unwrap_or(0).max(1);
+    let mut html = String::from(
+        "<table><tr><th></th><th>pressure, counts</th><th>taxels at that moment</th><th>at their greatest</th></tr>\n",
+    );
+    for (index, (now, held)) in now.iter().zip(&held).enumerate() {
+        let from = if index == 0 { 0 } else { limits[index - 1] + 1 };
+        let to = if index == 0 { 0 } else { limits.get(index).copied().unwrap_or(top) };
+        let range = if index == 0 { "0".to_string() } else { format!("{from} to {to}") };
+        let fill = colour(f64::midpoint(f64::from(from), f64::from(to)), top);
+        let bar = |count: usize| {
+            // Those without pressure are far more than the others.
+            let wide = if index == 0 { 0.0 } else { 120.0 * count as f64 / most as f64 };
+            format!(
+                "<td><span class=\"bar\" style=\"width:{wide:.0}px;background:{fill}\"></span>{count}</td>"
+            )
+        };
+        // A string takes all.
+        let _ = writeln!(
+            html,
+            "<tr><td><span class=\"swatch\" style=\"background:{fill}\"></span></td><td>{range}</td>{}{}</tr>",
+            bar(*now),
+            bar(*held)
+        );
+    }
+    html + "</table>\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_taxel_lies_in_one_range() {
+        let limits = limits(1000);
+        assert_eq!(limits, [0, 200, 400, 600, 800]);
+        assert_eq!(counts(&[0, 0, 1, 200, 201, 999, 1000, 4095], &limits), [2, 2, 1, 0, 0, 3]);
+    }
+}

@@ -1,0 +1,128 @@
+//! Something over time, as lines.
+
+use super::svg::{LINES, escaped, nice_top};
+use std::fmt::{Result, Write};
+
+/// The drawing, SVG units, and what the axes leave: left, top, right, bottom.
+const SIZE: [f64; 2] = [780.0, 220.0];
+const FRAME: [f64; 4] = [56.0, 12.0, 640.0, 190.0];
+/// Points of a line: more are drawn as the greatest of each part.
+const POINTS: usize = 580;
+/// Marks of the time axis, at most.
+const MARKS: f64 = 10.0;
+
+/// Lines over time: a name each, and for each time (us) a value of each.
+pub struct Strip<'a> {
+    /// Names of the lines.
+    pub names: Vec<&'a str>,
+    /// Times, us, and values.
+    pub points: Vec<(u64, Vec<f64>)>,
+    /// Quantity and unit.
+    pub label: &'a str,
+    /// Whether a value holds until the next, else lines go from one to the other.
+    pub steps: bool,
+    /// First and last time, us.
+    pub span: [u64; 2],
+}
+
+impl Strip<'_> {
+    /// The drawing.
+    pub fn draw(&self) -> String {
+        let mut svg = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.write(&mut svg);
+        svg
+    }
+
+    fn x(&self, time: u64) -> f64 {
+        let [first, last] = self.span;
+        let part = time.saturating_sub(first) as f64 / last.saturating_sub(first).max(1) as f64;
+        FRAME[0] + part.min(1.0) * (FRAME[2] - FRAME[0])
+    }
+
+    fn write(&self, svg: &mut String) -> Result {
+        let values = || self.points.iter().flat_map(|(_, values)| values);
+        let top = nice_top(values().copied().fold(0.0, f64::max));
+        let low = if values().any(|value| *value < 0.0) { -top } else { 0.0 };
+        let y = |value: f64| FRAME[3] - (value - low) / (top - low) * (FRAME[3] - FRAME[1]);
+        writeln!(svg, "<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">", SIZE[0], SIZE[1], SIZE[0])?;
+        self.axes(svg, low, top, &y)?;
+        let kept = self.thinned();
+        for (index, name) in self.names.iter().enumerate() {
+            let ink = LINES[index % LINES.len()];
+            write!(svg, "<path class=\"line\" stroke=\"{ink}\" d=\"")?;
+            for (count, (time, values)) in kept.iter().enumerate() {
+                let (x, y) = (self.x(*time), y(values.get(index).copied().unwrap_or(0.0)));
+                match (count, self.steps) {
+                    (0, _) => write!(svg, "M{x:.1} {y:.1}")?,
+                    (_, true) => write!(svg, "H{x:.1}V{y:.1}")?,
+                    (_, false) => write!(svg, "L{x:.1} {y:.1}")?,
+                }
+            }
+            if self.steps && !kept.is_empty() {
+                write!(svg, "H{}", FRAME[2])?;
+            }
+            let at = FRAME[1] + 12.0 + 17.0 * index as f64;
+            writeln!(
+                svg,
+                "\"/><path class=\"line\" stroke=\"{ink}\" d=\"M{:.0} {:.0}h16\"/><text x=\"{:.0}\" y=\"{at:.0}\">{}</text>",
+                FRAME[2] + 12.0,
+                at - 4.0,
+                FRAME[2] + 34.0,
+                escaped(name)
+            )?;
+        }
+        writeln!(svg, "</svg>")
+    }
+
+    fn axes(&self, svg: &mut String, low: f64, top: f64, y: &dyn Fn(f64) -> f64) -> Result {
+        let [left, _, right, bottom] = FRAME;
+        for part in 0..=4 {
+            let value = low + (top - low) * f64::from(part) / 4.0;
+            let at = y(value);
+            writeln!(
+                svg,
+                "<path class=\"grid\" d=\"M{left} {at:.1}H{right}\"/><text class=\"mark\" x=\"{:.0}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>",
+                left - 6.0,
+                at + 3.5
+            )?;
+        }
+        let [first, last] = self.span.map(|us| us as f64 / 1e6);
+        let step = nice_top((last - first) / MARKS);
+        let mut time = (first / step).ceil() * step;
+        while time <= last {
+            let x = self.x((time * 1e6) as u64);
+            writeln!(
+                svg,
+                "<text class=\"mark\" x=\"{x:.1}\" y=\"{:.0}\" text-anchor=\"middle\">{}</text>",
+                bottom + 15.0,
+                (time * 1000.0).round() / 1000.0
+            )?;
+            time += step;
+        }
+        writeln!(
+            svg,
+            "<text class=\"mark\" x=\"{right}\" y=\"{:.0}\" text-anchor=\"end\">s</text>",
+            bottom + 28.0
+        )?;
+        writeln!(
+            svg,
+            "<text class=\"mark\" transform=\"translate(11 {:.0}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+            f64::midpoint(FRAME[1], bottom),
+            escaped(self.label)
+        )
+    }
+
+    /// No more points than can be told apart: of each part the greatest values.
+    fn thinned(&self) -> Vec<(u64, Vec<f64>)> {
+        let size = self.points.len().div_ceil(POINTS).max(1);
+        let greatest = |part: &[(u64, Vec<f64>)]| {
+            let mut all = part[0].clone();
+            for (_, values) in part {
+                all.1.iter_mut().zip(values).for_each(|(kept, value)| *kept = kept.max(*value));
+            }
+            all
+        };
+        self.points.chunks(size).map(greatest).collect()
+    }
+}

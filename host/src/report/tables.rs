@@ -1,0 +1,104 @@
+//! Contacts, events and health as tables.
+
+use super::seen::Seen;
+use super::svg::escaped;
+use crate::live::narrate;
+use std::fmt::Write;
+use taxel_core::body::Placed;
+
+/// Contacts that are listed: the strongest.
+const LISTED: usize = 60;
+
+/// The contacts, each at its greatest total, in the order of their onsets.
+pub fn contacts(seen: &Seen) -> String {
+    if seen.contacts.is_empty() {
+        return "<p>Nothing touched the garment.</p>\n".into();
+    }
+    let mut strongest: Vec<_> = seen.contacts.values().collect();
+    strongest.sort_by_key(|placed| std::cmp::Reverse(placed.contact.total));
+    strongest.truncate(LISTED);
+    strongest.sort_by_key(|placed| placed.contact.id);
+    let mut html = String::from(
+        "<table><tr><th>contact</th><th>panel</th><th>onset, s</th><th>duration, s</th><th>force</th>\
+         <th>peak, counts</th><th>at row, column</th><th>area, taxels</th><th>centroid x, y</th>\
+         <th>azimuth</th><th>shape</th></tr>\n",
+    );
+    strongest.iter().for_each(|placed| row(seen, placed, &mut html));
+    html += "</table>\n";
+    if seen.contacts.len() > LISTED {
+        // A string takes all.
+        let _ = writeln!(html, "<p>The {LISTED} strongest of {}.</p>", seen.contacts.len());
+    }
+    html
+}
+
+fn row(seen: &Seen, placed: &Placed, html: &mut String) {
+    let contact = &placed.contact;
+    let panel = seen.areas().get(usize::from(contact.panel)).map_or("", |area| area.name.as_str());
+    let azimuth =
+        contact.azimuth.map_or("none".into(), |turn| format!("{:.0}&deg;", turn.to_radians().to_degrees()));
+    let _ = writeln!(
+        html,
+        "<tr><td>#{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{}</td><td>{}</td><td>{}, {}</td><td>{}</td>\
+         <td>{:.2}, {:.2}</td><td>{azimuth}</td><td>{}</td></tr>",
+        contact.id,
+        escaped(panel),
+        contact.onset.0 as f64 / 1e6,
+        f64::from(contact.duration_ms) / 1000.0,
+        narrate::force(contact.total, seen.counts_per_newton),
+        contact.peak,
+        contact.peak_at.row,
+        contact.peak_at.column,
+        contact.area,
+        contact.x.to_f64(),
+        contact.y.to_f64(),
+        escaped(&narrate::shape_name(placed.shape.class)),
+    );
+}
+
+/// What happened, in sentences.
+pub fn events(seen: &Seen) -> String {
+    let mut html = format!("<pre>{}</pre>\n", escaped(&seen.sentences.join("\n")));
+    if seen.unsaid > 0 {
+        let _ = writeln!(html, "<p>And {} more.</p>", seen.unsaid);
+    }
+    html
+}
+
+/// The board's counters, the line's, and the taxels that are ill.
+pub fn health(seen: &Seen) -> String {
+    let mut rows = vec![
+        ("frames received", seen.counts.frames),
+        ("messages lost on the line", seen.counts.lost),
+        ("frames thinned", seen.counts.thinned),
+        ("bytes that were no message, frames", seen.counts.refused()),
+        ("restarts of the board", seen.counts.restarts),
+    ];
+    if let Some(health) = &seen.health {
+        let board = [
+            ("scans", health.scans),
+            ("scans failed", health.failed),
+            ("scans not fetched in time", health.overruns),
+            ("guaranteed messages lost", health.lost),
+            ("last scan, us", health.scan_us),
+            ("last perception, us", health.process_us),
+        ];
+        rows.extend(board.map(|(name, count)| (name, count.into())));
+    }
+    let mut html = String::from("<table>");
+    rows.iter().for_each(|(name, count)| _ = writeln!(html, "<tr><td>{name}</td><td>{count}</td></tr>"));
+    html += "</table>\n";
+    if seen.ill.is_empty() {
+        return html + "<p>No taxel is known to be ill.</p>\n";
+    }
+    let layout = seen.worn.as_ref().map(|worn| &worn.layout);
+    let ill = seen.ill.iter().map(|(taxel, health)| {
+        let place = layout.and_then(|layout| Some((layout, layout.place(usize::from(*taxel))?)));
+        let place = place.map_or(format!("taxel {taxel}"), |(layout, place)| {
+            let panel = layout.areas().get(usize::from(place.panel)).map_or("", |area| area.name.as_str());
+            format!("{panel} row {} column {}", place.row, place.column)
+        });
+        escaped(&format!("{place}: {health}"))
+    });
+    format!("{html}<p>Taxels that are ill: {}.</p>\n", ill.collect::<Vec<_>>().join("; "))
+}
