@@ -162,6 +162,11 @@ pub fn budget() -> Value {
     ))
 }
 
+/// How warm the converter is.
+pub fn temperature() -> Value {
+    message(&[("celsius", number())])
+}
+
 /// How the joints stand, as the host told the board.
 pub fn posture() -> Value {
     let joint = object(&[("joint", text()), ("degrees", number())]);

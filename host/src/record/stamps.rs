@@ -70,6 +70,7 @@ fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Reaction(report) => report.time,
         Event::Health(health) => health.time,
         Event::Budget(budget) => budget.time,
+        Event::Temperature(temperature) => temperature.time,
         Event::Sync(report) => report.sent,
         Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
     };

@@ -17,7 +17,7 @@ const WIRE_ENCODING: &str = "taxel-wire";
 pub type JsonTopic = (&'static str, fn() -> Value);
 
 /// All of them.
-pub const JSON: [JsonTopic; 11] = [
+pub const JSON: [JsonTopic; 12] = [
     ("hello", schemas::hello),
     ("frames", schemas::frames),
     ("contacts", schemas::contacts),
@@ -27,6 +27,7 @@ pub const JSON: [JsonTopic; 11] = [
     ("health", schemas::health),
     ("health_map", schemas::health_map),
     ("budget", schemas::budget),
+    ("temperature", schemas::temperature),
     ("posture", schemas::posture),
     ("log", schemas::log),
 ];
@@ -74,6 +75,7 @@ pub fn of(event: &Event) -> Option<&'static str> {
         Event::Health(_) => "health",
         Event::HealthMap { .. } => "health_map",
         Event::Budget(_) => "budget",
+        Event::Temperature(_) => "temperature",
         Event::Log { .. } => "log",
         _ => return None,
     })
