@@ -1,10 +1,10 @@
 //! Which parts of an image are worth a look.
 
+use super::held::{ENTRIES, Held, SHARED, entry};
 use super::slices::row_of;
 use crate::garment::{Area, Layout};
 use core::ops::Range;
 
-const ENTRIES: usize = 256;
 /// Bits of an entry.
 const GROUPS: u32 = 16;
 
@@ -16,15 +16,15 @@ const GROUPS: u32 = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rows {
     groups: [u16; ENTRIES],
-    /// A bit for each row with a group.
-    held: [u32; ENTRIES / 32],
+    /// Rows with a group.
+    held: Held,
 }
 
 impl Rows {
     /// No row.
-    pub const NONE: Rows = Rows { groups: [0; ENTRIES], held: [0; ENTRIES / 32] };
+    pub const NONE: Rows = Rows { groups: [0; ENTRIES], held: Held::NONE };
     /// Every column of every row.
-    pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: [u32::MAX; ENTRIES / 32] };
+    pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: Held::ALL };
 
     /// The places of `values` (by taxel number) that hold anything but 0.
     pub fn of(layout: &Layout, values: &[u16]) -> Rows {
@@ -47,48 +47,36 @@ impl Rows {
 
     /// Whether nothing is held.
     pub fn is_empty(&self) -> bool {
-        self.held == [0; ENTRIES / 32]
+        self.held.is_empty()
     }
 
     /// The first of some rows that may hold something.
     pub const fn next(&self, rows: Range<u16>) -> Option<u16> {
-        let mut row = rows.start;
-        while row < rows.end {
-            let entry = Rows::entry(row);
-            if entry == SHARED {
-                return if self.groups[SHARED] != 0 { Some(row) } else { None };
-            }
-            let ahead = self.held[entry / 32] >> (entry % 32);
-            if ahead & 1 == 1 {
-                // Most rows that hold something follow another, and to count zeros takes a Cortex-M0+ long.
-                return Some(row);
-            }
-            if ahead != 0 {
-                let next = row + ahead.trailing_zeros() as u16;
-                return if next < rows.end { Some(next) } else { None };
-            }
-            row = (row | 31) + 1;
-        }
-        None
+        self.held.next(rows)
+    }
+
+    /// The rows that may hold something.
+    pub(crate) const fn held(&self) -> &Held {
+        &self.held
     }
 
     /// The groups of columns of a row that may hold something.
     pub(super) const fn groups(&self, row: u16) -> u16 {
-        self.groups[Rows::entry(row)]
+        self.groups[entry(row)]
     }
 
     pub(super) const fn add(&mut self, row: u16, groups: u16) {
-        let entry = Rows::entry(row);
+        let entry = entry(row);
         self.groups[entry] |= groups;
         if groups != 0 {
-            self.held[entry / 32] |= 1 << (entry % 32);
+            self.held.add(entry);
         }
     }
 
     /// Leaves only these groups of a row, unless others share its entry.
     pub(super) const fn set(&mut self, row: u16, groups: u16) {
-        if Rows::entry(row) != SHARED {
-            self.forget(Rows::entry(row));
+        if entry(row) != SHARED {
+            self.forget(entry(row));
         }
         self.add(row, groups);
     }
@@ -100,15 +88,9 @@ impl Rows {
 
     const fn forget(&mut self, entry: usize) {
         self.groups[entry] = 0;
-        self.held[entry / 32] &= !(1 << (entry % 32));
-    }
-
-    const fn entry(row: u16) -> usize {
-        if row as usize >= SHARED { SHARED } else { row as usize }
+        self.held.remove(entry);
     }
 }
-
-const SHARED: usize = ENTRIES - 1;
 
 /// Columns of a group, as a power of two.
 pub(super) fn grain(area: &Area) -> u32 {

@@ -5,7 +5,7 @@
 //! pressed image that does not move.
 //!
 //! Quiet taxels are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 58 with a base, counted in its instructions.
-//! One that has changed takes 31 for its difference and 12 for the sum.
+//! One that has changed takes 31 for its difference.
 
 use core::mem::{replace, take};
 use core::slice;
@@ -53,23 +53,16 @@ pub(super) struct Encoder<'a> {
     out: slice::IterMut<'a, u8>,
     /// First taxel that is not told yet.
     told: usize,
-    /// What the written runs change in the [`image_sum`](super::image_sum) of the reference.
-    sum: u32,
 }
 
 impl<'a> Encoder<'a> {
     pub fn new(out: &'a mut [u8]) -> Self {
-        Encoder { out: out.iter_mut(), told: 0, sum: 0 }
+        Encoder { out: out.iter_mut(), told: 0 }
     }
 
     /// Bytes that are left.
     pub fn room(&self) -> usize {
         self.out.len()
-    }
-
-    /// What the image sums up to more than its reference.
-    pub fn sum(&self) -> u32 {
-        self.sum
     }
 
     /// Codes the taxels from number `start` on. `None`: no room.
@@ -86,8 +79,8 @@ impl<'a> Encoder<'a> {
             let length = self.out.next()?;
             let most = values.len().min(RUN);
             let count = match base {
-                None => self.alone(start, values.get(..most)?)?,
-                Some(base) => self.differences(start, values.get(..most)?, base.get(..most)?)?,
+                None => self.alone(values.get(..most)?)?,
+                Some(base) => self.differences(values.get(..most)?, base.get(..most)?)?,
             };
             *length = count as u8;
             start += count;
@@ -99,24 +92,19 @@ impl<'a> Encoder<'a> {
     /// Writes a run that stands alone; how many taxels it has. Not inlined, as [`Encoder::differences`]: the loop within needs
     /// the few registers of a Cortex-M0+.
     #[inline(never)]
-    fn alone(&mut self, start: usize, values: &[u16]) -> Option<usize> {
+    fn alone(&mut self, values: &[u16]) -> Option<usize> {
         let mut last = 0;
-        let count = self.run(values.iter().map(|value| {
+        self.run(values.iter().map(|value| {
             let value = i32::from(*value);
             (value != 0, value - replace(&mut last, value))
-        }))?;
-        self.sum = self.sum.wrapping_add(sum_of(start, values.get(..count)?));
-        Some(count)
+        }))
     }
 
     /// Writes a run of differences; how many taxels it has.
     #[inline(never)]
-    fn differences(&mut self, start: usize, values: &[u16], base: &[u16]) -> Option<usize> {
+    fn differences(&mut self, values: &[u16], base: &[u16]) -> Option<usize> {
         let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
-        let count = self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))?;
-        let (values, base) = (values.get(..count)?, base.get(..count)?);
-        self.sum = self.sum.wrapping_add(sum_of(start, values)).wrapping_sub(sum_of(start, base));
-        Some(count)
+        self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))
     }
 
     /// Writes the numbers of the taxels up to two unchanged ones; how many there are.
@@ -144,22 +132,6 @@ impl<'a> Encoder<'a> {
     fn varint(&mut self, value: u32) -> Option<()> {
         varint(&mut self.out, value)
     }
-}
-
-/// What taxels from number `start` on have in the [`image_sum`](super::image_sum).
-///
-/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no multiplication.
-#[inline(never)]
-fn sum_of(start: usize, values: &[u16]) -> u32 {
-    let (mut plain, mut placed) = (0u32, 0u32);
-    let mut add = |value: &u16| {
-        plain = plain.wrapping_add((*value).into());
-        placed = placed.wrapping_add(plain);
-    };
-    let (blocks, rest) = values.as_chunks::<8>();
-    blocks.iter().for_each(|block| block.iter().for_each(&mut add));
-    rest.iter().for_each(add);
-    plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
 }
 
 const fn zigzag(number: i32) -> u32 {

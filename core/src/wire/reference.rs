@@ -1,7 +1,7 @@
 //! The image that was sent last.
 
 use super::encoder::Encoder;
-use crate::condition::{Image, Rows};
+use crate::condition::{Held, Image};
 use crate::garment::Layout;
 use core::ops::Range;
 
@@ -10,7 +10,7 @@ use core::ops::Range;
 pub(crate) struct Reference<const TAXELS: usize> {
     values: [u16; TAXELS],
     /// Rows of `values` that may hold something.
-    rows: Rows,
+    rows: Held,
     /// [`image_sum`](super::image_sum) of `values`.
     sum: u32,
 }
@@ -18,13 +18,13 @@ pub(crate) struct Reference<const TAXELS: usize> {
 impl<const TAXELS: usize> Reference<TAXELS> {
     /// An image without pressure.
     pub const fn new() -> Self {
-        Reference { values: [0; TAXELS], rows: Rows::NONE, sum: 0 }
+        Reference { values: [0; TAXELS], rows: Held::NONE, sum: 0 }
     }
 
     /// Forgets it, for an image without pressure: before another layout, and when it was kept only in part.
     pub fn clear(&mut self) {
         self.values.fill(0);
-        (self.rows, self.sum) = (Rows::NONE, 0);
+        (self.rows, self.sum) = (Held::NONE, 0);
     }
 
     /// The checksum of the image.
@@ -43,24 +43,24 @@ impl<const TAXELS: usize> Reference<TAXELS> {
     ) -> Option<usize> {
         let room = out.len();
         let mut encoder = Encoder::new(out);
+        self.sum = 0;
+        let rows = image.rows.held().with(&self.rows);
         let mut part = 0..0;
         for area in layout.areas() {
-            for row in 0..area.rows {
-                let number = area.first_row.saturating_add(row);
-                if !image.rows.contains(number) && !self.rows.contains(number) {
-                    continue;
-                }
-                let start = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
+            let (columns, end) = (usize::from(area.columns), area.first_row.saturating_add(area.rows));
+            let mut next = area.first_row;
+            while let Some(number) = rows.next(next..end) {
+                next = number + 1;
+                let start = usize::from(area.base) + usize::from(number - area.first_row) * columns;
                 if start != part.end {
                     self.tell(&mut encoder, image, alone, part)?;
                     part = start..start;
                 }
-                part.end = start + usize::from(area.columns);
+                part.end = start + columns;
             }
         }
         self.tell(&mut encoder, image, alone, part)?;
-        self.rows = *image.rows;
-        self.sum = encoder.sum().wrapping_add(if alone { 0 } else { self.sum });
+        self.rows = *image.rows.held();
         Some(room - encoder.room())
     }
 
@@ -79,6 +79,23 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         if let (Some(last), Some(now)) = (last.get_mut(..taxels), now.get(..taxels)) {
             last.copy_from_slice(now);
         }
+        self.sum = self.sum.wrapping_add(sum_of(part.start, now));
         Some(())
     }
+}
+
+/// What taxels from number `start` on have in the [`image_sum`](super::image_sum).
+///
+/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no multiplication.
+#[inline(never)]
+fn sum_of(start: usize, values: &[u16]) -> u32 {
+    let (mut plain, mut placed) = (0u32, 0u32);
+    let mut add = |value: &u16| {
+        plain = plain.wrapping_add((*value).into());
+        placed = placed.wrapping_add(plain);
+    };
+    let (blocks, rest) = values.as_chunks::<8>();
+    blocks.iter().for_each(|block| block.iter().for_each(&mut add));
+    rest.iter().for_each(add);
+    plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
 }
