@@ -326,7 +326,7 @@ fn jobs_that_fail_are_told() {
     let jobs: Vec<_> =
         std::iter::from_fn(|| bench.tick()).take_while(|job| !matches!(job, Job::Scan(_))).collect();
     assert_eq!(jobs.last(), Some(&Job::Examine));
-    bench.board.step(Micros(0), Input::Examined(Err("no lines")), &mut ());
+    bench.board.step(Micros(0), Input::Examined(Err(ScanError::Output(9))), &mut ());
     let error = ScanError::Converter { input: 26, taxel: 5 };
     bench.board.step(Micros(0), Input::Scanned(Err(error)), &mut ());
     let mut told = Vec::new();
@@ -337,7 +337,10 @@ fn jobs_that_fail_are_told() {
         Report::Log(log) => told.push(log.text.to_string()),
         _ => {}
     });
-    assert_eq!(told, ["9 no lines", "scan: converter input on pin 26 gave no sample (at taxel 5)"]);
+    assert_eq!(
+        told,
+        ["9 pin 9 cannot be driven", "scan: converter input on pin 26 gave no sample (at taxel 5)"]
+    );
     assert!(matches!(bench.tick(), Some(Job::Scan(_))), "a failed scan is followed by the next");
 }
 

@@ -15,6 +15,7 @@ use std::time::Duration;
 use taxel::sim::wiring_json;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::selftest::PinFault;
 use taxel_core::wire::{LONGEST_REQUEST, Receiver, Report, Request, decode, encode, frame_bound};
 
 /// The longest frame that the board sends, and more.
@@ -95,6 +96,12 @@ impl Emulated {
     pub fn look(&mut self, at: &str) -> Value {
         writeln!(self.input, "{at}").unwrap();
         self.wait_for(at)[at].take()
+    }
+
+    /// Breaks lines and inputs; those that were broken before are whole again.
+    pub fn fault(&mut self, faults: &[PinFault]) {
+        writeln!(self.input, "faults {}", serde_json::to_string(faults).unwrap()).unwrap();
+        self.wait_for("faults");
     }
 
     /// Waits until the harness says something of this kind.

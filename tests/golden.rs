@@ -13,6 +13,7 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
 use taxel_core::react::Reaction;
 use taxel_core::scene::Scene;
+use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::shape::{Class, Shape};
 use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
 use taxel_core::wire::*;
@@ -105,6 +106,11 @@ fn reports() -> [(&'static str, Report<'static>); 14] {
     };
     let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
     let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
+    let faults =
+        [(2, Fault::StuckHigh), (3, Fault::StuckLow), (6, Fault::Bridged(7)), (26, Fault::Open)].into_iter();
+    let faults = faults.chain([(27, Fault::Grounded), (28, Fault::Supplied)]);
+    let faults = faults.map(|(pin, fault)| PinFault { pin, fault }).collect();
+    let findings = Findings { lines: 9, inputs: 4, faults };
     let intent = IntentReport {
         frame,
         time,
@@ -128,6 +134,7 @@ fn reports() -> [(&'static str, Report<'static>); 14] {
         ("Budget", Report::Budget(budget)),
         ("HealthMap", Report::HealthMap(map)),
         ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
+        ("SelfTest", Report::SelfTest(SelfTestReport { time, findings })),
     ]
 }
 

@@ -4,6 +4,7 @@ use crate::acquire::{Acquire, Clock};
 use crate::board::{Board, Input, Job, Saved, Settings};
 use crate::format::Micros;
 use crate::pipeline::{Probe, Stage};
+use crate::selftest::Examine;
 use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
@@ -23,19 +24,18 @@ pub trait Platform: Clock + Probe {
     fn alive(&mut self) -> bool;
     /// Stores the settings, or says why not.
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str>;
-    /// Examines lines and taxels, or says why not.
-    fn examine(&mut self) -> Result<(), &'static str>;
     /// Nothing to do until `until`, but bytes may come or go: waits a millisecond at most.
     async fn idle(&mut self, until: Micros);
 }
 
-/// Runs a board for as long as its platform is alive.
+/// Runs a board for as long as its platform is alive. Lines and inputs are examined first.
 pub async fn run<const TAXELS: usize, const RUNS: usize>(
-    acquire: &mut impl Acquire,
+    acquire: &mut (impl Acquire + Examine),
     link: &mut impl Link,
     platform: &mut impl Platform,
     board: &mut Board<TAXELS, RUNS>,
 ) {
+    examine(acquire, platform, board);
     while platform.alive() {
         receive(link, platform, board);
         let now = platform.now();
@@ -63,13 +63,22 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
                 board.step(now, Input::Saved(result), platform);
             }
             Some(Job::Examine) => {
-                let result = platform.examine();
-                let now = platform.now();
-                board.step(now, Input::Examined(result), platform);
+                acquire.rest();
+                examine(acquire, platform, board);
             }
             Some(Job::Drive(..)) | None => platform.idle(board.wake()).await,
         }
     }
+}
+
+fn examine<const TAXELS: usize, const RUNS: usize>(
+    acquire: &mut impl Examine,
+    platform: &mut impl Platform,
+    board: &mut Board<TAXELS, RUNS>,
+) {
+    let result = acquire.examine(board.circuit());
+    let now = platform.now();
+    board.step(now, Input::Examined(result), platform);
 }
 
 /// Takes all bytes that have come.

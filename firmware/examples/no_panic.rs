@@ -17,6 +17,7 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{Model, TouchState, Touches};
 use taxel_core::scene::Scene;
+use taxel_core::selftest::Findings;
 
 unsafe extern "C" {
     /// The linker names it where a panic is reachable.
@@ -42,7 +43,7 @@ pub struct Given {
     report: ScanReport,
     error: ScanError,
     saved: Result<Saved, &'static str>,
-    examined: Result<(), &'static str>,
+    examined: Result<Findings, ScanError>,
     part: Part,
     buffer: &'static mut [u8],
     count: usize,
@@ -72,7 +73,7 @@ pub extern "C" fn _start(given: &mut Given) {
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
         10 => keep(Reference::with(*info, &given.setup)),
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
-        12 => step(Input::Examined(given.examined)),
+        12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),
         14 => keep(board.settings().write(given.part, given.buffer)),
         15 => board.forgot("any"),

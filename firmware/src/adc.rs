@@ -1,8 +1,8 @@
 //! The converter: one 12-bit sample at a time, of the input that is asked for, or one after the other by itself.
 
 use embassy_rp::adc::{Adc, Blocking, Channel};
-use rp_pac::ADC;
-use taxel_core::acquire::ScanError;
+use rp_pac::{ADC, PADS_BANK0};
+use taxel_core::acquire::{Pull, PulledAdc, ScanError};
 use taxel_core::format::Celsius;
 
 /// GPIO number of the converter's first input.
@@ -58,6 +58,20 @@ impl<const INPUTS: usize> taxel_core::acquire::Adc for Converter<INPUTS> {
             }
         };
         if status.err() { Err(ConverterError::Conversion(input)) } else { Ok(ADC.result().read().result()) }
+    }
+}
+
+impl<const INPUTS: usize> PulledAdc for Converter<INPUTS> {
+    fn pull(&mut self, input: u8, pull: Pull) -> Result<(), ConverterError> {
+        if usize::from(input.wrapping_sub(FIRST_INPUT)) >= INPUTS {
+            return Err(ConverterError::NoInput(input));
+        }
+        // The pin stays analog: neither its driver nor its digital input is on.
+        PADS_BANK0.gpio(usize::from(input)).modify(|w| {
+            w.set_pue(pull == Pull::Up);
+            w.set_pde(pull == Pull::Down);
+        });
+        Ok(())
     }
 }
 

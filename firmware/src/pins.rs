@@ -3,6 +3,7 @@
 use core::convert::Infallible;
 use embassy_rp::{Peri, gpio};
 use embedded_hal::digital::{ErrorType, OutputPin};
+use taxel_core::acquire::{Pad, Pull};
 
 /// A free pin. It stays high-impedance until something drives it, so that a line no garment names disturbs nothing.
 pub struct Line(gpio::Flex<'static>);
@@ -33,5 +34,21 @@ impl OutputPin for Line {
         self.0.set_high();
         self.0.set_as_output();
         Ok(())
+    }
+}
+
+impl Pad for Line {
+    fn release(&mut self, pull: Pull) -> Result<(), Infallible> {
+        self.0.set_pull(match pull {
+            Pull::None => gpio::Pull::None,
+            Pull::Up => gpio::Pull::Up,
+            Pull::Down => gpio::Pull::Down,
+        });
+        self.0.set_as_input();
+        Ok(())
+    }
+
+    fn level(&mut self) -> Result<bool, Infallible> {
+        Ok(self.0.is_high())
     }
 }

@@ -134,10 +134,6 @@ impl Platform for Board {
         flash.store().and_then(|mut store| store.save(settings)).map_err(StoreError::sentence)
     }
 
-    fn examine(&mut self) -> Result<(), &'static str> {
-        Err("this firmware has no self-test yet")
-    }
-
     async fn idle(&mut self, until: Micros) {
         let pause = until.since(self.now()).min(LONGEST_PAUSE_US);
         embassy_time::Timer::after_micros(pause).await;

@@ -36,7 +36,7 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
     Budget, ContactList, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request,
-    WireError, decode, decode_image,
+    SelfTestReport, WireError, decode, decode_image,
 };
 
 /// Longest frame from a board.
@@ -65,6 +65,7 @@ pub struct Client {
     health: Option<Health>,
     budget: Option<Budget>,
     ill: BTreeMap<u16, TaxelHealth>,
+    self_test: Option<SelfTestReport>,
 }
 
 impl Default for Client {
@@ -96,6 +97,7 @@ impl Client {
             health: None,
             budget: None,
             ill: BTreeMap::new(),
+            self_test: None,
         }
     }
 
@@ -151,6 +153,7 @@ impl Client {
         self.contacts.clear();
         self.regions.clear();
         self.ill.clear();
+        self.self_test = None;
         self.intention = None;
     }
 
@@ -187,6 +190,10 @@ impl Client {
             }
             Report::HealthMap(map) => self.take_map(&map),
             Report::Temperature(temperature) => Event::Temperature(temperature),
+            Report::SelfTest(report) => {
+                self.self_test = Some(report.clone());
+                Event::SelfTest(report)
+            }
         }
     }
 

@@ -48,7 +48,7 @@ function attachGarment(machine) {
     onPlay: (scan) => say({ play: { scan, us: machine.micros } }),
     onScan: (scan) => scan % Number(options.every) === 0 && say({ passed: { scan, us: machine.micros, cycles: machine.cycles } }),
   });
-  machine.sample = (channel) => garment.sample(channel);
+  machine.sample = (channel) => machine.pads.sample(channel, garment);
   if (options.period === undefined) {
     garment.check = new Check(garment, machine);
     machine.onLent = (address) => garment.check.lent(address);
@@ -120,6 +120,10 @@ async function main() {
   const commands = {
     play: () => garment?.play(),
     stats: () => say({ stats: statistics(machine, garment, link, started) }),
+    faults: (list) => {
+      machine.pads.faults = JSON.parse(list);
+      say({ faults: machine.pads.faults.length });
+    },
     stack: () => {
       say({ stack: machine.stack });
       machine.stack.paint(machine.core.SP);
@@ -134,7 +138,10 @@ async function main() {
     },
     quit: () => { control.quit = true; },
   };
-  createInterface({ input: process.stdin }).on('line', (line) => commands[line.trim()]?.());
+  createInterface({ input: process.stdin }).on('line', (line) => {
+    const [command, ...rest] = line.trim().split(' ');
+    commands[command]?.(rest.join(' '));
+  });
   try {
     await run(machine, garment, link, started, control);
   } catch (error) {

@@ -67,9 +67,22 @@ export class Garment {
     if (address !== this.address || this.now() - this.last > SCAN_GAP_NANOS) this.moveTo(address);
     this.last = this.now();
     if (channel === THERMOMETER) return ROOM;
-    const taxel = this.table[(address << 2) | channel];
+    const taxel = this.taxelAt(address, channel);
+    if (taxel !== UNMAPPED) this.shown[taxel] = this.scan;
+    return this.codeOf(taxel);
+  }
+
+  /** The same, where the board looks at its wires and does not scan. */
+  peek(channel) {
+    return this.codeOf(this.taxelAt(this.readAddress(), channel));
+  }
+
+  taxelAt(address, channel) {
+    return channel < 4 ? this.table[(address << 2) | channel] : UNMAPPED;
+  }
+
+  codeOf(taxel) {
     if (taxel === UNMAPPED) return this.idle;
-    this.shown[taxel] = this.scan;
     const at = this.period === undefined ? this.frameOf(this.scan) : this.frameAt(this.now());
     return at?.[taxel] ?? this.idle;
   }

@@ -4,6 +4,7 @@ import { RP2040 } from 'rp2040js';
 import { Adc } from './adc.mjs';
 import { mendDma } from './dma.mjs';
 import { Marks } from './marks.mjs';
+import { Pads } from './pads.mjs';
 import { Pio } from './pio.mjs';
 import { Rom } from './rom.mjs';
 import { Rtt } from './rtt.mjs';
@@ -46,6 +47,7 @@ export class Machine {
     PIO_BASES.forEach((base, i) => {
       chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);
     });
+    this.pads = new Pads(chip);
     for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
     this.rom = new Rom(chip);
     this.guard();
@@ -65,10 +67,9 @@ export class Machine {
     return this.core.cycles;
   }
 
-  /** What the pin drives: true, false, or undefined when it is no output. */
+  /** What drives or shorts the pin: true, false, or undefined when nothing does. */
   readPin(number) {
-    const pin = this.chip.gpio[number];
-    return pin.outputEnable ? pin.outputValue : undefined;
+    return this.pads.drivenLevel(number);
   }
 
   /** What the boot ROM and boot2 do: stack pointer, vector table, entry. */

@@ -31,6 +31,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-usb", targets::emulator_usb),
     ("emulator-latency", targets::emulator_latency),
     ("emulator-store", targets::emulator_store),
+    ("emulator-health", targets::emulator_health),
     ("recorded", targets::recorded),
     ("touch-recorded", targets::touch_recorded),
     ("emulator-recorded", targets::emulator_recorded),

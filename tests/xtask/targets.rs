@@ -14,6 +14,7 @@ pub const APART: &[&str] = &[
     "emulator_usb",
     "emulator_latency",
     "emulator_store",
+    "emulator_health",
     "emulator_recorded",
     "recorded",
     "touch_recorded",
@@ -48,6 +49,11 @@ pub fn emulator_latency(log: &Path) -> Result<Result<(), String>, String> {
 /// Settings in the flash.
 pub fn emulator_store(log: &Path) -> Result<Result<(), String>, String> {
     on_emulator("emulator_store", log)
+}
+
+/// Faults of lines, inputs and taxels.
+pub fn emulator_health(log: &Path) -> Result<Result<(), String>, String> {
+    on_emulator("emulator_health", log)
 }
 
 /// Recordings on the emulated board and on this machine.

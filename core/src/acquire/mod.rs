@@ -3,12 +3,14 @@
 //! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
 //! board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a [`Ring`].
 
+mod lines;
 mod mux;
 mod plan;
 mod ring;
 mod sweep;
 
-pub use mux::{Adc, Clock, Lines, MuxScan};
+pub use lines::{Lines, Pad, Pull, PulledAdc};
+pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring};
 pub use sweep::{SWEEP_INPUTS, Stretch, Sweep, Unfit};
@@ -42,7 +44,7 @@ pub struct ScanReport {
 /// Why a scan failed. The frame is dropped; nothing else is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScanError {
-    /// A line that is no select line could not be driven.
+    /// A line could not be driven, or not be looked at.
     Output(u8),
     /// A select line could not be driven.
     Line {

@@ -1,6 +1,6 @@
 //! Progressive scan through multiplexers, over any HAL.
 
-use super::{Acquire, Depth, Plan, Scan, ScanError, ScanReport};
+use super::{Acquire, Depth, Lines, Plan, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
 use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -30,29 +30,6 @@ pub trait Clock {
 impl<C: Clock> Clock for &C {
     fn now(&self) -> Micros {
         (**self).now()
-    }
-}
-
-/// The board's free output pins, found by GPIO number, because garments name their pins at run time.
-pub struct Lines<P, const PINS: usize> {
-    pins: heapless::Vec<(u8, P), PINS>,
-}
-
-impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
-    /// From pairs of GPIO number and pin; pairs beyond the capacity are left out.
-    pub fn new(pins: impl IntoIterator<Item = (u8, P)>) -> Self {
-        Lines { pins: pins.into_iter().take(PINS).collect() }
-    }
-
-    /// Mask of the GPIO numbers.
-    pub fn mask(&self) -> u64 {
-        self.pins.iter().fold(0, |mask, (number, _)| mask | 1u64.checked_shl(u32::from(*number)).unwrap_or(0))
-    }
-
-    /// Drives a pin; none if there is no pin of that number.
-    pub fn drive(&mut self, number: u8, level: bool) -> Option<Result<(), P::Error>> {
-        let (_, pin) = self.pins.iter_mut().find(|(n, _)| *n == number)?;
-        Some(pin.set_state(PinState::from(level)))
     }
 }
 
@@ -92,6 +69,12 @@ where
             wired: heapless::Vec::new(),
             driven: None,
         }
+    }
+
+    /// Lines, delay and converter, for something else than a scan: what the lines show afterwards is not known.
+    pub(crate) fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A) {
+        self.driven = None;
+        (self.lines, &mut self.delay, &mut self.adc)
     }
 
     /// Finds the pins of another garment's lines.

@@ -2,6 +2,7 @@
 //! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
 
 mod budget;
+mod examining;
 mod outbox;
 mod outputs;
 mod pace;
@@ -22,10 +23,12 @@ use crate::garment::{Circuit, Garment};
 use crate::health::Monitor;
 use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
+use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
 use budget::{Doing, Ledger};
+use examining::Examining;
 use heapless::{Deque, String, Vec};
-use outbox::{Outbox, Refusal};
+use outbox::{About, Outbox, Refusal};
 use outputs::Outputs;
 use pace::Pace;
 use saving::Saving;
@@ -39,8 +42,8 @@ pub enum Input<'a> {
     Scanned(Result<Scan<'a>, ScanError>),
     /// The settings were stored, or why not.
     Saved(Result<Saved, &'static str>),
-    /// Lines and taxels were examined, or why not.
-    Examined(Result<(), &'static str>),
+    /// Lines and inputs were examined, or why not; at the start and wherever it was asked for.
+    Examined(Result<Findings, ScanError>),
     /// Nothing in particular: what is there to do?
     Tick,
 }
@@ -56,7 +59,7 @@ pub enum Job {
     Rest,
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
-    /// Examine lines and taxels; answered by [`Input::Examined`].
+    /// Examine lines and inputs; answered by [`Input::Examined`].
     Examine,
 }
 
@@ -79,6 +82,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     outputs: Outputs,
     works: Deque<Work, 4>,
     saving: Saving,
+    examining: Examining,
     scans: Pace,
     scanning: bool,
     /// The circuit has changed since the last scan.
@@ -120,6 +124,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             outputs,
             works: Deque::new(),
             saving: Saving::new(),
+            examining: Examining::new(),
             scanning: false,
             rewired: false,
             health: Health::default(),
@@ -148,6 +153,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
+        self.examining.report = None;
         self.used();
     }
 
@@ -182,9 +188,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 self.outbox.log(format_args!("scan: {error}"));
             }
             Input::Saved(result) => self.saved(now, result),
-            Input::Examined(result) => {
-                self.outbox.answer(request::number_of(Work::SelfTest), result.err().map(Refusal::of));
-            }
+            Input::Examined(result) => self.examined(now, result),
             Input::Tick => return self.next_job(now),
         }
         None
@@ -253,8 +257,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        let Board { outbox, ledger, info, setup, monitor, health, .. } = self;
-        outbox.prepare(now, (info, setup, monitor), &image, health, probe);
+        let Board { outbox, ledger, info, setup, monitor, examining, health, .. } = self;
+        let about = About { info, setup, monitor, examined: examining.report.as_ref() };
+        outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();
         }

@@ -16,8 +16,15 @@ use core::fmt::{self, Write};
 use heapless::{Deque, Vec};
 use serde::Serialize;
 
-/// What the board is, wears and knows of its taxels.
-type About<'a> = (&'a BoardInfo, &'a Setup, &'a Monitor);
+/// What the board is, wears and knows of it.
+#[derive(Clone, Copy)]
+pub(super) struct About<'a> {
+    pub info: &'a BoardInfo,
+    pub setup: &'a Setup,
+    pub monitor: &'a Monitor,
+    /// The last self-test of lines and inputs.
+    pub examined: Option<&'a SelfTestReport>,
+}
 
 /// Why something is refused, as a sentence.
 #[derive(Debug, Clone)]
@@ -66,6 +73,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     warm: Pace,
     /// First taxel of the next part of the map of health.
     map: Option<u16>,
+    examined: bool,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
@@ -103,6 +111,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             temperature: None,
             warm: Pace::new(1),
             map: None,
+            examined: false,
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
             codes: Codes::new(),
@@ -120,7 +129,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.streaming = true;
         self.hello = Some(Micros(0));
         self.map_changed();
+        self.examined = true;
         self.forget_image();
+    }
+
+    /// The self-test is to be told.
+    pub fn examined(&mut self) {
+        self.examined = true;
     }
 
     /// The map of health is to be told.
@@ -333,13 +348,15 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let (info, setup, monitor) = about;
+        let About { info, setup, monitor, examined } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
             put_hello(under_way, now, info, setup)
+        } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
+            under_way.put(Report::SELF_TEST, report)
         } else if let Some((request, refusal)) = self.answers.pop_front() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
             under_way.put(Report::ANSWER, &Answer { request, refusal })

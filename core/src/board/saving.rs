@@ -94,7 +94,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
         Some(match self.works.pop_front()? {
             Work::Save => Job::Save,
-            Work::SelfTest => Job::Examine,
+            Work::SelfTest => {
+                self.examining.begin(now);
+                Job::Examine
+            }
         })
     }
 
@@ -113,16 +116,20 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// A save has ended.
     pub(super) fn saved(&mut self, now: Micros, result: Result<Saved, &'static str>) {
         let us = self.saving.ended(now);
-        // As many as there would have been.
-        if self.setup.scene.rate_hz == 0 {
-            let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
-            self.health.overruns = self.health.overruns.wrapping_add(lost);
-        }
+        self.not_scanned(us);
         // After a failure, too, something may have been written.
         if result != Ok(Saved::Unchanged) {
             self.saving.spend(now);
         }
         self.outbox.answer(request::number_of(Work::Save), result.err().map(Refusal::of));
+    }
+
+    /// Nothing was scanned for so long: counts as many scans as there would have been.
+    pub(super) fn not_scanned(&mut self, us: u64) {
+        if self.setup.scene.rate_hz == 0 {
+            let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
+            self.health.overruns = self.health.overruns.wrapping_add(lost);
+        }
     }
 }
 

@@ -31,6 +31,15 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
     }
 
+    /// Gives every taxel another chance: it has the gain of its good days, until it is found to be ill again.
+    pub(super) fn recover(&mut self) {
+        for ill in self.monitor.ill() {
+            self.state.condition.set_gain(usize::from(ill.taxel), ill.gain);
+        }
+        self.monitor.reset();
+        self.outbox.map_changed();
+    }
+
     /// The class of a taxel.
     pub fn health_of(&self, taxel: usize) -> TaxelHealth {
         self.monitor.health(taxel)

@@ -14,7 +14,7 @@ mod presets;
 mod seam;
 
 pub use area::{Area, Place, Rect};
-pub use circuit::{Circuit, Pins, Site};
+pub use circuit::{CIRCUIT_LINES, Circuit, Pins, Site};
 pub use config::{
     Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, Panel, SEAMS,
     Seam, Side, Wiring,

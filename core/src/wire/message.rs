@@ -8,6 +8,7 @@ use crate::health::TaxelHealth;
 use crate::intent::{CONCEPTS, Feed, Leading, Outcome};
 use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
+use crate::selftest::Findings;
 use crate::symbol::{EVENTS, RegionState, Symbol};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -56,6 +57,8 @@ pub enum Report<'a> {
     HealthMap(HealthMap),
     /// How warm it is.
     Temperature(Temperature),
+    /// How lines and inputs are.
+    SelfTest(SelfTestReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -88,6 +91,8 @@ impl Report<'_> {
     pub const HEALTH_MAP: u32 = 12;
     /// Of `Temperature`.
     pub const TEMPERATURE: u32 = 13;
+    /// Of `SelfTest`.
+    pub const SELF_TEST: u32 = 14;
 }
 
 /// Frozen.
@@ -273,6 +278,15 @@ pub struct Ill {
     pub health: TaxelHealth,
 }
 
+/// How lines and inputs are.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SelfTestReport {
+    /// The board's time at the end of the self-test.
+    pub time: Micros,
+    /// What it has found.
+    pub findings: Findings,
+}
+
 /// How grave a sentence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
@@ -348,7 +362,7 @@ pub enum Request<'a> {
     },
     /// The next image is to stand alone.
     KeyFrame,
-    /// Examine lines and taxels.
+    /// Examine lines and inputs, and judge all taxels anew: those that were ill count as good until they are found again.
     SelfTest,
     /// Store garment, scene and calibration.
     Save,

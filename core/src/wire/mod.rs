@@ -23,8 +23,9 @@
 //! | 9 | [`Answer`] | in answer to every other request |
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
 //! | 11 | [`Budget`] | each second, or as often as was asked for |
-//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel has fallen ill; in as many parts as it needs |
+//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel has fallen ill or counts as good again; in as many parts as it needs |
 //! | 13 | [`Temperature`] | each second, of a board that has a thermometer |
+//! | 14 | [`SelfTestReport`] | in answer to `Start`, if lines and inputs were examined; after each `SelfTest`, before its answer |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.

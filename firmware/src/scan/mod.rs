@@ -26,6 +26,7 @@ use crate::{adc, board, pins, platform};
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
 use taxel_core::garment::Circuit;
+use taxel_core::selftest::{Examine, Findings};
 
 /// The scan by the processor.
 pub type Processor = MuxScan<
@@ -122,5 +123,13 @@ impl Acquire for Scanner {
     fn rest(&mut self) {
         self.chain.stop();
         self.by = By::Nobody;
+    }
+}
+
+impl Examine for Scanner {
+    /// By the processor; the chain stands still.
+    fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
+        self.rest();
+        self.processor.examine(circuit)
     }
 }

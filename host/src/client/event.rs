@@ -3,7 +3,8 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, Health, IntentReport, Level, ReactionReport, SymbolList, SyncReport, Temperature, WireError,
+    Budget, Health, IntentReport, Level, ReactionReport, SelfTestReport, SymbolList, SyncReport, Temperature,
+    WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -54,6 +55,8 @@ pub enum Event {
         /// The map is complete; else more of it follows.
         whole: bool,
     },
+    /// How lines and inputs are.
+    SelfTest(SelfTestReport),
     /// A sentence of the board.
     Log {
         /// The board's time.

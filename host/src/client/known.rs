@@ -7,7 +7,7 @@ use taxel_core::format::{Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::symbol::RegionState;
-use taxel_core::wire::{Budget, Health};
+use taxel_core::wire::{Budget, Health, SelfTestReport};
 
 impl Client {
     /// What was counted on the line.
@@ -76,6 +76,11 @@ impl Client {
     /// The taxels that are ill, by number, as told last.
     pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
         &self.ill
+    }
+
+    /// The last self-test of lines and inputs; none before the board has told of one.
+    pub fn self_test(&self) -> Option<&SelfTestReport> {
+        self.self_test.as_ref()
     }
 
     /// The board's counters, as told last.

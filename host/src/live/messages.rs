@@ -15,7 +15,7 @@ use std::io::Write;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::health::TaxelHealth;
-use taxel_core::wire::Temperature;
+use taxel_core::wire::{SelfTestReport, Temperature};
 
 /// Prints messages as JSON.
 pub struct Messages<W> {
@@ -138,6 +138,7 @@ fn small(client: &Client, event: &Event) -> Value {
             let ill: Vec<_> = client.ill().iter().map(ill).collect();
             json!({ "type": "health_map", "time_us": time.0, "whole": whole, "ill": ill })
         }
+        Event::SelfTest(report) => self_test(report),
         Event::Log { time, level, text } => {
             json!({ "type": "log", "time_us": time.0, "level": word(level), "text": text })
         }
@@ -150,6 +151,12 @@ fn small(client: &Client, event: &Event) -> Value {
         Event::Refused(error) => json!({ "type": "refused", "why": error.to_string() }),
         _ => Value::Null,
     }
+}
+
+fn self_test(report: &SelfTestReport) -> Value {
+    let mut line = json!({ "type": "self_test", "time_us": report.time.0 });
+    merge(&mut line, serde_json::to_value(&report.findings).unwrap_or_default());
+    line
 }
 
 fn at(kind: &str, frame: u32, time: Micros) -> Value {

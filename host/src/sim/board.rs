@@ -2,13 +2,14 @@
 
 use super::decode::{Address, Decoder};
 use super::hardware::{Bus, PINS, SimClock, SimDelay, SimPin, Timing};
+use super::pads;
 use super::script::Script;
 use super::signal::World;
 use super::wiring::Line;
 use anyhow::Result;
 use std::fmt;
 use std::rc::Rc;
-use taxel_core::acquire::{Adc, Lines};
+use taxel_core::acquire::{Adc, Lines, Pull, PulledAdc};
 use taxel_core::garment::Garment;
 
 /// The converter: samples the taxel that the levels of the select lines connect to an input.
@@ -24,6 +25,9 @@ pub struct SimAdc {
     /// Index of a GPIO's input.
     inputs: [Option<u8>; PINS],
     conversion_ns: u64,
+    source_kohm: f64,
+    /// The code that was sampled last.
+    held: u16,
 }
 
 /// A GPIO to which no block of the garment is connected.
@@ -55,7 +59,20 @@ impl Adc for SimAdc {
         let now = self.bus.now_ns.get();
         self.bus.pass(self.conversion_ns);
         let line = self.lines.get_mut(usize::from(index)).ok_or(NoSuchInput(input))?;
-        Ok(self.world.sample(line, taxel, self.bus.changed_ns.get(), now))
+        let settled = self.world.sample(line, taxel, self.bus.changed_ns.get(), now);
+        let drive = self.bus.drive.get();
+        self.held = self
+            .bus
+            .with_faults(|faults| pads::code(input, drive, faults, self.source_kohm, settled, self.held));
+        Ok(self.held)
+    }
+}
+
+impl PulledAdc for SimAdc {
+    fn pull(&mut self, input: u8, pull: Pull) -> Result<(), NoSuchInput> {
+        self.inputs.get(usize::from(input)).copied().flatten().ok_or(NoSuchInput(input))?;
+        self.bus.act(|drive| drive.pull(1 << input, pull));
+        Ok(())
     }
 }
 
@@ -80,6 +97,8 @@ impl SimBoard {
     /// The same with another timing.
     pub fn with_timing(garment: &Garment, script: &Script, seed: u64, timing: Timing) -> Result<SimBoard> {
         let bus = Rc::new(Bus::default());
+        let from_ns = (script.faults.from_s * 1e9) as u64;
+        bus.faults.replace((from_ns, script.faults.pins.clone()));
         let world = World::build(&Script { seed, ..script.clone() }, garment)?;
         let decoder = Decoder::build(garment);
         let mut inputs = [None; PINS];
@@ -99,6 +118,8 @@ impl SimBoard {
             decoder,
             inputs,
             conversion_ns: u64::from(timing.conversion_ns),
+            source_kohm: script.wiring.source_kohm,
+            held: 0,
         };
         Ok(SimBoard { lines, delay: SimDelay { bus: bus.clone(), timing }, adc, clock: SimClock { bus } })
     }

@@ -1,12 +1,14 @@
 //! Pins, delay and clock of the simulated board, all over one virtual time. Nothing sleeps.
 
+use super::pads::{self, Drive};
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType, OutputPin};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::convert::Infallible;
 use std::rc::Rc;
-use taxel_core::acquire::Clock;
+use taxel_core::acquire::{Clock, Pad, Pull};
 use taxel_core::format::Micros;
+use taxel_core::selftest::PinFault;
 
 /// Pins that the simulated board may have: GPIO 0 to 63.
 pub const PINS: usize = 64;
@@ -42,12 +44,32 @@ impl Timing {
 pub(super) struct Bus {
     /// Levels, bit `n` for GPIO `n`.
     pub levels: Cell<u64>,
+    pub drive: Cell<Drive>,
+    /// What is wrong with the wires, and from when on, ns.
+    pub faults: RefCell<(u64, Vec<PinFault>)>,
     pub now_ns: Cell<u64>,
     /// When a level changed last.
     pub changed_ns: Cell<u64>,
 }
 
 impl Bus {
+    /// The board does something else to its pins.
+    pub fn act(&self, change: impl FnOnce(&mut Drive)) {
+        let mut drive = self.drive.get();
+        change(&mut drive);
+        self.drive.set(drive);
+        let now = self.with_faults(|faults| pads::levels(drive, faults));
+        if now != self.levels.replace(now) {
+            self.changed_ns.set(self.now_ns.get());
+        }
+    }
+
+    /// Looks at what is wrong with the wires now.
+    pub fn with_faults<T>(&self, look: impl FnOnce(&[PinFault]) -> T) -> T {
+        let (from_ns, faults) = &*self.faults.borrow();
+        look(if self.now_ns.get() >= *from_ns { faults } else { &[] })
+    }
+
     pub fn pass(&self, ns: u64) {
         self.now_ns.set(self.now_ns.get().saturating_add(ns));
     }
@@ -65,25 +87,37 @@ impl ErrorType for SimPin {
 }
 
 impl SimPin {
-    fn level(&self, level: u64) {
-        let before = self.bus.levels.get();
-        let now = before & !self.mask | level & self.mask;
-        if now != before {
-            self.bus.levels.set(now);
-            self.bus.changed_ns.set(self.bus.now_ns.get());
-        }
+    fn set(&self, high: u64) {
+        self.bus.act(|drive| {
+            drive.on |= self.mask;
+            drive.high = drive.high & !self.mask | high & self.mask;
+        });
     }
 }
 
 impl OutputPin for SimPin {
     fn set_low(&mut self) -> Result<(), Infallible> {
-        self.level(0);
+        self.set(0);
         Ok(())
     }
 
     fn set_high(&mut self) -> Result<(), Infallible> {
-        self.level(u64::MAX);
+        self.set(u64::MAX);
         Ok(())
+    }
+}
+
+impl Pad for SimPin {
+    fn release(&mut self, pull: Pull) -> Result<(), Infallible> {
+        self.bus.act(|drive| {
+            drive.on &= !self.mask;
+            drive.pull(self.mask, pull);
+        });
+        Ok(())
+    }
+
+    fn level(&mut self) -> Result<bool, Infallible> {
+        Ok(self.bus.levels.get() & self.mask != 0)
     }
 }
 

@@ -21,6 +21,7 @@ mod flash;
 mod footprint;
 mod hardware;
 mod noise;
+mod pads;
 mod parse;
 mod pressure;
 mod rewire;

@@ -5,6 +5,7 @@
 
 use super::touch::Touch;
 use serde::{Deserialize, Serialize};
+use taxel_core::selftest::PinFault;
 
 /// A scripted scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,7 +37,7 @@ pub struct Script {
     /// The garment at rest.
     #[serde(default)]
     pub idle: Idle,
-    /// Broken taxels.
+    /// Broken taxels and wires.
     #[serde(default)]
     pub faults: Faults,
     /// What the wiring does to the signal; nothing by default.
@@ -73,7 +74,7 @@ impl Default for Idle {
     }
 }
 
-/// Broken taxels, by number.
+/// Broken taxels, by number, and broken wires.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Faults {
@@ -91,6 +92,8 @@ pub struct Faults {
     pub stuck: Vec<Stuck>,
     /// Taxels that are noisy.
     pub noisy: Vec<Noisy>,
+    /// Select lines and inputs that are stuck, bridged, open or shorted, by GPIO number.
+    pub pins: Vec<PinFault>,
 }
 
 /// A taxel with a noise of its own.

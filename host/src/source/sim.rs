@@ -181,10 +181,6 @@ impl Platform for Virtual<'_> {
         store.save(settings).map_err(StoreError::sentence)
     }
 
-    fn examine(&mut self) -> Result<(), &'static str> {
-        Err("a simulated board has no lines to examine")
-    }
-
     async fn idle(&mut self, until: Micros) {
         let next = until.0.min(self.now().0 + 1000);
         self.clock.clock.advance_to(next.saturating_sub(self.clock.offset_us));

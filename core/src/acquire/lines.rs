@@ -1,0 +1,68 @@
+//! The board's output pins, and what a self-test needs of pins and converter inputs.
+
+use super::Adc;
+use embedded_hal::digital::{OutputPin, PinState};
+
+/// The weak resistor of a pin.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Pull {
+    /// none
+    #[default]
+    None,
+    /// to the supply
+    Up,
+    /// to ground
+    Down,
+}
+
+/// An output that can be let go of and looked at.
+pub trait Pad: OutputPin {
+    /// Drives the pin no longer, but pulls it.
+    fn release(&mut self, pull: Pull) -> Result<(), Self::Error>;
+    /// The level at the pin itself, driven or not.
+    fn level(&mut self) -> Result<bool, Self::Error>;
+}
+
+/// A converter whose inputs can be pulled.
+pub trait PulledAdc: Adc {
+    /// Pulls the input on GPIO `input` until it is told otherwise.
+    fn pull(&mut self, input: u8, pull: Pull) -> Result<(), Self::Error>;
+}
+
+/// The board's free output pins, found by GPIO number, because garments name their pins at run time.
+pub struct Lines<P, const PINS: usize> {
+    pub(super) pins: heapless::Vec<(u8, P), PINS>,
+}
+
+impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
+    /// From pairs of GPIO number and pin; pairs beyond the capacity are left out.
+    pub fn new(pins: impl IntoIterator<Item = (u8, P)>) -> Self {
+        Lines { pins: pins.into_iter().take(PINS).collect() }
+    }
+
+    /// Mask of the GPIO numbers.
+    pub fn mask(&self) -> u64 {
+        self.pins.iter().fold(0, |mask, (number, _)| mask | 1u64.checked_shl(u32::from(*number)).unwrap_or(0))
+    }
+
+    /// Drives a pin; none if there is no pin of that number.
+    pub fn drive(&mut self, number: u8, level: bool) -> Option<Result<(), P::Error>> {
+        Some(self.pin(number)?.set_state(PinState::from(level)))
+    }
+
+    fn pin(&mut self, number: u8) -> Option<&mut P> {
+        self.pins.iter_mut().find(|(n, _)| *n == number).map(|(_, pin)| pin)
+    }
+}
+
+impl<P: Pad, const PINS: usize> Lines<P, PINS> {
+    /// Lets go of a pin and pulls it; none if there is no pin of that number.
+    pub fn release(&mut self, number: u8, pull: Pull) -> Option<Result<(), P::Error>> {
+        Some(self.pin(number)?.release(pull))
+    }
+
+    /// The level at a pin; none if there is no pin of that number.
+    pub fn level(&mut self, number: u8) -> Option<Result<bool, P::Error>> {
+        Some(self.pin(number)?.level())
+    }
+}

@@ -1,0 +1,123 @@
+//! The converter inputs: each is pulled both ways and read at the corners of its blocks.
+
+use super::lines::PULLED_NS;
+use super::{Fault, Findings};
+use crate::acquire::{Lines, Pad, Pull, PulledAdc, ScanError};
+use crate::garment::{Circuit, Site};
+use embedded_hal::delay::DelayNs;
+use heapless::Vec;
+
+/// Most inputs that are examined.
+const INPUTS: usize = 8;
+/// Largest code of a converter.
+const FULL: u16 = 4095;
+/// So near to an end of the range an input is connected to that end: offset and noise of the converter.
+const RAIL: u16 = 32;
+/// So near to it an input has followed its resistor there.
+const FOLLOWED: u16 = FULL / 8;
+
+/// Lowest and highest code of an input.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    low: u16,
+    high: u16,
+}
+
+impl Span {
+    const NOTHING: Span = Span { low: u16::MAX, high: 0 };
+
+    fn take(&mut self, code: u16) {
+        (self.low, self.high) = (self.low.min(code), self.high.max(code));
+    }
+}
+
+/// An input, and what it showed.
+struct Input {
+    pin: u8,
+    up: Span,
+    down: Span,
+}
+
+/// Examines the inputs. Afterwards none is pulled; the lines stay driven.
+pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    delay: &mut impl DelayNs,
+    adc: &mut A,
+    circuit: &Circuit,
+    findings: &mut Findings,
+) -> Result<(), ScanError> {
+    let mut inputs = Vec::<Input, INPUTS>::new();
+    for site in circuit.sites() {
+        if !inputs.iter().any(|input| input.pin == site.input) {
+            let _ = inputs.push(Input { pin: site.input, up: Span::NOTHING, down: Span::NOTHING });
+        }
+    }
+    let read = [Pull::Up, Pull::Down].into_iter().try_for_each(|pull| {
+        pull_all(adc, &inputs, pull)?;
+        delay.delay_ns(PULLED_NS);
+        circuit.selects().try_for_each(|sites| read(lines, delay, adc, (circuit, sites, pull), &mut inputs))
+    });
+    pull_all(adc, &inputs, Pull::None)?;
+    read?;
+    findings.inputs = inputs.len() as u8;
+    for input in &inputs {
+        if let Some(fault) = input.fault() {
+            findings.add(input.pin, fault);
+        }
+    }
+    Ok(())
+}
+
+impl Input {
+    fn fault(&self) -> Option<Fault> {
+        let Input { up, down, .. } = self;
+        if up.low >= FULL - FOLLOWED && down.high <= FOLLOWED {
+            Some(Fault::Open)
+        } else if up.high <= RAIL {
+            Some(Fault::Grounded)
+        } else if down.low >= FULL - RAIL {
+            Some(Fault::Supplied)
+        } else {
+            None
+        }
+    }
+}
+
+fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[Input], pull: Pull) -> Result<(), ScanError> {
+    inputs.iter().try_for_each(|i| adc.pull(i.pin, pull).map_err(|_| ScanError::Output(i.pin)))
+}
+
+/// Reads the corners of the blocks that share a select code.
+fn read<P: Pad, A: PulledAdc, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    delay: &mut impl DelayNs,
+    adc: &mut A,
+    (circuit, sites, pull): (&Circuit, &[Site], Pull),
+    inputs: &mut [Input],
+) -> Result<(), ScanError> {
+    let select = sites.first().map_or(0, |site| site.select);
+    let last_row = sites.iter().map(|site| site.rows).max().unwrap_or(1).saturating_sub(1);
+    let last_column = sites.iter().map(|site| site.columns).max().unwrap_or(1).saturating_sub(1);
+    for (row, column) in [(0, 0), (0, last_column), (last_row, 0), (last_row, last_column)] {
+        apply(lines, circuit, circuit.word(select, row, column))?;
+        delay.delay_ns(circuit.settle_ns());
+        for site in sites.iter().filter(|site| row < site.rows && column < site.columns) {
+            let Some(input) = inputs.iter_mut().find(|input| input.pin == site.input) else { continue };
+            let taxel = site.taxel(row, column) as u16;
+            let code = adc.read(site.input).map_err(|_| ScanError::Converter { input: site.input, taxel })?;
+            if pull == Pull::Up { &mut input.up } else { &mut input.down }.take(code);
+        }
+    }
+    Ok(())
+}
+
+fn apply<P: Pad, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    circuit: &Circuit,
+    word: u32,
+) -> Result<(), ScanError> {
+    circuit.lines().iter().enumerate().try_for_each(|(bit, pin)| {
+        let driven = lines.drive(*pin, word >> (bit & 31) & 1 == 1).ok_or(ScanError::NoPin(*pin))?;
+        driven.map_err(|_| ScanError::Output(*pin))
+    })
+}

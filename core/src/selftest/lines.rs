@@ -1,0 +1,90 @@
+//! The select lines: each is driven alone, and all are looked at.
+
+use super::{Fault, Findings};
+use crate::acquire::{Lines, Pad, Pull, ScanError};
+use crate::garment::{CIRCUIT_LINES, Circuit};
+use embedded_hal::delay::DelayNs;
+use heapless::Vec;
+
+/// Until a line of 400 pF has followed a resistor of 80 kOhm to within 5 %.
+pub(super) const PULLED_NS: u32 = 100_000;
+
+/// What all lines show while one of them is driven, as words of the circuit.
+struct Shown {
+    /// To the supply, and all others are pulled down.
+    high: u32,
+    /// To ground, and all others are pulled up.
+    low: u32,
+}
+
+/// Examines the lines. Afterwards none is driven, nor pulled.
+pub(super) fn examine<P: Pad, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    delay: &mut impl DelayNs,
+    circuit: &Circuit,
+    findings: &mut Findings,
+) -> Result<(), ScanError> {
+    let shown = try_all(lines, delay, circuit);
+    release(lines, circuit, Pull::None)?;
+    findings.lines = circuit.lines().len() as u8;
+    judge(circuit, &shown?, findings);
+    Ok(())
+}
+
+/// Drives each line to both levels.
+fn try_all<P: Pad, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    delay: &mut impl DelayNs,
+    circuit: &Circuit,
+) -> Result<Vec<Shown, CIRCUIT_LINES>, ScanError> {
+    let mut all = Vec::new();
+    for pin in circuit.lines() {
+        let mut show = |level: bool| {
+            release(lines, circuit, if level { Pull::Down } else { Pull::Up })?;
+            let driven = lines.drive(*pin, level).ok_or(ScanError::NoPin(*pin))?;
+            driven.map_err(|_| ScanError::Output(*pin))?;
+            delay.delay_ns(PULLED_NS);
+            look(lines, circuit)
+        };
+        let _ = all.push(Shown { high: show(true)?, low: show(false)? }); // as many as a circuit has
+    }
+    Ok(all)
+}
+
+fn release<P: Pad, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    circuit: &Circuit,
+    pull: Pull,
+) -> Result<(), ScanError> {
+    circuit.lines().iter().try_for_each(|pin| {
+        let released = lines.release(*pin, pull).ok_or(ScanError::NoPin(*pin))?;
+        released.map_err(|_| ScanError::Output(*pin))
+    })
+}
+
+/// Levels of all lines, bit `i` for line `i` of the circuit.
+fn look<P: Pad, const PINS: usize>(lines: &mut Lines<P, PINS>, circuit: &Circuit) -> Result<u32, ScanError> {
+    circuit.lines().iter().rev().try_fold(0, |word, pin| {
+        let level = lines.level(*pin).ok_or(ScanError::NoPin(*pin))?;
+        Ok(word << 1 | u32::from(level.map_err(|_| ScanError::Output(*pin))?))
+    })
+}
+
+fn judge(circuit: &Circuit, shown: &[Shown], findings: &mut Findings) {
+    let is_high = |word: u32, line: usize| word >> line & 1 == 1;
+    for (line, (pin, own)) in circuit.lines().iter().zip(shown).enumerate() {
+        if !is_high(own.high, line) {
+            findings.add(*pin, Fault::StuckLow);
+        } else if is_high(own.low, line) {
+            findings.add(*pin, Fault::StuckHigh);
+        }
+        // Each pair once. A diode between them lets only one of them follow the other.
+        let later = circuit.lines().iter().zip(shown).enumerate().skip(line + 1);
+        for (other, (other_pin, driven)) in later {
+            let follows = is_high(own.high, other) && !is_high(own.low, other);
+            if follows || (is_high(driven.high, line) && !is_high(driven.low, line)) {
+                findings.add(*pin, Fault::Bridged(*other_pin));
+            }
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The self-test of the select lines and the converter inputs, by the pins' own weak resistors.
+//!
+//! | fault | what shows it |
+//! |---|---|
+//! | line stuck high, stuck low | driven alone, it does not show the level that it is driven to |
+//! | line bridged | while another line is driven, it follows that one to both levels, pulled against it |
+//! | input open | it follows its own resistor, whatever is selected |
+//! | input at ground, at the supply | it stays there against its resistor, whatever is selected |
+//!
+//! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of each of its blocks,
+//! pulled up and pulled down. The reference garment takes 8 ms: two frames are not scanned.
+//!
+//! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its pin; a source
+//! of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What reacts to the select lines sees
+//! levels that nobody asked for; outputs of reactions are not touched.
+
+mod findings;
+mod inputs;
+mod lines;
+
+pub use findings::{FAULTS, Fault, Findings, PinFault};
+
+use crate::acquire::{Clock, MuxScan, Pad, PulledAdc, ScanError};
+use crate::garment::Circuit;
+use embedded_hal::delay::DelayNs;
+
+/// What can examine its own lines and inputs. It does not scan meanwhile.
+pub trait Examine {
+    /// Examines all lines and inputs of a circuit; an error says what failed before the end.
+    fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError>;
+}
+
+impl<E: Examine> Examine for &mut E {
+    fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
+        (**self).examine(circuit)
+    }
+}
+
+impl<P, D, A, C, const PINS: usize, const TAXELS: usize> Examine for MuxScan<'_, P, D, A, C, PINS, TAXELS>
+where
+    P: Pad,
+    D: DelayNs,
+    A: PulledAdc,
+    C: Clock,
+{
+    // Not inlined: what it keeps is on the stack only meanwhile.
+    #[inline(never)]
+    fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
+        let (lines, delay, adc) = self.parts();
+        let mut findings = Findings::default();
+        lines::examine(lines, delay, circuit, &mut findings)?;
+        inputs::examine(lines, delay, adc, circuit, &mut findings)?;
+        Ok(findings)
+    }
+}
