@@ -1,13 +1,21 @@
-//! `taxel health`: the taxels that are ill, and where they are.
+//! `taxel health`: the taxels that are ill and where they are, and lines and inputs at fault.
+
+mod ghosts;
+mod pins;
+
+pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
 use crate::live::{self, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
+use ghosts::Ghosts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::health::TaxelHealth;
+use taxel_core::selftest::Findings;
+use taxel_core::wire::Request;
 
 /// Arguments of `taxel health`.
 #[derive(Debug, Clone, clap::Args)]
@@ -15,50 +23,91 @@ pub struct HealthArgs {
     /// `auto`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT` or `file:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Images to wait for; all taxels are judged twice in 96 frames. Touch the garment meanwhile to find dead taxels
+    /// Images to wait for; each of 2,048 taxels is judged once in 88 frames. Touch the garment meanwhile to find dead taxels
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub frames: u64,
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
+    /// First examine the select lines and converter inputs, and judge every taxel anew [default: tell of the self-test at the
+    /// board's start]
+    #[arg(long)]
+    pub self_test: bool,
+    /// The blocks are passive matrices: name contacts that three others may have made, which only looked like a touch
+    #[arg(long)]
+    pub passive: bool,
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
 }
 
-/// Runs the command.
+/// Runs the command; fails where a line or an input is at fault.
 pub fn run(args: HealthArgs) -> Result<()> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
     let live = LiveArgs { frames: Some(args.frames), tare: args.tare, ..LiveArgs::of(args.source) };
-    let mut found = Findings::default();
+    let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     live::watch(&live, source, &mut found)?;
+    if args.self_test && !found.answered {
+        bail!("no self-test has come; ask for more --frames");
+    }
     let garment = found.garment.context("the board has not said what it wears")?;
     let places = places(&garment, &found.ill)?;
+    let pins = found.pins.as_ref();
     if args.json {
-        println!("{}", report(&places));
+        let ghosts = args.passive.then(|| found.ghosts.report(&garment));
+        let taxels = report(&places);
+        println!(
+            "{}",
+            json!({ "self_test": pins::report(&garment, pins), "taxels": taxels, "ghosts": ghosts })
+        );
     } else {
-        print!("{}", table(&garment, &places));
+        print!("{}{}{}", pins::table(&garment, pins), table(&garment, &places), found.ghosts.table(&garment));
     }
-    Ok(())
+    match pins.map_or(0, |findings| findings.faults.len()) {
+        0 => Ok(()),
+        count => bail!("faults of lines and inputs: {count}"),
+    }
 }
 
 /// Keeps what was told last.
 #[derive(Default)]
-struct Findings {
+struct Known {
     garment: Option<Garment>,
     ill: BTreeMap<u16, TaxelHealth>,
+    pins: Option<Findings>,
+    /// A self-test is still to be asked for.
+    wanted: bool,
+    answered: bool,
+    passive: bool,
+    ghosts: Ghosts,
 }
 
-impl Show for Findings {
+impl Show for Known {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => self.garment = client.worn().map(|worn| worn.garment.clone()),
             Event::HealthMap { .. } => self.ill = client.ill().clone(),
+            Event::Contacts { .. } if self.passive => {
+                if let Some(garment) = &self.garment {
+                    self.ghosts.take(garment, client.contacts());
+                }
+            }
+            Event::SelfTest(report) => self.pins = Some(report.findings.clone()),
+            Event::Answer { request, refusal: None } if *request == Request::SelfTest.number() => {
+                self.answered = true;
+            }
             Event::Answer { refusal: Some(why), .. } => return Err(anyhow!("the board refuses: {why}")),
             _ => {}
         }
         Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if std::mem::take(&mut self.wanted) {
+            client.request(&Request::SelfTest)?;
+        }
+        Ok(true)
     }
 }
 
@@ -132,6 +181,26 @@ pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_at_fault_is_told_and_fails_the_command() {
+        let file = std::env::temp_dir().join(format!("taxel-health-{}.toml", std::process::id()));
+        let args = |faults: &str| {
+            std::fs::write(&file, format!("duration_s = 1\n{faults}")).unwrap();
+            HealthArgs {
+                source: format!("sim:{}", file.display()).parse().unwrap(),
+                frames: 60,
+                tare: None,
+                self_test: true,
+                passive: false,
+                json: false,
+            }
+        };
+        run(args("")).unwrap();
+        let error = run(args("[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]")).unwrap_err();
+        assert_eq!(error.to_string(), "faults of lines and inputs: 1");
+        std::fs::remove_file(&file).unwrap();
+    }
 
     #[test]
     fn an_ill_taxel_is_named_by_panel_and_by_block() {

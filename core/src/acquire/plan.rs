@@ -25,6 +25,14 @@ pub enum Depth {
 }
 
 impl Depth {
+    /// Distance of a code from the next one.
+    pub const fn step(self) -> u16 {
+        match self {
+            Depth::Eight => 16,
+            Depth::Twelve => 1,
+        }
+    }
+
     /// The 12-bit code as kept.
     pub const fn keep(self, code: u16) -> u16 {
         match self {

@@ -24,9 +24,8 @@ use crate::health::Monitor;
 use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::scene::Scene;
 use crate::selftest::Findings;
-use crate::wire::{Health, LONGEST_REQUEST, Receiver, frame_bound};
+use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use budget::{Doing, Ledger};
-use examining::Examining;
 use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox, Refusal};
 use outputs::Outputs;
@@ -82,7 +81,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     outputs: Outputs,
     works: Deque<Work, 4>,
     saving: Saving,
-    examining: Examining,
+    /// The last self-test of the lines and inputs of the garment that is worn.
+    examined: Option<SelfTestReport>,
     scans: Pace,
     scanning: bool,
     /// The circuit has changed since the last scan.
@@ -124,7 +124,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             outputs,
             works: Deque::new(),
             saving: Saving::new(),
-            examining: Examining::new(),
+            examined: None,
             scanning: false,
             rewired: false,
             health: Health::default(),
@@ -153,7 +153,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
-        self.examining.report = None;
+        self.examined = None;
         self.used();
     }
 
@@ -257,8 +257,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        let Board { outbox, ledger, info, setup, monitor, examining, health, .. } = self;
-        let about = About { info, setup, monitor, examined: examining.report.as_ref() };
+        let Board { outbox, ledger, info, setup, monitor, examined, health, .. } = self;
+        let about = About { info, setup, monitor, examined: examined.as_ref() };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

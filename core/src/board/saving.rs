@@ -1,4 +1,4 @@
-//! When settings may be stored: the flash wears out, and nothing is scanned meanwhile.
+//! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are examined.
 
 use super::outbox::Refusal;
 use super::{Board, Job, Saved, Work, request};
@@ -20,6 +20,7 @@ pub(super) struct Saving {
     /// Since when fewer than all are left.
     since: Micros,
     announced: Option<Micros>,
+    /// Since when nothing is scanned.
     stopped: Option<Micros>,
 }
 
@@ -58,7 +59,7 @@ impl Saving {
             Some(at) if now.since(at) < NOTICE_US => Next::Wait,
             Some(_) => {
                 self.announced = None;
-                self.stopped = Some(now);
+                self.stop(now);
                 Next::Save
             }
         }
@@ -72,9 +73,14 @@ impl Saving {
         self.left = self.left.saturating_sub(1);
     }
 
-    /// A save has ended; for how long nothing was scanned.
-    pub fn ended(&mut self, now: Micros) -> u64 {
-        self.stopped.take().map_or(0, |stopped| now.since(stopped))
+    /// Something else than a scan begins.
+    pub fn stop(&mut self, now: Micros) {
+        self.stopped = Some(now);
+    }
+
+    /// It has ended; for how long nothing was scanned. None: nothing had begun.
+    pub fn ended(&mut self, now: Micros) -> Option<u64> {
+        self.stopped.take().map(|stopped| now.since(stopped))
     }
 }
 
@@ -95,7 +101,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         Some(match self.works.pop_front()? {
             Work::Save => Job::Save,
             Work::SelfTest => {
-                self.examining.begin(now);
+                self.saving.stop(now);
                 Job::Examine
             }
         })
@@ -115,7 +121,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     /// A save has ended.
     pub(super) fn saved(&mut self, now: Micros, result: Result<Saved, &'static str>) {
-        let us = self.saving.ended(now);
+        let us = self.saving.ended(now).unwrap_or(0);
         self.not_scanned(us);
         // After a failure, too, something may have been written.
         if result != Ok(Saved::Unchanged) {
@@ -159,6 +165,6 @@ mod tests {
         let mut saving = Saving::new();
         let steps = [0, 10, 49_999, 50_000].map(|us| saving.next(Micros(us)));
         assert_eq!(steps, [Next::Announce, Next::Wait, Next::Wait, Next::Save]);
-        assert_eq!((saving.ended(Micros(90_000)), saving.ended(Micros(95_000))), (40_000, 0));
+        assert_eq!((saving.ended(Micros(90_000)), saving.ended(Micros(95_000))), (Some(40_000), None));
     }
 }

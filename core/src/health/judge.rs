@@ -105,7 +105,7 @@ impl Shown<'_> {
         }
         // The frame in which it is judged counts, too: a touch may have begun since.
         let now = self.codes.get(taxel).map_or(0, |code| self.pressure(code.0));
-        if !self.touched || i32::from(high).max(now) - rest > i32::from(RAIL) {
+        if !self.touched || i32::from(high).max(now) - rest > i32::from(RAIL.max(self.step + 1)) {
             return TaxelHealth::Good;
         }
         match self.surroundings(area, row, column) {

@@ -9,8 +9,9 @@ use crate::garment::{Area, Circuit, Layout};
 use core::ops::Range;
 use heapless::Vec;
 
-/// Frames from one judgement to the next.
-pub const FRAMES: u8 = 12;
+/// Frames from one judgement to the next. Of 2,048 taxels each is judged once in 88 frames, so that what breaks in the midst of a
+/// watch is found after 99 at most.
+pub const FRAMES: u8 = 11;
 /// Frames of them in which taxels are judged, so that none takes much longer than the others.
 const JUDGING: u8 = 2;
 /// Taxels that are watched at a time.
@@ -131,7 +132,9 @@ impl Monitor {
                 if part == 0 {
                     let watched = layout.taxels().saturating_sub(usize::from(self.first)).min(WATCHED);
                     let watched = self.seen.get(..watched).unwrap_or(&[]);
-                    (self.usual, self.step) = (usual_range(watched), step(watched));
+                    // Codes of 8 bits repeat their upper bits below: they do not show their step.
+                    self.step = step(watched).max(plan.depth.step());
+                    self.usual = usual_range(watched);
                 }
                 let (falling, usual, step) = (circuit.falling(), self.usual, self.step);
                 let shown = Shown { codes, rest, full, falling, usual, step, touched };

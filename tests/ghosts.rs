@@ -1,0 +1,106 @@
+//! Ghosts of a passive matrix, whose currents are solved for here: three pressed corners make a fourth, and only that is taken for
+//! a ghost.
+
+use taxel::health::candidates;
+use taxel_core::acquire::{Scan, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::body::Placed;
+use taxel_core::contact::Phase;
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Receiver, Report, Request, decode, encode};
+
+const ROWS: usize = 4;
+const COLUMNS: usize = 16;
+/// Conductances: at rest, and pressed.
+const REST: f64 = 1e-4;
+const PRESSED: f64 = 1.0;
+
+/// Codes of a matrix of conductances between its rows and columns. To read a taxel its row is at 1 and its column at 0;
+/// everything else floats.
+fn codes(conductance: &[[f64; COLUMNS]; ROWS]) -> Vec<Code> {
+    let read = |row: usize, column: usize| {
+        let (mut rows, mut columns) = ([0.5; ROWS], [0.5; COLUMNS]);
+        // Gauss-Seidel: each floating node takes the mean of what it is connected to.
+        for _ in 0..2000 {
+            (rows[row], columns[column]) = (1.0, 0.0);
+            for r in (0..ROWS).filter(|r| *r != row) {
+                let sum: f64 = (0..COLUMNS).map(|c| conductance[r][c] * columns[c]).sum();
+                rows[r] = sum / conductance[r].iter().sum::<f64>();
+            }
+            for c in (0..COLUMNS).filter(|c| *c != column) {
+                let sum: f64 = (0..ROWS).map(|r| conductance[r][c] * rows[r]).sum();
+                columns[c] = sum / (0..ROWS).map(|r| conductance[r][c]).sum::<f64>();
+            }
+        }
+        (0..ROWS).map(|r| conductance[r][column] * rows[r]).sum::<f64>()
+    };
+    let taxels = (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column)));
+    taxels.map(|(row, column)| Code((2000.0 * read(row, column)).round() as u16)).collect()
+}
+
+/// The contacts of a board at rest on which these taxels are then pressed.
+fn contacts(pressed: &[(usize, usize, f64)]) -> Vec<Placed> {
+    let mut scene = Scene::shipped();
+    scene.condition.filter = taxel_core::condition::Filter::Off;
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), scene).unwrap());
+    for request in [Request::Start, Request::Tare { frames: 4 }] {
+        let (mut body, mut wire) = ([0; 64], [0; 64]);
+        let length = encode(&request, &mut body, &mut wire).unwrap();
+        board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+    }
+    let mut matrix = [[REST; COLUMNS]; ROWS];
+    let rest = codes(&matrix);
+    pressed.iter().for_each(|(row, column, conductance)| matrix[*row][*column] = *conductance);
+    let touched = codes(&matrix);
+    let mut present = Vec::new();
+    for frame in 0..40u64 {
+        let codes = if frame < 10 { &rest } else { &touched };
+        let report = ScanReport { start: Micros(frame * 5_000), ..ScanReport::default() };
+        board.step(report.start, Input::Scanned(Ok(Scan { codes, report })), &mut ());
+        let mut receiver = Box::new(Receiver::<8192>::new());
+        while let [byte, ..] = board.pending(report.start, &mut ()) {
+            if let Some(Ok(body)) = receiver.push(*byte)
+                && let (0u32.., Report::Contacts(list)) = decode(body).unwrap()
+            {
+                present = list.contacts.to_vec();
+            }
+            board.sent(1);
+        }
+    }
+    present.retain(|placed| placed.contact.phase != Phase::Released);
+    present
+}
+
+/// Places of the peaks of contacts, sorted.
+fn places<'a>(contacts: impl IntoIterator<Item = &'a Placed>) -> Vec<(u16, u16)> {
+    let mut places: Vec<_> =
+        contacts.into_iter().map(|p| (p.contact.peak_at.row, p.contact.peak_at.column)).collect();
+    places.sort_unstable();
+    places
+}
+
+#[test]
+fn the_fourth_corner_of_three_is_a_candidate() {
+    let garment = Garment::block();
+    let present = contacts(&[(0, 3, PRESSED), (0, 11, PRESSED), (3, 3, PRESSED)]);
+    assert_eq!(places(&present), [(0, 3), (0, 11), (3, 3), (3, 11)], "a third of the signal is a contact");
+    assert_eq!(places(candidates(&garment, &present)), [(3, 11)]);
+}
+
+#[test]
+fn what_makes_no_rectangle_is_no_candidate() {
+    let garment = Garment::block();
+    for pressed in [
+        vec![(0, 3, PRESSED), (3, 11, PRESSED)],
+        vec![(0, 1, PRESSED), (0, 5, PRESSED), (0, 9, PRESSED), (0, 13, PRESSED)],
+        // Four that are pressed alike.
+        vec![(0, 3, PRESSED), (0, 11, PRESSED), (3, 3, PRESSED), (3, 11, PRESSED)],
+    ] {
+        let present = contacts(&pressed);
+        assert_eq!(present.len(), pressed.len());
+        assert!(candidates(&garment, &present).is_empty(), "{pressed:?}");
+    }
+}
