@@ -11,6 +11,7 @@ use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
+use taxel_core::gesture::GestureConfig;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 
@@ -73,6 +74,7 @@ fn keep(kept: &mut Reports, report: &Report<'_>) {
         Report::Symbols(list) => (list.frame, "Symbols"),
         Report::Intent(intent) => (intent.frame, "Intent"),
         Report::Reaction(reaction) => (reaction.frame, "Reaction"),
+        Report::Gesture(gesture) => (gesture.frame, "Gesture"),
         _ => return,
     };
     kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));
@@ -145,7 +147,11 @@ fn recorded_people() {
     let codes = codes();
     let garment = postcard::to_allocvec(&Garment::mat()).unwrap();
     let scene = postcard::to_allocvec(&scene()).unwrap();
-    let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
+    // A person on a mat makes no gestures; what the model says of them must be the same all the same.
+    let gestures =
+        GestureConfig { rate_hz: RATE_HZ, decide_ms: 50, onset_ms: 50, lead: 0, ..GestureConfig::default() };
+    let gestures = Request::SetGestures(Some(gestures));
+    let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), gestures, Request::Start];
     let mut board = Emulated::start(&Garment::mat(), &codes, 0, &["--dwell", &DWELL.to_string()]);
     let mut twin = Twin::new();
     // It hears nothing before it has started.
@@ -197,5 +203,7 @@ fn compare(board: &Reports, host: &Reports) {
     }
     assert_eq!(board.len(), host.len());
     println!("{bytes} bytes of reports are the same: {kinds:?}");
-    assert!(["Contacts", "Symbols", "Intent", "Frame"].iter().all(|kind| kinds.contains_key(kind)));
+    assert!(
+        ["Contacts", "Symbols", "Intent", "Frame", "Gesture"].iter().all(|kind| kinds.contains_key(kind))
+    );
 }

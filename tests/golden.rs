@@ -9,6 +9,7 @@ use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
+use taxel_core::gesture::{GestureConfig, Shipped};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
 use taxel_core::react::Reaction;
@@ -59,7 +60,7 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 14] {
+fn reports() -> [(&'static str, Report<'static>); 16] {
     let (frame, time) = (300, Micros(5_000_000_000));
     let words = Words {
         strength: Strength::Firm,
@@ -111,6 +112,18 @@ fn reports() -> [(&'static str, Report<'static>); 14] {
     let faults = faults.chain([(27, Fault::Grounded), (28, Fault::Supplied)]);
     let faults = faults.map(|(pin, fault)| PinFault { pin, fault }).collect();
     let findings = Findings { lines: 9, inputs: 4, faults };
+    let gesture = GestureReport {
+        frame,
+        time,
+        touch: 3,
+        panel: 1,
+        class: 2,
+        name: name("pat"),
+        score: -262_144,
+        lead: 65_536,
+        observed_ms: 1500,
+        ended: true,
+    };
     let intent = IntentReport {
         frame,
         time,
@@ -135,10 +148,11 @@ fn reports() -> [(&'static str, Report<'static>); 14] {
         ("HealthMap", Report::HealthMap(map)),
         ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
         ("SelfTest", Report::SelfTest(SelfTestReport { time, findings })),
+        ("Gesture", Report::Gesture(gesture)),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 14] {
+fn requests() -> [(&'static str, Request<'static>); 15] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
@@ -157,6 +171,7 @@ fn requests() -> [(&'static str, Request<'static>); 14] {
         ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
         ("Budget", Request::Budget { hz: 65_535 }),
         ("Feed", Request::Feed(feed)),
+        ("SetGestures", Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))),
     ]
 }
 

@@ -4,8 +4,9 @@ use crate::body::Placed;
 use crate::condition::{Condition, ConditionState, Image, Tare};
 use crate::contact::{ContactState, Contacts};
 use crate::fold::FoldState;
-use crate::format::{Code, Invalid, Micros};
+use crate::format::{Code, Invalid, Micros, Name};
 use crate::garment::{Layout, PANELS};
+use crate::gesture::{Gesture, GestureState, Gestures};
 use crate::intent::{Fed, Intent, IntentState, MapError, Meaning, Touch};
 use crate::react::{ReactState, Reactions};
 use crate::scene::Scene;
@@ -29,7 +30,7 @@ pub enum Stage {
     Contact = 2,
     /// NMI, k-NN, place on the body
     Shape = 3,
-    /// words and region states
+    /// words, region states and touch over time
     Symbol = 4,
     /// the cognitive map
     Intent = 5,
@@ -92,6 +93,8 @@ pub struct Pipeline {
     contact: Contacts,
     shape: Option<Shapes<BUILT_IN>>,
     symbol: Symbols,
+    /// Touch over time; none: not recognised. It is no part of a scene, and stays where the scene or the garment changes.
+    pub gestures: Option<Gestures>,
     friendliness: [i8; PANELS],
     intent: Option<Intent>,
     react: Reactions,
@@ -106,6 +109,7 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize> {
     present: Vec<Placed, CONTACTS>,
     released: Vec<Placed, CONTACTS>,
     symbol: SymbolState<CONTACTS>,
+    gesture: GestureState,
     intent: IntentState,
     react: ReactState,
     /// How the joints stand.
@@ -129,6 +133,8 @@ pub struct Percept<'a> {
     pub symbols: &'a SymbolState<CONTACTS>,
     /// What the touch means, if that is new.
     pub meaning: Option<Meaning>,
+    /// What goes on and what that is called, if it is new.
+    pub gesture: Option<(Gesture, Name)>,
     /// What the garment does by itself.
     pub reactions: &'a ReactState,
     /// How far a tare is.
@@ -145,6 +151,7 @@ impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, R
             present: Vec::new(),
             released: Vec::new(),
             symbol: SymbolState::default(),
+            gesture: const { GestureState::new() },
             intent: IntentState::default(),
             react: ReactState::default(),
             fold: FoldState::default(),
@@ -164,6 +171,7 @@ impl<const TAXELS: usize, const RUNS: usize> PipelineState<TAXELS, RUNS> {
     /// Forgets what a scene's stages found, for another scene; the baseline stays.
     pub fn forget(&mut self) {
         self.symbol = SymbolState::default();
+        self.gesture.forget();
         self.intent = IntentState::default();
         self.react = ReactState::default();
     }
@@ -176,6 +184,11 @@ impl<const TAXELS: usize, const RUNS: usize> PipelineState<TAXELS, RUNS> {
     /// The conditioned image of the last frame.
     pub fn image(&self, pipeline: &Pipeline, layout: &Layout) -> Image<'_> {
         pipeline.condition.image(&self.condition, layout)
+    }
+
+    /// Touches are recognised from the next on, by another model or none.
+    pub fn recognise_anew(&mut self) {
+        self.gesture.forget();
     }
 
     /// The announced intention and what led to it.
@@ -197,6 +210,7 @@ impl Pipeline {
             contact: scene.contact.build()?,
             shape: None,
             symbol: scene.symbol.build()?,
+            gestures: None,
             friendliness,
             intent: None,
             react: Reactions::default(),
@@ -242,7 +256,9 @@ impl Pipeline {
         now: Micros,
         probe: &mut impl Probe,
     ) -> Percept<'s> {
-        let PipelineState { condition, contact, present, released, symbol, intent, react, fed, .. } = state;
+        let PipelineState {
+            condition, contact, present, released, symbol, gesture, intent, react, fed, ..
+        } = state;
         probe.begin(Stage::Condition);
         self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
         let condition = &*condition;
@@ -262,6 +278,17 @@ impl Pipeline {
         replace(present, shapes.map(|(c, m)| Placed::new(layout, c.clone(), shape(m, c))));
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, present, released, now);
+        let gesture = self.gestures.as_ref().and_then(|stage| {
+            stage
+                .process(
+                    gesture,
+                    layout,
+                    &image,
+                    present.iter().map(|p| (p.contact.panel, p.contact.total)),
+                    now,
+                )
+                .map(|gesture| (gesture, stage.name(gesture.class)))
+        });
         probe.begin(Stage::Intent);
         let meaning = self.intent.as_ref().and_then(|stage| {
             let mut felt: Vec<Touch, CONTACTS> = Vec::new();
@@ -278,6 +305,7 @@ impl Pipeline {
             dropped: touches.dropped.saturating_add(touches.overflow),
             symbols: symbol,
             meaning,
+            gesture,
             reactions: react,
             tare: condition.tare_progress(),
         }

@@ -170,6 +170,7 @@ impl Client {
                 self.intention = Some(report.clone());
                 Event::Intent(report)
             }
+            Report::Gesture(report) => Event::Gesture(report),
             Report::Reaction(report) => Event::Reaction(report),
             Report::Health(health) => {
                 self.health = Some(health);

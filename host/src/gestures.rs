@@ -6,16 +6,13 @@ use crate::touches::{
 };
 use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand, ValueEnum};
-use taxel_core::gesture::CLASSES;
-
-/// The model that is shipped: trained on the recordings its notes name; `docs/models.md` is its card.
-pub const SHIPPED: &[u8] = include_bytes!("../models/gestures.model");
+use taxel_core::gesture::{CLASSES, Shipped};
 
 /// Chosen by cross-validation by participant.
 const SETTINGS: Settings = Settings { pressed: 12, part: 216, penalty: 40.0, balance: 0.0, mirrored: false };
 
 const TASK: Task = Task {
-    shipped: SHIPPED,
+    shipped: Shipped::Gestures,
     settings: SETTINGS,
     candidates: || grid(SETTINGS, &[0, 108, 216], &[10.0, 40.0, 160.0], &[0.0, 0.5]),
 };

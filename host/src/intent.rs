@@ -6,15 +6,13 @@ use crate::touches::{
 };
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
-
-/// The model that is shipped: trained on the recordings its notes name; `docs/models.md` is its card.
-pub const SHIPPED: &[u8] = include_bytes!("../models/intent.model");
+use taxel_core::gesture::Shipped;
 
 /// Chosen by cross-validation by day.
 const SETTINGS: Settings = Settings { pressed: 200, part: 0, penalty: 10.0, balance: 0.5, mirrored: true };
 
 const TASK: Task = Task {
-    shipped: SHIPPED,
+    shipped: Shipped::Intent,
     settings: SETTINGS,
     candidates: || grid(SETTINGS, &[0], &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
 };

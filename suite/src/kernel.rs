@@ -7,6 +7,7 @@ use crate::measure::Measure;
 use crate::windows::{AREA, WINDOWS};
 use core::hint::black_box;
 use taxel_core::format::Code;
+use taxel_core::gesture::{Model, Shipped, TouchState, Touches};
 use taxel_core::pipeline::{Probe, Stage};
 
 /// A kernel.
@@ -24,17 +25,28 @@ pub enum Kernel {
     Activate(Activation),
     /// The map that ships, from its inputs until it settles.
     Infer,
+    /// A frame of a touch on a panel of 512 taxels.
+    Touch,
+    /// What the touch so far is taken for.
+    Decide,
 }
+
+/// Taxels of a panel of the reference garment.
+const PANEL: usize = 512;
 
 /// What a kernel works with.
 pub struct Bench {
     dense: Dense,
     maps: Option<Maps>,
+    gestures: Option<Touches<'static>>,
+    touch: TouchState,
 }
 
 impl Default for Bench {
     fn default() -> Bench {
-        Bench { dense: Dense::new(), maps: Maps::shipped() }
+        let model = Model::read(Shipped::Gestures.bytes()).ok();
+        let gestures = model.map(|model| Touches::new(model, 32, 16));
+        Bench { dense: Dense::new(), maps: Maps::shipped(), gestures, touch: const { TouchState::new() } }
     }
 }
 
@@ -44,7 +56,11 @@ impl Kernel {
         let plain = [Kernel::Read, Kernel::Compare, Kernel::Dense];
         let measures = Measure::ALL.map(Kernel::Measure);
         let activations = Activation::ALL.map(Kernel::Activate);
-        plain.into_iter().chain(measures).chain(activations).chain([Kernel::Infer])
+        plain.into_iter().chain(measures).chain(activations).chain([
+            Kernel::Infer,
+            Kernel::Touch,
+            Kernel::Decide,
+        ])
     }
 
     /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`] and [`Stage::Scan`].
@@ -92,6 +108,23 @@ impl Kernel {
                 let (end, steps) = maps.infer(&start);
                 probe.begin(Stage::Scan);
                 fold(end.into_iter().map(|value| value as u32).chain([steps.into()]))
+            }
+            Kernel::Touch => {
+                let Some(gestures) = &bench.gestures else { return 0 };
+                let mut image = [0; PANEL];
+                image.iter_mut().zip(codes).for_each(|(value, code)| *value = code.0);
+                // Setting up is no part of it.
+                probe.begin(Stage::Scan);
+                probe.begin(Stage::Idle);
+                gestures.process(&mut bench.touch, &image);
+                probe.begin(Stage::Scan);
+                fold(gestures.decide(&bench.touch).scores.into_iter().map(|score| score as u32))
+            }
+            Kernel::Decide => {
+                let Some(gestures) = &bench.gestures else { return 0 };
+                let decision = gestures.decide(&bench.touch);
+                probe.begin(Stage::Scan);
+                fold(decision.scores.into_iter().map(|score| score as u32).chain([decision.lead]))
             }
         }
     }

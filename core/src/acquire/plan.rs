@@ -29,7 +29,7 @@ impl Depth {
     pub const fn step(self) -> u16 {
         match self {
             Depth::Eight => 16,
-            Depth::Twelve => 1,
+            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 => 1,
         }
     }
 

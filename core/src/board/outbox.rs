@@ -8,6 +8,7 @@ use crate::condition::Image;
 use crate::contact::Phase;
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::{Layout, PANELS};
+use crate::gesture::Gesture;
 use crate::health::Monitor;
 use crate::pipeline::{Percept, Probe, Stage};
 use crate::scene::StreamConfig;
@@ -61,6 +62,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
     changes: Deque<IntentReport, 8>,
+    gestures: Deque<GestureReport, 4>,
     intent: Option<IntentReport>,
     symbols: SymbolList,
     symbols_wait: bool,
@@ -101,6 +103,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             logs: Deque::new(),
             reactions: Deque::new(),
             changes: Deque::new(),
+            gestures: Deque::new(),
             intent: None,
             symbols: SymbolList { frame: 0, time: Micros(0), events: Vec::new(), regions: Vec::new() },
             symbols_wait: false,
@@ -161,6 +164,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     fn drop_waiting(&mut self) {
         self.reactions.clear();
         self.changes.clear();
+        self.gestures.clear();
         (self.intent, self.image.due, self.raw) = (None, None, None);
         (self.budget, self.temperature) = (None, None);
         self.contacts.contacts.clear();
@@ -240,6 +244,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
                 self.intent = Some(report);
             }
         }
+        self.note_gesture(frame, time, percept, health);
         self.note_contacts(frame, time, percept, health);
         self.note_symbols(frame, time, percept, health);
         // What waits is encoded from the newest image and codes, so it bears their number.
@@ -251,6 +256,15 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         if self.rates.raw.due(time) || self.raw.is_some() {
             self.raw = Some((frame, time));
         }
+    }
+
+    fn note_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let Some((gesture, name)) = &percept.gesture else { return };
+        let Gesture { touch, panel, class, score, lead, observed_ms, ended } = *gesture;
+        let name = name.clone();
+        let report =
+            GestureReport { frame, time, touch, panel, class, name, score, lead, observed_ms, ended };
+        health.lost += u32::from(self.gestures.push_back(report).is_err());
     }
 
     /// The newest state of each contact; onsets and releases stay until they are told.
@@ -370,6 +384,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way.put(Report::SYMBOLS, &self.symbols)
         } else if let Some(report) = self.changes.pop_front().or_else(|| self.intent.take()) {
             under_way.put(Report::INTENT, &report)
+        } else if let Some(report) = self.gestures.pop_front() {
+            under_way.put(Report::GESTURE, &report)
         } else if let Some((level, text)) = self.logs.pop_front() {
             under_way.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {

@@ -5,6 +5,7 @@ use super::outputs::Outputs;
 use super::{Board, Work};
 use crate::format::Micros;
 use crate::garment::Garment;
+use crate::gesture::GestureConfig;
 use crate::scene::Scene;
 use crate::wire::{Request, decode};
 use serde::Deserialize;
@@ -88,6 +89,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 refused => refused,
             },
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
+            Request::SetGestures(config) => self.set_gestures(config.as_ref()),
             Request::Budget { hz } => {
                 self.ledger.report(hz);
                 Ok(())
@@ -113,6 +115,12 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         // What the new scene does not drive must not stay where the old one left it.
         self.outputs.follow(before);
         self.used();
+        Ok(())
+    }
+
+    pub(super) fn set_gestures(&mut self, config: Option<&GestureConfig>) -> Result<(), Refusal> {
+        self.setup.pipeline.gestures = config.map(GestureConfig::build).transpose().map_err(Refusal::of)?;
+        self.state.recognise_anew();
         Ok(())
     }
 

@@ -98,7 +98,7 @@ impl Setup {
     ) -> Result<(), SetupError> {
         let layout = Layout::build(&garment, capacity, u16::MAX)?;
         let circuit = Circuit::build(&garment, &layout, info.pins)?;
-        self.pipeline = checked(info, &self.scene, &layout, &circuit)?;
+        self.change_pipeline(checked(info, &self.scene, &layout, &circuit)?);
         (self.garment, self.layout, self.circuit) = (garment, layout, circuit);
         Ok(())
     }
@@ -106,9 +106,16 @@ impl Setup {
     /// Takes another scene for the same garment; nothing changes if it is refused.
     #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: Scene) -> Result<(), SetupError> {
-        self.pipeline = checked(info, &scene, &self.layout, &self.circuit)?;
+        self.change_pipeline(checked(info, &scene, &self.layout, &self.circuit)?);
         self.scene = scene;
         Ok(())
+    }
+
+    /// What is no part of a scene stays.
+    fn change_pipeline(&mut self, pipeline: Pipeline) {
+        let gestures = self.pipeline.gestures;
+        self.pipeline = pipeline;
+        self.pipeline.gestures = gestures;
     }
 
     /// Scans per second, as [`Pace`](super::pace::Pace) wants it: a scene's 0 is "as many as possible".

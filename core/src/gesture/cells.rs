@@ -16,6 +16,8 @@ pub struct Sheet {
     rows: u16,
     columns: u16,
     shift: u32,
+    /// Q8
+    gain: u32,
 }
 
 impl Sheet {
@@ -23,7 +25,12 @@ impl Sheet {
     pub const fn new(rows: u16, columns: u16) -> Sheet {
         let most = rows.div_ceil(SIDE as u16) as u32 * columns.div_ceil(SIDE as u16) as u32;
         let shift = if most > 8 { most.div_ceil(8).next_power_of_two().trailing_zeros() } else { 0 };
-        Sheet { rows, columns, shift }
+        Sheet { rows, columns, shift, gain: 256 }
+    }
+
+    /// With cells times `gain`, Q8, at most 4096 (16.0).
+    pub fn with_gain(self, gain: u16) -> Sheet {
+        Sheet { gain: u32::from(gain.min(4096)), ..self }
     }
 
     /// The cells of an image of rows of pressures; what is missing is 0, what is beyond is passed over.
@@ -37,7 +44,8 @@ impl Sheet {
                 }
             }
         }
-        cells.map(|sum| (sum >> self.shift).min(u16::MAX.into()) as u16)
+        // A cell holds eight taxels' worth: 19 bits.
+        cells.map(|sum| (((sum >> self.shift) * self.gain) >> 8).min(u16::MAX.into()) as u16)
     }
 }
 

@@ -14,7 +14,7 @@ pub const COURSE: usize = 27;
 const SHARES: [u16; 7] = [13, 26, 64, 128, 192, 230, 243];
 
 /// Sums over the frames of a window.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
     sum: u32,
     squares: u64,
@@ -34,7 +34,31 @@ pub struct Course {
     spread: Histogram<6>,
 }
 
+impl Default for Course {
+    fn default() -> Self {
+        Course::new()
+    }
+}
+
 impl Course {
+    /// No frame yet.
+    pub const fn new() -> Course {
+        Course {
+            sum: 0,
+            squares: 0,
+            moment: 0,
+            first: 0,
+            last: 0,
+            least: 0,
+            most: 0,
+            changes: [0; LAGS.len()],
+            crossings: 0,
+            mean: 0,
+            above: false,
+            spread: Histogram::new(),
+        }
+    }
+
     /// Adds the value of a frame. `frame` is its number in the window, from 0; `back` are the values as many frames before
     /// as [`LAGS`] says, of which those count that lie in the window.
     pub fn add(&mut self, value: u16, frame: u32, back: impl Iterator<Item = u16>) {

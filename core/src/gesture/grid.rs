@@ -16,7 +16,7 @@ pub struct Grid {
     cells: [Cell; CELLS],
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Cell {
     squares: u64,
     sum: u32,
@@ -26,11 +26,16 @@ struct Cell {
 
 impl Default for Grid {
     fn default() -> Self {
-        Grid { cells: [Cell::default(); CELLS] }
+        Grid::new()
     }
 }
 
 impl Grid {
+    /// No frame yet.
+    pub const fn new() -> Grid {
+        Grid { cells: [Cell { squares: 0, sum: 0, change: 0, most: 0 }; CELLS] }
+    }
+
     /// Adds a frame after that of `before`; the first of a window has no change.
     pub fn add(&mut self, now: &Cells, before: &Cells, frame: u32) {
         for ((cell, now), before) in self.cells.iter_mut().zip(now).zip(before) {

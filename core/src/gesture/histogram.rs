@@ -11,11 +11,16 @@ pub struct Histogram<const SHIFT: u32> {
 
 impl<const SHIFT: u32> Default for Histogram<SHIFT> {
     fn default() -> Self {
-        Histogram { bins: [0; BINS] }
+        Histogram::new()
     }
 }
 
 impl<const SHIFT: u32> Histogram<SHIFT> {
+    /// Nothing was seen yet.
+    pub const fn new() -> Histogram<SHIFT> {
+        Histogram { bins: [0; BINS] }
+    }
+
     /// Counts a value; a bin holds 65,535 at most.
     pub fn add(&mut self, value: u16) {
         if let Some(bin) = self.bins.get_mut(usize::from(value >> SHIFT).min(BINS - 1)) {

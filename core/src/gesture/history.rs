@@ -16,11 +16,16 @@ pub struct History {
 
 impl Default for History {
     fn default() -> Self {
-        History { ring: [[0; SIGNALS]; KEPT], next: 0 }
+        History::new()
     }
 }
 
 impl History {
+    /// Nothing was told yet.
+    pub const fn new() -> History {
+        History { ring: [[0; SIGNALS]; KEPT], next: 0 }
+    }
+
     /// Adds the numbers of a frame.
     pub fn push(&mut self, signals: &Signals) {
         if let Some(place) = self.ring.get_mut(self.next) {

@@ -10,11 +10,15 @@
 //! | output | [`Decision`]: class, scores in Q18 |
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
 //! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
+//! | on a garment | [`Gestures`]: the panel that is touched becomes the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, a decision is announced when it has lasted |
 //! | RAM | [`TouchState`], at most 8 KiB |
 //! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 6.4 KB |
 
+mod announce;
 mod cells;
+mod config;
 mod course;
+mod gestures;
 mod grid;
 mod histogram;
 mod history;
@@ -24,8 +28,11 @@ mod signal;
 mod stage;
 mod window;
 
+pub use announce::Announced;
 pub use cells::{CELLS, Cells, SIDE, Sheet};
+pub use config::{GestureConfig, GestureError, Shipped};
 pub use course::{COURSE, LAGS};
+pub use gestures::{Gesture, GestureState, Gestures};
 pub use grid::GRID;
 pub use history::History;
 pub use model::{CLASSES, LARGEST, LIMIT, MAGIC, Model, ModelError, Scores, checksum};

@@ -2,7 +2,7 @@
 
 use super::cells::{CELLS, Cells, Sheet};
 use super::history::History;
-use super::model::{Model, Scores};
+use super::model::{CLASSES, Model, Scores};
 use super::signal::signals;
 use super::window::{LONGEST, Window};
 
@@ -27,13 +27,25 @@ pub struct TouchState {
 
 impl Default for TouchState {
     fn default() -> Self {
+        TouchState::new()
+    }
+}
+
+impl TouchState {
+    /// No frame yet.
+    pub const fn new() -> TouchState {
         TouchState {
-            history: History::default(),
+            history: History::new(),
             before: [0; CELLS],
-            whole: Window::default(),
-            part: Window::default(),
-            parts: Scores::default(),
+            whole: Window::new(),
+            part: Window::new(),
+            parts: [0; CLASSES],
         }
+    }
+
+    /// A touch begins.
+    pub fn reset(&mut self) {
+        *self = const { TouchState::new() };
     }
 }
 
@@ -54,6 +66,11 @@ impl<'a> Touches<'a> {
         Touches { model, sheet: Sheet::new(rows, columns) }
     }
 
+    /// With pressures in another unit: as many counts of the model's sheet per count, Q8, at most 4096.
+    pub fn with_gain(self, gain: u16) -> Touches<'a> {
+        Touches { sheet: self.sheet.with_gain(gain), ..self }
+    }
+
     /// The model.
     pub fn model(&self) -> &Model<'a> {
         &self.model
@@ -63,7 +80,7 @@ impl<'a> Touches<'a> {
     pub fn process(&self, state: &mut TouchState, image: &[u16]) {
         let cells = self.sheet.cells(image);
         if state.whole.frames() >= LONGEST {
-            *state = TouchState::default();
+            state.reset();
         }
         if state.whole.frames() == 0 {
             state.before = cells;
@@ -77,7 +94,7 @@ impl<'a> Touches<'a> {
         if part.frames() == u32::from(self.model.part()) {
             let scores = self.model.scores(&part.features());
             parts.iter_mut().zip(scores).for_each(|(sum, score)| *sum = sum.saturating_add(score));
-            *part = Window::default();
+            *part = const { Window::new() };
         }
     }
 

@@ -17,14 +17,25 @@ pub type Features = [u16; FEATURES];
 pub const LONGEST: u32 = 1024;
 
 /// Sums over the frames of a window.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Window {
     frames: u32,
     courses: [Course; SIGNALS],
     grid: Grid,
 }
 
+impl Default for Window {
+    fn default() -> Self {
+        Window::new()
+    }
+}
+
 impl Window {
+    /// No frame yet.
+    pub const fn new() -> Window {
+        Window { frames: 0, courses: [const { Course::new() }; SIGNALS], grid: Grid::new() }
+    }
+
     /// Frames so far, at most [`LONGEST`].
     pub fn frames(&self) -> u32 {
         self.frames

@@ -2,8 +2,9 @@
 
 use crate::body::Placed;
 use crate::fold::Posture;
-use crate::format::{Celsius, Micros, Q15};
+use crate::format::{Celsius, Micros, Name, Q15};
 use crate::garment::PANELS;
+use crate::gesture::GestureConfig;
 use crate::health::TaxelHealth;
 use crate::intent::{CONCEPTS, Feed, Leading, Outcome};
 use crate::pipeline::CONTACTS;
@@ -59,6 +60,8 @@ pub enum Report<'a> {
     Temperature(Temperature),
     /// How lines and inputs are.
     SelfTest(SelfTestReport),
+    /// Which gesture goes on.
+    Gesture(GestureReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -93,6 +96,8 @@ impl Report<'_> {
     pub const TEMPERATURE: u32 = 13;
     /// Of `SelfTest`.
     pub const SELF_TEST: u32 = 14;
+    /// Of `Gesture`.
+    pub const GESTURE: u32 = 15;
 }
 
 /// Frozen.
@@ -287,6 +292,31 @@ pub struct SelfTestReport {
     pub findings: Findings,
 }
 
+/// Which gesture goes on, as the model says that was asked for with `SetGestures`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GestureReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Number of the touch, from 1.
+    pub touch: u32,
+    /// Index of the panel that is touched.
+    pub panel: u8,
+    /// Class of the model, from 0.
+    pub class: u8,
+    /// Its name.
+    pub name: Name,
+    /// What it scores, Q18.
+    pub score: i32,
+    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    pub lead: u32,
+    /// For how long the touch was observed, ms.
+    pub observed_ms: u32,
+    /// The touch is over, and this is what it was as a whole.
+    pub ended: bool,
+}
+
 /// How grave a sentence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
@@ -380,6 +410,8 @@ pub enum Request<'a> {
     },
     /// Value of a concept that the host feeds, with its age and what counts when it is too old.
     Feed(Feed),
+    /// How gestures are recognised from now on; none: not at all, as at the start. Not a part of the scene.
+    SetGestures(Option<GestureConfig>),
 }
 
 impl Request<'_> {
@@ -400,6 +432,7 @@ impl Request<'_> {
             Request::SetGain { .. } => 11,
             Request::Budget { .. } => 12,
             Request::Feed(_) => 13,
+            Request::SetGestures(_) => 14,
         }
     }
 }

@@ -3,8 +3,8 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, Health, IntentReport, Level, ReactionReport, SelfTestReport, SymbolList, SyncReport, Temperature,
-    WireError,
+    Budget, GestureReport, Health, IntentReport, Level, ReactionReport, SelfTestReport, SymbolList,
+    SyncReport, Temperature, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -40,6 +40,8 @@ pub enum Event {
     Symbols(Box<SymbolList>),
     /// What the touch means.
     Intent(IntentReport),
+    /// Which gesture goes on.
+    Gesture(GestureReport),
     /// Something the garment did by itself.
     Reaction(ReactionReport),
     /// Counters of the board.

@@ -15,7 +15,7 @@ use std::io::Write;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::health::TaxelHealth;
-use taxel_core::wire::{SelfTestReport, Temperature};
+use taxel_core::wire::{GestureReport, SelfTestReport, Temperature};
 
 /// Prints messages as JSON.
 pub struct Messages<W> {
@@ -118,6 +118,7 @@ fn small(client: &Client, event: &Event) -> Value {
             merge(&mut line, json!({ "events": events, "regions": regions }));
             line
         }
+        Event::Gesture(report) => gesture(client, report),
         Event::Health(health) => {
             let mut line = json!({ "type": "health" });
             merge(&mut line, serde_json::to_value(health).unwrap_or_default());
@@ -156,6 +157,22 @@ fn small(client: &Client, event: &Event) -> Value {
 fn self_test(report: &SelfTestReport) -> Value {
     let mut line = json!({ "type": "self_test", "time_us": report.time.0 });
     merge(&mut line, serde_json::to_value(&report.findings).unwrap_or_default());
+    line
+}
+
+/// A lead of 2^18 is odds of e to 1.
+fn gesture(client: &Client, report: &GestureReport) -> Value {
+    let mut line = at("gesture", report.frame, report.time);
+    let more = json!({
+        "touch": report.touch,
+        "panel": super::narrate::panel_name(client, report.panel),
+        "class": report.name,
+        "score": f64::from(report.score) / f64::from(1 << 18),
+        "lead": f64::from(report.lead) / f64::from(1 << 18),
+        "observed_ms": report.observed_ms,
+        "ended": report.ended,
+    });
+    merge(&mut line, more);
     line
 }
 

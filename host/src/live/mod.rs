@@ -15,6 +15,7 @@ mod view;
 
 pub use lines::Lines;
 pub use messages::{Messages, message, pixels};
+pub use outfit::GestureModel;
 pub use svg::picture;
 pub use taxel::{TaxelLines, TaxelPlace};
 pub use view::View;
@@ -67,6 +68,12 @@ pub struct LiveArgs {
     /// How many times a second the board reports where its time goes; 65535: for each frame [default: 1]
     #[arg(long, value_name = "HZ")]
     pub budget: Option<u16>,
+    /// The board recognises what goes on by a model that it holds
+    #[arg(long, value_name = "MODEL", value_enum)]
+    pub gestures: Option<GestureModel>,
+    /// With --gestures: counts of the model's sheet per count of the garment [default: 1]
+    #[arg(long, value_name = "G", requires = "gestures")]
+    pub gesture_gain: Option<f64>,
     /// A simulation is not faster than time
     #[arg(long)]
     pub realtime: bool,
@@ -87,6 +94,8 @@ impl LiveArgs {
             seconds: None,
             json: false,
             budget: None,
+            gestures: None,
+            gesture_gain: None,
             pixels: false,
             save: None,
             taxel: None,
@@ -168,6 +177,9 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         outfit::play(&mut client, scene)?;
     }
     client.start(args.tare.unwrap_or(source.tare))?;
+    if let Some(model) = args.gestures {
+        outfit::recognise(&mut client, model, args.gesture_gain)?;
+    }
     if let Some(hz) = args.budget {
         client.request(&Request::Budget { hz })?;
     }

@@ -6,6 +6,7 @@ use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base, Class};
 use taxel_core::symbol::{Extent, Strength, Symbol};
+use taxel_core::wire::GestureReport;
 
 /// Tells what came.
 #[derive(Debug, Clone)]
@@ -52,6 +53,7 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
                 |symbol: &Symbol| format!("{} {}", seconds(list.time), said(client, symbol, per_newton));
             list.events.iter().filter(|e| e.phase != Phase::Held).map(line).collect()
         }
+        Event::Gesture(report) => vec![gesture(client, report)],
         Event::Reaction(report) => {
             let verb = if report.reaction.active { "begins" } else { "ends" };
             vec![format!(
@@ -79,6 +81,14 @@ fn hello(worn: &Worn) -> String {
         "hello: {}, garment {} ({taxels} taxels, {panels} panels), scene {}",
         worn.firmware, worn.garment.name, worn.scene.name
     )
+}
+
+/// What a touch is taken for, in words.
+fn gesture(client: &Client, report: &GestureReport) -> String {
+    let (time, panel, name) = (seconds(report.time), panel_name(client, report.panel), &report.name);
+    let observed = f64::from(report.observed_ms) / 1e3;
+    let verb = if report.ended { "was" } else { "looks like" };
+    format!("{time} touch {} of the {panel} {verb}: {name} ({observed:.1} s)", report.touch)
 }
 
 /// An onset or a release in words.
@@ -121,13 +131,18 @@ pub(crate) fn region_name(client: &Client, region: u8) -> &str {
     regions.get(usize::from(region)).map_or("?", Name::as_str)
 }
 
+pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
+    let areas = client.layout().map_or(&[][..], |layout| layout.areas());
+    areas.get(usize::from(panel)).map_or("?", |area| &area.name)
+}
+
 pub(crate) fn shape_name(class: Class) -> String {
     Base::<BUILT_IN>::built_in().name(class).into()
 }
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 13] = [
+    const NAMES: [&str; 15] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -141,6 +156,8 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "save",
         "set-gain",
         "budget",
+        "feed",
+        "set-gestures",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

@@ -4,8 +4,10 @@ use crate::client::Client;
 use crate::fcm;
 use crate::sim;
 use anyhow::{Context, Result};
+use clap::ValueEnum;
 use std::path::Path;
 use taxel_core::garment::{Circuit, Layout, Pins};
+use taxel_core::gesture::{GestureConfig, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
@@ -34,6 +36,29 @@ pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     Pipeline::build(&elsewhere, &layout).with_context(place)?;
     let bytes = postcard::to_allocvec(&scene).context("the scene cannot be written")?;
     client.request(&Request::SetScene(&bytes)).with_context(place)
+}
+
+/// A model that the board holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GestureModel {
+    /// constant, notouch, pat, rub, scratch, stroke, tickle
+    Gestures,
+    /// kindness, threat, attack
+    Intent,
+}
+
+/// Queues `SetGestures` for a model with its usual settings but the gain.
+pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) -> Result<()> {
+    let mut config = GestureConfig::of(match model {
+        GestureModel::Gestures => Shipped::Gestures,
+        GestureModel::Intent => Shipped::Intent,
+    });
+    if let Some(gain) = gain {
+        // What is out of range, not a number included, becomes one that is refused.
+        config.gain = (gain * 256.0).round() as u16;
+    }
+    config.build().context("--gestures")?;
+    Ok(client.request(&Request::SetGestures(Some(config)))?)
 }
 
 /// Reads a scene; JSON in between where it gives a map as people write it.

@@ -167,6 +167,27 @@ pub fn temperature() -> Value {
     message(&[("celsius", number())])
 }
 
+/// Which gesture goes on.
+pub fn gestures() -> Value {
+    let fields = [
+        ("touch", integer()),
+        ("panel", text()),
+        ("class", text()),
+        ("score", number()),
+        ("lead", number()),
+        ("observed_ms", integer()),
+        ("ended", flag()),
+    ];
+    of_frame(&fields)
+}
+
+/// How lines and inputs are.
+pub fn self_test() -> Value {
+    // A fault is a word, or names the pin that it leads to.
+    let fault = object(&[("pin", integer()), ("fault", json!({}))]);
+    message(&[("lines", integer()), ("inputs", integer()), ("faults", list(fault))])
+}
+
 /// How the joints stand, as the host told the board.
 pub fn posture() -> Value {
     let joint = object(&[("joint", text()), ("degrees", number())]);

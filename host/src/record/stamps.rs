@@ -71,6 +71,8 @@ fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Health(health) => health.time,
         Event::Budget(budget) => budget.time,
         Event::Temperature(temperature) => temperature.time,
+        Event::Gesture(report) => report.time,
+        Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
         Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
     };

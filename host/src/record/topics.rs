@@ -17,7 +17,7 @@ const WIRE_ENCODING: &str = "taxel-wire";
 pub type JsonTopic = (&'static str, fn() -> Value);
 
 /// All of them.
-pub const JSON: [JsonTopic; 12] = [
+pub const JSON: [JsonTopic; 14] = [
     ("hello", schemas::hello),
     ("frames", schemas::frames),
     ("contacts", schemas::contacts),
@@ -28,6 +28,8 @@ pub const JSON: [JsonTopic; 12] = [
     ("health_map", schemas::health_map),
     ("budget", schemas::budget),
     ("temperature", schemas::temperature),
+    ("gestures", schemas::gestures),
+    ("self_test", schemas::self_test),
     ("posture", schemas::posture),
     ("log", schemas::log),
 ];
@@ -76,6 +78,8 @@ pub fn of(event: &Event) -> Option<&'static str> {
         Event::HealthMap { .. } => "health_map",
         Event::Budget(_) => "budget",
         Event::Temperature(_) => "temperature",
+        Event::Gesture(_) => "gestures",
+        Event::SelfTest(_) => "self_test",
         Event::Log { .. } => "log",
         _ => return None,
     })

@@ -2,13 +2,13 @@
 
 use super::compare::{Times, as_it_is, cross};
 use super::data::Data;
-use super::model::{Course, Settings, Shipped, read, train};
+use super::model::{Course, Provenance, Settings, read, train};
 use super::nested::nested;
 use super::report::Report;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use taxel_core::gesture::Model;
+use taxel_core::gesture::{Model, Shipped};
 
 /// Recorded touches.
 #[derive(Debug, Clone, Args)]
@@ -56,7 +56,7 @@ pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
 #[derive(Debug, Clone, Copy)]
 pub struct Task {
     /// The model that is shipped.
-    pub shipped: &'static [u8],
+    pub shipped: Shipped,
     /// How it was trained.
     pub settings: Settings,
     /// Among which settings `--nested` chooses.
@@ -101,9 +101,9 @@ impl Task {
 
     /// Applies the model of a file, else the shipped one, as it is.
     fn apply(&self, data: &Data, model: Option<&Path>, times: &Times) -> Result<Report> {
-        let bytes = model.map_or_else(|| Ok(self.shipped.to_vec()), read)?;
+        let bytes = model.map_or_else(|| Ok(self.shipped.bytes().to_vec()), read)?;
         let model = Model::read(&bytes)?;
-        let trained_on = Shipped::of(&model)?.knows(&data.sources);
+        let trained_on = Provenance::of(&model)?.knows(&data.sources);
         let mut report = as_it_is(&model, data, times)?;
         if trained_on {
             eprintln!(

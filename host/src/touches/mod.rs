@@ -17,7 +17,7 @@ pub use command::{EvalArgs, Files, Task, TrainArgs, grid, labels};
 pub use compare::{Times, cross};
 pub use data::{Data, Source, Touch};
 pub use export::{Head, export};
-pub use model::{Settings, Shipped, apply, decide, train};
+pub use model::{Provenance, Settings, apply, decide, train};
 pub use report::{Outcome, Report, accuracy};
 pub use ridge::Ridge;
 pub use table::Table;

@@ -26,7 +26,7 @@ pub struct Settings {
 
 /// What a model says of itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Shipped {
+pub struct Provenance {
     /// Day of the training.
     pub date: String,
     /// The files it was trained on.
@@ -37,9 +37,9 @@ pub struct Shipped {
     pub settings: Settings,
 }
 
-impl Shipped {
+impl Provenance {
     /// Of a model.
-    pub fn of(model: &Model<'_>) -> Result<Shipped> {
+    pub fn of(model: &Model<'_>) -> Result<Provenance> {
         serde_json::from_slice(model.notes()).context("the notes of the model cannot be read")
     }
 
@@ -110,8 +110,12 @@ pub fn train(data: &Data, examples: &[(&Course, usize)], settings: &Settings) ->
         .flat_map(|(course, class)| std::iter::once(&course.whole).chain(&course.more).map(|f| (f, *class)))
         .collect();
     let ridge = Ridge::fit(&windows, data.classes.len(), settings.penalty, settings.balance);
-    let notes =
-        Shipped { date: today(), data: data.sources.clone(), touches: examples.len(), settings: *settings };
+    let notes = Provenance {
+        date: today(),
+        data: data.sources.clone(),
+        touches: examples.len(),
+        settings: *settings,
+    };
     let notes = serde_json::to_string(&notes)?;
     export(
         &ridge,

@@ -7,6 +7,7 @@ use taxel_core::acquire::Depth;
 use taxel_core::condition::Filter;
 use taxel_core::format::Code;
 use taxel_core::garment::Garment;
+use taxel_core::gesture::GestureConfig;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 use taxel_suite::chain::{FULL_SCALE, TAXELS};
@@ -59,6 +60,8 @@ pub enum Variant {
     Median,
     /// The upper 8 bits of each code.
     EightBit,
+    /// Gestures are recognised, and decided upon as often as may be.
+    Gestures,
 }
 
 impl Variant {
@@ -69,18 +72,24 @@ impl Variant {
             Variant::Off => "filter off",
             Variant::Median => "median",
             Variant::EightBit => "8 bit",
+            Variant::Gestures => "gestures",
         }
     }
 
     fn scene(self) -> Scene {
         let mut scene = Scene::shipped();
         match self {
-            Variant::Shipped => {}
+            Variant::Shipped | Variant::Gestures => {}
             Variant::Off => scene.condition.filter = Filter::Off,
             Variant::Median => scene.condition.filter = Filter::Median,
             Variant::EightBit => scene.plan.depth = Depth::Eight,
         }
         scene
+    }
+
+    fn gestures(self) -> Option<GestureConfig> {
+        let often = GestureConfig { decide_ms: 50, onset_ms: 0, ..GestureConfig::default() };
+        (self == Variant::Gestures).then_some(often)
     }
 }
 
@@ -93,6 +102,7 @@ impl Case {
             (Pattern::Five, Variant::Off),
             (Pattern::Five, Variant::Median),
             (Pattern::Five, Variant::EightBit),
+            (Pattern::Five, Variant::Gestures),
             (Pattern::Texture, Variant::Off),
             (Pattern::Texture, Variant::Median),
         ]);
@@ -150,6 +160,7 @@ impl Case {
             Request::Stop,
             Request::SetGarment(&garment),
             Request::SetScene(&scene),
+            Request::SetGestures(self.variant.gestures()),
             Request::Tare { frames: TARE },
         ]
         .iter()

@@ -58,6 +58,8 @@ impl Form {
             kernel: Kernel::Activate(activation),
             pattern: None,
         }));
+        all.push(of("gestures, a frame", Pattern::Five, Kernel::Touch));
+        all.push(of("gestures, a decision", Pattern::Five, Kernel::Decide));
         all.push(Form { what: INFERENCE, form: "Q15", kernel: Kernel::Infer, pattern: None });
         all
     }

@@ -1,0 +1,312 @@
+//! What goes on on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
+
+use super::announce::Announced;
+use super::config::GestureConfig;
+use super::model::Model;
+use super::stage::{Decision, TouchState, Touches};
+use crate::condition::Image;
+use crate::format::{Micros, Name};
+use crate::garment::{Area, Layout};
+
+/// One natural logarithm of odds, in the unit of a lead.
+const NAT: u64 = 1 << 18;
+
+/// Recognises the touches of a garment; see the [module](super).
+#[derive(Debug, Clone, Copy)]
+pub struct Gestures {
+    config: GestureConfig,
+    model: Model<'static>,
+    period_us: u32,
+}
+
+/// A touch of a garment so far.
+#[derive(Debug, Clone)]
+pub struct GestureState {
+    touch: TouchState,
+    /// Number of the touch, from 1.
+    number: u32,
+    /// Index of its panel; none: nobody touches.
+    panel: Option<u8>,
+    began: Micros,
+    /// Something touched the panel last.
+    touched: Micros,
+    /// The model is shown the first frame from then on.
+    next: Micros,
+    /// The next decision.
+    due: Micros,
+    announced: Announced,
+}
+
+/// What a touch is taken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gesture {
+    /// Number of the touch, from 1.
+    pub touch: u32,
+    /// Index of its panel.
+    pub panel: u8,
+    /// Class of the model.
+    pub class: u8,
+    /// What the class scores, Q18.
+    pub score: i32,
+    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    pub lead: u32,
+    /// For how long the touch was observed, ms.
+    pub observed_ms: u32,
+    /// The touch is over.
+    pub ended: bool,
+}
+
+impl GestureState {
+    /// Nobody has touched yet.
+    pub const fn new() -> GestureState {
+        GestureState {
+            touch: TouchState::new(),
+            number: 0,
+            panel: None,
+            began: Micros(0),
+            touched: Micros(0),
+            next: Micros(0),
+            due: Micros(0),
+            announced: Announced::new(),
+        }
+    }
+
+    /// Nobody touches; touches are counted on.
+    pub fn forget(&mut self) {
+        self.panel = None;
+    }
+}
+
+impl Gestures {
+    /// Of settings that were checked.
+    pub(super) const fn new(config: GestureConfig, model: Model<'static>) -> Gestures {
+        let period_us = match config.rate_hz {
+            0 => 1_000_000,
+            rate => 1_000_000 / rate as u32,
+        };
+        Gestures { config, model, period_us }
+    }
+
+    /// The settings.
+    pub const fn config(&self) -> &GestureConfig {
+        &self.config
+    }
+
+    /// Name of a class.
+    pub fn name(&self, class: u8) -> Name {
+        self.model.name(class.into()).unwrap_or_default()
+    }
+
+    /// Takes the frame of time `now` with the panels and totals of the contacts that are `present`; what is new about the touch. A touch begins on the panel
+    /// of the contact with the greatest total and has that panel alone; it ends when nothing has touched the panel for a while.
+    pub fn process(
+        &self,
+        state: &mut GestureState,
+        layout: &Layout,
+        image: &Image<'_>,
+        present: impl Iterator<Item = (u8, u32)> + Clone,
+        now: Micros,
+    ) -> Option<Gesture> {
+        let panel = match state.panel {
+            Some(panel) => panel,
+            None => {
+                let first = present.clone().max_by_key(|(_, total)| *total)?.0;
+                self.begin(state, first, now);
+                first
+            }
+        };
+        let area = layout.areas().get(usize::from(panel))?;
+        if present.into_iter().any(|(touched, _)| touched == panel) {
+            state.touched = now;
+        } else if now.since(state.touched) >= 1000 * u64::from(self.config.quiet_ms) {
+            return Some(self.end(state, area));
+        }
+        if now < state.next {
+            return None;
+        }
+        // Frames that come too seldom for the model's rate are all shown, and none twice.
+        state.next = Micros(state.next.0.saturating_add(self.period_us.into()).max(now.0));
+        let touches = self.touches(area);
+        let start = usize::from(area.base);
+        let taxels = usize::from(area.rows) * usize::from(area.columns);
+        touches.process(&mut state.touch, image.values.get(start..)?.get(..taxels)?);
+        if now < state.due {
+            return None;
+        }
+        state.due = self.later(now);
+        let decision = touches.decide(&state.touch);
+        let (onset, lead) =
+            (1000 * u64::from(self.config.onset_ms), u64::from(self.config.lead) * NAT / 1000);
+        state.announced.take(&decision, now, onset, lead as u32)?;
+        Some(told(state, panel, &decision, now, false))
+    }
+
+    fn touches(&self, area: &Area) -> Touches<'static> {
+        Touches::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
+    }
+
+    /// A decision later than `now`.
+    fn later(&self, now: Micros) -> Micros {
+        Micros(now.0.saturating_add(1000 * u64::from(self.config.decide_ms)))
+    }
+
+    fn begin(&self, state: &mut GestureState, panel: u8, now: Micros) {
+        state.touch.reset();
+        state.number = state.number.wrapping_add(1);
+        state.panel = Some(panel);
+        (state.began, state.touched, state.next) = (now, now, now);
+        state.due = self.later(now);
+        state.announced = Announced::new();
+    }
+
+    /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed, but the model has
+    /// seen it, as it has in training.
+    fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
+        let decision = self.touches(area).decide(&state.touch);
+        let panel = state.panel.take().unwrap_or_default();
+        told(state, panel, &decision, state.touched, true)
+    }
+}
+
+fn told(state: &GestureState, panel: u8, decision: &Decision, now: Micros, ended: bool) -> Gesture {
+    Gesture {
+        touch: state.number,
+        panel,
+        class: decision.class as u8,
+        score: decision.scores.get(decision.class).copied().unwrap_or(0),
+        lead: decision.lead,
+        observed_ms: (now.since(state.began) / 1000).min(u32::MAX.into()) as u32,
+        ended,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::condition::Rows;
+    use crate::garment::Garment;
+    use crate::gesture::{Sheet, Shipped};
+    use std::vec::Vec;
+
+    /// 195 frames a second.
+    const SCAN_US: u64 = 5_128;
+
+    /// A garment of two panels and what is shown on them.
+    struct Shown {
+        layout: Layout,
+        stage: Gestures,
+        state: GestureState,
+        frame: u64,
+    }
+
+    impl Shown {
+        fn new(edit: fn(&mut GestureConfig)) -> Shown {
+            let mut config = GestureConfig::default();
+            edit(&mut config);
+            let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
+            Shown { layout, stage: config.build().unwrap(), state: GestureState::new(), frame: 0 }
+        }
+
+        /// Four by four taxels at a column of a panel, with this pressure; nothing where it is 0.
+        fn show(&mut self, panel: u8, column: usize, pressure: u16) -> Option<Gesture> {
+            let mut values = [0; 2048];
+            let base = usize::from(self.layout.areas()[usize::from(panel)].base);
+            for row in 10..14 {
+                values[base + row * 16 + column..][..4].fill(pressure);
+            }
+            let present = (pressure > 0).then_some((panel, 16 * u32::from(pressure)));
+            self.frame += 1;
+            let image = Image { values: &values, rows: &Rows::NONE };
+            let now = Micros(self.frame * SCAN_US);
+            self.stage.process(&mut self.state, &self.layout, &image, present.into_iter(), now)
+        }
+
+        fn told(&mut self, frames: u64, panel: u8, of: fn(u64) -> (usize, u16)) -> Vec<Gesture> {
+            (0..frames)
+                .filter_map(|frame| {
+                    let (column, pressure) = of(frame);
+                    self.show(panel, column, pressure)
+                })
+                .collect()
+        }
+    }
+
+    /// 0.2 s of five in 0.5 s.
+    fn pats(frame: u64) -> (usize, u16) {
+        (4, if frame % 98 < 39 { 60 } else { 0 })
+    }
+
+    #[test]
+    fn pats_are_one_touch_that_ends_once_and_another_begins() {
+        let mut shown = Shown::new(|_| ());
+        let told = shown.told(195 * 4, 2, pats);
+        assert!(!told.is_empty() && told.len() < 5, "{told:?}");
+        assert!(told.iter().all(|g| (g.touch, g.panel, g.ended) == (1, 2, false)));
+        assert_eq!(shown.stage.name(told.last().unwrap().class), "pat");
+        let end = shown.told(400, 2, |_| (0, 0));
+        assert_eq!(end.len(), 1);
+        assert_eq!(
+            (end[0].touch, end[0].ended, shown.stage.name(end[0].class)),
+            (1, true, "pat".try_into().unwrap())
+        );
+        assert!(end[0].observed_ms.abs_diff(3_700) < 100, "{end:?}");
+        let next = shown.told(200, 0, |_| (4, 60));
+        assert!(next.iter().all(|g| (g.touch, g.panel) == (2, 0)) && !next.is_empty());
+    }
+
+    #[test]
+    fn it_decides_as_the_model_does_on_the_frames_it_was_shown() {
+        let mut shown = Shown::new(|config| {
+            (config.decide_ms, config.onset_ms, config.lead, config.gain) = (50, 0, 0, 512)
+        });
+        let told =
+            shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 12, 300 + 5 * (frame as u16 % 60)));
+        // The same, frame by frame, without a garment: every frame from 1/54 s to 1/54 s.
+        let model = Model::read(Shipped::Gestures.bytes()).unwrap();
+        let (touches, mut state) = (Touches::new(model, 32, 16), TouchState::new());
+        let (mut next, mut decisions) = (SCAN_US as f64, Vec::new());
+        for frame in 0..195 * 3u64 {
+            let now = (frame + 1) * SCAN_US;
+            if (now as f64) < next - 1e-6 {
+                continue;
+            }
+            next = (next + (1e6 / 54.0f64).floor()).max(now as f64);
+            let mut image = [0; 512];
+            for row in 10..14 {
+                image[row * 16 + (frame as usize / 20) % 12..][..4].fill(2 * (300 + 5 * (frame as u16 % 60)));
+            }
+            touches.process(&mut state, &image);
+            decisions.push((now, touches.decide(&state)));
+        }
+        assert!(told.len() > 1, "{told:?}");
+        for gesture in told {
+            let at = SCAN_US + 1000 * u64::from(gesture.observed_ms);
+            let (_, decision) = decisions.iter().find(|(now, _)| now.abs_diff(at) < 1000).unwrap();
+            assert_eq!((gesture.class as usize, gesture.lead), (decision.class, decision.lead));
+            assert_eq!(gesture.score, decision.scores[decision.class]);
+        }
+    }
+
+    #[test]
+    fn another_panel_is_not_watched_meanwhile() {
+        let mut shown = Shown::new(|_| ());
+        shown.told(100, 3, |_| (4, 60));
+        let other = shown.told(300, 1, |_| (4, 900));
+        // The touch of panel 3 ends a second after its last frame, then that of panel 1 begins.
+        assert_eq!(
+            other.iter().filter(|g| g.ended).map(|g| (g.touch, g.panel)).collect::<Vec<_>>(),
+            [(1, 3)]
+        );
+        assert!(
+            other
+                .iter()
+                .filter(|g| !g.ended)
+                .all(|g| g.touch == 1 && g.panel == 3 || g.touch == 2 && g.panel == 1)
+        );
+        shown.state.forget();
+        assert!(shown.told(300, 1, |_| (4, 0)).is_empty());
+        assert_eq!(Sheet::new(32, 16).with_gain(128).cells(&[10; 512])[0], 40);
+    }
+}
