@@ -12,25 +12,33 @@ pub struct Contact {
     centre: [f64; 2],
     velocity: [f64; 2],
     force_n: f64,
+    levels: Vec<f64>,
+    /// Index of the first of the greatest levels.
+    peak: usize,
+    hysteresis: f64,
     start_ns: u64,
     period_ns: u64,
     last: u64,
-    /// End of the rise, of the hold and of the fall, ns after the onset.
+    /// Rise to a level, rise and hold of it, and all together, ns.
     phases_ns: [u64; 3],
 }
 
 impl Contact {
-    /// From a checked touch on a panel of that pitch.
-    pub fn build(touch: &Touch, pitch_mm: [f64; 2]) -> Contact {
+    /// From a checked touch on a panel of that pitch with taxels of that [hysteresis](super::Sensor::hysteresis).
+    pub fn build(touch: &Touch, pitch_mm: [f64; 2], hysteresis: f64) -> Contact {
         let ns = |seconds: f64| (seconds * 1e9).round() as u64;
         let rise = ns(touch.rise_s);
         let hold = rise + ns(touch.hold_s);
-        let once = hold + ns(touch.fall_s);
+        let once = hold * touch.levels.len() as u64 + ns(touch.fall_s);
+        let peak = touch.levels.iter().enumerate().rev().max_by(|a, b| a.1.total_cmp(b.1));
         Contact {
             footprint: Footprint::build(touch.shape, touch.size(), touch.angle_deg, pitch_mm),
             centre: touch.centre(pitch_mm),
             velocity: touch.velocity,
             force_n: touch.force_n,
+            levels: touch.levels.clone(),
+            peak: peak.map_or(0, |(index, _)| index),
+            hysteresis,
             start_ns: ns(touch.start_s),
             period_ns: touch.period_s.map_or(once, ns).max(once).max(1),
             last: u64::from(touch.repeat.max(1) - 1),
@@ -74,20 +82,28 @@ impl Contact {
         (phase < self.phases_ns[2]).then_some(phase)
     }
 
-    /// Total force at a time after the onset, N.
+    /// Total force at a time after the onset as it is felt, N.
     fn force_n(&self, phase_ns: u64) -> f64 {
-        let [rise, hold, once] = self.phases_ns;
-        let part = if phase_ns < rise {
-            phase_ns as f64 / rise as f64
-        } else if phase_ns < hold {
-            return self.force_n;
-        } else if once > hold {
-            (once - phase_ns) as f64 / (once - hold) as f64
-        } else {
-            return 0.0;
+        let [rise, each, once] = self.phases_ns;
+        let index = phase_ns.checked_div(each).unwrap_or(u64::MAX).min(self.levels.len() as u64) as usize;
+        let into = phase_ns - index as u64 * each;
+        let before = index.checked_sub(1).and_then(|index| self.levels.get(index)).copied().unwrap_or(0.0);
+        let level = match self.levels.get(index) {
+            Some(level) if into < rise => eased(before, *level, into, rise),
+            Some(level) => *level,
+            None => eased(before, 0.0, into, once - self.levels.len() as u64 * each),
         };
-        self.force_n * (0.5 - 0.5 * (PI * part).cos())
+        let peak = self.levels.get(self.peak).copied().unwrap_or(1.0);
+        let below = if peak > 0.0 { 1.0 - level / peak } else { 0.0 };
+        let lag = if index > self.peak { 0.5 } else { -0.5 };
+        self.force_n * level * (1.0 + lag * self.hysteresis * below)
     }
+}
+
+/// From one value to another by half a cosine.
+fn eased(from: f64, to: f64, at_ns: u64, length_ns: u64) -> f64 {
+    let part = if length_ns > 0 { at_ns as f64 / length_ns as f64 } else { 1.0 };
+    from + (to - from) * (0.5 - 0.5 * (PI * part).cos())
 }
 
 #[cfg(test)]
@@ -102,7 +118,7 @@ mod tests {
             "panel = \"a\"\nshape = \"box\"\nforce_n = 8\nat = [0, 0]\nstart_s = 0.2\nrise_s = 0.1\nhold_s = 0.1\nfall_s = 0.2\nrepeat = 2\nperiod_s = 0.5",
         )
         .unwrap();
-        let contact = Contact::build(&touch, PITCH);
+        let contact = Contact::build(&touch, PITCH, 0.0);
         let force = |ms: u64| contact.phase(ms * 1_000_000).map(|p| (contact.force_n(p) * 1e6).round() / 1e6);
         for onset in [200, 700] {
             let at = |ms: u64| force(onset + ms);
@@ -111,5 +127,19 @@ mod tests {
         }
         assert_eq!([force(0), force(199), force(1200), force(99_999)], [None; 4]);
         assert_eq!(contact.span_ns(), (200_000_000, 1_100_000_000));
+    }
+
+    #[test]
+    fn weights_are_put_on_and_taken_off_and_felt_with_a_lag() {
+        let touch: Touch = toml::from_str(
+            "panel = \"a\"\nshape = \"plate\"\nforce_n = 20\nat = [0, 0]\nstart_s = 0\nrise_s = 0.1\nhold_s = 0.9\nlevels = [0.1, 1, 0.1]",
+        )
+        .unwrap();
+        let contact = Contact::build(&touch, PITCH, 0.04);
+        let force = |ms: u64| (contact.force_n(ms * 1_000_000) * 1e6).round() / 1e6;
+        assert_eq!([force(500), force(1500), force(2500)], [2.0 * 0.982, 20.0, 2.0 * 1.018]);
+        assert_eq!(contact.span_ns().1, 3_050_000_000);
+        let shares: Vec<f32> = (-3..=3).map(|x| contact.footprint.share(x as f32 + 0.5, 0.5)).collect();
+        assert_eq!(shares.iter().filter(|share| **share > 0.0).count(), 6);
     }
 }

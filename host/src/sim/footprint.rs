@@ -96,7 +96,7 @@ const fn edge_mm(shape: Shape) -> f64 {
         Shape::Strap => 4.0,
         Shape::Box => 3.0,
         Shape::Forearm | Shape::Ridge => 10.0,
-        Shape::Finger | Shape::Ball => 0.0,
+        Shape::Finger | Shape::Ball | Shape::Plate => 0.0,
     }
 }
 
@@ -115,8 +115,15 @@ fn pressure(shape: Shape, half: [f64; 2], u: f64, v: f64) -> f64 {
         Shape::Finger | Shape::Ball => dome((u / length).powi(2) + (v / width).powi(2)),
         Shape::Forearm | Shape::Ridge => dome((v / width).powi(2)) * soft(u.abs() - length, edge_mm(shape)),
         Shape::Strap | Shape::Box => soft(outside(half, 0.0, u, v), edge_mm(shape)),
+        Shape::Plate => inside(u, length) * inside(v, width),
         Shape::Palm => soft(outside(half, 0.4 * length.min(width), u, v), edge_mm(shape)),
     }
+}
+
+/// 1 inside, a half on the edge, 0 outside, along one axis.
+fn inside(at: f64, half: f64) -> f64 {
+    let beyond = at.abs() - half;
+    if beyond.abs() < 1e-6 { 0.5 } else { f64::from(beyond < 0.0) }
 }
 
 /// Distance outside a rectangle with rounded corners, negative inside, mm.

@@ -43,7 +43,7 @@ pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};
 pub use pressure::Pressure;
 pub use rewire::rewire;
 pub use scenes::{SceneInfo, garment, list, load};
-pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Stuck, WiringEffects};
+pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Sensor, Stuck, WiringEffects};
 pub use signal::{COUNTS_PER_NEWTON, FULL_SCALE, World};
 pub use touch::{Shape, Size, Touch};
 pub use variants::{refit, scale_force, scale_rate, vary};

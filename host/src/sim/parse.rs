@@ -39,6 +39,10 @@ impl Script {
         within("wiring.line_pf", self.wiring.line_pf, 0.0..=1e6)?;
         within("wiring.crosstalk", self.wiring.crosstalk, 0.0..=1.0)?;
         within("converter.noise_counts", self.converter.noise_counts, 0.0..=MOST_COUNTS)?;
+        within("sensor.gain_spread", self.sensor.gain_spread, 0.0..=0.2)?;
+        within("sensor.hysteresis", self.sensor.hysteresis, 0.0..=1.0)?;
+        within("sensor.noise", self.sensor.noise, 0.0..=1.0)?;
+        within("sensor.half_n", self.sensor.half_n, 0.0..=10_000.0)?;
         for (index, touch) in self.touches.iter().enumerate() {
             check_touch(touch).with_context(|| format!("touch {}", index + 1))?;
         }
@@ -67,6 +71,10 @@ fn check_touch(touch: &Touch) -> Result<()> {
     within("fall_s", touch.fall_s, 0.0..=LONGEST_S)?;
     for value in touch.velocity {
         within("velocity", value, -1e4..=1e4)?;
+    }
+    ensure!(!touch.levels.is_empty(), "`levels` must name at least one level");
+    for level in &touch.levels {
+        within("levels", *level, 0.0..=1.0)?;
     }
     ensure!(touch.repeat >= 1, "`repeat` must be at least 1");
     if let Some(period) = touch.period_s {

@@ -46,7 +46,7 @@ impl Pressure {
                 )
             })?;
             let pitch = layout.areas().get(home).map_or([USUAL_PITCH_MM; 2], pitch_mm);
-            pressure.add(Arc::new(Contact::build(touch, pitch)), home, layout);
+            pressure.add(Arc::new(Contact::build(touch, pitch, script.sensor.hysteresis)), home, layout);
         }
         Ok(pressure)
     }
@@ -75,7 +75,7 @@ impl Pressure {
         }
     }
 
-    /// Force on the taxel at column `x`, row `y` of a panel at a time, N; 0 outside the garment.
+    /// Force on the taxel at column `x`, row `y` of a panel at a time as the taxel feels it, N; 0 outside the garment.
     #[inline]
     pub fn newtons(&self, panel: usize, x: i32, y: i32, t_ns: u64) -> f32 {
         let Some(images) = self.panels.get(panel) else { return 0.0 };

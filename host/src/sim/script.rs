@@ -43,6 +43,9 @@ pub struct Script {
     /// What the wiring does to the signal; nothing by default.
     #[serde(default)]
     pub wiring: WiringEffects,
+    /// How the taxels answer to force; all alike and straight by default.
+    #[serde(default)]
+    pub sensor: Sensor,
     /// What the converter does to the signal; nothing but rounding by default.
     #[serde(default)]
     pub converter: Converter,
@@ -139,6 +142,21 @@ impl WiringEffects {
     pub fn is_ideal(&self) -> bool {
         self.settling_ns() == 0.0 && self.crosstalk == 0.0
     }
+}
+
+/// How the taxels answer to force.
+#[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sensor {
+    /// Standard deviation of the gain from taxel to taxel, part of 1.
+    pub gain_spread: f64,
+    /// How much more a taxel signals of a force that goes than of the same while it comes, part of it; half of that more, half less
+    /// than the truth far below the peak, and nothing at the peak.
+    pub hysteresis: f64,
+    /// Noise of a sample, part of the signal rms, beside that of the garment at rest.
+    pub noise: f64,
+    /// Force on a taxel at which it signals half of what it would if it were straight, N: a divider with a fixed resistor; 0: straight.
+    pub half_n: f64,
 }
 
 /// What the converter does to the signal.

@@ -32,11 +32,16 @@ pub struct World {
     crosstalk: f32,
     mates: Vec<Vec<u16>>,
     dnl: bool,
+    /// Noise by signal, parts per unit of [`unit_noise`].
+    live: f32,
+    /// One over the force at which half is signalled, 1/N.
+    bend: f32,
 }
 
 #[derive(Debug, Clone)]
 struct Taxel {
     base: f32,
+    gain: f32,
     drift_per_ns: f32,
     key: u64,
     x: i16,
@@ -74,6 +79,8 @@ impl World {
             crosstalk,
             mates: Vec::new(),
             dnl: script.converter.dnl,
+            live: script.sensor.noise as f32 / UNIT_NOISE_RMS,
+            bend: if script.sensor.half_n > 0.0 { (1.0 / script.sensor.half_n) as f32 } else { 0.0 },
         };
         if crosstalk > 0.0 {
             world.mates = mates(garment, &Decoder::build(garment), layout.taxels());
@@ -166,7 +173,10 @@ impl World {
             newtons +=
                 self.crosstalk * mates.iter().map(|m| self.newtons(usize::from(*m), t_ns)).sum::<f32>();
         }
-        self.level(t.base + t.drift_per_ns * t_ns as f32 + COUNTS_PER_NEWTON * newtons)
+        let felt = t.gain * newtons;
+        let bent = felt / (1.0 + self.bend * felt);
+        let noisy = if self.live > 0.0 { bent * (1.0 + self.live * unit_noise(!t.key, t_ns)) } else { bent };
+        self.level(t.base + t.drift_per_ns * t_ns as f32 + COUNTS_PER_NEWTON * noisy)
     }
 
     /// What stands at the input for that much conductance: pressure may lower it.
@@ -197,16 +207,22 @@ fn round(signal: f32) -> u16 {
     ((signal + 0.5) as u16).min(FULL_SCALE)
 }
 
+/// Normally distributed, mean 0, standard deviation 1, at most 6.
+fn normal(rng: &mut Rng) -> f64 {
+    (0..12).map(|_| rng.f64()).sum::<f64>() - 6.0
+}
+
 fn taxels(script: &Script, layout: &Layout) -> Vec<Taxel> {
     let mut rng = Rng::with_seed(script.seed);
+    let mut gains = Rng::with_seed(script.seed ^ 0x6761_696e);
     let idle = &script.idle;
     (0..layout.taxels())
         .filter_map(|number| layout.place(number))
         .map(|place| {
-            let normal: f64 = (0..12).map(|_| rng.f64()).sum::<f64>() - 6.0;
             let absent = layout.is_absent(place.panel, place.row, place.column);
             Taxel {
-                base: (idle.base_code + idle.spread_counts * normal).max(0.0) as f32,
+                base: (idle.base_code + idle.spread_counts * normal(&mut rng)).max(0.0) as f32,
+                gain: (1.0 + script.sensor.gain_spread * normal(&mut gains)).max(0.0) as f32,
                 drift_per_ns: (idle.drift_counts_per_s * (0.5 + rng.f64()) / 1e9) as f32,
                 key: rng.u64(..) | 1,
                 x: place.column as i16,

@@ -32,6 +32,10 @@ pub struct Touch {
     /// Time from the peak to zero (half a cosine), s.
     #[serde(default = "edge_s")]
     pub fall_s: f64,
+    /// Parts of `force_n` that are reached one after the other, each in `rise_s` and held for `hold_s`: weights that are put on and
+    /// taken off again.
+    #[serde(default = "whole")]
+    pub levels: Vec<f64>,
     /// Velocity of the centre, `[vx, vy]` in taxels per second.
     #[serde(default)]
     pub velocity: [f64; 2],
@@ -45,7 +49,7 @@ pub struct Touch {
 impl Touch {
     /// Length of one touch, s.
     pub fn once_s(&self) -> f64 {
-        self.rise_s + self.hold_s + self.fall_s
+        self.levels.len() as f64 * (self.rise_s + self.hold_s) + self.fall_s
     }
 
     /// End of the last repetition, s.
@@ -83,6 +87,8 @@ pub enum Shape {
     Strap,
     /// Flat rectangle with edges 3 mm wide.
     Box,
+    /// Flat rectangle with sharp edges, as to calibrate with.
+    Plate,
     /// Elliptic patch, pressure `sqrt(1 - r^2)` (Hertz); usually 16 mm.
     Finger,
     /// Elliptic patch, pressure `sqrt(1 - r^2)` (Hertz); usually 80 mm.
@@ -99,7 +105,7 @@ impl Shape {
         match self {
             Shape::Palm => [100.0, 85.0],
             Shape::Strap => [250.0, 20.0],
-            Shape::Box => [60.0, 40.0],
+            Shape::Box | Shape::Plate => [60.0, 40.0],
             Shape::Finger => [16.0, 16.0],
             Shape::Ball => [80.0, 80.0],
             Shape::Forearm => [240.0, 60.0],
@@ -120,6 +126,10 @@ pub enum Size {
 
 fn edge_s() -> f64 {
     0.05
+}
+
+fn whole() -> Vec<f64> {
+    vec![1.0]
 }
 
 fn one_u32() -> u32 {
