@@ -5,6 +5,7 @@
 use heapless::Vec;
 use std::fmt::Write;
 use taxel_core::body::Placed;
+use taxel_core::condition::Certificate;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
@@ -152,9 +153,11 @@ fn reports() -> [(&'static str, Report<'static>); 16] {
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 15] {
+fn requests() -> [(&'static str, Request<'static>); 16] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
+    let certificate =
+        Certificate { id: 0xdead_beef, taxels: 2048, year: 2026, month: 11, day: 21, error: 125 };
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
     [
         ("SetGarment", Request::SetGarment(&[1, 2, 3])),
@@ -172,6 +175,7 @@ fn requests() -> [(&'static str, Request<'static>); 15] {
         ("Budget", Request::Budget { hz: 65_535 }),
         ("Feed", Request::Feed(feed)),
         ("SetGestures", Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))),
+        ("SetCalibration", Request::SetCalibration(certificate)),
     ]
 }
 

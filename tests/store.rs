@@ -2,6 +2,7 @@
 
 use taxel::sim::{Cut, SimFlash};
 use taxel_core::board::{Board, BoardInfo, Part, Saved, Settings};
+use taxel_core::condition::Certificate;
 use taxel_core::format::name;
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
@@ -24,11 +25,12 @@ struct Kept {
     scene: Scene,
     gain: Vec<u16>,
     baseline: Option<Vec<u16>>,
+    calibration: Option<Certificate>,
 }
 
 impl Kept {
     fn new(garment: Garment, taxels: usize) -> Kept {
-        Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None }
+        Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None, calibration: None }
     }
 
     fn settings(&self) -> Settings<'_> {
@@ -38,6 +40,7 @@ impl Kept {
             gain: &self.gain,
             ill: &[],
             baseline: self.baseline.as_deref(),
+            calibration: self.calibration.as_ref(),
         }
     }
 
@@ -54,6 +57,9 @@ impl Kept {
         }
         if parts & 4 != 0 {
             self.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
+            let (id, taxels) = (random.below(1 << 24), self.gain.len() as u16);
+            self.calibration = Some(Certificate { id, taxels, year: 2026, month: 11, day: 21, error: 99 })
+                .filter(|_| random.below(4) > 0);
         }
         if parts & 8 != 0 {
             let codes = self.gain.iter().map(|_| random.below(4_096) as u16).collect();
@@ -86,12 +92,13 @@ fn load_from<const TAXELS: usize>(
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let found = Store::new(flash, range).unwrap().load(&mut board)?;
-    let Settings { garment, scene, gain, baseline, .. } = board.settings();
+    let Settings { garment, scene, gain, baseline, calibration, .. } = board.settings();
     Ok(found.then(|| Kept {
         garment: garment.clone(),
         scene: scene.clone(),
         gain: gain.to_vec(),
         baseline: baseline.map(<[u16]>::to_vec),
+        calibration: calibration.copied(),
     }))
 }
 
@@ -179,10 +186,11 @@ fn an_empty_or_alien_flash_is_said_to_be_so() {
 fn a_part_that_does_not_fit_leaves_the_others() {
     let mut flash = SimFlash::default();
     // A board of 64 taxels finds what was stored by one of 2,048.
-    let kept = Kept { gain: vec![1; 2048], ..Kept::new(Garment::reference(), 2048) };
+    let calibration = Some(Certificate { id: 7, taxels: 2048, year: 2026, month: 11, day: 21, error: 99 });
+    let kept = Kept { gain: vec![1; 2048], calibration, ..Kept::new(Garment::reference(), 2048) };
     save(&mut flash, &kept).unwrap();
     let found = load_from::<64>(&mut flash, range(2048)).unwrap().unwrap();
-    assert_eq!((found.garment, found.gain), (Garment::block(), vec![4096; 64]));
+    assert_eq!((found.garment, found.gain, found.calibration), (Garment::block(), vec![4096; 64], None));
     let mut buffer = [0; 4000];
     assert!(kept.settings().write(Part::Gain, &mut buffer).is_err());
 }

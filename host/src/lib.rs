@@ -6,6 +6,7 @@ pub mod bench;
 pub mod cli;
 pub mod client;
 pub mod clock;
+pub mod date;
 pub mod export;
 pub mod fcm;
 pub mod features;

@@ -17,7 +17,7 @@ pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{BoardInfo, Setup, SetupError};
 
 use crate::acquire::{Plan, Scan, ScanError};
-use crate::condition::Tare;
+use crate::condition::{Certificate, Tare};
 use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
 use crate::health::Monitor;
@@ -94,6 +94,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     /// The garment has a baseline of its own.
     tared: bool,
     monitor: Monitor,
+    /// The calibration that the gains belong to.
+    certificate: Option<Certificate>,
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
@@ -133,6 +135,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             taring: false,
             tared: false,
             monitor: const { Monitor::new() },
+            certificate: None,
             setup,
         }
     }
@@ -154,6 +157,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
         self.tared = false;
         self.examined = None;
+        self.certificate = None;
         self.used();
     }
 
@@ -257,8 +261,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        let Board { outbox, ledger, info, setup, monitor, examined, health, .. } = self;
-        let about = About { info, setup, monitor, examined: examined.as_ref() };
+        let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, .. } = self;
+        let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
+        let about = About { info, setup, monitor, examined, certificate };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

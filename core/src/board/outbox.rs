@@ -4,7 +4,7 @@ use super::pace::{Pace, Rates};
 use super::setup::{BoardInfo, Setup};
 use super::under_way::UnderWay;
 use super::{Codes, Sentence};
-use crate::condition::Image;
+use crate::condition::{Certificate, Image};
 use crate::contact::Phase;
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::{Layout, PANELS};
@@ -14,7 +14,7 @@ use crate::pipeline::{Percept, Probe, Stage};
 use crate::scene::StreamConfig;
 use crate::wire::*;
 use core::fmt::{self, Write};
-use heapless::{Deque, Vec};
+use heapless::{Deque, String, Vec};
 use serde::Serialize;
 
 /// What the board is, wears and knows of it.
@@ -25,6 +25,8 @@ pub(super) struct About<'a> {
     pub monitor: &'a Monitor,
     /// The last self-test of lines and inputs.
     pub examined: Option<&'a SelfTestReport>,
+    /// The calibration in force.
+    pub certificate: Option<&'a Certificate>,
 }
 
 /// Why something is refused, as a sentence.
@@ -139,6 +141,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// The self-test is to be told.
     pub fn examined(&mut self) {
         self.examined = true;
+    }
+
+    /// `Hello` is to be told anew.
+    pub fn introduce(&mut self) {
+        self.hello = Some(Micros(0));
     }
 
     /// The map of health is to be told.
@@ -362,13 +369,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, setup, monitor, examined } = about;
+        let About { info, setup, monitor, examined, certificate } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
-            put_hello(under_way, now, info, setup)
+            put_hello(under_way, now, info, setup, certificate)
         } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
             under_way.put(Report::SELF_TEST, report)
         } else if let Some((request, refusal)) = self.answers.pop_front() {
@@ -464,7 +471,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 }
 
-fn put_hello(under_way: &mut UnderWay, now: Micros, info: &BoardInfo, setup: &Setup) -> bool {
+fn put_hello(
+    under_way: &mut UnderWay,
+    now: Micros,
+    info: &BoardInfo,
+    setup: &Setup,
+    certificate: Option<&Certificate>,
+) -> bool {
+    let mut calibration: String<48> = String::new();
+    // Its longest form has 35 characters.
+    let _ = certificate.map(|it| write!(calibration, "{it}"));
     let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; 2048]);
     let hello = Hello {
         magic: MAGIC,
@@ -473,7 +489,7 @@ fn put_hello(under_way: &mut UnderWay, now: Micros, info: &BoardInfo, setup: &Se
         firmware: info.firmware.as_bytes(),
         clock: written(&now, &mut clock),
         scene: written(&setup.scene, &mut scene),
-        calibration: &[],
+        calibration: calibration.as_bytes(),
     };
     under_way.put(Report::HELLO, &hello)
 }

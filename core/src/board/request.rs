@@ -3,6 +3,7 @@
 use super::outbox::Refusal;
 use super::outputs::Outputs;
 use super::{Board, Work};
+use crate::condition::Certificate;
 use crate::format::Micros;
 use crate::garment::Garment;
 use crate::gesture::GestureConfig;
@@ -90,6 +91,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             },
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::SetGestures(config) => self.set_gestures(config.as_ref()),
+            Request::SetCalibration(certificate) => self.certify(certificate),
             Request::Budget { hz } => {
                 self.ledger.report(hz);
                 Ok(())
@@ -145,6 +147,20 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         for (taxel, gain) in (usize::from(first)..end).zip(gains) {
             self.put_gain(taxel, *gain);
         }
+        if self.certificate.take().is_some() {
+            self.outbox.introduce();
+        }
+        Ok(())
+    }
+
+    /// The gains are those of a calibration.
+    pub(super) fn certify(&mut self, certificate: Certificate) -> Result<(), Refusal> {
+        certificate.check().map_err(Refusal::of)?;
+        if usize::from(certificate.taxels) != self.setup.layout.taxels() {
+            return Err(Refusal::of("the calibration is of another garment"));
+        }
+        self.certificate = Some(certificate);
+        self.outbox.introduce();
         Ok(())
     }
 

@@ -3,10 +3,12 @@
 use super::outbox::Refusal;
 use super::setup::Setup;
 use super::{Board, request};
+use crate::condition::Certificate;
 use crate::format::Code;
 use crate::garment::Garment;
 use crate::health::IllTaxel;
 use crate::scene::Scene;
+use crate::wire::decode;
 use core::fmt;
 use serde::Serialize;
 
@@ -25,11 +27,13 @@ pub enum Part {
     Gain = 2,
     /// Codes at rest by taxel number, two bytes each, little-endian; only where there is a tare.
     Baseline = 3,
+    /// The [`Certificate`] of the gains, postcard; only where there is one.
+    Calibration = 4,
 }
 
 impl Part {
     /// All of them.
-    pub const ALL: [Part; 4] = [Part::Garment, Part::Scene, Part::Gain, Part::Baseline];
+    pub const ALL: [Part; 5] = [Part::Garment, Part::Scene, Part::Gain, Part::Baseline, Part::Calibration];
 }
 
 impl fmt::Display for Part {
@@ -39,6 +43,7 @@ impl fmt::Display for Part {
             Part::Scene => "scene",
             Part::Gain => "gain",
             Part::Baseline => "baseline",
+            Part::Calibration => "calibration",
         })
     }
 }
@@ -69,6 +74,8 @@ pub struct Settings<'a> {
     pub ill: &'a [IllTaxel],
     /// Codes at rest by taxel number; none without a tare.
     pub baseline: Option<&'a [u16]>,
+    /// The calibration that the gains belong to.
+    pub calibration: Option<&'a Certificate>,
 }
 
 impl Settings<'_> {
@@ -83,6 +90,7 @@ impl Settings<'_> {
                 numbers(self.gain, gains, buffer).map(Some)
             }
             Part::Baseline => self.baseline.map(|baseline| numbers(baseline, |_| None, buffer)).transpose(),
+            Part::Calibration => self.calibration.map(|certificate| text(certificate, buffer)).transpose(),
         }
     }
 }
@@ -117,6 +125,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             gain: gain.get(..layout.taxels()).unwrap_or(gain),
             ill: self.monitor.ill(),
             baseline: baseline.map(|all| all.get(..layout.taxels()).unwrap_or(all)),
+            calibration: self.certificate.as_ref(),
         }
     }
 
@@ -131,6 +140,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             Part::Baseline => self.restore_numbers(bytes, |board, taxel, code| {
                 board.tared |= board.state.condition.set_baseline(taxel, Code(code));
             }),
+            Part::Calibration => {
+                decode(bytes).map_err(Refusal::of).and_then(|certificate| self.certify(certificate))
+            }
         };
         if let Err(why) = done {
             self.outbox.log(format_args!("stored {part}: {}", why.sentence()));

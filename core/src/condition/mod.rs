@@ -20,6 +20,7 @@
 //! does, so that a held contact neither is swallowed nor drifts.
 
 mod calibrate;
+mod certificate;
 mod clamp;
 mod clear;
 mod config;
@@ -43,6 +44,7 @@ mod state;
 mod tare;
 mod terms;
 
+pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
 pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};

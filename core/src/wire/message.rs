@@ -1,6 +1,7 @@
 //! The two enums of the wire.
 
 use crate::body::Placed;
+use crate::condition::Certificate;
 use crate::fold::Posture;
 use crate::format::{Celsius, Micros, Name, Q15};
 use crate::garment::PANELS;
@@ -412,6 +413,8 @@ pub enum Request<'a> {
     Feed(Feed),
     /// How gestures are recognised from now on; none: not at all, as at the start. Not a part of the scene.
     SetGestures(Option<GestureConfig>),
+    /// Which calibration the gains that were set belong to; `Hello` names it until a gain or the garment changes.
+    SetCalibration(Certificate),
 }
 
 impl Request<'_> {
@@ -433,6 +436,7 @@ impl Request<'_> {
             Request::Budget { .. } => 12,
             Request::Feed(_) => 13,
             Request::SetGestures(_) => 14,
+            Request::SetCalibration(_) => 15,
         }
     }
 }

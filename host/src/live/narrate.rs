@@ -142,7 +142,7 @@ pub(crate) fn shape_name(class: Class) -> String {
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 15] = [
+    const NAMES: [&str; 16] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -158,6 +158,7 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "budget",
         "feed",
         "set-gestures",
+        "set-calibration",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

@@ -3,7 +3,6 @@
 mod command;
 mod compare;
 mod data;
-mod date;
 mod export;
 mod knn;
 mod map;

@@ -1,9 +1,9 @@
 //! Training a model of touches, and applying one as the board does.
 
 use super::data::{Data, Source, Touch};
-use super::date::today;
 use super::export::{Head, export};
 use super::ridge::Ridge;
+use crate::date::today;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
