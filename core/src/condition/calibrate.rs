@@ -31,7 +31,12 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             columns: usize::from(area.columns),
             grain: grain(area),
         };
-        if falling { panel.calibrate::<true>(marks) } else { panel.calibrate::<false>(marks) }
+        match (falling, self.plain) {
+            (false, false) => panel.calibrate::<false, false>(marks),
+            (false, true) => panel.calibrate::<false, true>(marks),
+            (true, false) => panel.calibrate::<true, false>(marks),
+            (true, true) => panel.calibrate::<true, true>(marks),
+        }
     }
 }
 
@@ -45,14 +50,14 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>) -> bool {
+    fn calibrate<const FALLING: bool, const PLAIN: bool>(mut self, mut marks: Marks<'_>) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
-        let any = self.chunks::<CHUNK, PART, FALLING>(0, &mut marks);
-        self.chunks::<1, 1, FALLING>(whole, &mut marks) | any
+        let any = self.chunks::<CHUNK, PART, FALLING, PLAIN>(0, &mut marks);
+        self.chunks::<1, 1, FALLING, PLAIN>(whole, &mut marks) | any
     }
 
     /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.
-    fn chunks<const N: usize, const PART: usize, const FALLING: bool>(
+    fn chunks<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: bool>(
         &mut self,
         first: usize,
         marks: &mut Marks<'_>,
@@ -75,7 +80,7 @@ impl Panel<'_> {
             if codes.is_empty() {
                 break;
             }
-            at += loud::<N, PART, FALLING>(codes, limit, rest, gain, out, first + at * N, marks);
+            at += loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, first + at * N, marks);
             any = true;
         }
         any
@@ -100,7 +105,7 @@ fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16
 
 /// Calibrates until a chunk is quiet; how many there were.
 #[inline(never)]
-fn loud<const N: usize, const PART: usize, const FALLING: bool>(
+fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: bool>(
     codes: &[[Code; N]],
     limit: &[[u16; N]],
     rest: &[[u16; N]],
@@ -117,7 +122,7 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
         for (part, ((((codes, limit), rest), gain), out)) in
             codes.iter().zip(limit).zip(rest).zip(gain).zip(out).enumerate()
         {
-            bits |= scale::<PART, FALLING>(codes, limit, rest, gain, out) << (part * PART);
+            bits |= scale::<PART, FALLING, PLAIN>(codes, limit, rest, gain, out) << (part * PART);
         }
         done += 1;
         if bits == 0 {
@@ -129,12 +134,13 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     done
 }
 
-/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them.
+/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them. If PLAIN, their gain
+/// is 1.
 ///
 /// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. Not inlined,
 /// and as short as the compiler unrolls it: five places in memory are all that the registers of a Cortex-M0+ can tell.
 #[inline(never)]
-fn scale<const PART: usize, const FALLING: bool>(
+fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
     rest: &[u16; PART],
@@ -149,8 +155,12 @@ fn scale<const PART: usize, const FALLING: bool>(
         if if FALLING { code < limit } else { code > limit } {
             let rest = u32::from(*rest);
             let difference = if FALLING { rest.wrapping_sub(code) } else { code.wrapping_sub(rest) };
-            let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
-            *out = value.min(0xffff) as u16;
+            *out = if PLAIN {
+                difference as u16
+            } else {
+                let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
+                value.min(0xffff) as u16
+            };
             bits |= 1;
         }
     }

@@ -3,20 +3,25 @@
 /// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
 pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
-/// Taxels that are done together: as many as fill a vector, or as two runs of the inside of a block.
-pub(super) const RUN: usize = if VECTORS { 8 } else { 7 };
-
-/// A run and its neighbours.
-pub(super) type Around = [u16; RUN + 2];
+/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or half the inside of a
+/// row of 16.
+pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
+/// The same, where a row is done as a whole.
+pub(super) const LONG: usize = if VECTORS { SHORT } else { 16 };
 
 /// Clamps all of `here` but its ends, each to the range of its eight neighbours.
 #[inline(always)]
-pub(super) fn clamp_run(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+pub(super) fn clamp_run<const N: usize>(
+    above: &[u16; N],
+    here: &[u16; N],
+    below: &[u16; N],
+    out: &mut [u16; N],
+) {
     if VECTORS { by_range(above, here, below, out) } else { by_comparison(above, here, below, out) }
 }
 
 /// All at once.
-fn by_range(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+fn by_range<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], out: &mut [u16; N]) {
     let rows = above.array_windows().zip(here.array_windows()).zip(below.array_windows());
     let inside = out.iter_mut().skip(1);
     rows.zip(inside).for_each(|(((above, here), below), out)| *out = clamp(above, here, below));
@@ -35,22 +40,33 @@ pub(super) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 
 
 /// One after another. Not inlined, so that it has the registers of a Cortex-M0+ to itself.
 #[inline(never)]
-fn by_comparison(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], out: &mut [u16; N]) {
     // A compiler keeps a loop of that length, and with it an index and five sums for each taxel.
-    step::<1>(above, here, below, out);
-    step::<2>(above, here, below, out);
-    step::<3>(above, here, below, out);
-    step::<4>(above, here, below, out);
-    step::<5>(above, here, below, out);
-    step::<6>(above, here, below, out);
-    step::<7>(above, here, below, out);
-    step::<8>(above, here, below, out);
+    step::<1, N>(above, here, below, out);
+    step::<2, N>(above, here, below, out);
+    step::<3, N>(above, here, below, out);
+    step::<4, N>(above, here, below, out);
+    step::<5, N>(above, here, below, out);
+    step::<6, N>(above, here, below, out);
+    step::<7, N>(above, here, below, out);
+    step::<8, N>(above, here, below, out);
+    step::<9, N>(above, here, below, out);
+    step::<10, N>(above, here, below, out);
+    step::<11, N>(above, here, below, out);
+    step::<12, N>(above, here, below, out);
+    step::<13, N>(above, here, below, out);
+    step::<14, N>(above, here, below, out);
 }
 
 /// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a
 /// taxel: two or three comparisons mostly.
 #[inline(always)]
-fn step<const AT: usize>(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+fn step<const AT: usize, const N: usize>(
+    above: &[u16; N],
+    here: &[u16; N],
+    below: &[u16; N],
+    out: &mut [u16; N],
+) {
     let (Some(a), Some([left, value, right]), Some(b)) =
         (three(above, AT), three(here, AT), three(below, AT))
     else {
@@ -78,27 +94,27 @@ fn around(above: &[u16; 3], below: &[u16; 3]) -> impl Iterator<Item = u16> {
 
 /// A taxel of a row with its neighbours.
 #[inline(always)]
-fn three(row: &Around, at: usize) -> Option<&[u16; 3]> {
+fn three<const N: usize>(row: &[u16; N], at: usize) -> Option<&[u16; 3]> {
     row.get(at - 1..)?.first_chunk()
 }
 
 /// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
 #[inline(never)]
-fn greatest(above: &Around, here: &Around, below: &Around, at: usize) -> u16 {
+fn greatest<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], at: usize) -> u16 {
     fold_around(above, here, below, at, u16::max)
 }
 
 /// The smallest neighbour.
 #[inline(never)]
-fn least(above: &Around, here: &Around, below: &Around, at: usize) -> u16 {
+fn least<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], at: usize) -> u16 {
     fold_around(above, here, below, at, u16::min)
 }
 
 #[inline(always)]
-fn fold_around(
-    above: &Around,
-    here: &Around,
-    below: &Around,
+fn fold_around<const N: usize>(
+    above: &[u16; N],
+    here: &[u16; N],
+    below: &[u16; N],
     at: usize,
     of: impl Fn(u16, u16) -> u16,
 ) -> u16 {
@@ -119,7 +135,7 @@ mod tests {
     fn to_compare_one_after_another_makes_no_difference() {
         for case in 0..1u32 << 18 {
             let rows = [0, 6, 12].map(|shift| {
-                let mut row: Around = [0; RUN + 2];
+                let mut row = [0; LONG];
                 for (at, value) in row.iter_mut().enumerate() {
                     // Other columns hold the same in another order.
                     let size = case >> (shift + 2 * (at % 3)) & 3;
@@ -127,7 +143,7 @@ mod tests {
                 }
                 row
             });
-            let mut out = [[0; RUN + 2]; 2];
+            let mut out = [[0; LONG]; 2];
             let [above, here, below] = &rows;
             by_comparison(above, here, below, &mut out[0]);
             by_range(above, here, below, &mut out[1]);

@@ -3,7 +3,7 @@
 //! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own neighbour and an
 //! impulse would survive.
 
-use super::clamp::{RUN, clamp, clamp_run};
+use super::clamp::{LONG, SHORT, clamp, clamp_run};
 use super::row::Row;
 use super::rows::{Pieces, Rows};
 use crate::garment::Area;
@@ -30,11 +30,11 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
         if groups == there {
-            smooth(&row, values, out, 0..columns);
+            smooth::<LONG>(&row, values, out, 0..columns);
             continue;
         }
         for (_, piece) in Pieces::of(area, grain, groups.into()) {
-            smooth(&row, values, out, piece);
+            smooth::<SHORT>(&row, values, out, piece);
         }
     }
 }
@@ -63,13 +63,16 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// Smooths some columns of a row.
+/// Smooths some columns of a row, N - 2 at a time.
 #[inline(never)]
-fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
-    if row.columns < RUN + 2 {
+fn smooth<const N: usize>(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+    if row.columns < SHORT {
         return smooth_each(row, values, out);
     }
-    row.filter(values, out, columns, clamp_run, |[above, here, below]| {
+    if row.columns < N {
+        return smooth::<SHORT>(row, values, out, columns);
+    }
+    row.filter(values, out, columns, clamp_run::<N>, |[above, here, below]| {
         border(here[0], [here[1], above[0], below[0], above[1], below[1]])
     });
 }

@@ -1,6 +1,6 @@
 //! The limit of each taxel, kept beside its calibration, so that a quiet taxel is compared and left.
 
-use super::state::ConditionState;
+use super::state::{ConditionState, UNITY};
 use super::terms::Terms;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -10,6 +10,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             return;
         }
         self.limits_for = Some(terms);
+        self.plain = self.gain.iter().all(is_plain);
         // Neighbours often have the same gain.
         let (mut last, mut margin) = (0, u16::MAX);
         for ((limit, rest), gain) in self.limit.iter_mut().zip(&self.baseline).zip(&self.gain) {
@@ -27,6 +28,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             (self.limits_for, calibration, self.limit.get_mut(taxel))
         {
             *limit = terms.limit(*rest, terms.margin(*gain));
+            self.plain &= is_plain(gain);
         }
     }
+}
+
+fn is_plain(gain: &u16) -> bool {
+    matches!(*gain, 0 | UNITY)
 }

@@ -1,6 +1,6 @@
 //! The exact median of nine.
 
-use super::clamp::{Around, RUN, VECTORS};
+use super::clamp::{SHORT, VECTORS};
 use super::row::Row;
 use super::rows::{Pieces, Rows};
 use crate::garment::Area;
@@ -27,7 +27,7 @@ pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, m
             let start = usize::from(row) * columns;
             let mut held = here;
             for (groups, piece) in Pieces::of(area, grain, (all | all << 1 | all >> 1) & there) {
-                let any = if VECTORS && columns >= RUN + 2 {
+                let any = if VECTORS && columns >= SHORT {
                     let row = Row { starts: rows, columns };
                     row.filter(values, out, piece.clone(), median_run, median_of_end);
                     out.get(start + piece.start..start + piece.end)
@@ -78,8 +78,11 @@ fn row(above: &[u16], here: &[u16], below: &[u16], led: bool, out: &mut [u16]) -
     any
 }
 
+/// Taxels that are filtered at once, with their neighbours.
+type Block = [u16; SHORT];
+
 /// All of `here` but its ends at once, where that takes few instructions: each column is sorted for each taxel.
-fn median_run(above: &Around, here: &Around, below: &Around, out: &mut Around) {
+fn median_run(above: &Block, here: &Block, below: &Block, out: &mut Block) {
     let rows = above.array_windows().zip(here.array_windows()).zip(below.array_windows());
     let inside = out.iter_mut().skip(1);
     rows.zip(inside).for_each(|(((above, here), below), out)| *out = median_of_nine(*above, *here, *below));

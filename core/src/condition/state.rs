@@ -22,6 +22,8 @@ pub struct ConditionState<const TAXELS: usize> {
     pub(super) limit: [u16; TAXELS],
     /// What the limits were made for; none: they are not valid.
     pub(super) limits_for: Option<Terms>,
+    /// Every gain is known to be 1, or 0, with which no taxel is beyond its limit.
+    pub(super) plain: bool,
     /// Before the filter. While a tare runs: the high halves of the sums.
     pub(super) calibrated: [u16; TAXELS],
     /// After the filter.
@@ -42,6 +44,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             gain: [0; TAXELS],
             limit: [0; TAXELS],
             limits_for: None,
+            plain: false,
             calibrated: [0; TAXELS],
             filtered: [0; TAXELS],
             rows: Rows::NONE,

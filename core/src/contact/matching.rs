@@ -7,7 +7,8 @@ use super::record::Contact;
 use super::run::NONE;
 use super::track::Tracks;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
-use crate::garment::Layout;
+use crate::garment::{Layout, PANELS};
+use core::ops::Range;
 use heapless::Vec;
 
 /// Work space: squared distances, a row per contact and a column per component.
@@ -58,18 +59,13 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         for component in components {
             let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
         }
+        let spans = spans(&self.points);
         let rows = self.distance.iter_mut().zip(&mut self.least);
         for ((row, least), (contact, trail)) in rows.zip(tracks.contacts.iter().zip(&mut tracks.trails)) {
             trail.component = NONE;
             let (at, reach) = expected(contact, seconds, config.gate);
             at.list_images(layout, &mut self.expected);
-            *least = (FAR, 0);
-            for ((cell, point), column) in row.iter_mut().zip(&self.points).zip(0..) {
-                *cell = distance(&self.expected, point, reach);
-                if *cell < least.0 {
-                    *least = (*cell, column);
-                }
-            }
+            *least = distances(&self.expected, &self.points, &spans, reach, row);
         }
         while let Some((track, component)) = self.nearest() {
             if let Some(trail) = tracks.trails.get_mut(track) {
@@ -129,20 +125,53 @@ fn expected(contact: &Contact, seconds: u32, gate: u16) -> (Point, u32) {
     (Point { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
 }
 
-/// Squared distance of a point from the nearest of the images; [`FAR`] if out of reach.
-fn distance(images: &Images, to: &Point, reach: u32) -> u32 {
-    let mut least = FAR;
-    for image in images.iter().filter(|image| image.panel == to.panel) {
-        let apart = |a: i32, b: i32| (a - b).unsigned_abs().min(LONGEST as u32);
-        let x = apart(image.x, to.x);
-        // Most pairs are told apart by this.
-        if x > reach {
-            continue;
+/// From where to where some points are on each panel; points of others may be between them.
+fn spans(points: &[Point]) -> [Range<usize>; PANELS] {
+    let mut spans = [const { 0..0 }; PANELS];
+    for (index, point) in points.iter().enumerate() {
+        if let Some(span) = spans.get_mut(usize::from(point.panel)) {
+            *span = if span.end == 0 { index } else { span.start }..index + 1;
         }
-        let y = apart(image.y, to.y);
-        let squared = x * x + y * y;
-        if squared < least && squared <= reach * reach {
-            least = squared;
+    }
+    spans
+}
+
+/// Squared distances of some points from the nearest of the images, [`FAR`] if out of reach; the least of them, and the first
+/// point that has it.
+#[inline(never)] // the few registers of an M0+ are for this
+fn distances(
+    images: &Images,
+    points: &[Point],
+    spans: &[Range<usize>; PANELS],
+    reach: u32,
+    row: &mut [u32],
+) -> (u32, u16) {
+    row.iter_mut().take(points.len()).for_each(|cell| *cell = FAR);
+    let mut least = (FAR, 0);
+    for image in images {
+        let Some(span) = spans.get(usize::from(image.panel)) else { continue };
+        let (Some(row), Some(points)) = (row.get_mut(span.clone()), points.get(span.clone())) else {
+            continue;
+        };
+        for ((cell, point), column) in row.iter_mut().zip(points).zip(span.start as u16..) {
+            if point.panel != image.panel {
+                continue;
+            }
+            let x = (image.x - point.x).unsigned_abs();
+            // Most pairs are told apart by this.
+            if x > reach {
+                continue;
+            }
+            let y = (image.y - point.y).unsigned_abs();
+            if y > reach {
+                continue;
+            }
+            // No reach is longer than LONGEST.
+            let squared = x * x + y * y;
+            if squared <= reach * reach && squared < *cell {
+                *cell = squared;
+                least = least.min((squared, column));
+            }
         }
     }
     least

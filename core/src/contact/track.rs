@@ -104,7 +104,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         now: Micros,
     ) {
         let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
-        self.part(config, components);
+        let known = self.known();
+        self.part(config, components, &known);
         self.released.clear();
         for (contact, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
             match components.get(usize::from(trail.component)) {
@@ -130,7 +131,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         });
         self.trails.retain(|trail| trail.component != NONE);
         for (index, component) in (0u16..).zip(components) {
-            if self.is_new(config, index, component) {
+            if is_new(config, &known, index, component) {
                 self.begin(index, component, layout, now);
             }
         }
@@ -142,16 +143,21 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a splinter
-    /// of a contact that lifts.
-    fn is_new(&self, config: &ContactConfig, index: u16, component: &Component) -> bool {
-        component.peak >= config.high && self.index_of(index).is_none()
+    /// Components that a contact became.
+    fn known(&self) -> [bool; CONTACTS] {
+        let mut known = [false; CONTACTS];
+        for trail in &self.trails {
+            if let Some(known) = known.get_mut(usize::from(trail.component)) {
+                *known = true;
+            }
+        }
+        known
     }
 
     /// Contacts of which a part begins a life of its own: it peaks where they were.
-    fn part(&mut self, config: &ContactConfig, components: &[Component]) {
+    fn part(&mut self, config: &ContactConfig, components: &[Component], known: &[bool]) {
         for (index, component) in (0u16..).zip(components) {
-            let Some(at) = component.peak_at.filter(|_| self.is_new(config, index, component)) else {
+            let Some(at) = component.peak_at.filter(|_| is_new(config, known, index, component)) else {
                 continue;
             };
             for (contact, trail) in self.contacts.iter().zip(&mut self.trails) {
@@ -194,6 +200,12 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             let _ = self.trails.push(Trail::new(index));
         }
     }
+}
+
+/// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a splinter
+/// of a contact that lifts.
+fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Component) -> bool {
+    component.peak >= config.high && known.get(usize::from(index)) == Some(&false)
 }
 
 /// The contact that a place belongs to, or one of its eight neighbours in the panel.
