@@ -135,7 +135,7 @@ mod tests {
     fn to_compare_one_after_another_makes_no_difference() {
         for case in 0..1u32 << 18 {
             let rows = [0, 6, 12].map(|shift| {
-                let mut row = [0; LONG];
+                let mut row = [0; 16];
                 for (at, value) in row.iter_mut().enumerate() {
                     // Other columns hold the same in another order.
                     let size = case >> (shift + 2 * (at % 3)) & 3;
@@ -143,7 +143,7 @@ mod tests {
                 }
                 row
             });
-            let mut out = [[0; LONG]; 2];
+            let mut out = [[0; 16]; 2];
             let [above, here, below] = &rows;
             by_comparison(above, here, below, &mut out[0]);
             by_range(above, here, below, &mut out[1]);
