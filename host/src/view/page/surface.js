@@ -10,6 +10,12 @@ const GAP = 2;
 
 const COLOURS = RAMP.filter((_, step) => step % 15 === 0).map((rgb, at, all) => [at / (all.length - 1), `rgb(${rgb})`]);
 
+/** Legible on the colours of the scale and on both themes. */
+const MARK = "#dd5f00";
+
+/** No peaks. plotly.js shrinks the text of points that are there when a plot is made, so that it is made with these. */
+const NOTHING = { x: [], y: [], z: [], text: [] };
+
 /** As many times the scale's end as all that was felt needs: the height jumps seldom. */
 function heightOf(held, top) {
   const greatest = held.reduce((most, value) => Math.max(most, value), 1);
@@ -44,9 +50,7 @@ export class Surface {
     const { garment } = store;
     const image = settings.held ? store.held : shown.image;
     const unit = isPascal(garment) ? pascalsOf(garment) : 1;
-    const peaks = settings.peaks
-      ? this.peaks(garment, image, shown, settings, unit)
-      : { x: [], y: [], z: [], text: [] };
+    const peaks = settings.peaks ? this.peaks(garment, image, shown, settings, unit) : NOTHING;
     const grid = this.grid(garment, image, unit);
     const { clientWidth: width, clientHeight: height } = this.root;
     const highest = heightOf(store.held, settings.top);
@@ -55,7 +59,9 @@ export class Surface {
     if (key !== this.key) {
       this.key = key;
       const scale = { top: settings.top * unit, highest: highest * unit, unit: isPascal(garment) ? "kPa" : "counts" };
-      this.build(garment, grid, peaks, scale);
+      this.build(garment, grid, scale);
+      // The peaks come with the next picture.
+      this.changed();
       return;
     }
     // The last picture has been drawn: what comes too fast is left out.
@@ -100,7 +106,7 @@ export class Surface {
     return all;
   }
 
-  build({ panels }, grid, peaks, { top, highest, unit }) {
+  build({ panels }, grid, { top, highest, unit }) {
     this.plot ??= make("div");
     if (this.plot.parentNode !== this.root) this.root.replaceChildren(this.plot);
     let start = -GAP;
@@ -127,10 +133,10 @@ export class Surface {
     const marks = {
       type: "scatter3d",
       mode: "markers+text",
-      ...peaks,
+      ...NOTHING,
       hoverinfo: "none",
-      textfont: { color: ink, size: 15 },
-      marker: { symbol: "diamond", size: 4, color: ink, line: { color: colour("card"), width: 1 } },
+      textfont: { color: MARK, size: 15 },
+      marker: { symbol: "diamond", size: 4, color: MARK, line: { color: colour("card"), width: 1 } },
     };
     const layout = {
       margin: { l: 0, r: 0, t: 0, b: 0 },
