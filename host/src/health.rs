@@ -23,7 +23,7 @@ pub struct HealthArgs {
     /// `auto`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT` or `file:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Images to wait for; each of 2,048 taxels is judged once in 88 frames. Touch the garment meanwhile to find dead taxels
+    /// Images to wait for; each of 2,048 taxels is judged once in 96 frames. Touch the garment meanwhile to find dead taxels
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub frames: u64,
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]

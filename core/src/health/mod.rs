@@ -1,7 +1,7 @@
 //! The health of every taxel, found while the garment is used.
 //!
 //! 256 taxels are watched at a time, over [`FRAMES`] frames: lowest and highest code of each, and how far its code has
-//! travelled. Then each is judged, and it is the next ones' turn: each of 2,048 is judged once in 88 frames. What is found
+//! travelled. Then each is judged, and it is the next ones' turn: each of 2,048 is judged once in 96 frames. What is found
 //! stays, though the taxel may recover, until the garment is changed or a [`SelfTest`](crate::wire::Request::SelfTest) is asked
 //! for: then every taxel counts as good again, with the gain of its good days, until it is found anew. `Start` only begins the
 //! watch anew.
@@ -14,7 +14,7 @@
 //! | shorted | full scale, and nothing beside it is pressed |
 //! | noisy | its code goes to and fro, many times further than it gets |
 //!
-//! Where the codes are too quiet to tell (noise under 2.7 counts rms, or codes of 8 bits), nothing is called stuck.
+//! Where the codes are too quiet to tell (noise under 2.6 counts rms, or codes of 8 bits), nothing is called stuck.
 //!
 //! | | |
 //! |---|---|

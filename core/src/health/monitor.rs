@@ -9,9 +9,8 @@ use crate::garment::{Area, Circuit, Layout};
 use core::ops::Range;
 use heapless::Vec;
 
-/// Frames from one judgement to the next. Of 2,048 taxels each is judged once in 88 frames, so that what breaks in the midst of a
-/// watch is found after 99 at most.
-pub const FRAMES: u8 = 11;
+/// Frames from one judgement to the next.
+pub const FRAMES: u8 = 12;
 /// Frames of them in which taxels are judged, so that none takes much longer than the others.
 const JUDGING: u8 = 2;
 /// Taxels that are watched at a time.

@@ -8,7 +8,7 @@
 //! | input at ground, at the supply | it stays there against its resistor, whatever is selected |
 //!
 //! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of each of its blocks,
-//! pulled up and pulled down. The reference garment takes 8 ms: two frames are not scanned.
+//! pulled up and pulled down. The reference garment takes 2.6 ms (simulated): one frame is not scanned.
 //!
 //! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its pin; a source
 //! of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What reacts to the select lines sees
