@@ -167,7 +167,18 @@ fn maps_are_made_of_maps() {
     );
     let checked = json(&["fcm", "check", &both, "--json"]);
     assert_eq!((checked["faults"].as_array().map(Vec::len), checked["cycles"].as_u64()), (Some(0), Some(0)));
-    let why = json(&["fcm", "why", &both, "--input", "press=0.9", "--set", "press=0.1", "--json"]);
+    let why = json(&[
+        "fcm",
+        "why",
+        &both,
+        "--input",
+        "press=0.9",
+        "--input",
+        "time=-0.9",
+        "--set",
+        "press=-0.9",
+        "--json",
+    ]);
     let units = |list: &str| {
         why[list].as_array().unwrap().iter().map(|one| one["units"].as_i64().unwrap()).sum::<i64>()
     };

@@ -124,7 +124,8 @@ fn greatest_scene() -> Scene {
     let link = |k: u8| Link { from: k / effects, to: 8 + k % effects, weight: 10_000 - i16::from(k) * 100 };
     map.edges = (0..map.edges.capacity() as u8).map(link).collect();
     map.thresholds = (0..16).map(|concept| Threshold { concept, value: -5000 }).collect();
-    let sources = [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed];
+    let sources =
+        [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed, Source::Rise];
     let sources = sources.into_iter().chain((0..3).map(Source::Host));
     let input = |(source, concept)| Input {
         concept,

@@ -319,6 +319,7 @@ impl Pipeline {
             friendliness: self.friendliness.get(usize::from(placed.region)).copied().unwrap_or(0),
             duration_ms: placed.contact.duration_ms,
             speed: placed.speed(layout),
+            rise: 0,
         }
     }
 }

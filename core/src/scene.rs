@@ -6,7 +6,7 @@ use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
 use crate::format::{Name, name};
 use crate::garment::{Line, PANELS};
-use crate::intent::{IntentConfig, tactile};
+use crate::intent::{Input, IntentConfig, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
 use crate::shape::ShapeConfig;
 use crate::symbol::SymbolConfig;
@@ -161,7 +161,8 @@ impl Scene {
             row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
         }
         if let Some(intent) = &mut scene.intent {
-            for input in intent.map.inputs.iter_mut().filter(|i| i.source == crate::intent::Source::Press) {
+            let pressure = |i: &&mut Input| matches!(i.source, Source::Press | Source::Rise);
+            for input in intent.map.inputs.iter_mut().filter(pressure) {
                 input.low = scale(input.low.unsigned_abs()).min(i32::MAX as u32) as i32;
                 input.high = scale(input.high.unsigned_abs()).min(i32::MAX as u32) as i32;
             }

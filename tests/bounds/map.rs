@@ -132,12 +132,13 @@ fn states_outside_their_range_are_clamped() {
 fn measures_outside_their_ramp_are_held_at_its_ends() {
     let map = Map::<10>::build(&tactile()).unwrap();
     let of = |press, friendliness| {
-        let touch = Touch { press, breadth: press, friendliness, duration_ms: press, speed: press };
+        let touch =
+            Touch { press, breadth: press, friendliness, duration_ms: press, speed: press, rise: press };
         let state = map.encode(Some(&touch), &[]);
         [state[0], state[1], state[2], state[3]]
     };
-    assert_eq!(of(0, i8::MIN), [0, 0, -32768, 0]);
-    assert_eq!(of(u32::MAX, i8::MAX), [32768; 4]);
+    assert_eq!(of(0, i8::MIN), [-32768, 0, -32768, 32768]);
+    assert_eq!(of(u32::MAX, i8::MAX), [32768, 32768, 32768, -16384], "sudden, and long");
     let mut config: MapConfig =
         MapConfig { name: name("fed"), decimals: 1, lambda: 1000, ..MapConfig::default() };
     config.concepts.push(name("fed")).unwrap();

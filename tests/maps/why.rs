@@ -27,14 +27,14 @@ fn adds_up(file: &MapFile, explained: &Explained) {
 }
 
 #[test]
-fn a_lash_is_an_attack_because_it_is_hard() {
+fn a_lash_is_an_attack_because_it_is_sudden_and_hard() {
     let file = load::map("tactile").unwrap();
-    let explained = explain(&file, &inputs(&[("press", "0.8"), ("time", "0.1")]), None).unwrap();
+    let explained = explain(&file, &inputs(&[("press", "0.8"), ("time", "-0.9")]), None).unwrap();
     adds_up(&file, &explained);
     let names = |at: usize| file.concept[at].name.as_str();
     assert_eq!(names(explained.why.concept.into()), "attack");
     let paths = &explained.shares.paths;
-    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["press"]);
+    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["time"]);
     // press is unkind, and what is unkind hits the harder.
     let way = |wanted: &[&str]| {
         paths.iter().find(|p| p.concepts.iter().map(|at| names(*at)).eq(wanted.iter().copied()))

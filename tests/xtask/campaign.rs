@@ -12,12 +12,13 @@ enum Needs {
 }
 
 /// The runs: a test target, what it needs, and what of it takes longer where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Needs, &str); 6] = [
+const RUNS: [(&str, Needs, &str); 7] = [
     ("emulator_usb", Needs::Image, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
     ("emulator_latency", Needs::Image, "onset and reflex: 500 touches of one to five contacts (emulated)"),
     ("emulator_health", Needs::Image, "health: 1,000 healthy frames, then one of each fault (emulated)"),
     ("health", Needs::Nothing, "health: every fault, and 10,000 healthy frames (simulated)"),
     ("setup", Needs::Nothing, "setup by touch: 1,000 random wirings (simulated)"),
+    ("people", Needs::Nothing, "intentions: 4,000 touches by 20 people, of each of two families (simulated)"),
     ("stream.test.mjs", Needs::Browser, "taxel view: ten minutes of five contacts at full speed (simulated)"),
 ];
 

@@ -18,6 +18,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 Source::Friendliness => touch.map(|t| t.friendliness.into()),
                 Source::Duration => measured(|t| t.duration_ms),
                 Source::Speed => measured(|t| t.speed),
+                Source::Rise => measured(|t| t.rise),
                 Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
             };
             if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {

@@ -26,6 +26,16 @@ pub struct Touch {
     pub duration_ms: u32,
     /// Speed of the contact over the surface, in 0.1 mm/s.
     pub speed: u32,
+    /// How steeply the force came, in counts/ms: the greatest mean rise since the onset. The stage finds it itself.
+    pub rise: u32,
+}
+
+impl Touch {
+    /// The mean rise since the onset, which lay within the `interval_ms` before the first frame, in counts/ms.
+    pub(super) fn mean_rise(&self, interval_ms: u32) -> u32 {
+        let since = NonZeroU32::new(self.duration_ms.saturating_add(interval_ms)).unwrap_or(NonZeroU32::MIN);
+        self.press / since
+    }
 }
 
 /// Where an input concept takes its value from. Variants are only appended.
@@ -44,6 +54,8 @@ pub enum Source {
     Speed,
     /// A value that the host feeds into this slot, Q15 (1.0 = 32768); 0 until it does.
     Host(u8),
+    /// [`Touch::rise`], counts/ms: with the duration the concept *time*, sudden to slow.
+    Rise,
 }
 
 /// One input of a map. The ramp may fall (`at_high` below `at_low`).

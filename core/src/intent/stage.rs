@@ -40,9 +40,9 @@ pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
 }
 
 impl<const N: usize, const E: usize> IntentConfig<N, E> {
-    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 50 ms period, 16 steps.
+    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 20 ms period, 16 steps.
     pub fn new(map: MapConfig<N, E>) -> Self {
-        IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 50, steps: 16 }
+        IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 20, steps: 16 }
     }
 }
 
@@ -96,6 +96,8 @@ pub struct Meaning<const N: usize = CONCEPTS> {
 pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
     released: Option<Micros>,
+    /// Time of the last frame.
+    before: Micros,
     inputs: [i32; N],
     inference: Inference<N>,
     inferred: Option<Micros>,
@@ -109,6 +111,7 @@ impl<const N: usize> Default for IntentState<N> {
         IntentState {
             touch: None,
             released: None,
+            before: Micros(0),
             inputs: [0; N],
             inference: Inference { state: [0; N], steps: 0, outcome: Outcome::Fixed },
             inferred: None,
@@ -186,6 +189,7 @@ impl<const N: usize> Intent<N> {
         now: Micros,
     ) -> Option<Meaning<N>> {
         let edge = self.select(state, touches, now);
+        state.before = now;
         let inferred = self.refresh(state, host, edge, now);
         let changed = self.debounce(state, now);
         if !inferred && !changed {
@@ -215,7 +219,10 @@ impl<const N: usize> Intent<N> {
         let strongest = touches.iter().reduce(|best, t| if t.press > best.press { t } else { best }).copied();
         match (state.touch, strongest) {
             (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
-                (state.touch, state.released) = (Some(present), None);
+                let same = |held: &Touch| state.released.is_none() && held.duration_ms <= present.duration_ms;
+                let steepest = held.filter(same).map_or(0, |held| held.rise);
+                let rise = present.mean_rise(now.millis_since(state.before)).max(steepest);
+                (state.touch, state.released) = (Some(Touch { rise, ..present }), None);
             }
             (Some(_), present) => {
                 let released = *state.released.get_or_insert(now);

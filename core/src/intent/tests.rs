@@ -8,13 +8,15 @@ use std::string::ToString;
 use std::vec::Vec as List;
 use std::{format, println};
 
-fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8) -> Touch {
+/// A touch whose force came with that many newtons per second.
+fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8, rise: u32) -> Touch {
     Touch {
         press: (newton * f64::from(PRESS_PER_NEWTON)) as u32,
         breadth: (mm * 10.0) as u32,
         friendliness,
         duration_ms: ms,
         speed: 0,
+        rise,
     }
 }
 
@@ -26,14 +28,16 @@ fn judged(map: &Map, touch: &Touch) -> ([f64; 3], u16) {
 }
 
 /// The smallest lead of `intention` over the other two, and the smallest activation, over a grid of touches.
-fn worst(intention: usize, newtons: &[f64], widths: &[f64], times: &[u32], places: &[i8]) -> (f64, f64) {
+fn worst(intention: usize, newtons: &[f64], widths: &[f64], times: &[u32], rises: &[u32]) -> (f64, f64) {
     let map = Map::build(&tactile()).unwrap();
     let (mut lead, mut level) = (f64::MAX, f64::MAX);
     for newton in newtons {
         for mm in widths {
             for ms in times {
-                for place in places {
-                    let (values, _) = judged(&map, &touch(*newton, *mm, *ms, *place));
+                for (place, rise) in
+                    PLACES.iter().flat_map(|place| rises.iter().map(move |rise| (*place, *rise)))
+                {
+                    let (values, _) = judged(&map, &touch(*newton, *mm, *ms, place, rise));
                     let own = values[intention];
                     let others =
                         (0..3).filter(|i| *i != intention).map(|i| values[i]).fold(f64::MIN, f64::max);
@@ -50,13 +54,22 @@ const PLACES: [i8; 5] = [-20, 0, 30, 50, 80];
 #[test]
 fn typical_touches_have_their_meaning() {
     let short = [20, 40, 80, 120];
-    for (label, intention, newtons, widths, times) in [
-        ("pat", 0, &[2.0, 5.0, 10.0, 15.0][..], &[54.0, 60.0, 90.0][..], &[100, 200, 400][..]),
-        ("stroke", 0, &[2.0, 4.0, 6.0], &[42.0, 50.0, 80.0], &[1000, 2000]),
-        ("hold", 1, &[40.0, 60.0], &[54.0, 60.0, 90.0], &[500, 1000, 5000]),
-        ("lash", 2, &[10.0, 20.0, 30.0, 60.0], &[8.0, 20.0, 30.0], &short),
+    for (label, intention, newtons, widths, times, rises) in [
+        (
+            "pat",
+            0,
+            &[2.0, 5.0, 10.0, 15.0][..],
+            &[54.0, 60.0, 90.0][..],
+            &[100, 200, 400][..],
+            &[50, 400][..],
+        ),
+        ("stroke", 0, &[2.0, 4.0, 6.0], &[42.0, 50.0, 80.0], &[1000, 2000], &[20, 100]),
+        ("tap", 0, &[1.0, 2.0, 5.0], &[8.0, 16.0, 30.0], &short, &[50, 400, 1000]),
+        ("hold", 1, &[25.0, 40.0, 60.0], &[54.0, 60.0, 90.0], &[500, 1000, 5000], &[100, 500]),
+        ("lash", 2, &[10.0, 20.0, 30.0, 60.0], &[8.0, 20.0, 30.0], &short, &[1000, 3000]),
+        ("blow", 2, &[20.0, 40.0, 100.0], &[54.0, 60.0, 90.0], &short, &[1000, 3000]),
     ] {
-        let (lead, level) = worst(intention, newtons, widths, times, &PLACES);
+        let (lead, level) = worst(intention, newtons, widths, times, rises);
         println!("{label:8} leads by {lead:.2} at least, activation {level:.2} at least");
         assert!(lead > 0.2 && level > 0.6, "{label}: {lead} {level}");
     }
@@ -69,10 +82,10 @@ fn light_touches_are_no_attack() {
     for place in PLACES {
         for newton in [0.5, 1.0, 2.0, 3.0] {
             for ms in [20, 60, 120] {
-                most[0] = most[0].max(judged(&map, &touch(newton, 10.0, ms, place)).0[2]);
+                most[0] = most[0].max(judged(&map, &touch(newton, 10.0, ms, place, 1000)).0[2]);
             }
             for ms in [100, 500, 3000] {
-                let ([_, threat, attack], _) = judged(&map, &touch(newton, 14.0, ms, place));
+                let ([_, threat, attack], _) = judged(&map, &touch(newton, 14.0, ms, place, 100));
                 most[1] = most[1].max(threat).max(attack);
             }
         }
@@ -91,7 +104,7 @@ fn without_a_touch_every_activation_is_exactly_zero() {
 #[test]
 fn the_shipped_map_is_complete() {
     let map = tactile();
-    assert_eq!((map.concepts.len(), map.edges.len(), map.inputs.len()), (10, 24, 4));
+    assert_eq!((map.concepts.len(), map.edges.len(), map.inputs.len()), (10, 24, 5));
 }
 
 #[test]
@@ -101,7 +114,7 @@ fn the_shipped_map_settles_within_its_longest_path() {
     for newton in 0..40 {
         for mm in [5.0, 35.0, 45.0, 80.0] {
             for ms in [0, 30, 300, 900] {
-                most = most.max(judged(&map, &touch(f64::from(newton), mm, ms, 20)).1);
+                most = most.max(judged(&map, &touch(f64::from(newton), mm, ms, 20, 700)).1);
             }
         }
     }
@@ -139,7 +152,7 @@ fn a_refused_map_names_what_is_wrong() {
     );
     let twice = edit(|c| c.thresholds.extend([own(5, 0), own(5, 1)]));
     assert_eq!(twice, "the threshold of threat is given twice");
-    assert_eq!(edit(|c| c.inputs[0].low = 30_000), "input press: low = 30000 is not below high = 30000");
+    assert_eq!(edit(|c| c.inputs[0].low = 25_000), "input press: low = 25000 is not below high = 25000");
     assert_eq!(edit(|c| c.inputs[2].at_low = -101), "input location: -1.01 is outside [-1, 1]");
     assert_eq!(edit(|c| c.inputs[2].concept = 4), "concept kindness is an input and has an incoming edge");
     let small = Map::<8>::build(&tactile()).unwrap_err();
@@ -230,7 +243,7 @@ fn thresholds_are_the_level_that_sums_are_measured_from() {
 #[test]
 fn the_parts_of_a_reason_add_up() {
     let map = Map::<CONCEPTS>::build(&tactile()).unwrap();
-    let run = map.infer(&map.encode(Some(&touch(20.0, 20.0, 60, 0)), &[]), 16);
+    let run = map.infer(&map.encode(Some(&touch(20.0, 20.0, 60, 0, 1000)), &[]), 16);
     let attack = map.find("attack").unwrap();
     let why = map.why(&run.state, attack).unwrap();
     let sum: i32 = why.parts.iter().map(|part| part.value.0).sum();
@@ -238,7 +251,7 @@ fn the_parts_of_a_reason_add_up() {
     // and they explain the activation: tanh(3.5 sum)
     assert!((map.q15(run.state[attack]).to_f64() - (3.5 * why.sum.to_f64()).tanh()).abs() < 1e-3);
     let largest = why.parts.iter().max_by_key(|part| part.value.0).unwrap();
-    assert_eq!(map.concepts()[usize::from(largest.from)], "press");
+    assert_eq!(map.concepts()[usize::from(largest.from)], "time");
     assert_eq!(map.why(&run.state, 0), None);
     assert_eq!(map.why(&run.state, 99), None);
 }
@@ -262,7 +275,7 @@ fn announced(frames: impl IntoIterator<Item = List<Touch>>) -> List<(u64, Leadin
 #[test]
 fn a_lash_of_25_ms_is_announced_and_ends_after_the_hold() {
     let frames = (0..200).map(|at| match at {
-        20..25 => std::vec![touch(25.0, 15.0, 5 * (at - 20), 0)],
+        20..25 => std::vec![touch(25.0, 15.0, 5 * (at - 20), 0, 0)],
         _ => List::new(),
     });
     assert_eq!(announced(frames), [(130, Leading::Attack), (755, Leading::None)]);
@@ -270,19 +283,37 @@ fn a_lash_of_25_ms_is_announced_and_ends_after_the_hold() {
 
 #[test]
 fn a_contact_shorter_than_the_evidence_asked_for_still_counts_after_its_release() {
-    let frames = (0..100).map(|at| if at == 20 { std::vec![touch(40.0, 10.0, 5, 0)] } else { List::new() });
+    let frames =
+        (0..100).map(|at| if at == 20 { std::vec![touch(40.0, 10.0, 5, 0, 0)] } else { List::new() });
     assert_eq!(announced(frames).first(), Some(&(130, Leading::Attack)));
 }
 
 #[test]
 fn of_several_touches_the_strongest_counts() {
     let frames = (0..100u32).map(|at| {
-        let hand = touch(6.0, 80.0, 5 * at, 30);
-        let strap = touch(30.0, 15.0, 60, 30);
+        let hand = touch(6.0, 80.0, 5 * at, 30, 0);
+        let strap = touch(30.0, 15.0, 5 * (at.max(40) - 40), 30, 0);
         if (40..52).contains(&at) { std::vec![hand, strap] } else { std::vec![hand] }
     });
     let heard: List<Leading> = announced(frames).into_iter().map(|(_, leading)| leading).collect();
     assert_eq!(heard, [Leading::Kindness, Leading::Attack]);
+}
+
+/// The same force in the same time, once at once and once little by little.
+#[test]
+fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
+    let came = |rise_ms: u32| {
+        announced((0..260u32).map(|at| {
+            let ms = 5 * at.saturating_sub(20);
+            let newton = 40.0 * f64::from((ms + 5).min(rise_ms)) / f64::from(rise_ms);
+            let felt = (20..80).contains(&at);
+            if felt { std::vec![touch(newton, 70.0, ms, 30, 0)] } else { List::new() }
+        }))
+    };
+    let words =
+        |said: List<(u64, Leading)>| said.into_iter().map(|(_, leading)| leading).collect::<List<_>>();
+    assert_eq!(words(came(15)), [Leading::Attack, Leading::None], "who stays after a blow has hit");
+    assert_eq!(words(came(200)), [Leading::Kindness, Leading::Threat, Leading::None]);
 }
 
 #[test]

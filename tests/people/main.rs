@@ -1,0 +1,42 @@
+//! What people mean: touches in newtons through the whole board, with the shipped map and every default.
+//!
+//! The map was tuned on the sessions of `scripted.rs` only; it is judged by those of `hands.rs`, which have other
+//! envelopes, footprints, ways, noise and garments, and share no code with them. The gravest intention announced during a touch
+//! counts. `TAXEL_CAMPAIGN=1`: 25 touches of each kind from each person instead of one; else, a quarter of the people who tuned it.
+
+mod course;
+mod hands;
+mod kind;
+mod print;
+mod scripted;
+mod skin;
+mod tally;
+mod worn;
+
+use tally::Tally;
+
+const PEOPLE: u64 = 20;
+
+fn is_campaign() -> bool {
+    std::env::var_os("TAXEL_CAMPAIGN").is_some()
+}
+
+#[test]
+fn people_are_understood_who_tuned_the_map() {
+    let mut tally = Tally::default();
+    let (people, of_each) = if is_campaign() { (PEOPLE, 25) } else { (PEOPLE / 4, 1) };
+    (0..people).for_each(|person| tally.add(worn::wear(&mut scripted::Person::new(person, of_each))));
+    println!("the family that the map was tuned on:");
+    tally.print();
+    tally.judge();
+}
+
+#[test]
+fn people_are_understood_who_did_not() {
+    let mut tally = Tally::default();
+    let of_each = if is_campaign() { 25 } else { 1 };
+    (0..PEOPLE).for_each(|person| tally.add(worn::wear(&mut hands::Person::new(person, of_each))));
+    println!("the family that the map never saw:");
+    tally.print();
+    tally.judge();
+}
