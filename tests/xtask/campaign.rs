@@ -4,21 +4,27 @@ use crate::{browser, paths, targets};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// What a run needs besides its test target.
+/// What a run needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needs {
-    Image,
     Nothing,
+    /// The firmware image.
+    Image,
+    /// A browser.
     Browser,
+    /// Python's readers of recordings.
+    Python,
 }
 
 /// The runs: a test target, what it needs, and what of it takes longer where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Needs, &str); 7] = [
+const RUNS: [(&str, Needs, &str); 8] = [
     ("emulator_usb", Needs::Image, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
     ("emulator_latency", Needs::Image, "onset and reflex: 500 touches of one to five contacts (emulated)"),
     ("emulator_health", Needs::Image, "health: 1,000 healthy frames, then one of each fault (emulated)"),
     ("health", Needs::Nothing, "health: every fault, and 10,000 healthy frames (simulated)"),
     ("setup", Needs::Nothing, "setup by touch: 1,000 random wirings (simulated)"),
     ("people", Needs::Nothing, "intentions: 4,000 touches by 20 people, of each of two families (simulated)"),
+    ("record_python", Needs::Python, "recordings: kill -9 while 50 of them are made"),
     ("stream.test.mjs", Needs::Browser, "taxel view: ten minutes of five contacts at full speed (simulated)"),
 ];
 
@@ -43,6 +49,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
             Needs::Image => targets::measured(target, &log, &longer)?,
             Needs::Nothing => targets::printed(target, &log, &longer),
             Needs::Browser => browser::measured(&[target], &log, &longer)?,
+            Needs::Python => targets::read_by_python(&log, &longer)?,
         };
         let lines = end.map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
         let said = lines.iter().filter(|line| !line.starts_with("test ") && !line.is_empty());

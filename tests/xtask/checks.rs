@@ -32,6 +32,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-latency", targets::emulator_latency),
     ("emulator-store", targets::emulator_store),
     ("emulator-health", targets::emulator_health),
+    ("record-python", targets::record_python),
     ("recorded", targets::recorded),
     ("touch-recorded", targets::touch_recorded),
     ("emulator-recorded", targets::emulator_recorded),

@@ -1,7 +1,7 @@
 //! What is missing on the machine is installed where that is allowed, and otherwise named.
 
 use crate::process;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's source.
@@ -68,4 +68,28 @@ fn node(folder: &Path, package: &str) -> Result<(), String> {
         process::shown(&npm),
         folder.display()
     ))
+}
+
+/// An interpreter of Python that has the readers of recordings, in a folder of its own.
+pub fn python() -> Result<PathBuf, String> {
+    if !process::exists("python3") {
+        packages(&["python3", "python3-venv"])?;
+    }
+    let folder = crate::paths::target().join("xtask/python");
+    let python = folder.join("bin/python");
+    let wanted = crate::paths::root().join("tests/record_python/requirements.txt");
+    let read = |path: &Path| std::fs::read(path).ok();
+    let note = folder.join("requirements.txt");
+    if read(&note).is_some() && read(&note) == read(&wanted) {
+        return Ok(python);
+    }
+    let mut make = Command::new("python3");
+    make.args(["-m", "venv"]).arg(&folder);
+    let mut install = Command::new(&python);
+    install.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted);
+    for command in [&mut make, &mut install] {
+        process::output(command).ok_or(format!("`{}` failed", process::shown(command)))?;
+    }
+    std::fs::copy(&wanted, &note).map_err(|error| format!("{}: {error}", note.display()))?;
+    Ok(python)
 }

@@ -16,6 +16,7 @@ pub const APART: &[&str] = &[
     "emulator_store",
     "emulator_health",
     "emulator_recorded",
+    "record_python",
     "recorded",
     "touch_recorded",
     "cycles",
@@ -117,6 +118,24 @@ fn measuring() -> Command {
     let mut command = test_target("cycles");
     command.arg("--").env("TAXEL_BENCH_ELF", firmware::bench_elf());
     command
+}
+
+/// Recordings as Python's readers find them; what was measured is shown.
+pub fn record_python(log: &Path) -> Result<Result<(), String>, String> {
+    let end = read_by_python(log, &[])?;
+    Ok(end.map(|lines| lines.iter().filter(|line| !line.is_empty()).for_each(|line| println!("  {line}"))))
+}
+
+/// What the readers of Python found.
+pub fn read_by_python(log: &Path, variables: &[(&str, &str)]) -> Result<Result<Vec<String>, String>, String> {
+    let python = install::python()?;
+    if let Err(why) = process::run_into(&mut cargo(&["build", "--package", "taxel"], paths::root()), log) {
+        return Ok(Err(why));
+    }
+    let program = paths::target().join("debug/taxel").with_extension(std::env::consts::EXE_EXTENSION);
+    let [python, program] = [python, program].map(|path| path.to_string_lossy().into_owned());
+    let given = [("TAXEL_PYTHON", python.as_str()), ("TAXEL_PROGRAM", program.as_str())];
+    Ok(printed("record_python", log, &[variables, given.as_slice()].concat()))
 }
 
 /// Recordings through the pipeline.

@@ -21,15 +21,18 @@ use zip::write::SimpleFileOptions;
 
 type Archive = ZipWriter<BufWriter<File>>;
 
+/// An array's name, and its value for a contact.
+type Column<T> = (&'static str, fn(&Placed) -> T);
+
 /// What is told of a contact in whole numbers, and in others.
-const WHOLE: [(&str, fn(&Placed) -> u32); 5] = [
+const WHOLE: [Column<u32>; 5] = [
     ("contact_id", |placed| placed.contact.id),
     ("contact_panel", |placed| placed.contact.panel.into()),
     ("contact_total", |placed| placed.contact.total),
     ("contact_peak", |placed| placed.contact.peak.into()),
     ("contact_area", |placed| placed.contact.area.into()),
 ];
-const REAL: [(&str, fn(&Placed) -> f64); 4] = [
+const REAL: [Column<f64>; 4] = [
     ("contact_x", |placed| placed.contact.x.to_f64()),
     ("contact_y", |placed| placed.contact.y.to_f64()),
     ("contact_azimuth", |placed| placed.contact.azimuth.map_or(f64::NAN, |turn| turn.to_radians())),

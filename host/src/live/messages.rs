@@ -241,7 +241,7 @@ fn hello(client: &Client) -> Value {
 }
 
 /// The image, panel by panel, row by row.
-pub fn pixels(client: &Client) -> Value {
+fn pixels(client: &Client) -> Value {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return json!([]) };
     let panel = |area: &taxel_core::garment::Area| {
         let start = usize::from(area.base);

@@ -14,7 +14,7 @@ mod taxel;
 mod view;
 
 pub use lines::Lines;
-pub use messages::{Messages, message, pixels};
+pub use messages::{Messages, message};
 pub use outfit::GestureModel;
 pub use svg::picture;
 pub use taxel::{TaxelLines, TaxelPlace};
@@ -35,7 +35,7 @@ use taxel_core::wire::Request;
 /// What `taxel live` takes.
 #[derive(Debug, Clone, Args)]
 pub struct LiveArgs {
-    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
+    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// End after N images

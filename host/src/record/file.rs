@@ -7,6 +7,7 @@ use crate::client::{Client, Event, ImageNews};
 use crate::live;
 use crate::recording::{Store, Writer};
 use anyhow::Result;
+use serde::Serialize;
 use serde_json::{Value, json};
 use taxel_core::fold::Posture;
 
@@ -64,20 +65,41 @@ impl<S: Store> RecordingFile<S> {
             ros2.event(client, event, stamp, scale)?;
         }
         let Some(topic) = topics::of(event) else { return Ok(()) };
-        let message = match event {
-            Event::Frame { .. } => frame(client, event),
-            _ => live::message(client, event),
-        };
-        self.json(topic, stamp, message)
+        if let Event::Frame { frame, alone, image, .. } = event {
+            let decoded = *image == ImageNews::Whole;
+            let panels = if decoded { panels(client) } else { Vec::new() };
+            return self.serialized(
+                topic,
+                stamp,
+                &FrameMessage {
+                    kind: "frame",
+                    frame: *frame,
+                    time_us: stamp.board_us,
+                    host_time_us: stamp.host_us,
+                    host_time_uncertainty_us: stamp.uncertainty_us,
+                    key: *alone,
+                    decoded,
+                    lost: client.counts().lost,
+                    thinned: client.counts().thinned,
+                    total: panels.iter().map(|panel| panel.total).sum(),
+                    panels,
+                },
+            );
+        }
+        self.json(topic, stamp, live::message(client, event))
     }
 
     fn json(&mut self, topic: &str, stamp: Stamp, mut message: Value) -> Result<()> {
-        let Some(channel) = self.topics.json(topic) else { return Ok(()) };
         message["host_time_us"] = json!(stamp.host_us);
         if let Some(uncertainty) = stamp.uncertainty_us {
             message["host_time_uncertainty_us"] = json!(uncertainty);
         }
-        let bytes = serde_json::to_vec(&message)?;
+        self.serialized(topic, stamp, &message)
+    }
+
+    fn serialized(&mut self, topic: &str, stamp: Stamp, message: &impl Serialize) -> Result<()> {
+        let Some(channel) = self.topics.json(topic) else { return Ok(()) };
+        let bytes = serde_json::to_vec(message)?;
         self.writer.message(channel, stamp.host_us * NS, stamp.board_us * NS, &bytes)
     }
 
@@ -106,24 +128,42 @@ impl<S: Store> RecordingFile<S> {
 }
 
 /// A frame with the pressure of every taxel; contacts and intention have topics of their own.
-fn frame(client: &Client, event: &Event) -> Value {
-    let mut message = live::message(client, event);
-    if let Some(fields) = message.as_object_mut() {
-        ["contacts", "intent", "released"].iter().for_each(|name| _ = fields.shift_remove(*name));
-    }
-    if matches!(event, Event::Frame { image: ImageNews::Whole, .. }) {
-        let mut panels = live::pixels(client);
-        let all = panels.as_array_mut().map(Vec::as_mut_slice).unwrap_or_default();
-        let mut total = 0;
-        for panel in all {
-            let rows = panel["rows"].as_array().map(Vec::as_slice).unwrap_or_default();
-            let values = rows.iter().filter_map(Value::as_array).flatten().filter_map(Value::as_u64);
-            let sum: u64 = values.sum();
-            panel["total"] = json!(sum);
-            total += sum;
-        }
-        message["total"] = json!(total);
-        message["panels"] = panels;
-    }
-    message
+#[derive(Debug, Serialize)]
+struct FrameMessage<'a> {
+    #[serde(rename = "type")]
+    kind: &'static str,
+    frame: u32,
+    time_us: u64,
+    host_time_us: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    host_time_uncertainty_us: Option<u64>,
+    key: bool,
+    decoded: bool,
+    lost: u64,
+    thinned: u64,
+    /// Sum over the garment, counts.
+    total: u32,
+    panels: Vec<PanelImage<'a>>,
+}
+
+/// The pressure on a panel, row by row.
+#[derive(Debug, Serialize)]
+struct PanelImage<'a> {
+    name: &'a str,
+    total: u32,
+    rows: Vec<&'a [u16]>,
+}
+
+/// The panels of the last image.
+fn panels(client: &Client) -> Vec<PanelImage<'_>> {
+    let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
+    let each = layout.areas().iter().map(|area| {
+        let start = usize::from(area.base);
+        let columns = usize::from(area.columns);
+        let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
+        let total = values.iter().map(|value| u32::from(*value)).sum();
+        // A panel that has taxels has columns.
+        PanelImage { name: area.name.as_str(), total, rows: values.chunks(columns.max(1)).collect() }
+    });
+    each.collect()
 }

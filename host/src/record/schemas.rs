@@ -51,8 +51,18 @@ fn of_frame(fields: &[(&str, Value)]) -> Value {
 }
 
 fn contact() -> Value {
-    let integers =
-        ["id", "panel", "total", "peak", "peak_row", "peak_column", "area", "perimeter", "peak_total"];
+    let integers = [
+        "id",
+        "panel",
+        "total",
+        "peak",
+        "peak_row",
+        "peak_column",
+        "area",
+        "edge",
+        "perimeter",
+        "peak_total",
+    ];
     let numbers = [
         "x",
         "y",
@@ -73,10 +83,7 @@ fn contact() -> Value {
         "peak_breadth_mm",
     ];
     let texts = ["phase", "panel_name", "region", "link", "shape"];
-    object(
-        &[all(integer, integers), all(number, numbers), all(text, texts), all(flag, ["edge", "slip"])]
-            .concat(),
-    )
+    object(&[all(integer, integers), all(number, numbers), all(text, texts), vec![("slip", flag())]].concat())
 }
 
 /// Garment, scene and firmware.
@@ -114,7 +121,8 @@ pub fn symbols() -> Value {
         all(text, ["phase", "region"]),
         vec![("words", object(&words.concat()))],
     ];
-    let region = [all(integer, ["contacts", "total", "peak"]), vec![("region", text()), ("moving", flag())]];
+    let region =
+        [all(integer, ["contacts", "total", "peak", "since"]), vec![("region", text()), ("moving", flag())]];
     of_frame(&[("events", list(object(&event.concat()))), ("regions", list(object(&region.concat())))])
 }
 

@@ -24,6 +24,9 @@ mod repair;
 mod store;
 mod writer;
 
+#[cfg(test)]
+mod tests;
+
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use messages::{Message, Messages};
 pub use records::{RawRecord, Records};

@@ -5,7 +5,7 @@ pub type Stretch = [f64; 4];
 
 /// The line at `level` through an image of `columns` columns. Around the panel lies nothing, so that lines close there.
 pub fn lines(values: &[u16], columns: usize, level: f64) -> Vec<Stretch> {
-    let rows = if columns == 0 { 0 } else { values.len() / columns };
+    let rows = values.len().checked_div(columns).unwrap_or(0);
     let at = |row: isize, column: isize| {
         let inside = (0..rows as isize).contains(&row) && (0..columns as isize).contains(&column);
         if inside { f64::from(values[row as usize * columns + column as usize]) } else { 0.0 }

@@ -25,6 +25,9 @@ table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}
 .bar{display:inline-block;height:10px;margin-right:6px}.swatch{display:inline-block;width:16px;height:12px}pre{font-size:12.5px;overflow-x:auto;white-space:pre-wrap}.scroll{overflow-x:auto}
 ";
 
+/// Draws a panel from its values and contacts.
+type Draw<'a> = &'a dyn Fn(&Area, &[u16], &[Placed]) -> String;
+
 /// The report as HTML. An error: there was no image.
 pub fn page(seen: &Seen) -> Result<String> {
     if seen.top.image.is_empty() {
@@ -34,7 +37,7 @@ pub fn page(seen: &Seen) -> Result<String> {
     let Moment { time_us, total, image, contacts } = &seen.top;
     let moment = format!("{:.3} s", *time_us as f64 / 1e6);
     let limits = ranges::limits(top);
-    let each = |draw: &dyn Fn(&Area, &[u16], &[Placed]) -> String| -> String {
+    let each = |draw: Draw<'_>| -> String {
         let panels = seen.areas().iter().zip(0u8..);
         let drawn = panels.map(|(area, panel)| {
             let here: Vec<_> = contacts.iter().filter(|c| c.contact.panel == panel).cloned().collect();

@@ -50,7 +50,9 @@ impl Strip<'_> {
         let kept = self.thinned();
         for (index, name) in self.names.iter().enumerate() {
             let ink = LINES[index % LINES.len()];
-            write!(svg, "<path class=\"line\" stroke=\"{ink}\" d=\"")?;
+            // The colours come again, dashed.
+            let dash = if index < LINES.len() { "" } else { " stroke-dasharray=\"5 3\"" };
+            write!(svg, "<path class=\"line\" stroke=\"{ink}\"{dash} d=\"")?;
             for (count, (time, values)) in kept.iter().enumerate() {
                 let (x, y) = (self.x(*time), y(values.get(index).copied().unwrap_or(0.0)));
                 match (count, self.steps) {
@@ -65,7 +67,7 @@ impl Strip<'_> {
             let at = FRAME[1] + 12.0 + 17.0 * index as f64;
             writeln!(
                 svg,
-                "\"/><path class=\"line\" stroke=\"{ink}\" d=\"M{:.0} {:.0}h16\"/><text x=\"{:.0}\" y=\"{at:.0}\">{}</text>",
+                "\"/><path class=\"line\" stroke=\"{ink}\"{dash} d=\"M{:.0} {:.0}h16\"/><text x=\"{:.0}\" y=\"{at:.0}\">{}</text>",
                 FRAME[2] + 12.0,
                 at - 4.0,
                 FRAME[2] + 34.0,

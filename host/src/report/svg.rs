@@ -17,13 +17,13 @@ pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// The top of a scale that holds `greatest`: 1, 2 or 5 times a power of ten.
+/// The top of a scale that holds `greatest`: a round number not far above it.
 pub fn nice_top(greatest: f64) -> f64 {
     if greatest.is_nan() || greatest <= 0.0 {
         return 1.0;
     }
     let power = 10f64.powf(greatest.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+    let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0].map(|step| step * power);
     steps.into_iter().find(|top| *top >= greatest).unwrap_or(10.0 * power)
 }
 
@@ -34,7 +34,11 @@ mod tests {
     #[test]
     fn scales_end_at_round_numbers() {
         let tops = [0.0, 0.7, 1.0, 1.1, 230.0, 4095.0].map(nice_top);
-        assert_eq!(tops, [1.0, 1.0, 1.0, 2.0, 500.0, 5000.0]);
+        assert!(
+            tops.iter()
+                .zip([1.0, 0.8, 1.0, 1.5, 300.0, 5000.0])
+                .all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-9)
+        );
         assert_eq!(escaped("a<\"b\"&"), "a&lt;&quot;b&quot;&amp;");
     }
 }

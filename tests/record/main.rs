@@ -1,0 +1,9 @@
+//! `taxel record`, `replay`, `export` and `report` through the library: nothing of what a board told is lost or changed.
+
+mod cost;
+mod exports;
+mod replayed;
+mod report;
+mod rotate;
+mod scenes;
+mod stage;

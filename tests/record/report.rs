@@ -1,0 +1,34 @@
+//! The page that is sent: the figures of the source.
+
+use super::stage::play;
+use taxel::report::{Seen, page};
+
+#[test]
+fn the_figures_of_the_source_are_drawn() {
+    let mut seen = Seen::new("sim:source".into(), Some(1000.0));
+    play("sim:source", &mut seen);
+    let html = page(&seen).unwrap();
+    let count = |what: &str| html.matches(what).count();
+    for panel in ["chest", "back", "left arm", "right arm"] {
+        assert_eq!(count(&format!("class=\"title\">{panel}</text>")), 2, "2-D and 3-D of {panel}");
+    }
+    // Ten things lie there: each has a centre and a peak in 2-D, a peak with its value in 3-D, a row of the table.
+    for mark in ["class=\"centre\"", "class=\"peak\"", "class=\"value\"", "<tr><td>#"] {
+        assert_eq!(count(mark), 10, "{mark}");
+    }
+    // 31 x 15 faces a panel, under four lines of equal pressure.
+    assert_eq!(count("<path fill=\"#"), 4 * 31 * 15);
+    assert_eq!(count("class=\"level\""), 4 * 4);
+    for title in ["Ranges of pressure", "Force over time", "Intention over time", "Events", "Health"] {
+        assert_eq!(count(&format!("<h2>{title}</h2>")), 1);
+    }
+    for foreign in ["<script", "http://", "https://", "url("] {
+        assert_eq!(count(foreign), 0, "{foreign}");
+    }
+}
+
+#[test]
+fn without_an_image_there_is_no_page() {
+    let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
+    assert_eq!(error, "file:x: no image came, there is nothing to report");
+}

@@ -1,0 +1,36 @@
+//! A recording in several files, each of which stands alone.
+
+use super::replayed::replayed;
+use super::stage::{Seen, file, plan, record};
+use std::time::Duration;
+use taxel::record::Rotate;
+
+#[test]
+fn every_file_stands_alone_and_none_lacks_a_frame() {
+    let rotate = Some(Rotate::After(Duration::from_millis(900)));
+    let seen = record("sim:five", plan("rotated.mcap", "sim", rotate, false));
+    let mut all = Seen::default();
+    let mut files = 0;
+    for number in 1.. {
+        let name = if number == 1 { "rotated.mcap".to_string() } else { format!("rotated-{number:04}.mcap") };
+        if !file(&name).exists() {
+            break;
+        }
+        files = number;
+        let part = replayed(&file(&name));
+        assert_eq!(taxel::recording::scan(&file(&name)).unwrap().contents.attachments().count(), 3);
+        all.frames.extend(part.frames);
+        std::fs::remove_file(file(&name)).unwrap();
+    }
+    assert!(files >= 2, "{files} files");
+    assert!(all.frames == seen.frames);
+}
+
+#[test]
+fn a_file_that_is_there_is_not_written_over() {
+    std::fs::write(file("there.mcap"), "precious").unwrap();
+    let careful = taxel::record::Plan { force: false, ..plan("there.mcap", "sim", None, false) };
+    let error = taxel::record::Recorder::create(careful).unwrap_err().to_string();
+    assert!(error.ends_with("there.mcap is there already: give another name, or --force"), "{error}");
+    assert_eq!(std::fs::read(file("there.mcap")).unwrap(), b"precious");
+}

@@ -1,0 +1,83 @@
+"""Reads a recording with other people's readers and prints what was found as JSON.
+
+usage: read.py mcap FILE | ros2 FILE
+"""
+
+import array
+import json
+import sys
+import zlib
+from pathlib import Path
+
+from mcap.reader import make_reader
+
+
+def crc_of(values, before):
+    """CRC-32 of 16-bit values, little-endian, carried on."""
+    numbers = array.array("H", values)
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return zlib.crc32(numbers.tobytes(), before)
+
+
+def read_mcap(path):
+    panels, wire, counts = {}, 0, {}
+    with open(path, "rb") as file:
+        reader = make_reader(file, validate_crcs=True)
+        summary = reader.get_summary()
+        # In the order of the file: the board's messages are not in the order of the times of which they tell.
+        for _, channel, message in reader.iter_messages(log_time_order=False):
+            counts[channel.topic] = counts.get(channel.topic, 0) + 1
+            if channel.topic == "/taxel/wire":
+                wire = zlib.crc32(message.data, wire)
+            if channel.topic == "/taxel/frames":
+                for panel in json.loads(message.data)["panels"]:
+                    values = [value for row in panel["rows"] for value in row]
+                    panels[panel["name"]] = crc_of(values, panels.get(panel["name"], 0))
+        attachments = {found.name: len(found.data) for found in reader.iter_attachments()}
+        metadata = {found.name: found.metadata for found in reader.iter_metadata()}
+    told = {summary.channels[id].topic: n for id, n in summary.statistics.channel_message_counts.items()}
+    assert told == counts, (told, counts)
+    return {"counts": counts, "wire": wire, "panels": panels, "attachments": attachments, "metadata": metadata}
+
+
+def take(found, topic, message):
+    """Images as they are, points by their pressure, forces by their sum."""
+    found["counts"][topic] = found["counts"].get(topic, 0) + 1
+    panel = topic.split("/")[-2]
+    data = bytes(message.data) if hasattr(message, "data") else b""
+    if topic.endswith("/image"):
+        assert message.encoding == "mono16" and message.step == 2 * message.width
+        found["images"][panel] = zlib.crc32(data, found["images"].get(panel, 0))
+    elif topic.endswith("/points"):
+        names = [field.name for field in message.fields]
+        assert names == ["x", "y", "z", "pressure"] and message.point_step == 16
+        points = array.array("f", data)
+        # The taxel of row 1, column 1 lies one pitch from the first along each axis.
+        corner = points[4 * (message.width + 1) :][:2]
+        found["pitch_um"][panel] = [round(value * 1e6) for value in corner]
+        values = [int(value) for value in points[3::4]]
+        found["points"][panel] = crc_of(values, found["points"].get(panel, 0))
+    elif topic.endswith("/wrench"):
+        found["newtons"] -= message.wrench.force.z
+
+
+def empty():
+    return {"counts": {}, "images": {}, "points": {}, "newtons": 0.0, "pitch_um": {}}
+
+
+def read_ros2(path):
+    from mcap_ros2.decoder import DecoderFactory
+    from rosbags.highlevel import AnyReader
+
+    decoded, bag = empty(), empty()
+    with open(path, "rb") as file:
+        for _, channel, _, message in make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages():
+            take(decoded, channel.topic, message)
+    with AnyReader([Path(path)]) as reader:
+        for connection, _, raw in reader.messages():
+            take(bag, connection.topic, reader.deserialize(raw, connection.msgtype))
+    return {"mcap_ros2": decoded, "rosbags": bag}
+
+
+print(json.dumps({"mcap": read_mcap, "ros2": read_ros2}[sys.argv[1]](sys.argv[2])))
