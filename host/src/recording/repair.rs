@@ -47,8 +47,8 @@ pub fn scan(path: &Path) -> Result<Scan> {
             scan.whole = has_end(&mut records)?;
             break;
         }
-        // Zeros of a power cut, or what else is no record: the end is here.
-        if scan.take(&record).is_err() {
+        // Zeros of a power cut (no record has that number), or what else is no record: the end is here.
+        if record.op == 0 || scan.take(&record).is_err() {
             break;
         }
     }
