@@ -61,7 +61,7 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 16] {
+fn reports() -> [(&'static str, Report<'static>); 17] {
     let (frame, time) = (300, Micros(5_000_000_000));
     let words = Words {
         strength: Strength::Firm,
@@ -150,10 +150,11 @@ fn reports() -> [(&'static str, Report<'static>); 16] {
         ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
         ("SelfTest", Report::SelfTest(SelfTestReport { time, findings })),
         ("Gesture", Report::Gesture(gesture)),
+        ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 16] {
+fn requests() -> [(&'static str, Request<'static>); 18] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -176,6 +177,8 @@ fn requests() -> [(&'static str, Request<'static>); 16] {
         ("Feed", Request::Feed(feed)),
         ("SetGestures", Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))),
         ("SetCalibration", Request::SetCalibration(certificate)),
+        ("SetShapes", Request::SetShapes(&[6, 7])),
+        ("AddShapes", Request::AddShapes(&[1, 0, 2])),
     ]
 }
 

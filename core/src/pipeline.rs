@@ -10,7 +10,7 @@ use crate::gesture::{Gesture, GestureState, Gestures};
 use crate::intent::{Fed, Intent, IntentState, MapError, Meaning, Touch};
 use crate::react::{ReactState, Reactions};
 use crate::scene::Scene;
-use crate::shape::{BUILT_IN, Base, Shape, Shapes};
+use crate::shape::{BUILT_IN, Base, Shape, Shapes, Taught};
 use crate::symbol::{SymbolState, Symbols};
 use core::fmt;
 use heapless::Vec;
@@ -116,6 +116,8 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize> {
     pub fold: FoldState,
     /// Concept values that the host feeds.
     pub fed: Fed,
+    /// Shapes that the host taught.
+    pub taught: Taught<CONTACTS>,
 }
 
 /// What was perceived in one frame.
@@ -156,6 +158,7 @@ impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, R
             react: ReactState::default(),
             fold: FoldState::default(),
             fed: Fed::default(),
+            taught: const { Taught::new() },
         }
     }
 }
@@ -257,7 +260,17 @@ impl Pipeline {
         probe: &mut impl Probe,
     ) -> Percept<'s> {
         let PipelineState {
-            condition, contact, present, released, symbol, gesture, intent, react, fed, ..
+            condition,
+            contact,
+            present,
+            released,
+            symbol,
+            gesture,
+            intent,
+            react,
+            fed,
+            taught,
+            ..
         } = state;
         probe.begin(Stage::Condition);
         self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
@@ -276,6 +289,15 @@ impl Pipeline {
         };
         replace(released, touches.released.iter().map(gone));
         replace(present, shapes.map(|(c, m)| Placed::new(layout, c.clone(), shape(m, c))));
+        let dropped = touches.dropped.saturating_add(touches.overflow);
+        if taught.gallery().is_some() {
+            if let Some(index) = taught.choose(present.iter().map(|placed| placed.contact.id))
+                && let Some(placed) = present.get(index)
+            {
+                taught.look(contact, layout, &image, (index, &placed.contact));
+            }
+            present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
+        }
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, present, released, now);
         let gesture = self.gestures.as_ref().and_then(|stage| {
@@ -302,7 +324,7 @@ impl Pipeline {
             image: image.values,
             present,
             released,
-            dropped: touches.dropped.saturating_add(touches.overflow),
+            dropped,
             symbols: symbol,
             meaning,
             gesture,

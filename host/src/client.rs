@@ -66,6 +66,8 @@ pub struct Client {
     budget: Option<Budget>,
     ill: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
+    /// Names of the classes that the board was taught; none: the built-in base is in force.
+    shapes: Vec<String>,
 }
 
 impl Default for Client {
@@ -98,6 +100,7 @@ impl Client {
             budget: None,
             ill: BTreeMap::new(),
             self_test: None,
+            shapes: Vec::new(),
         }
     }
 
@@ -137,6 +140,7 @@ impl Client {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
             self.forget();
+            self.shapes.clear();
             self.syncs.restart();
             if self.streaming {
                 self.request(&Request::Start)?;
@@ -171,6 +175,10 @@ impl Client {
                 Event::Intent(report)
             }
             Report::Gesture(report) => Event::Gesture(report),
+            Report::Shapes(report) => {
+                self.shapes = report.names.iter().map(ToString::to_string).collect();
+                Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
+            }
             Report::Reaction(report) => Event::Reaction(report),
             Report::Health(health) => {
                 self.health = Some(health);

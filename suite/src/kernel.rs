@@ -4,11 +4,12 @@ use crate::activation::{Activation, CONCEPTS, Maps};
 use crate::chain::TAXELS;
 use crate::dense::Dense;
 use crate::measure::Measure;
-use crate::windows::{AREA, WINDOWS};
+use crate::windows::{AREA, SIDE, WINDOWS};
 use core::hint::black_box;
 use taxel_core::format::Code;
 use taxel_core::gesture::{Model, Shipped, TouchState, Touches};
 use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::shape::{DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Patch, descriptor};
 
 /// A kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +30,10 @@ pub enum Kernel {
     Touch,
     /// What the touch so far is taken for.
     Decide,
+    /// Eight windows of 16 x 16 taxels are described.
+    Describe,
+    /// The nearest of 200 prototypes.
+    Nearest,
 }
 
 /// Taxels of a panel of the reference garment.
@@ -40,13 +45,20 @@ pub struct Bench {
     maps: Option<Maps>,
     gestures: Option<Touches<'static>>,
     touch: TouchState,
+    gallery: Gallery<GALLERY_PROTOTYPES>,
 }
 
 impl Default for Bench {
     fn default() -> Bench {
         let model = Model::read(Shipped::Gestures.bytes()).ok();
         let gestures = model.map(|model| Touches::new(model, 32, 16));
-        Bench { dense: Dense::new(), maps: Maps::shipped(), gestures, touch: const { TouchState::new() } }
+        Bench {
+            dense: Dense::new(),
+            maps: Maps::shipped(),
+            gestures,
+            touch: const { TouchState::new() },
+            gallery: gallery(),
+        }
     }
 }
 
@@ -60,6 +72,8 @@ impl Kernel {
             Kernel::Infer,
             Kernel::Touch,
             Kernel::Decide,
+            Kernel::Describe,
+            Kernel::Nearest,
         ])
     }
 
@@ -126,8 +140,48 @@ impl Kernel {
                 probe.begin(Stage::Scan);
                 fold(decision.scores.into_iter().map(|score| score as u32).chain([decision.lead]))
             }
+            Kernel::Describe => {
+                let mut values = [0; AREA];
+                let mut hash = 0;
+                for window in codes.chunks(AREA) {
+                    values.iter_mut().zip(window).for_each(|(value, code)| *value = code.0);
+                    let measures = descriptor(&Patch::new(&values, SIDE));
+                    hash ^= fold(measures.into_iter().map(|measure| measure as u32));
+                }
+                probe.begin(Stage::Scan);
+                hash
+            }
+            Kernel::Nearest => {
+                let mut measures = [0; MEASURES];
+                measures.iter_mut().zip(codes).for_each(|(measure, code)| *measure = code.0 as i16);
+                let found = bench.gallery.recognise(&measures);
+                probe.begin(Stage::Scan);
+                fold(
+                    [found.distance.into(), found.class.unwrap_or(99).into(), found.share.0 as u32]
+                        .into_iter(),
+                )
+            }
         }
     }
+}
+
+/// As many prototypes as there may be, anywhere.
+fn gallery() -> Gallery<GALLERY_PROTOTYPES> {
+    let mut gallery = Gallery::new();
+    let mut random = 1u32;
+    let mut next = || {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (random >> 20) as i16
+    };
+    for _ in 0..DIMENSIONS {
+        let _ = gallery.space.weights.push(core::array::from_fn(|_| next() >> 6));
+    }
+    (gallery.space.shift, gallery.k, gallery.reject) = (8, 9, u16::MAX);
+    for class in 0..GALLERY_PROTOTYPES {
+        let at = core::array::from_fn(|_| next());
+        let _ = gallery.prototypes.push(Exemplar { class: class as u8 % 8, at });
+    }
+    gallery
 }
 
 /// Codes as activations from 0 to 1, the first `count`.

@@ -260,10 +260,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
-        let image = self.state.image(&self.setup.pipeline, &self.setup.layout);
-        let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, .. } = self;
+        let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, state, .. } = self;
+        let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
-        let about = About { info, setup, monitor, examined, certificate };
+        let about = About { info, setup, monitor, examined, certificate, taught: &state.taught };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

@@ -6,12 +6,13 @@ use super::under_way::UnderWay;
 use super::{Codes, Sentence};
 use crate::condition::{Certificate, Image};
 use crate::contact::Phase;
-use crate::format::{Celsius, Code, Micros};
+use crate::format::{Celsius, Code, Micros, Name};
 use crate::garment::{Layout, PANELS};
 use crate::gesture::Gesture;
 use crate::health::Monitor;
-use crate::pipeline::{Percept, Probe, Stage};
+use crate::pipeline::{CONTACTS, Percept, Probe, Stage};
 use crate::scene::StreamConfig;
+use crate::shape::Taught;
 use crate::wire::*;
 use core::fmt::{self, Write};
 use heapless::{Deque, String, Vec};
@@ -27,6 +28,8 @@ pub(super) struct About<'a> {
     pub examined: Option<&'a SelfTestReport>,
     /// The calibration in force.
     pub certificate: Option<&'a Certificate>,
+    /// What it was taught.
+    pub taught: &'a Taught<CONTACTS>,
 }
 
 /// Why something is refused, as a sentence.
@@ -75,6 +78,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     temperature: Option<Temperature>,
     /// When the next temperature is due.
     warm: Pace,
+    /// It is to be told what the board was taught.
+    shapes: bool,
     /// First taxel of the next part of the map of health.
     map: Option<u16>,
     examined: bool,
@@ -115,6 +120,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             budget: None,
             temperature: None,
             warm: Pace::new(1),
+            shapes: false,
             map: None,
             examined: false,
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
@@ -146,6 +152,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// `Hello` is to be told anew.
     pub fn introduce(&mut self) {
         self.hello = Some(Micros(0));
+    }
+
+    /// What the board was taught is to be told.
+    pub fn shapes_changed(&mut self) {
+        self.shapes = true;
     }
 
     /// The map of health is to be told.
@@ -369,7 +380,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, setup, monitor, examined, certificate } = about;
+        let About { info, setup, monitor, examined, certificate, taught } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -393,6 +404,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way.put(Report::INTENT, &report)
         } else if let Some(report) = self.gestures.pop_front() {
             under_way.put(Report::GESTURE, &report)
+        } else if core::mem::take(&mut self.shapes) {
+            put_shapes(under_way, taught)
         } else if let Some((level, text)) = self.logs.pop_front() {
             under_way.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {
@@ -468,6 +481,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let length = encode_image(plain, None, self.under_way.scratch());
         let head = Raw { frame, time, data: &[] };
         length.is_some_and(|length| self.under_way.put_data(Report::RAW, &head, length))
+    }
+}
+
+/// As a [`ShapesReport`].
+fn put_shapes(under_way: &mut UnderWay, taught: &Taught<CONTACTS>) -> bool {
+    match taught.gallery() {
+        Some(gallery) => under_way.put(Report::SHAPES, &(gallery.prototypes.len() as u16, &gallery.names)),
+        None => under_way.put(Report::SHAPES, &(0u16, Vec::<Name, 0>::new())),
     }
 }
 

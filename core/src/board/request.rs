@@ -8,7 +8,9 @@ use crate::format::Micros;
 use crate::garment::Garment;
 use crate::gesture::GestureConfig;
 use crate::scene::Scene;
-use crate::wire::{Request, decode};
+use crate::shape::Exemplar;
+use crate::wire::{Request, SHAPES_ADDED, decode};
+use heapless::Vec;
 use serde::Deserialize;
 
 /// Number of `Tare`, whose answer comes when it is done.
@@ -65,6 +67,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 // From here on the same codes are answered with the same reports, whatever was seen before.
                 self.monitor.again();
                 self.outbox.start();
+                if self.state.taught.gallery().is_some() {
+                    self.outbox.shapes_changed();
+                }
                 Ok(())
             }
             Request::Stop => {
@@ -92,6 +97,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::SetGestures(config) => self.set_gestures(config.as_ref()),
             Request::SetCalibration(certificate) => self.certify(certificate),
+            Request::SetShapes(bytes) => self.set_shapes(bytes),
+            Request::AddShapes(bytes) => self.add_shapes(bytes),
             Request::Budget { hz } => {
                 self.ledger.report(hz);
                 Ok(())
@@ -123,6 +130,26 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     pub(super) fn set_gestures(&mut self, config: Option<&GestureConfig>) -> Result<(), Refusal> {
         self.setup.pipeline.gestures = config.map(GestureConfig::build).transpose().map_err(Refusal::of)?;
         self.state.recognise_anew();
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn set_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        if bytes.is_empty() {
+            self.state.taught.clear();
+            self.outbox.shapes_changed();
+            return Ok(());
+        }
+        self.state.taught.begin(read(bytes)?).map_err(Refusal::of)
+    }
+
+    #[inline(never)]
+    fn add_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>(bytes)?;
+        self.state.taught.add(&prototypes).map_err(Refusal::of)?;
+        if self.state.taught.gallery().is_some() {
+            self.outbox.shapes_changed();
+        }
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! A gallery: examples of the shapes that a user taught, and the nearest of them.
 
-use super::descriptor::Descriptor;
+use super::descriptor::{Descriptor, MEASURES};
 use super::space::{Point, Space, distance2};
-use super::sureness::Sureness;
+use super::sureness::{STEPS, Sureness};
 use crate::format::{Invalid, Name, Q15, root};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -56,6 +56,14 @@ pub struct Recognised {
 }
 
 impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
+    /// Nothing is known, and nothing is like it.
+    pub const fn new() -> Self {
+        let space = Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 };
+        let sureness =
+            Sureness { shares: [0; STEPS - 1], distances: [0; STEPS - 1], right: [[0; STEPS]; STEPS] };
+        Gallery { names: Vec::new(), space, k: 1, reject: 0, sureness, prototypes: Vec::new() }
+    }
+
     /// Checks a gallery that came from outside.
     pub fn check(&self) -> Result<(), Invalid> {
         let refuse = |parameter, must| Err(Invalid { parameter, must });
@@ -116,5 +124,5 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
 
 /// The weight of a vote: 1 / distance, and not more than that of 1/16 of a class's spread.
 fn weight(distance: u32) -> u64 {
-    u64::from(u32::MAX / (distance + 16))
+    u64::from(u32::MAX / distance.saturating_add(16))
 }

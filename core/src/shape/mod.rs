@@ -22,6 +22,7 @@ mod space;
 mod spread;
 mod stage;
 mod sureness;
+mod taught;
 
 pub use base::BUILT_IN;
 pub use config::ShapeConfig;
@@ -36,6 +37,7 @@ pub use space::{DIMENSIONS, Point, Space};
 pub use spread::Spread;
 pub use stage::{Shape, Shapes};
 pub use sureness::{STEPS, Sureness};
+pub use taught::{GalleryHead, Taught};
 
 #[cfg(test)]
 mod tests;

@@ -22,17 +22,18 @@ impl<'a> Patch<'a> {
 
     /// Values of a row.
     pub fn columns(&self) -> usize {
-        self.columns
+        // It is, and here the compiler sees it: a division by 0 would panic.
+        self.columns.max(1)
     }
 
     /// The rows in their order.
     pub fn rows(&self) -> impl Iterator<Item = &'a [u16]> + Clone + use<'a> {
-        self.values.chunks(self.columns)
+        self.values.chunks(self.columns())
     }
 
     /// Columns or rows, whichever are more.
     pub fn extent(&self) -> usize {
-        self.columns.max(self.values.len().div_ceil(self.columns))
+        self.columns().max(self.values.len().div_ceil(self.columns()))
     }
 
     /// Moments of the area: each value above 0 counts 1.

@@ -11,6 +11,7 @@ use crate::intent::{CONCEPTS, Feed, Leading, Outcome};
 use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::selftest::Findings;
+use crate::shape::GALLERY_CLASSES;
 use crate::symbol::{EVENTS, RegionState, Symbol};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,9 @@ pub const MAGIC: [u8; 4] = *b"TAXL";
 pub const PROTOCOL: u16 = 1;
 /// Longest message of a host: a garment, and its frame around it.
 pub const LONGEST_REQUEST: usize = 3072;
+
+/// Most prototypes of an `AddShapes`.
+pub const SHAPES_ADDED: usize = 64;
 
 /// What the board tells the host; numbered as in the [module's](super) table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -63,6 +67,8 @@ pub enum Report<'a> {
     SelfTest(SelfTestReport),
     /// Which gesture goes on.
     Gesture(GestureReport),
+    /// Which shapes the board was taught.
+    Shapes(ShapesReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -99,6 +105,8 @@ impl Report<'_> {
     pub const SELF_TEST: u32 = 14;
     /// Of `Gesture`.
     pub const GESTURE: u32 = 15;
+    /// Of `Shapes`.
+    pub const SHAPES: u32 = 16;
 }
 
 /// Frozen.
@@ -318,6 +326,15 @@ pub struct GestureReport {
     pub ended: bool,
 }
 
+/// Which shapes the board was taught: the class of a contact is 1 + its place among these names.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ShapesReport {
+    /// Prototypes of the gallery in force; 0: the built-in base is.
+    pub prototypes: u16,
+    /// Names of its classes.
+    pub names: Vec<Name, GALLERY_CLASSES>,
+}
+
 /// How grave a sentence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
@@ -415,6 +432,12 @@ pub enum Request<'a> {
     SetGestures(Option<GestureConfig>),
     /// Which calibration the gains that were set belong to; `Hello` names it until a gain or the garment changes.
     SetCalibration(Certificate),
+    /// postcard of a [`GalleryHead`](crate::shape::GalleryHead), whose prototypes follow; empty: the built-in base is in force
+    /// again
+    SetShapes(&'a [u8]),
+    /// postcard of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery, a list. With the last of them
+    /// the gallery is in force, or refused and forgotten.
+    AddShapes(&'a [u8]),
 }
 
 impl Request<'_> {
@@ -437,6 +460,8 @@ impl Request<'_> {
             Request::Feed(_) => 13,
             Request::SetGestures(_) => 14,
             Request::SetCalibration(_) => 15,
+            Request::SetShapes(_) => 16,
+            Request::AddShapes(_) => 17,
         }
     }
 }

@@ -42,6 +42,13 @@ pub enum Event {
     Intent(IntentReport),
     /// Which gesture goes on.
     Gesture(GestureReport),
+    /// What the board was taught; the names are in the client, too.
+    Shapes {
+        /// Names of the classes; none: the built-in base is in force.
+        names: Vec<String>,
+        /// Prototypes.
+        prototypes: u16,
+    },
     /// Something the garment did by itself.
     Reaction(ReactionReport),
     /// Counters of the board.

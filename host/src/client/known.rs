@@ -6,6 +6,7 @@ use taxel_core::body::Placed;
 use taxel_core::format::{Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
+use taxel_core::shape::{BUILT_IN, Base, Class};
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{Budget, Health, SelfTestReport};
 
@@ -81,6 +82,15 @@ impl Client {
     /// The last self-test of lines and inputs; none before the board has told of one.
     pub fn self_test(&self) -> Option<&SelfTestReport> {
         self.self_test.as_ref()
+    }
+
+    /// What the board calls a class of its base of shapes.
+    pub fn shape_name(&self, class: Class) -> String {
+        if self.shapes.is_empty() {
+            return Base::<BUILT_IN>::built_in().name(class).into();
+        }
+        let index = usize::from(class.0).checked_sub(1);
+        index.and_then(|index| self.shapes.get(index)).map_or("unknown", String::as_str).into()
     }
 
     /// The board's counters, as told last.

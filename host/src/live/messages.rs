@@ -15,6 +15,7 @@ use std::io::Write;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::health::TaxelHealth;
+use taxel_core::shape::Class;
 use taxel_core::wire::{GestureReport, SelfTestReport, Temperature};
 
 /// Prints messages as JSON.
@@ -119,6 +120,9 @@ fn small(client: &Client, event: &Event) -> Value {
             line
         }
         Event::Gesture(report) => gesture(client, report),
+        Event::Shapes { names, prototypes } => {
+            json!({ "type": "shapes", "classes": names, "prototypes": prototypes })
+        }
         Event::Health(health) => {
             let mut line = json!({ "type": "health" });
             merge(&mut line, serde_json::to_value(health).unwrap_or_default());
@@ -198,7 +202,7 @@ fn named(client: &Client, mut value: Value, region: u8) -> Value {
     value["region"] = json!(super::narrate::region_name(client, region));
     if let Some(class) = value.pointer_mut("/words/class") {
         let known = class.as_u64().and_then(|c| u8::try_from(c).ok()).unwrap_or(0);
-        *class = json!(super::narrate::shape_name(taxel_core::shape::Class(known)));
+        *class = json!(client.shape_name(Class(known)));
     }
     value
 }
@@ -209,7 +213,12 @@ fn word(value: &impl std::fmt::Debug) -> String {
 
 fn contacts(client: &Client, list: &[Placed]) -> Value {
     let Some(layout) = client.layout() else { return json!([]) };
-    list.iter().map(|placed| json::contact(placed, layout)).collect()
+    let contact = |placed: &Placed| {
+        let mut contact = json::contact(placed, layout);
+        contact["shape"] = json!(client.shape_name(placed.shape.class));
+        contact
+    };
+    list.iter().map(contact).collect()
 }
 
 fn intent(client: &Client) -> Value {

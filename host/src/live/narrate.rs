@@ -4,7 +4,6 @@ use crate::client::{Client, Event, Worn};
 use taxel_core::contact::Phase;
 use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Leading;
-use taxel_core::shape::{BUILT_IN, Base, Class};
 use taxel_core::symbol::{Extent, Strength, Symbol};
 use taxel_core::wire::GestureReport;
 
@@ -52,6 +51,9 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
             let line =
                 |symbol: &Symbol| format!("{} {}", seconds(list.time), said(client, symbol, per_newton));
             list.events.iter().filter(|e| e.phase != Phase::Held).map(line).collect()
+        }
+        Event::Shapes { names, prototypes } if *prototypes > 0 => {
+            vec![format!("shapes: taught {} by {prototypes} prototypes", names.join(", "))]
         }
         Event::Gesture(report) => vec![gesture(client, report)],
         Event::Reaction(report) => {
@@ -112,7 +114,7 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
     format!(
         "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, at most {}",
         symbol.contact,
-        shape_name(symbol.words.class),
+        client.shape_name(symbol.words.class),
         symbol.duration_ms,
         force(symbol.peak_total, counts_per_newton)
     )
@@ -136,13 +138,9 @@ pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
     areas.get(usize::from(panel)).map_or("?", |area| &area.name)
 }
 
-pub(crate) fn shape_name(class: Class) -> String {
-    Base::<BUILT_IN>::built_in().name(class).into()
-}
-
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 16] = [
+    const NAMES: [&str; 18] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -159,6 +157,8 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "feed",
         "set-gestures",
         "set-calibration",
+        "set-shapes",
+        "add-shapes",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

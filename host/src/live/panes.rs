@@ -1,6 +1,6 @@
 //! The panes beside the maps: contacts, intention.
 
-use super::narrate::{force, region_name, shape_name};
+use super::narrate::{force, region_name};
 use super::ramp::{Rgb, color};
 use crate::client::Client;
 use ratatui::buffer::Buffer;
@@ -51,7 +51,7 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
     let speed = client.layout().map_or(0, |layout| placed.speed(layout)) / 10;
     let region = region_name(client, placed.region);
-    let shape = shape_name(placed.shape.class);
+    let shape = client.shape_name(placed.shape.class);
     let force = match counts_per_newton {
         Some(_) => force(contact.total, counts_per_newton),
         None => contact.total.to_string(),

@@ -74,7 +74,7 @@ fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Gesture(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
-        Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
+        Event::Shapes { .. } | Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
     };
     Some(time.0)
 }

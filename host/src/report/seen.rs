@@ -28,6 +28,8 @@ pub struct Seen {
     pub(super) totals: Vec<(u64, Vec<u32>)>,
     /// Each contact at its greatest total, with its last duration.
     pub(super) contacts: BTreeMap<u32, Placed>,
+    /// Names of the shapes that they had.
+    pub(super) shapes: BTreeMap<u8, String>,
     /// Activation of each concept over time, -1 ..= 1.
     pub(super) activations: Vec<(u64, Vec<f64>)>,
     pub(super) concepts: Vec<String>,
@@ -60,6 +62,7 @@ impl Seen {
             hold: Vec::new(),
             totals: Vec::new(),
             contacts: BTreeMap::new(),
+            shapes: BTreeMap::new(),
             activations: Vec::new(),
             concepts: Vec::new(),
             sentences: Vec::new(),
@@ -113,7 +116,11 @@ impl Show for Seen {
             }
             Event::Frame { time, image: ImageNews::Whole, .. } => self.image(client, time.0),
             Event::Contacts { released, .. } => {
-                client.contacts().iter().chain(released).for_each(|placed| self.contact(placed));
+                for placed in client.contacts().iter().chain(released) {
+                    let class = placed.shape.class;
+                    self.shapes.entry(class.0).or_insert_with(|| client.shape_name(class));
+                    self.contact(placed);
+                }
             }
             Event::Intent(report) => {
                 let values = report.concepts.iter().map(|value| value.to_f64()).collect();

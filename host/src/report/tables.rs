@@ -52,7 +52,7 @@ fn row(seen: &Seen, placed: &Placed, html: &mut String) {
         contact.area,
         contact.x.to_f64(),
         contact.y.to_f64(),
-        escaped(&narrate::shape_name(placed.shape.class)),
+        escaped(seen.shapes.get(&placed.shape.class.0).map_or("", String::as_str)),
     );
 }
 

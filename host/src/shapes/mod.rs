@@ -14,6 +14,7 @@ pub mod cross;
 pub mod data;
 pub mod discriminant;
 mod eval;
+pub mod install;
 pub mod labels;
 mod learn;
 mod list;
@@ -41,6 +42,8 @@ enum Command {
     Eval(eval::EvalArgs),
     /// Teach a base one more class, or more of a class, by images of it
     Learn(learn::LearnArgs),
+    /// Teach a board a base
+    Install(install::InstallArgs),
     /// Leave out prototypes that decide nothing
     Prune(prune::PruneArgs),
     /// What a base knows
@@ -55,6 +58,7 @@ pub fn run(args: ShapesArgs) -> Result<()> {
         Command::Train(args) => train_command::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Learn(args) => learn::run(args),
+        Command::Install(args) => install::run(args),
         Command::Prune(args) => prune::run(args),
         Command::List(args) => list::run(args),
         Command::Card(args) => card::run(args),

@@ -1,6 +1,8 @@
 //! A case: a garment, a scene's settings, and the codes of its frames; the same for the emulated board and this machine.
 
 use crate::arrays;
+use crate::client::Client;
+use crate::shapes::{base::Base, install};
 use anyhow::{Context, Result};
 use std::path::Path;
 use taxel_core::acquire::Depth;
@@ -62,6 +64,8 @@ pub enum Variant {
     EightBit,
     /// Gestures are recognised, and decided upon as often as may be.
     Gestures,
+    /// A base of shapes is taught that ships with the program.
+    Taught,
 }
 
 impl Variant {
@@ -73,18 +77,30 @@ impl Variant {
             Variant::Median => "median",
             Variant::EightBit => "8 bit",
             Variant::Gestures => "gestures",
+            Variant::Taught => "taught",
         }
     }
 
     fn scene(self) -> Scene {
         let mut scene = Scene::shipped();
         match self {
-            Variant::Shipped | Variant::Gestures => {}
+            Variant::Shipped | Variant::Gestures | Variant::Taught => {}
             Variant::Off => scene.condition.filter = Filter::Off,
             Variant::Median => scene.condition.filter = Filter::Median,
             Variant::EightBit => scene.plan.depth = Depth::Eight,
         }
         scene
+    }
+
+    /// The built-in base, or a taught one.
+    fn taught(self) -> Result<Vec<Step>> {
+        let mut client = Client::new();
+        client.request(&Request::SetShapes(&[]))?;
+        if self == Variant::Taught {
+            install::teach(&mut client, &Base::open(Path::new("drawn"))?)?;
+        }
+        // The harness hands over 4,096 bytes at most.
+        Ok(client.take_requests().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
     }
 
     fn gestures(self) -> Option<GestureConfig> {
@@ -103,6 +119,7 @@ impl Case {
             (Pattern::Five, Variant::Median),
             (Pattern::Five, Variant::EightBit),
             (Pattern::Five, Variant::Gestures),
+            (Pattern::Five, Variant::Taught),
             (Pattern::Texture, Variant::Off),
             (Pattern::Texture, Variant::Median),
         ]);
@@ -166,6 +183,7 @@ impl Case {
         .iter()
         .map(ask)
         .collect::<Result<Vec<Step>>>()?;
+        steps.extend(self.variant.taught()?);
         let (rest, touch) = self.frames.split_at(TARE.into());
         steps.extend(rest.iter().cloned().map(Step::Scan));
         steps.push(ask(&Request::Start)?);

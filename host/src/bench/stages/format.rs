@@ -60,6 +60,11 @@ impl Form {
         }));
         all.push(of("gestures, a frame", Pattern::Five, Kernel::Touch));
         all.push(of("gestures, a decision", Pattern::Five, Kernel::Decide));
+        let shapes = [
+            ("shape, description", "16 x 16", Kernel::Describe),
+            ("shape, nearest", "of 200", Kernel::Nearest),
+        ];
+        all.extend(shapes.map(|(what, form, kernel)| Form { what, form, kernel, pattern: None }));
         all.push(Form { what: INFERENCE, form: "Q15", kernel: Kernel::Infer, pattern: None });
         all
     }
@@ -79,7 +84,7 @@ impl Form {
 
     /// Costs of the steps, for one frame, contact or step of the map.
     pub fn row(self, costs: &[Cost]) -> FormRow {
-        let each = if matches!(self.kernel, Kernel::Measure(_)) { WINDOWS } else { 1 };
+        let each = if matches!(self.kernel, Kernel::Measure(_) | Kernel::Describe) { WINDOWS } else { 1 };
         let sum: u64 = costs.iter().flat_map(|cost| cost.stages).sum();
         FormRow {
             form: self,

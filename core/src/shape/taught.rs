@@ -1,0 +1,234 @@
+//! Shapes that the host taught the board while it runs, in the place of those that are built in.
+//!
+//! A gallery arrives in parts: its head first, then its prototypes, some at a time. From the head on the built-in base is in
+//! force again, and the gallery from its last prototype on, if it is right.
+//!
+//! One contact is looked at in a frame, those that nobody has looked at first: a description takes as long as everything else.
+
+use super::descriptor::descriptor;
+use super::gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery};
+use super::knn::Class;
+use super::patch::Patch;
+use super::space::Space;
+use super::stage::Shape;
+use super::sureness::Sureness;
+use crate::condition::Image;
+use crate::contact::{Contact, ContactState};
+use crate::format::{Invalid, Name, Q15};
+use crate::garment::{Layout, Place};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Taxels of the rectangle around a contact; of a larger one the last rows are left out.
+const PATCH: usize = 2048;
+
+/// A gallery without its prototypes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GalleryHead {
+    /// As [`Gallery::names`].
+    pub names: Vec<Name, GALLERY_CLASSES>,
+    /// As [`Gallery::space`].
+    pub space: Space,
+    /// As [`Gallery::k`].
+    pub k: u8,
+    /// As [`Gallery::reject`].
+    pub reject: u16,
+    /// As [`Gallery::sureness`].
+    pub sureness: Sureness,
+    /// How many prototypes follow, 1 ..= [`GALLERY_PROTOTYPES`].
+    pub prototypes: u16,
+}
+
+/// What a contact was found to be.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    contact: u32,
+    class: Class,
+    confidence: Q15,
+}
+
+/// A gallery on the board, and what was found with it.
+#[derive(Debug, Clone)]
+pub struct Taught<const CONTACTS: usize> {
+    gallery: Gallery<GALLERY_PROTOTYPES>,
+    /// Prototypes that it is to have; 0: there is none.
+    wanted: u16,
+    in_force: bool,
+    known: Vec<Known, CONTACTS>,
+    turn: usize,
+}
+
+impl<const CONTACTS: usize> Taught<CONTACTS> {
+    /// Nothing was taught.
+    pub const fn new() -> Self {
+        Taught { gallery: Gallery::new(), wanted: 0, in_force: false, known: Vec::new(), turn: 0 }
+    }
+
+    /// The gallery in force.
+    pub fn gallery(&self) -> Option<&Gallery<GALLERY_PROTOTYPES>> {
+        self.in_force.then_some(&self.gallery)
+    }
+
+    /// The built-in base is in force.
+    pub fn clear(&mut self) {
+        (self.wanted, self.in_force) = (0, false);
+        self.known.clear();
+    }
+
+    /// A gallery begins to arrive.
+    #[inline(never)]
+    pub fn begin(&mut self, head: GalleryHead) -> Result<(), Invalid> {
+        self.clear();
+        if !(1..=GALLERY_PROTOTYPES).contains(&usize::from(head.prototypes)) {
+            return Err(Invalid { parameter: "shapes.prototypes", must: "must be 1 to 200 on this board" });
+        }
+        self.wanted = head.prototypes;
+        let Gallery { names, space, k, reject, sureness, prototypes } = &mut self.gallery;
+        prototypes.clear();
+        (*names, *space, *sureness) = (head.names, head.space, head.sureness);
+        (*k, *reject) = (head.k, head.reject);
+        Ok(())
+    }
+
+    /// More prototypes arrive. With the last of them the gallery is checked, and forgotten where it is wrong.
+    pub fn add(&mut self, prototypes: &[Exemplar]) -> Result<(), Invalid> {
+        let done = self.take(prototypes);
+        if done.is_err() {
+            self.clear();
+        }
+        done
+    }
+
+    fn take(&mut self, prototypes: &[Exemplar]) -> Result<(), Invalid> {
+        let must = "must be as many as the gallery's head says";
+        let surplus = Invalid { parameter: "shapes.prototypes", must };
+        let held = &mut self.gallery.prototypes;
+        if self.in_force || held.len() + prototypes.len() > self.wanted.into() {
+            return Err(surplus);
+        }
+        held.extend_from_slice(prototypes).map_err(|_| surplus)?;
+        if held.len() == usize::from(self.wanted) {
+            self.gallery.check()?;
+            self.in_force = true;
+        }
+        Ok(())
+    }
+
+    /// Which of the contacts, given by their ids, is to be looked at: the first that is not known yet, else each in turn.
+    pub fn choose(&mut self, contacts: impl ExactSizeIterator<Item = u32> + Clone) -> Option<usize> {
+        self.known.retain(|known| contacts.clone().any(|id| id == known.contact));
+        let new = contacts.clone().position(|id| self.known.iter().all(|known| known.contact != id));
+        self.turn = if self.turn + 1 < contacts.len() { self.turn + 1 } else { 0 };
+        new.or((contacts.len() > 0).then_some(self.turn))
+    }
+
+    /// Looks at a contact, which is number `index` of those that `contacts` holds. Of one that crosses a seam, what lies on its
+    /// home panel is looked at.
+    #[inline(never)] // it needs stack only meanwhile
+    pub fn look<const RUNS: usize>(
+        &mut self,
+        contacts: &ContactState<CONTACTS, RUNS>,
+        layout: &Layout,
+        image: &Image<'_>,
+        (index, contact): (usize, &Contact),
+    ) {
+        let bounds = &contact.bounds;
+        let Some(area) = layout.areas().get(usize::from(bounds.panel)) else { return };
+        let width = usize::from(bounds.right.saturating_sub(bounds.left)) + 1;
+        let (mut values, mut length) = ([0; PATCH], 0);
+        for (row, to) in (bounds.top..=bounds.bottom).zip(values.chunks_exact_mut(width)) {
+            let from = image.row(area, row).iter().skip(bounds.left.into());
+            for ((column, value), to) in (bounds.left..).zip(from).zip(to) {
+                let place = Place { panel: bounds.panel, row, column };
+                if *value > 0 && contacts.contact_at(layout, place) == Some(index) {
+                    *to = *value;
+                }
+            }
+            length += width;
+        }
+        let patch = Patch::new(values.get(..length).unwrap_or(&[]), width);
+        let found = self.gallery.recognise(&descriptor(&patch));
+        let class = found.class.map_or(Class::UNKNOWN, |class| Class(class.saturating_add(1)));
+        let known = Known { contact: contact.id, class, confidence: found.confidence };
+        match self.known.iter_mut().find(|known| known.contact == contact.id) {
+            Some(before) => *before = known,
+            // As many as there can be contacts.
+            None => _ = self.known.push(known),
+        }
+    }
+
+    /// Puts what is known of a contact in the place of what the built-in base says: its class, 1 + that of the gallery, and how
+    /// often such a vote is right.
+    pub fn tell(&self, contact: &Contact, shape: &mut Shape) {
+        let known = self.known.iter().find(|known| known.contact == contact.id);
+        (shape.class, shape.confidence) =
+            known.map_or((Class::UNKNOWN, Q15(0)), |known| (known.class, known.confidence));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn head(prototypes: u16) -> GalleryHead {
+        let weights = core::iter::once([1; 24]).collect();
+        GalleryHead {
+            names: ["cube", "ball"].into_iter().map(crate::format::name).collect(),
+            space: Space { origin: [0; 24], weights, shift: 0 },
+            k: 1,
+            reject: 100,
+            sureness: Sureness::default(),
+            prototypes,
+        }
+    }
+
+    fn exemplar(class: u8) -> Exemplar {
+        Exemplar { class, at: [class.into(); 12] }
+    }
+
+    #[test]
+    fn it_is_in_force_from_its_last_prototype_on() {
+        let mut taught = Taught::<4>::new();
+        assert_eq!(taught.begin(head(3)), Ok(()));
+        assert_eq!(taught.add(&[exemplar(0), exemplar(1)]), Ok(()));
+        assert!(taught.gallery().is_none());
+        assert_eq!(taught.add(&[exemplar(1)]), Ok(()));
+        assert_eq!(taught.gallery().map(|gallery| gallery.prototypes.len()), Some(3));
+        taught.begin(head(1)).unwrap();
+        assert!(taught.gallery().is_none(), "another arrives");
+    }
+
+    #[test]
+    fn what_is_wrong_is_forgotten() {
+        let mut taught = Taught::<4>::new();
+        for count in [0, 201] {
+            assert_eq!(taught.begin(head(count)).unwrap_err().parameter, "shapes.prototypes");
+        }
+        assert!(taught.add(&[exemplar(0)]).is_err(), "there was no head");
+        taught.begin(head(1)).unwrap();
+        assert_eq!(taught.add(&[exemplar(2)]).unwrap_err().parameter, "shapes.names");
+        assert!(taught.add(&[exemplar(0)]).is_err() && taught.gallery().is_none());
+        taught.begin(head(1)).unwrap();
+        assert!(taught.add(&[exemplar(0); 2]).is_err());
+        taught.begin(GalleryHead { k: 10, ..head(1) }).unwrap();
+        assert_eq!(taught.add(&[exemplar(0)]).unwrap_err().parameter, "shapes.k");
+    }
+
+    #[test]
+    fn new_contacts_go_first_and_all_have_their_turn() {
+        let mut taught = Taught::<4>::new();
+        let mut chosen = |ids: &[u32], known: &[u32]| {
+            let known = known.iter().map(|contact| Known {
+                contact: *contact,
+                class: Class(1),
+                confidence: Q15::ONE,
+            });
+            taught.known = known.collect();
+            taught.choose(ids.iter().copied())
+        };
+        assert_eq!(chosen(&[], &[]), None);
+        assert_eq!(chosen(&[5, 6, 7], &[5, 7]), Some(1));
+        let turns = [(); 6].map(|()| chosen(&[5, 6, 7], &[5, 6, 7]).unwrap());
+        assert_eq!(turns.map(|turn| turns.iter().filter(|other| **other == turn).count()), [2; 6]);
+    }
+}

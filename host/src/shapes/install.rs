@@ -1,0 +1,96 @@
+//! `taxel shapes install`: a board recognises by a base that it was taught, until it is switched off.
+
+use super::base::Base;
+use crate::client::{Client, Event};
+use crate::live::{self, LiveArgs, Show};
+use crate::source::{self, SourceOptions, SourceSpec};
+use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use taxel_core::shape::GalleryHead;
+use taxel_core::wire::{Request, SHAPES_ADDED};
+
+/// Arguments of `taxel shapes install`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct InstallArgs {
+    /// A base: a file, or the name of one that is shipped
+    pub base: PathBuf,
+    /// The board: as in `taxel live`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+}
+
+/// Longest time for all of it.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Runs the command.
+pub fn run(args: InstallArgs) -> Result<()> {
+    let base = Base::open(&args.base)?;
+    let source = source::open(&args.source, &SourceOptions::default())?;
+    let label = source.label.clone();
+    let mut installing = Installing { base, begun: None, installed: None };
+    live::watch(&LiveArgs::of(args.source), source, &mut installing)?;
+    match installing.installed {
+        Some((classes, prototypes)) => {
+            println!("{label} knows {classes} classes by {prototypes} prototypes, until it is switched off.");
+            Ok(())
+        }
+        None => bail!("{label} ended before it had the base"),
+    }
+}
+
+/// Queues the requests that teach a board a base.
+pub fn teach(client: &mut Client, base: &Base) -> Result<()> {
+    let known = &base.gallery;
+    let head = GalleryHead {
+        names: known.names.clone(),
+        space: known.space.clone(),
+        k: known.k,
+        reject: known.reject,
+        sureness: known.sureness.clone(),
+        prototypes: known.prototypes.len() as u16,
+    };
+    client.request(&Request::SetShapes(&postcard::to_allocvec(&head)?))?;
+    for some in known.prototypes.chunks(SHAPES_ADDED) {
+        client.request(&Request::AddShapes(&postcard::to_allocvec(some)?))?;
+    }
+    Ok(())
+}
+
+/// Waits for the board, teaches it, and waits until it says what it knows.
+struct Installing {
+    base: Base,
+    begun: Option<Instant>,
+    installed: Option<(usize, u16)>,
+}
+
+impl Show for Installing {
+    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Answer { request, refusal: Some(why) }
+                if [Request::SetShapes(&[]), Request::AddShapes(&[])]
+                    .iter()
+                    .any(|r| r.number() == *request) =>
+            {
+                bail!("the board refuses: {why}")
+            }
+            Event::Shapes { names, prototypes } if self.begun.is_some() && *prototypes > 0 => {
+                self.installed = Some((names.len(), *prototypes));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        match self.begun {
+            None if client.worn().is_some() => {
+                teach(client, &self.base).context("the base is too long for a request")?;
+                self.begun = Some(Instant::now());
+            }
+            Some(begun) if begun.elapsed() > PATIENCE => bail!("the board does not answer"),
+            _ => {}
+        }
+        Ok(self.installed.is_none())
+    }
+}
