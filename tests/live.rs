@@ -7,8 +7,10 @@ use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event, ImageNews};
-use taxel::live::{Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
+use taxel::live::{GestureModel, Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
+use taxel::shapes::{base::Base, install};
 use taxel::source::{self, Source, SourceOptions};
+use taxel_core::shape::{Patch, descriptor};
 
 /// Writes into a list that the test keeps.
 #[derive(Default, Clone)]
@@ -32,22 +34,7 @@ impl Sink {
 }
 
 fn args(source: &str, frames: Option<u64>) -> LiveArgs {
-    LiveArgs {
-        source: source.parse().unwrap(),
-        frames,
-        seconds: None,
-        json: true,
-        pixels: false,
-        save: None,
-        taxel: None,
-        garment: None,
-        scene: None,
-        tare: None,
-        budget: None,
-        realtime: false,
-        seed: None,
-        svg: None,
-    }
+    LiveArgs { frames, json: true, ..LiveArgs::of(source.parse().unwrap()) }
 }
 
 fn open(args: &LiveArgs) -> Source {
@@ -357,4 +344,83 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let images = of_type(&parsed(&lines), "frame").count();
     assert!((19..=23).contains(&images), "{images} images in 2 s at 10 a second");
     std::fs::remove_file(file).unwrap();
+}
+
+#[test]
+fn gestures_are_told_where_they_are_asked_for() {
+    let asked = LiveArgs { gestures: Some(GestureModel::Gestures), ..args("sim:pat", Some(300)) };
+    let lines = parsed(&json(&asked));
+    let told: Vec<&Value> = of_type(&lines, "gesture").collect();
+    assert!(!told.is_empty());
+    for line in &told {
+        assert_eq!((line["touch"].as_u64(), line["panel"].as_str()), (Some(1), Some("back")));
+        assert!(line["lead"].as_f64().unwrap() >= 0.0 && line["observed_ms"].as_u64().unwrap() > 0);
+    }
+    let ended = told.iter().filter(|line| line["ended"] == true).count();
+    assert!(ended <= 1, "a touch ends once");
+    assert!(of_type(&parsed(&json(&args("sim:pat", Some(300)))), "gesture").next().is_none());
+    let intent = LiveArgs { gestures: Some(GestureModel::Intent), ..asked.clone() };
+    let classes = ["kindness", "threat", "attack"];
+    let lines = parsed(&json(&intent));
+    let told: Vec<&Value> = of_type(&lines, "gesture").collect();
+    assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["class"].as_str().unwrap())));
+    let refused = LiveArgs { gesture_gain: Some(17.0), ..asked };
+    let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
+    assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
+}
+
+/// Teaches a board a base, and compares what it says of a contact that is alone with what the base says of its image.
+struct Teacher {
+    base: Base,
+    taught: bool,
+    in_force: bool,
+    compared: usize,
+}
+
+impl Show for Teacher {
+    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+        if let Event::Shapes { names, prototypes } = event {
+            assert_eq!(
+                (names, usize::from(*prototypes)),
+                (&self.base.names(), self.base.gallery.prototypes.len())
+            );
+            self.in_force = true;
+        }
+        if let (true, Event::Frame { image: ImageNews::Whole, .. }, [placed]) =
+            (self.in_force, event, client.contacts())
+        {
+            let (bounds, (_, image)) = (&placed.contact.bounds, client.image().unwrap());
+            let area = &client.layout().unwrap().areas()[usize::from(bounds.panel)];
+            let low = client.worn().unwrap().scene.contact.low;
+            let mut patch = Vec::new();
+            for row in bounds.top..=bounds.bottom {
+                let start = usize::from(area.base + row * area.columns);
+                let row = &image[start + usize::from(bounds.left)..=start + usize::from(bounds.right)];
+                patch.extend(row.iter().map(|value| if *value >= low { *value } else { 0 }));
+            }
+            let width = usize::from(bounds.right - bounds.left) + 1;
+            let found = self.base.gallery.recognise(&descriptor(&Patch::new(&patch, width)));
+            let class = found.class.map_or("unknown", |class| &self.base.gallery.names[usize::from(class)]);
+            let said = (client.shape_name(placed.shape.class), placed.shape.confidence);
+            assert_eq!(said, (class.to_string(), found.confidence));
+            self.compared += 1;
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> anyhow::Result<bool> {
+        if client.worn().is_some() && !std::mem::replace(&mut self.taught, true) {
+            install::teach(client, &self.base)?;
+        }
+        Ok(true)
+    }
+}
+
+#[test]
+fn a_taught_base_says_on_the_board_what_it_says_here() {
+    let base = Base::open(std::path::Path::new("drawn")).unwrap();
+    let mut teacher = Teacher { base, taught: false, in_force: false, compared: 0 };
+    let args = args("sim:pat", Some(300));
+    watch(&args, open(&args), &mut teacher).unwrap();
+    assert!(teacher.compared > 10, "{}", teacher.compared);
 }

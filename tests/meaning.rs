@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Layout;
-use taxel_core::intent::Leading;
+use taxel_core::intent::{
+    CONCEPTS, Intent, IntentConfig, IntentState, Leading, PRESS_PER_NEWTON, Touch, tactile,
+};
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
@@ -112,4 +114,40 @@ fn controls() {
     );
     assert!(cases[4].1.led.is_empty(), "nothing touches an idle garment");
     assert!(!led(5, Leading::Attack), "quick pats are no blows");
+}
+
+/// A slap of 30 N and 60 ms, and 300 ms after it a palm of 3 N that strokes for 3 s; breadth and speed are noisy.
+#[test]
+fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
+    let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).expect("the shipped map is whole");
+    let touch = |newton: u32, mm: u32, duration_ms: u32, speed: u32| Touch {
+        press: newton * PRESS_PER_NEWTON as u32,
+        breadth: 10 * mm,
+        friendliness: 40,
+        duration_ms,
+        speed,
+    };
+    let mut latest = [0; 2];
+    for seed in 0..100 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let mut state = IntentState::default();
+        let mut led = Vec::new();
+        for ms in (0..4_000).step_by(5) {
+            let present = match ms {
+                100..160 => Some(touch(30, random.u32(15..20), ms - 100, 0)),
+                460..3_460 => Some(touch(3, random.u32(50..70), ms - 460, random.u32(300..900))),
+                _ => None,
+            };
+            let meaning = stage.process(&mut state, present.as_slice(), &[], Micros(1000 * u64::from(ms)));
+            led.extend(meaning.filter(|m| m.changed).map(|m| (ms, m.leading)));
+        }
+        led.retain(|(_, leading)| *leading != Leading::None);
+        let [(slap, Leading::Attack), (stroke, Leading::Kindness)] = led[..] else {
+            panic!("seed {seed}: {led:?}");
+        };
+        latest = [latest[0].max(slap - 100), latest[1].max(stroke - 460)];
+    }
+    println!("attack at most {} ms after its onset, kindness {} ms", latest[0], latest[1]);
+    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke takes some time to be one.
+    assert!(latest[0] <= 40 && latest[1] <= 700, "{latest:?}");
 }
