@@ -11,6 +11,12 @@ pub struct Announced {
     since: Micros,
 }
 
+impl Default for Announced {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Announced {
     /// Nothing yet.
     pub const fn new() -> Announced {

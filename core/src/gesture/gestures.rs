@@ -56,6 +56,12 @@ pub struct Gesture {
     pub ended: bool,
 }
 
+impl Default for GestureState {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl GestureState {
     /// Nobody has touched yet.
     pub const fn new() -> GestureState {

@@ -55,6 +55,12 @@ pub struct Recognised {
     pub distance: u16,
 }
 
+impl<const PROTOTYPES: usize> Default for Gallery<PROTOTYPES> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
     /// Nothing is known, and nothing is like it.
     pub const fn new() -> Self {

@@ -58,6 +58,12 @@ pub struct Taught<const CONTACTS: usize> {
     turn: usize,
 }
 
+impl<const CONTACTS: usize> Default for Taught<CONTACTS> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<const CONTACTS: usize> Taught<CONTACTS> {
     /// Nothing was taught.
     pub const fn new() -> Self {
