@@ -195,6 +195,8 @@ fn the_last_half_minute_reads_as_a_recording() {
             frames.insert(u64::from(frame), client.image().unwrap().1.to_vec());
         }
     }
+    // A board that is faster than time may have sent more than was waited for.
+    frames.retain(|frame, _| *frame <= 400);
     assert_eq!(frames, images("sim:stroke", 400));
     assert_eq!((client.counts().lost, client.counts().refused()), (0, 0));
     assert!(client.worn().is_some());
