@@ -1,54 +1,12 @@
 //! The program from outside: its answers on the reference images, and one sentence with exit status 2 for bad input.
 
+mod program;
+
 use npyz::WriterBuilder;
+use program::{root, taxel};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
-use std::time::SystemTime;
-
-/// The program beside this test, built where it is missing or older than its sources.
-fn taxel() -> &'static Path {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let test = std::env::current_exe().unwrap();
-        let folder = test.parent().and_then(Path::parent).unwrap();
-        let program = folder.join("taxel").with_extension(std::env::consts::EXE_EXTENSION);
-        if changed(&program).is_none_or(|built| built < newest_source()) {
-            build(folder);
-        }
-        program
-    })
-}
-
-fn changed(path: &Path) -> Option<SystemTime> {
-    path.metadata().ok()?.modified().ok()
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
-}
-
-fn newest_source() -> SystemTime {
-    fn newest(path: &Path) -> Option<SystemTime> {
-        let Ok(entries) = path.read_dir() else { return changed(path) };
-        entries.filter_map(|entry| newest(&entry.ok()?.path())).max()
-    }
-    let folders =
-        ["core/src", "host/src", "host/scenes", "host/maps"].map(|folder| newest(&root().join(folder)));
-    folders.into_iter().flatten().max().unwrap()
-}
-
-/// Into the folder that is named after the profile.
-fn build(folder: &Path) {
-    let profile = folder.file_name().unwrap().to_str().unwrap();
-    let profile = if profile == "debug" { "dev" } else { profile };
-    let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
-    let mut command = Command::new(cargo);
-    command.current_dir(root()).args(["build", "--quiet", "--package", "taxel", "--profile", profile]);
-    let status = command.arg("--target-dir").arg(folder.parent().unwrap()).status().unwrap();
-    assert!(status.success(), "the program cannot be built");
-}
 
 /// A file of this test in the build folder.
 fn file(name: &str, bytes: &[u8]) -> String {

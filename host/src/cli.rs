@@ -1,14 +1,19 @@
 //! The command line: one variant for each subcommand, each with an example.
 
 use crate::bench::{self, BenchArgs};
+use crate::calibrate::{self, CalibrateArgs};
+use crate::config::{self, ConfigArgs};
+use crate::doctor::{self, DoctorArgs};
 use crate::export::{self, ExportArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
+use crate::flash::{self, FlashArgs};
 use crate::gestures::{self, GesturesArgs};
 use crate::health::{self, HealthArgs};
 use crate::info::{self, InfoArgs};
 use crate::intent::{self, IntentArgs};
 use crate::live::{self, LiveArgs};
+use crate::ports::{self, PortsArgs};
 use crate::process::{self, ProcessArgs};
 use crate::record::{self, RecordArgs};
 use crate::replay::{self, ReplayArgs};
@@ -75,6 +80,9 @@ enum Command {
     /// Find out by touch how an unknown bundle of wires is connected
     #[command(after_help = SETUP)]
     Setup(SetupArgs),
+    /// Find out by known weights what a newton shows
+    #[command(after_help = CALIBRATE)]
+    Calibrate(CalibrateArgs),
     /// Find the shortest settling of a real garment
     #[command(after_help = SETTLE)]
     Settle(SettleArgs),
@@ -87,6 +95,18 @@ enum Command {
     /// Teach shapes, and see how well they are known
     #[command(after_help = SHAPES)]
     Shapes(ShapesArgs),
+    /// What is wrong, if anything, and what to do about it
+    #[command(after_help = DOCTOR)]
+    Doctor(DoctorArgs),
+    /// List serial ports, and which of them is a board
+    #[command(after_help = PORTS)]
+    Ports(PortsArgs),
+    /// Write the firmware to a board
+    #[command(after_help = FLASH)]
+    Flash(FlashArgs),
+    /// Begin and check the file of a garment
+    #[command(after_help = CONFIG)]
+    Config(ConfigArgs),
     /// List the simulated scenes
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -161,6 +181,11 @@ const SETUP: &str = "Examples:
   taxel setup --source serial:/dev/ttyACM0 --garment mine.toml -o garment.toml
   taxel setup --simulate 7 --json";
 
+const CALIBRATE: &str = "Examples:
+  taxel calibrate --simulate 7
+  taxel calibrate --source usb --over block --weights 0.5,1,2,5,10 --kg --by Anna --save -o anna.toml
+  taxel calibrate check anna.toml";
+
 const SETTLE: &str = "Examples:
   taxel settle --garment garment.toml -o garment.toml
   taxel settle --source sim:hold --error 2 --json";
@@ -180,6 +205,23 @@ const SHAPES: &str = "Examples:
   taxel shapes eval --images images.npz --labels labels.csv --cross 5 --json
   taxel shapes eval --images shapes.npz --set 32x64_C_n3 --classes three
   taxel shapes card objects";
+
+const DOCTOR: &str = "Examples:
+  taxel doctor
+  taxel doctor --source serial:/dev/ttyACM0 --seconds 20 --json";
+
+const PORTS: &str = "Examples:
+  taxel ports
+  taxel ports --json";
+
+const FLASH: &str = "Examples:
+  taxel flash taxel.uf2
+  taxel flash taxel.elf";
+
+const CONFIG: &str = "Examples:
+  taxel config new mine.toml --like block-4x16
+  taxel config check mine.toml --scene scene.toml
+  taxel config schema";
 
 const SCENES: &str = "Examples:
   taxel scenes
@@ -204,10 +246,15 @@ impl Cli {
             Command::Intent(args) => intent::run(args),
             Command::Bench(args) => bench::run(args),
             Command::Setup(args) => setup::run(&args),
+            Command::Calibrate(args) => calibrate::run(&args),
             Command::Settle(args) => settle::run(&args),
             Command::Health(args) => health::run(args),
             Command::Save(args) => save::run(args),
             Command::Shapes(args) => shapes::run(args),
+            Command::Doctor(args) => doctor::run(&args),
+            Command::Ports(args) => ports::run(&args),
+            Command::Flash(args) => flash::run(&args),
+            Command::Config(args) => config::run(&args),
             Command::Scenes(args) => scenes::run(args),
         }
     }

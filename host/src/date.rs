@@ -1,4 +1,4 @@
-//! Today as text.
+//! Days of the calendar as text.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -6,6 +6,19 @@ use std::time::{SystemTime, UNIX_EPOCH};
 pub fn today() -> String {
     let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     date(seconds / 86_400)
+}
+
+/// Days from one year-month-day to another, 0 where it is not later; none where one of them is no day.
+pub fn days_between(from: &str, to: &str) -> Option<u64> {
+    Some(number(to)?.saturating_sub(number(from)?))
+}
+
+/// Year, month and day; none where it is no day.
+pub fn parts(text: &str) -> Option<(u16, u8, u8)> {
+    let mut parts = text.split('-');
+    let (year, month, day) = (parts.next()?, parts.next()?, parts.next()?);
+    number(text)?;
+    Some((year.parse().ok()?, month.parse().ok()?, day.parse().ok()?))
 }
 
 /// The day that many days after 1 January 1970: whole spans of 400 years have 146,097 days, and a year that begins in March
@@ -21,6 +34,13 @@ fn date(days: u64) -> String {
     format!("{:04}-{month:02}-{day:02}", span * 400 + year + later)
 }
 
+/// Days since 1 January 1970 of a day since then: no year is longer than 366 days, so the search is short.
+fn number(text: &str) -> Option<u64> {
+    let year: u64 = text.get(..4)?.parse().ok()?;
+    let least = year.checked_sub(1970)? * 365;
+    (least..least + 2_500).find(|days| date(*days) == text)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,6 +49,13 @@ mod tests {
     fn days_have_their_dates() {
         let known =
             [(0, "1970-01-01"), (11_016, "2000-02-29"), (19_723, "2024-01-01"), (20_513, "2026-03-01")];
-        known.into_iter().for_each(|(days, text)| assert_eq!(date(days), text));
+        for (days, text) in known {
+            assert_eq!((date(days).as_str(), number(text)), (text, Some(days)));
+        }
+        assert_eq!(days_between("2024-02-28", "2024-03-01"), Some(2));
+        assert_eq!(days_between("2024-03-01", "2024-02-28"), Some(0));
+        assert_eq!([days_between("2023-02-29", "2024-01-01"), days_between("", "x")], [None; 2]);
+        assert_eq!(parts("2026-11-21"), Some((2026, 11, 21)));
+        assert_eq!(parts("2026-13-21"), None);
     }
 }

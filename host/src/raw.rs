@@ -1,10 +1,12 @@
 //! A board that is asked for raw codes, and that wears what it is told meanwhile.
 
-use crate::client::{Client, Event};
+use crate::client::{Client, Event, Worn};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use taxel_core::garment::Garment;
+use taxel_core::health::TaxelHealth;
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::Request;
 
@@ -34,8 +36,16 @@ pub struct RawBoard {
 impl RawBoard {
     /// Connects and asks for raw codes. A board with a scene of its own gets it back by [`RawBoard::leave`].
     pub fn open(spec: &SourceSpec) -> Result<RawBoard> {
-        let options = SourceOptions { seconds: Some(DAYS), ..SourceOptions::default() };
-        let source = source::open(spec, &options)?;
+        RawBoard::on(source::open(spec, &RawBoard::options())?)
+    }
+
+    /// With which its source is to be opened.
+    pub fn options() -> SourceOptions {
+        SourceOptions { seconds: Some(DAYS), ..SourceOptions::default() }
+    }
+
+    /// The same over a source that is open.
+    pub fn on(source: Source) -> Result<RawBoard> {
         let mut client = Client::new();
         client.start(0)?;
         let mut board = RawBoard {
@@ -73,7 +83,22 @@ impl RawBoard {
     /// Gives the board a garment, and its own scene back.
     pub fn leave(&mut self, garment: &Garment) -> Result<()> {
         self.wear(garment)?;
+        self.give_back()
+    }
+
+    /// Gives the board its own scene back; garment and gains stay.
+    pub fn give_back(&mut self) -> Result<()> {
         self.use_for(&self.scene.clone())
+    }
+
+    /// What the board says of itself.
+    pub fn worn(&self) -> Option<&Worn> {
+        self.client.worn()
+    }
+
+    /// Taxels that are ill, as told last.
+    pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
+        self.client.ill()
     }
 
     /// The next frame.
@@ -95,7 +120,7 @@ impl RawBoard {
     }
 
     /// Makes a request and waits for its answer.
-    fn ask(&mut self, request: &Request<'_>) -> Result<()> {
+    pub fn ask(&mut self, request: &Request<'_>) -> Result<()> {
         let number = request.number();
         self.client.request(request)?;
         let mut refused = None;

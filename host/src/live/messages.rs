@@ -7,6 +7,7 @@
 //! else in a line depends on the host's time.
 
 use super::Show;
+use crate::calibrate::{Calibration, Forces};
 use crate::client::{Client, Event, ImageNews};
 use crate::json;
 use anyhow::Result;
@@ -21,13 +22,19 @@ use taxel_core::wire::{GestureReport, SelfTestReport, Temperature};
 /// Prints messages as JSON.
 pub struct Messages<W> {
     pixels: bool,
+    calibration: Option<Calibration>,
     out: W,
 }
 
 impl<W: Write> Messages<W> {
     /// With the pressure of every taxel, or without.
     pub fn new(pixels: bool, out: W) -> Messages<W> {
-        Messages { pixels, out }
+        Messages { pixels, calibration: None, out }
+    }
+
+    /// The same, with the force on each panel (`force_n`, in the order of `panels`) and of each contact where the board has this calibration.
+    pub fn calibrated(self, calibration: Option<Calibration>) -> Messages<W> {
+        Messages { calibration, ..self }
     }
 }
 
@@ -36,6 +43,14 @@ impl<W: Write> Show for Messages<W> {
         let mut line = message(client, event);
         if let (true, Event::Frame { image: ImageNews::Whole, .. }) = (self.pixels, event) {
             line["panels"] = pixels(client);
+        }
+        if let (Some(calibration), Event::Frame { image: ImageNews::Whole, .. }) = (&self.calibration, event)
+            && let Some([panels, contacts]) = forces(client, calibration)
+        {
+            line["force_n"] = json!(panels);
+            for (index, force) in contacts.iter().enumerate() {
+                line["contacts"][index]["force_n"] = json!(force);
+            }
         }
         let board = line.get("time_us").and_then(Value::as_u64);
         if let Some(time) = board.and_then(|board| client.host_time(Micros(board))) {
@@ -247,6 +262,15 @@ fn hello(client: &Client) -> Value {
         "regions": regions,
         "panels": worn.layout.areas().iter().map(panel).collect::<Vec<_>>(),
     })
+}
+
+/// Force on each panel and of each contact, N; none where the board has another calibration.
+fn forces(client: &Client, calibration: &Calibration) -> Option<[Vec<Option<f64>>; 2]> {
+    let (worn, (_, image)) = (client.worn()?, client.image()?);
+    let meter =
+        Forces::new(calibration, &worn.layout).ok().filter(|_| calibration.is_in_force(&worn.calibration))?;
+    let contact = |placed: &Placed| meter.contact(&worn.layout, image, &placed.contact.bounds);
+    Some([meter.panels(&worn.layout, image), client.contacts().iter().map(contact).collect()])
 }
 
 /// The image, panel by panel, row by row.

@@ -20,6 +20,7 @@ pub use svg::picture;
 pub use taxel::{TaxelLines, TaxelPlace};
 pub use view::View;
 
+use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews};
 use crate::clock::SteadyTime;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
@@ -62,6 +63,9 @@ pub struct LiveArgs {
     /// Scene that the board is used for: a TOML file; what it does not say is as shipped
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Calibration that the board is to have, for forces in newtons: a file of `taxel calibrate`
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
@@ -101,6 +105,7 @@ impl LiveArgs {
             taxel: None,
             garment: None,
             scene: None,
+            calibration: None,
             tare: None,
             realtime: false,
             seed: None,
@@ -148,14 +153,17 @@ pub fn run(args: LiveArgs) -> Result<()> {
         seconds: args.seconds,
         raw: args.taxel.is_some(),
     };
-    let source = source::open(&args.source, &options)?;
+    let mut source = source::open(&args.source, &options)?;
+    let calibration = args.calibration.as_deref().map(Calibration::read).transpose()?;
+    source.counts_per_newton =
+        calibration.as_ref().and_then(Calibration::counts_per_newton).or(source.counts_per_newton);
     let out = std::io::BufWriter::new(stdout());
     let mut show: Box<dyn Show> = if let Some(file) = &args.svg {
         Box::new(svg::Painter::new(View::new(&source), file.clone()))
     } else if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {
-        Box::new(Messages::new(args.pixels, out))
+        Box::new(Messages::new(args.pixels, out).calibrated(calibration))
     } else if terminal {
         Box::new(screen::Screen::open(View::new(&source))?)
     } else {
@@ -175,6 +183,9 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     }
     if let Some(scene) = &args.scene {
         outfit::play(&mut client, scene)?;
+    }
+    if let Some(file) = &args.calibration {
+        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
     }
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {

@@ -1,15 +1,14 @@
 //! Another garment or scene for a board, from a file, before it streams.
 
 use crate::client::Client;
-use crate::fcm;
 use crate::sim;
+use crate::source::read_scene;
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;
 use taxel_core::garment::{Circuit, Layout, Pins};
 use taxel_core::gesture::{GestureConfig, Shipped};
 use taxel_core::pipeline::Pipeline;
-use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
 /// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it whatever the board
@@ -26,8 +25,7 @@ pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
 /// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
 pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let place = || path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(place)?;
-    let scene = parse(&text, path).with_context(place)?;
+    let scene = read_scene(path)?;
     let garment = taxel_core::garment::Garment::reference();
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     // Regions are the board's affair: it may wear another garment.
@@ -59,16 +57,4 @@ pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) ->
     }
     config.build().context("--gestures")?;
     Ok(client.request(&Request::SetGestures(Some(config)))?)
-}
-
-/// Reads a scene; JSON in between where it gives a map as people write it.
-fn parse(text: &str, path: &Path) -> Result<Scene> {
-    let table: toml::Table = toml::from_str(text)?;
-    let map = table.get("intent").and_then(|intent| intent.get("map"));
-    if map.is_none_or(|map| map.get("concepts").is_some()) {
-        return Ok(toml::from_str(text)?);
-    }
-    let mut value = serde_json::to_value(table)?;
-    fcm::scene::resolve(&mut value, path.parent().unwrap_or(Path::new(".")))?;
-    Ok(serde_json::from_value(value)?)
 }

@@ -107,7 +107,7 @@ fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
 }
 
 /// What the TOML reader found, with its line, and the key of that line where the message itself names none.
-pub(super) fn sentence(error: &toml::de::Error, text: &str, file: &str) -> String {
+pub fn sentence(error: &toml::de::Error, text: &str, file: &str) -> String {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     let Some(before) = error.span().and_then(|span| text.get(..span.start)) else {
         return format!("{file}: {message}");

@@ -59,6 +59,44 @@ pub fn usb() -> Result<Source> {
     }
 }
 
+/// What may be behind a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PortKind {
+    /// It says that it is a board.
+    Board,
+    /// A probe that may pass on a board's UART.
+    Probe,
+    /// Anything else.
+    Other,
+}
+
+impl PortKind {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            PortKind::Board => "taxel board",
+            PortKind::Probe => "probe",
+            PortKind::Other => "other",
+        }
+    }
+}
+
+/// The serial ports of this machine: name, what is behind it, and what it says of itself on USB.
+pub fn listed() -> Vec<(String, PortKind, String)> {
+    let describe = |port: SerialPortInfo| {
+        let Some(usb) = usb_of(&port) else { return (port.port_name, PortKind::Other, String::new()) };
+        let kind = match is_board(usb) {
+            true => PortKind::Board,
+            false if PROBES.contains(&usb.vid) => PortKind::Probe,
+            false => PortKind::Other,
+        };
+        let product = usb.product.as_deref().unwrap_or_default();
+        let told = format!("{:04x}:{:04x} {product}", usb.vid, usb.pid);
+        (port.port_name, kind, told)
+    };
+    ports().into_iter().map(describe).collect()
+}
+
 /// All serial ports of this machine.
 fn ports() -> Vec<SerialPortInfo> {
     // Without this folder serialport panics.

@@ -12,10 +12,12 @@ mod sim;
 mod spec;
 mod tcp;
 
+pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
-pub use scene::scene_of;
+pub use scene::{read_scene, scene_of};
 pub use spec::SourceSpec;
 
+use crate::sim::Script;
 use anyhow::Result;
 use std::io;
 
@@ -73,6 +75,12 @@ impl Source {
     fn real(label: impl Into<String>, port: impl Port + 'static) -> Source {
         Source { real_time: true, ..Source::new(label, port) }
     }
+}
+
+/// Opens a simulated board that plays a script of this name.
+pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
+    let label = format!("sim:{}", script.name);
+    sim::play(script, label, options)
 }
 
 /// Opens a source. Errors are one sentence.

@@ -2,7 +2,7 @@
 
 use crate::fcm;
 use crate::sim::Script;
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 use serde_json::Value;
 use std::path::Path;
 use taxel_core::scene::Scene;
@@ -23,6 +23,25 @@ pub fn scene_of(script: &Script) -> Result<Scene> {
         }
     }
     serde_json::from_value(merged).map_err(|e| wrong(&e))
+}
+
+/// Reads the file of a scene; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
+pub fn read_scene(path: &Path) -> Result<Scene> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
+    parse(&text, path).with_context(|| name)
+}
+
+/// JSON in between where it gives a map as people write it.
+fn parse(text: &str, path: &Path) -> Result<Scene> {
+    let table: toml::Table = toml::from_str(text)?;
+    let map = table.get("intent").and_then(|intent| intent.get("map"));
+    if map.is_none_or(|map| map.get("concepts").is_some()) {
+        return Ok(toml::from_str(text)?);
+    }
+    let mut value = serde_json::to_value(table)?;
+    fcm::scene::resolve(&mut value, path.parent().unwrap_or(Path::new(".")))?;
+    Ok(serde_json::from_value(value)?)
 }
 
 /// Tables are merged, everything else is replaced.

@@ -36,10 +36,13 @@ struct Play {
 
 /// Opens a simulated board that plays a scene.
 pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
-    let script = sim::load(scene)?;
+    play(sim::load(scene)?, format!("sim:{scene}"), options)
+}
+
+/// A simulated board that plays a script.
+pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<Source> {
     let garment = script.load_garment()?;
     let tare = script.tare_frames.min(4096) as u16;
-    let label = format!("sim:{scene}");
     let play = Play {
         seed: options.seed.unwrap_or(script.seed),
         realtime: options.realtime,

@@ -1,0 +1,151 @@
+//! The command `taxel calibrate`.
+
+use super::check::{self, CheckArgs};
+use super::file::Calibration;
+use super::install::install;
+use super::operator;
+use super::plates::{Over, plates};
+use super::task::{Task, calibrate};
+use crate::raw::RawBoard;
+use crate::sim::{self, Sensor};
+use crate::source::{self, SourceSpec};
+use anyhow::{Result, bail, ensure};
+use clap::{Args, Subcommand};
+use serde_json::json;
+use std::path::PathBuf;
+use taxel_core::garment::Layout;
+use taxel_core::wire::Request;
+
+/// Newtons of a kilogram.
+const GRAVITY: f64 = 9.806_65;
+/// The garment of a simulation where none is named.
+const SIMULATED: &str = "block-4x16";
+/// What a simulated garment is like.
+const SENSOR: Sensor = Sensor { gain_spread: 0.10, hysteresis: 0.03, noise: 0.02, half_n: 0.0 };
+
+/// What `taxel calibrate` takes.
+#[derive(Debug, Clone, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct CalibrateArgs {
+    #[command(subcommand)]
+    also: Option<Also>,
+    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// The garment, a preset or a TOML file [default: what the board wears]
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// What the plate under the weights covers
+    #[arg(long, value_enum, default_value_t = Over::Panel)]
+    pub over: Over,
+    /// The weights with what carries them, N, put on one after the other and taken off again
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', default_values_t = [5.0, 10.0, 20.0, 50.0, 100.0])]
+    pub weights: Vec<f64>,
+    /// The weights are in kg
+    #[arg(long)]
+    pub kg: bool,
+    /// Who calibrates [default: the user's name]
+    #[arg(long, value_name = "NAME")]
+    pub by: Option<String>,
+    /// Seconds of the board to wait for a weight
+    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    pub wait: f64,
+    /// Write the calibration there
+    #[arg(long, short, value_name = "FILE", default_value = "calibration.toml")]
+    pub output: PathBuf,
+    /// The board keeps its share over a restart
+    #[arg(long)]
+    pub save: bool,
+    /// Print the dialogue as JSON, one object a line
+    #[arg(long)]
+    pub json: bool,
+    /// No board: a garment of that number with 10 % gain spread, 3 % hysteresis, 2 % noise, and somebody who loads it
+    #[arg(long, value_name = "SEED", conflicts_with = "source")]
+    pub simulate: Option<u64>,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum Also {
+    /// Whether it is time to calibrate again, and why
+    #[command(
+        after_help = "Examples:\n  taxel calibrate check calibration.toml\n  taxel calibrate check calibration.toml --press 20"
+    )]
+    Check(CheckArgs),
+}
+
+/// Runs the command.
+pub fn run(args: &CalibrateArgs) -> Result<()> {
+    if let Some(Also::Check(args)) = &args.also {
+        return check::run(args);
+    }
+    let weights = weights(args)?;
+    ensure!(args.wait.is_finite() && args.wait > 0.0, "--wait must be a time above 0");
+    let mut board = open(args, &weights)?;
+    if let (Some(garment), None) = (&args.garment, args.simulate) {
+        board.wear(&sim::garment(garment)?)?;
+    }
+    let task = Task { over: args.over, weights, by: by(args), wait: args.wait, json: args.json };
+    let made = calibrate(&mut board, &task)?;
+    made.write(&args.output)?;
+    install(&mut board, &made)?;
+    if args.save {
+        board.ask(&Request::Save)?;
+    }
+    board.give_back()?;
+    tell(args, &made);
+    Ok(())
+}
+
+/// The weights in N, checked, ascending.
+fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
+    let unit = if args.kg { GRAVITY } else { 1.0 };
+    let mut weights: Vec<f64> = args.weights.iter().map(|weight| weight * unit).collect();
+    if let Some(wrong) = weights.iter().find(|w| !w.is_finite() || **w <= 0.0 || **w > 10_000.0) {
+        bail!("--weights must be above 0 and at most 10000 N, not {wrong}");
+    }
+    weights.sort_by(f64::total_cmp);
+    weights.dedup();
+    Ok(weights)
+}
+
+fn open(args: &CalibrateArgs, weights: &[f64]) -> Result<RawBoard> {
+    let Some(seed) = args.simulate else { return RawBoard::open(&args.source) };
+    let name = args.garment.as_deref().unwrap_or(SIMULATED);
+    let garment = sim::garment(name)?;
+    let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
+    let plates = plates(&garment, &layout, args.over)?;
+    let script = operator::script(name, &layout, &plates, weights, &SENSOR, seed)?;
+    RawBoard::on(source::simulated(script, &RawBoard::options())?)
+}
+
+fn by(args: &CalibrateArgs) -> String {
+    let user = || std::env::var("USER").or_else(|_| std::env::var("USERNAME")).ok();
+    args.by.clone().or_else(user).unwrap_or_else(|| "unknown".into())
+}
+
+fn tell(args: &CalibrateArgs, made: &Calibration) {
+    let fit = &made.fit;
+    if args.json {
+        let file = args.output.display().to_string();
+        return println!(
+            "{}",
+            json!({ "type": "calibrated", "id": made.id, "date": made.date, "fit": fit, "silent": made.silent, "file": file })
+        );
+    }
+    let percent = |part: f64| format!("{:.1} %", 100.0 * part);
+    println!(
+        "Calibration {} of {}: forces within {} rms ({} at most); hysteresis {}, noise of a taxel {}.",
+        made.id,
+        made.garment,
+        percent(fit.error),
+        percent(fit.worst),
+        percent(fit.hysteresis),
+        percent(fit.noise)
+    );
+    if !made.silent.is_empty() {
+        println!("{} taxels show nothing: `taxel health` names them.", made.silent.len());
+    }
+    let kept =
+        if args.save { "has stored its share" } else { "has its share until it restarts (--save keeps it)" };
+    println!("The board {kept}; the curves are in {}.", args.output.display());
+}

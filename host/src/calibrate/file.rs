@@ -1,0 +1,138 @@
+//! A calibration as a file: what it says, who made it, when and how, and how well it fits.
+
+use super::curve::Curve;
+use super::fit::Fitted;
+use super::residuals::Residuals;
+use crate::date;
+use anyhow::{Context, Result, anyhow, ensure};
+use crc::{CRC_32_ISO_HDLC, Crc};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+use taxel_core::condition::Certificate;
+use taxel_core::garment::Layout;
+
+const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// A calibration of a garment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Calibration {
+    /// CRC-32/ISO-HDLC of gains and curves, eight hexadecimal digits.
+    pub id: String,
+    /// Name of the garment.
+    pub garment: String,
+    /// Who made it.
+    pub by: String,
+    /// When, year-month-day.
+    pub date: String,
+    /// With which plates and weights.
+    pub how: String,
+    /// Firmware and link of the board.
+    pub board: String,
+    /// How well it fits.
+    pub fit: Residuals,
+    /// Taxels that show nothing.
+    pub silent: Vec<u16>,
+    /// Gain by taxel number, Q4.12: the board's share.
+    pub gains: Vec<u16>,
+    /// Code at rest by taxel number when it was made.
+    pub rest: Vec<u16>,
+    /// The curves: the host's share.
+    #[serde(rename = "panel")]
+    pub panels: Vec<PanelCurve>,
+}
+
+/// The curve of a panel.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PanelCurve {
+    /// Name of the panel.
+    pub name: String,
+    /// `[1/16 count above rest after the gain, uN on a taxel]`
+    pub knots: Curve,
+}
+
+impl Calibration {
+    /// Of what was fitted, on this day, by this person.
+    pub fn of(fitted: Fitted, layout: &Layout, rest: Vec<u16>, about: [&str; 4]) -> Calibration {
+        let named = layout.areas().iter().zip(fitted.curves);
+        let curve = |(area, curve): (&taxel_core::garment::Area, Option<Curve>)| {
+            curve.map(|knots| PanelCurve { name: area.name.as_str().into(), knots })
+        };
+        let [garment, by, how, board] = about.map(String::from);
+        let mut made = Calibration {
+            id: String::new(),
+            garment,
+            by,
+            date: date::today(),
+            how,
+            board,
+            fit: fitted.residuals,
+            silent: fitted.silent,
+            gains: fitted.gains,
+            rest,
+            panels: named.filter_map(curve).collect(),
+        };
+        made.id = format!("{:08x}", made.sum());
+        made
+    }
+
+    fn sum(&self) -> u32 {
+        let mut digest = CRC.digest();
+        self.gains.iter().for_each(|gain| digest.update(&gain.to_le_bytes()));
+        for panel in &self.panels {
+            digest.update(panel.name.as_bytes());
+            panel.knots.knots().iter().flatten().for_each(|number| digest.update(&number.to_le_bytes()));
+        }
+        digest.finalize()
+    }
+
+    /// Reads a file and checks it; errors name the file, and line and key where they can.
+    pub fn read(file: &Path) -> Result<Calibration> {
+        let name = file.display().to_string();
+        let text = std::fs::read_to_string(file).with_context(|| format!("{name} cannot be read"))?;
+        let read: Calibration =
+            toml::from_str(&text).map_err(|error| anyhow!(crate::sim::sentence(&error, &text, &name)))?;
+        read.check().with_context(|| name)?;
+        Ok(read)
+    }
+
+    fn check(&self) -> Result<()> {
+        for panel in &self.panels {
+            Curve::new(panel.knots.knots().to_vec())
+                .with_context(|| format!("panel {}: knots", panel.name))?;
+        }
+        ensure!(self.rest.len() == self.gains.len(), "`rest` and `gains` must be as long as each other");
+        ensure!(date::parts(&self.date).is_some(), "`date` must be a day, such as 2026-11-21");
+        ensure!(self.fit.error.is_finite() && self.fit.error >= 0.0, "`fit.error` must be 0 or more");
+        ensure!(
+            self.id == format!("{:08x}", self.sum()),
+            "`id` is not that of its gains and knots: it was changed"
+        );
+        Ok(())
+    }
+
+    /// Writes the file.
+    pub fn write(&self, file: &Path) -> Result<()> {
+        let text = toml::to_string(self).context("the calibration cannot be written as TOML")?;
+        std::fs::write(file, text).with_context(|| format!("{} cannot be written", file.display()))
+    }
+
+    /// What the board is told of it.
+    pub fn certificate(&self) -> Certificate {
+        let (year, month, day) = date::parts(&self.date).unwrap_or((2000, 1, 1));
+        let error = (self.fit.error * 10_000.0).round().clamp(0.0, 65_535.0) as u16;
+        Certificate { id: self.sum(), taxels: self.gains.len() as u16, year, month, day, error }
+    }
+
+    /// Counts of a newton, mean over the panels: exact only where their curves are straight and alike.
+    pub fn counts_per_newton(&self) -> Option<f32> {
+        let each = self.panels.iter().map(|panel| panel.knots.counts_per_newton());
+        (!self.panels.is_empty()).then(|| (each.sum::<f64>() / self.panels.len() as f64) as f32)
+    }
+
+    /// Whether a board that says this of its calibration has this one.
+    pub fn is_in_force(&self, told: &str) -> bool {
+        told.starts_with(&format!("id {},", self.id))
+    }
+}

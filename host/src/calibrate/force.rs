@@ -1,0 +1,67 @@
+//! Forces of images by a calibration.
+
+use super::curve::{Curve, PARTS};
+use super::file::Calibration;
+use anyhow::{Result, ensure};
+use taxel_core::garment::{Layout, Place, Rect};
+
+/// The curves of a garment's panels.
+#[derive(Debug, Clone)]
+pub struct Forces {
+    curves: Vec<Option<Curve>>,
+}
+
+impl Forces {
+    /// Of a calibration for this garment.
+    pub fn new(calibration: &Calibration, layout: &Layout) -> Result<Forces> {
+        ensure!(
+            calibration.gains.len() == layout.taxels(),
+            "the calibration {} is of a garment of {} taxels, this one has {}",
+            calibration.id,
+            calibration.gains.len(),
+            layout.taxels()
+        );
+        let curve = |name: &str| calibration.panels.iter().find(|p| p.name == name).map(|p| p.knots.clone());
+        Ok(Forces { curves: layout.areas().iter().map(|area| curve(area.name.as_str())).collect() })
+    }
+
+    /// Force on the taxels of a rectangle, N, of an image by taxel number (counts); none where the panel is not calibrated.
+    pub fn within(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
+        let curve = self.curves.get(usize::from(bounds.panel))?.as_ref()?;
+        let mut sum = 0;
+        for row in bounds.top..=bounds.bottom {
+            for column in bounds.left..=bounds.right {
+                let taxel = layout.taxel(Place { panel: bounds.panel, row, column });
+                let value = taxel.and_then(|taxel| image.get(taxel)).copied().unwrap_or(0);
+                sum += curve.micronewtons(u32::from(value) * PARTS);
+            }
+        }
+        Some(sum as f64 / 1e6)
+    }
+
+    /// Force of a contact within these bounds, N: what lies beside them counts, too, because it is part of it below the contact's
+    /// threshold.
+    pub fn contact(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
+        let area = layout.areas().get(usize::from(bounds.panel))?;
+        let wider = Rect {
+            panel: bounds.panel,
+            top: bounds.top.saturating_sub(1),
+            bottom: (bounds.bottom + 1).min(area.rows.saturating_sub(1)),
+            left: bounds.left.saturating_sub(1),
+            right: (bounds.right + 1).min(area.columns.saturating_sub(1)),
+        };
+        self.within(layout, image, &wider)
+    }
+
+    /// Force on each panel, N; none where it is not calibrated.
+    pub fn panels(&self, layout: &Layout, image: &[u16]) -> Vec<Option<f64>> {
+        let whole = |(panel, area): (u8, &taxel_core::garment::Area)| Rect {
+            panel,
+            top: 0,
+            bottom: area.rows.saturating_sub(1),
+            left: 0,
+            right: area.columns.saturating_sub(1),
+        };
+        (0..).zip(layout.areas()).map(whole).map(|bounds| self.within(layout, image, &bounds)).collect()
+    }
+}

@@ -1,0 +1,26 @@
+//! Tells a board its share of a calibration.
+
+use super::file::Calibration;
+use crate::raw::RawBoard;
+use anyhow::Result;
+use taxel_core::wire::Request;
+
+/// Gains of a request.
+const CHUNK: usize = 64;
+
+impl Calibration {
+    /// The gains, then whose they are.
+    pub fn requests(&self) -> impl Iterator<Item = Request<'static>> {
+        let gains = |(index, gains): (usize, &[u16])| Request::SetGain {
+            first: (index * CHUNK) as u16,
+            gains: gains.iter().copied().collect(),
+        };
+        let certificate = Request::SetCalibration(self.certificate());
+        self.gains.chunks(CHUNK).enumerate().map(gains).chain([certificate])
+    }
+}
+
+/// Sets gains and certificate; the board's refusal is the error.
+pub fn install(board: &mut RawBoard, calibration: &Calibration) -> Result<()> {
+    calibration.requests().try_for_each(|request| board.ask(&request))
+}

@@ -1,0 +1,35 @@
+//! Calibration: from counts to newtons, by known weights on a plate.
+//!
+//! The board is told a gain for each taxel, which makes the taxels of a panel alike ([`fit()`]); the panel's [`Curve`], from counts to
+//! newtons on a taxel, stays on the host, in a [`Calibration`] file beside who made it, when, how and how well it fits. The board
+//! names the file's id in each `Hello`, so that a stream says which is in force. What a plate weighs is spread evenly over the taxels
+//! that it covers; coming and going are measured alike, and the mean of both is what counts.
+
+mod check;
+mod command;
+mod curve;
+mod dialogue;
+mod drift;
+mod file;
+mod fit;
+mod force;
+mod install;
+mod operator;
+mod plates;
+mod reading;
+mod residuals;
+mod steady;
+mod task;
+
+pub use command::{CalibrateArgs, run};
+pub use curve::{Curve, Knot};
+pub use drift::{Reason, Seen, judge};
+pub use file::{Calibration, PanelCurve};
+pub use fit::{Fitted, fit};
+pub use force::Forces;
+pub use install::install;
+pub use operator::script;
+pub use plates::{Over, Plate, plates};
+pub use reading::Reading;
+pub use residuals::Residuals;
+pub use task::{Task, calibrate};

@@ -1,0 +1,96 @@
+//! When a load rests: the mean over the plate has left the last load, and stands still.
+
+use std::collections::VecDeque;
+
+/// Frames of a steady load.
+const FRAMES: usize = 32;
+/// Standard errors that two halves of them may differ by, and the part of the load that they may differ by where that is more.
+const STILL: (f64, f64) = (3.0, 0.004);
+/// Standard errors by which a load differs from the one before.
+const MOVED: f64 = 6.0;
+
+/// Means by taxel, and what one frame strays from them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// Mean, counts.
+    pub counts: Vec<f64>,
+    /// Standard deviation, counts.
+    pub noise: Vec<f64>,
+}
+
+/// Waits for a load.
+#[derive(Debug)]
+pub struct Steady {
+    frames: VecDeque<Vec<f64>>,
+    /// Mean over the plate that is to be left: the last load's, and how far at least.
+    from: f64,
+    least: f64,
+}
+
+impl Steady {
+    /// A load that differs from `from` (mean over the plate, counts) by more than `least` counts, and by more than noise.
+    pub fn away_from(from: f64, least: f64) -> Steady {
+        Steady { frames: VecDeque::new(), from, least }
+    }
+
+    /// Mean over the plate of the last frame, counts.
+    pub fn now(&self) -> f64 {
+        self.frames.back().map_or(0.0, |frame| mean(frame.iter().copied()))
+    }
+
+    /// Takes a frame of the plate's taxels, counts above rest; the load, as soon as it rests.
+    pub fn take(&mut self, counts: Vec<f64>) -> Option<Held> {
+        if self.frames.len() == FRAMES {
+            self.frames.pop_front();
+        }
+        self.frames.push_back(counts);
+        if self.frames.len() < FRAMES {
+            return None;
+        }
+        let totals: Vec<f64> = self.frames.iter().map(|frame| mean(frame.iter().copied())).collect();
+        let (early, late) = totals.split_at(FRAMES / 2);
+        let (early, late) = (mean(early.iter().copied()), mean(late.iter().copied()));
+        let all = (early + late) / 2.0;
+        // From frame to frame, so that a slow change is no noise.
+        let steps = totals.windows(2).map(|pair| (pair[1] - pair[0]).powi(2) / 2.0);
+        let error = (mean(steps) / FRAMES as f64).sqrt();
+        let still = (late - early).abs() <= (2.0 * STILL.0 * error).max(STILL.1 * all.abs());
+        let moved = (all - self.from).abs() > self.least.max(MOVED * error);
+        (still && moved).then(|| self.held())
+    }
+
+    fn held(&self) -> Held {
+        let taxels = self.frames.front().map_or(0, Vec::len);
+        let column = |taxel: usize| self.frames.iter().map(move |frame| frame[taxel]);
+        let counts: Vec<f64> = (0..taxels).map(|taxel| mean(column(taxel))).collect();
+        let spread = |taxel: usize| mean(column(taxel).map(|count| (count - counts[taxel]).powi(2))).sqrt();
+        Held { noise: (0..taxels).map(spread).collect(), counts }
+    }
+}
+
+/// The mean; 0 of nothing.
+pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_load_is_taken_when_it_rests_and_is_another() {
+        let mut rng = fastrand::Rng::with_seed(1);
+        let mut steady = Steady::away_from(0.0, 5.0);
+        let mut noisy = |level: f64| vec![level + rng.f64() - 0.5, 2.0 * level + rng.f64() - 0.5];
+        for _ in 0..300 {
+            assert_eq!(steady.take(noisy(0.0)), None, "nothing was put on");
+        }
+        for frame in 0..200 {
+            assert_eq!(steady.take(noisy(f64::from(frame) * 0.2)), None, "it is still being put on");
+        }
+        let held = (0..FRAMES + 4).find_map(|_| steady.take(noisy(40.0))).expect("it rests");
+        assert!((held.counts[0] - 40.0).abs() < 0.5 && (held.counts[1] - 80.0).abs() < 0.8, "{held:?}");
+        assert!(held.noise.iter().all(|noise| (0.1..0.6).contains(noise)), "{held:?}");
+    }
+}

@@ -1,0 +1,60 @@
+//! A whole calibration on a board.
+
+use super::dialogue::Dialogue;
+use super::file::Calibration;
+use super::fit::fit;
+use super::plates::{Over, plates};
+use crate::raw::RawBoard;
+use anyhow::{Context, Result};
+use taxel_core::garment::Layout;
+use taxel_core::wire::Request;
+
+/// Frames over which the board is tared.
+const TARE: u16 = 64;
+
+/// What is to be done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Task {
+    /// What the plate covers.
+    pub over: Over,
+    /// The weights, N, ascending.
+    pub weights: Vec<f64>,
+    /// Who does it.
+    pub by: String,
+    /// Seconds of the board to wait for a weight.
+    pub wait: f64,
+    /// The dialogue is printed as JSON.
+    pub json: bool,
+}
+
+/// Tares the board, asks for the weights and fits; the board's own calibration stays as it is.
+pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
+    let worn = board.worn().context("the board has not said what it wears")?;
+    let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
+    let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
+    let plates = plates(&garment, &layout, task.over)?;
+    let (falling, wait, json) = (garment.wiring.falling, task.wait, task.json);
+    let mut dialogue = Dialogue { board, falling, wait, json };
+    let rest = dialogue.rest()?;
+    dialogue.board.ask(&Request::Tare { frames: TARE })?;
+    let readings = dialogue.readings(&plates, &task.weights, &rest)?;
+    let fitted = fit(&layout, &plates, &readings)?;
+    let rest = rest.iter().map(|code| code.round() as u16).collect();
+    let about = [
+        garment.name.as_str(),
+        &task.by,
+        &how(task, plates.len()),
+        &format!("{firmware} at {}", board.label()),
+    ];
+    Ok(Calibration::of(fitted, &layout, rest, about))
+}
+
+fn how(task: &Task, plates: usize) -> String {
+    let weights: Vec<_> = task.weights.iter().map(|weight| format!("{weight:.3}")).collect();
+    let over = match task.over {
+        Over::Panel => "panel",
+        Over::Block => "block",
+        Over::Taxel => "taxel",
+    };
+    format!("a plate on each {over} ({plates}), on and off: {} N", weights.join(", "))
+}

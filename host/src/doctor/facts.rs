@@ -1,0 +1,88 @@
+//! What is seen of a board in some seconds.
+
+use crate::client::{Client, Event};
+use crate::live::Show;
+use anyhow::Result;
+use taxel_core::wire::{Health, Request};
+
+/// What was seen.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Facts {
+    /// It is a simulation.
+    pub simulated: bool,
+    /// Name and version of the firmware; none: no `Hello` came.
+    pub firmware: Option<String>,
+    /// Why a `Hello` could not be used.
+    pub unusable: Option<String>,
+    /// Taxels of the garment.
+    pub taxels: usize,
+    /// Id, date and fit error of the calibration; empty: there is none.
+    pub calibration: String,
+    /// First and last image: number of the scan, and its time, us.
+    pub frames: Option<[(u32, u64); 2]>,
+    /// Images that came, were left out for want of room, and could not be decoded.
+    pub images: [u64; 3],
+    /// Messages that were lost on the way, and frames that were refused.
+    pub lost: [u64; 2],
+    /// The board's counters when they were told first and last.
+    pub health: Option<[Health; 2]>,
+    /// Taxels that are ill.
+    pub ill: usize,
+    /// How far the host's time of a frame may be off, us; none: the board does not live in real time, or has not answered.
+    pub clock_us: Option<u64>,
+    /// The answer to a self-test: none, passed, or why not.
+    pub self_test: Option<Result<(), String>>,
+    /// Sentences of the board that something does not work.
+    pub told: Vec<String>,
+    /// A self-test was asked for.
+    pub asked: bool,
+}
+
+impl Facts {
+    /// Nothing yet, of the source of that label.
+    pub fn of(label: &str) -> Facts {
+        Facts { simulated: label.starts_with("sim:"), ..Facts::default() }
+    }
+}
+
+impl Show for Facts {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => self.firmware = client.worn().map(|worn| worn.firmware.clone()),
+            Event::Unusable(why) => self.unusable = Some(why.clone()),
+            Event::Frame { frame, time, .. } => {
+                let first = self.frames.map_or((*frame, time.0), |[first, _]| first);
+                self.frames = Some([first, (*frame, time.0)]);
+            }
+            Event::Health(health) => {
+                self.health = Some([self.health.map_or(*health, |[first, _]| first), *health]);
+            }
+            Event::Answer { request, refusal } if *request == Request::SelfTest.number() => {
+                self.self_test = Some(refusal.clone().map_or(Ok(()), Err));
+            }
+            Event::Log { level: taxel_core::wire::Level::Error, text, .. } => self.told.push(text.clone()),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+            client.request(&Request::SelfTest)?;
+        }
+        Ok(true)
+    }
+
+    fn end(&mut self, client: &Client) -> Result<()> {
+        let counts = client.counts();
+        self.images = [counts.frames, counts.thinned, counts.undecoded];
+        self.lost = [counts.lost, counts.refused()];
+        self.ill = client.ill().len();
+        if let Some(worn) = client.worn() {
+            (self.taxels, self.calibration) = (worn.layout.taxels(), worn.calibration.clone());
+        }
+        let last = self.frames.map(|[_, (_, time)]| taxel_core::format::Micros(time));
+        self.clock_us = last.and_then(|time| client.host_time(time)).map(|time| time.uncertainty_us);
+        Ok(())
+    }
+}

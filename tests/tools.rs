@@ -1,0 +1,215 @@
+//! Commands around a board, the examples, and the documents that others program by: as they work from outside.
+
+mod program;
+
+use program::{intentions, root, taxel};
+use serde_json::Value;
+use std::io::Write;
+use std::net::TcpListener;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use taxel_core::wire::{Report, Request, decode, open};
+
+fn run(args: &[&str]) -> Output {
+    Command::new(taxel()).args(args).output().unwrap()
+}
+
+fn said(args: &[&str]) -> String {
+    let output = run(args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(args: &[&str]) -> String {
+    let output = run(args);
+    assert_eq!(output.status.code(), Some(2), "{args:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn file(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tools");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(name);
+    let _ = std::fs::remove_file(&path);
+    path
+}
+
+#[test]
+fn a_simulated_board_is_examined() {
+    let line: Value =
+        serde_json::from_str(&said(&["doctor", "--source", "sim:idle", "--seconds", "2", "--json"])).unwrap();
+    assert_eq!(line["verdict"], "weak", "{line}");
+    let found = line["findings"].as_array().unwrap();
+    let of = |name: &str| found.iter().rfind(|finding| finding["of"] == name).unwrap();
+    for name in ["version", "images", "scan", "taxels"] {
+        assert_eq!(of(name)["grade"], "good", "{line}");
+    }
+    assert!(of("images")["what"].as_str().unwrap().starts_with("195."), "{line}");
+    assert_eq!(of("calibration")["grade"], "weak");
+    assert!(said(&["doctor", "--source", "sim:idle", "--seconds", "1"]).ends_with("marked with !\n"));
+    let nobody = refused(&["doctor", "--source", "serial:/dev/no-such-port"]);
+    assert!(nobody.contains("taxel ports"), "{nobody}");
+}
+
+#[test]
+fn ports_are_listed_and_a_wrong_firmware_is_refused() {
+    let ports: Value = serde_json::from_str(&said(&["ports", "--json"])).unwrap();
+    assert!(ports.is_array());
+    let text = file("firmware.uf2");
+    std::fs::write(&text, "not a firmware").unwrap();
+    assert!(refused(&["flash", text.to_str().unwrap()]).contains("neither an ELF nor a UF2"));
+    assert!(refused(&["flash", "no-such-file.uf2"]).contains("no-such-file.uf2 cannot be read"));
+}
+
+#[test]
+fn a_garment_file_is_begun_and_checked() {
+    let garment = file("mine.toml");
+    let name = garment.to_str().unwrap();
+    said(&["config", "new", name, "--like", "reference"]);
+    assert!(refused(&["config", "new", name]).contains("is there already"));
+    let text = std::fs::read_to_string(&garment).unwrap();
+    assert!(text.starts_with("#:schema ./taxel-garment.schema.json\n"), "{text}");
+    let schema = std::fs::read_to_string(garment.with_file_name("taxel-garment.schema.json")).unwrap();
+    assert_eq!(schema, said(&["config", "schema"]));
+    assert!(said(&["config", "check", name]).contains("2048 taxels in 4 panels and 32 blocks: fits."));
+    let scene = file("scene.toml");
+    std::fs::write(&scene, "name = \"calm\"\nrate_hz = 50\n").unwrap();
+    assert!(
+        said(&["config", "check", name, "--scene", scene.to_str().unwrap()])
+            .contains("scene calm can be played")
+    );
+    std::fs::write(&garment, text.replacen("rows = 32", "rows = 31", 1)).unwrap();
+    let why = refused(&["config", "check", name]);
+    assert!(why.contains("mine.toml, line ") && why.contains("leaves panel chest"), "{why}");
+}
+
+#[test]
+fn a_simulated_garment_is_calibrated_and_checked() {
+    let calibration = file("calibration.toml");
+    let name = calibration.to_str().unwrap();
+    let lines = said(&["calibrate", "--simulate", "11", "--by", "Anna", "--json", "-o", name]);
+    let last: Value = serde_json::from_str(lines.lines().last().unwrap()).unwrap();
+    assert!(last["type"] == "calibrated" && last["fit"]["error"].as_f64().unwrap() < 0.03, "{last}");
+    assert_eq!(lines.lines().filter(|line| line.contains("\"reading\"")).count(), 9);
+    let text = std::fs::read_to_string(&calibration).unwrap();
+    assert!(text.contains("by = \"Anna\"") && text.contains("a plate on each panel (1)"), "{text}");
+    // Another board, which was never calibrated, and another garment.
+    let check: Value = serde_json::from_str(
+        said(&["calibrate", "check", name, "--source", "sim:idle", "--json"]).lines().last().unwrap(),
+    )
+    .unwrap();
+    assert_eq!(check["holds"], false);
+    let why = check["why"].to_string();
+    assert!(why.contains("no calibration") && why.contains("2048 taxels"), "{why}");
+    assert!(
+        refused(&["calibrate", "--weights", "1,0", "--simulate", "1"]).contains("--weights must be above 0")
+    );
+}
+
+#[test]
+fn the_example_prints_intentions() {
+    let output = Command::new(intentions()).arg("sim:pat").output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && text.contains("Kindness"), "{text}");
+    let code = std::fs::read_to_string(root().join("host/examples/intentions.rs")).unwrap();
+    let lines = code.lines().filter(|line| !line.is_empty() && !line.starts_with("//")).count();
+    assert!(lines <= 20, "{lines} lines");
+}
+
+/// Whether there is a Python; a machine without one does not run these.
+fn python() -> bool {
+    let there = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
+    if !there {
+        println!("not run: no python3");
+    }
+    there
+}
+
+#[test]
+fn the_python_example_draws_from_a_pipe_and_from_tcp() {
+    if !python() {
+        return;
+    }
+    let lines = said(&["live", "--source", "sim:press", "--frames", "120", "--json", "--pixels"]);
+    let script = root().join("examples/python/draw.py");
+    assert!(std::fs::read_to_string(&script).unwrap().lines().count() <= 30);
+    let mut python = Command::new("python3");
+    let mut child = python.arg(&script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let (mut pipe, sent) = (child.stdin.take().unwrap(), lines.clone());
+    let writer = std::thread::spawn(move || pipe.write_all(sent.as_bytes()));
+    let piped = child.wait_with_output().unwrap();
+    writer.join().unwrap().unwrap();
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port().to_string();
+    let server = std::thread::spawn(move || listener.accept().unwrap().0.write_all(lines.as_bytes()));
+    let streamed = Command::new("python3").arg(&script).args(["127.0.0.1", &port]).output().unwrap();
+    server.join().unwrap().unwrap();
+    for output in [piped, streamed] {
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(text.contains("chest, ") && text.contains("contact 1 at ") && text.contains('#'), "{text}");
+    }
+}
+
+/// There is no ROS here: only its syntax is checked.
+#[test]
+fn the_ros_node_is_python() {
+    if !python() {
+        return;
+    }
+    let node = root().join("examples/ros2/taxel_node.py");
+    let check = "import ast, sys; ast.parse(open(sys.argv[1]).read())";
+    assert!(Command::new("python3").args(["-c", check]).arg(node).status().unwrap().success());
+}
+
+fn bytes(hex: &str) -> Vec<u8> {
+    (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
+}
+
+#[test]
+fn the_bytes_of_the_wire_document_are_golden_and_decode() {
+    let document = std::fs::read_to_string(root().join("docs/wire.md")).unwrap();
+    let golden = std::fs::read_to_string(root().join("tests/golden/wire.txt")).unwrap();
+    let shown = document
+        .lines()
+        .filter(|line| ["report ", "request ", "frame "].iter().any(|kind| line.starts_with(kind)));
+    let mut count = 0;
+    for line in shown {
+        assert!(golden.lines().any(|golden| golden == line), "{line}");
+        let mut words = line.split(' ');
+        let (kind, name, mut bytes) =
+            (words.next().unwrap(), words.next().unwrap(), bytes(words.next().unwrap()));
+        let debug = match kind {
+            "report" => format!("{:?}", decode::<(u32, Report)>(&bytes).unwrap().1),
+            "request" => format!("{:?}", decode::<Request>(&bytes).unwrap()),
+            _ => {
+                let end = bytes.len() - 1;
+                format!("{:?}", decode::<Request>(open(&mut bytes[..end]).unwrap()).unwrap())
+            }
+        };
+        assert!(debug.starts_with(name), "{line}: {debug}");
+        count += 1;
+    }
+    assert!(count > 10, "{count} lines");
+    // Every message has its row.
+    for line in golden.lines().filter(|line| line.starts_with("report ") || line.starts_with("request ")) {
+        let mut words = line.split(' ');
+        let (kind, name, bytes) =
+            (words.next().unwrap(), words.next().unwrap(), bytes(words.next().unwrap()));
+        let row = format!("| {} | `{name}` |", bytes[usize::from(kind == "report")]);
+        assert!(document.contains(&row), "{row}");
+    }
+}
+
+#[test]
+fn the_commands_of_the_troubleshooting_table_exist() {
+    let document = std::fs::read_to_string(root().join("docs/troubleshooting.md")).unwrap();
+    let help = said(&["--help"]);
+    let commands = document.split('`').skip(1).step_by(2).filter_map(|code| code.strip_prefix("taxel "));
+    let mut count = 0;
+    for command in commands.filter_map(|rest| rest.split(' ').next()) {
+        assert!(help.lines().any(|line| line.trim_start().starts_with(&format!("{command} "))), "{command}");
+        count += 1;
+    }
+    assert!(count > 15);
+}
