@@ -153,7 +153,7 @@ pub struct Sensor {
     /// How much more a taxel signals of a force that goes than of the same while it comes, part of it; half of that more, half less
     /// than the truth far below the peak, and nothing at the peak.
     pub hysteresis: f64,
-    /// Noise of a sample, part of the signal rms, beside that of the garment at rest.
+    /// Noise by the signal, part of it rms, beside that of the garment at rest: how the cloth lies changes all 20 ms.
     pub noise: f64,
     /// Force on a taxel at which it signals half of what it would if it were straight, N: a divider with a fixed resistor; 0: straight.
     pub half_n: f64,

@@ -16,6 +16,9 @@ pub const COUNTS_PER_NEWTON: f32 = 1000.0;
 /// Highest code of the 12-bit converter.
 pub const FULL_SCALE: u16 = 4095;
 
+/// Time for which the noise of the pressed cloth keeps its value, ns.
+const CLOTH_NS: u64 = 20_000_000;
+
 /// A garment with everything that happens to it: the codes of a scene.
 ///
 /// With ideal wiring [`World::code`] is a pure function of taxel and time, noise included: a taxel's noise is a hash of
@@ -175,7 +178,11 @@ impl World {
         }
         let felt = t.gain * newtons;
         let bent = felt / (1.0 + self.bend * felt);
-        let noisy = if self.live > 0.0 { bent * (1.0 + self.live * unit_noise(!t.key, t_ns)) } else { bent };
+        let noisy = if self.live > 0.0 {
+            bent * (1.0 + self.live * unit_noise(!t.key, t_ns / CLOTH_NS))
+        } else {
+            bent
+        };
         self.level(t.base + t.drift_per_ns * t_ns as f32 + COUNTS_PER_NEWTON * noisy)
     }
 
