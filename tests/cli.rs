@@ -5,7 +5,7 @@ mod program;
 use npyz::WriterBuilder;
 use program::{root, taxel};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 /// A file of this test in the build folder.

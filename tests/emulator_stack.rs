@@ -126,7 +126,7 @@ fn greatest_scene() -> Scene {
     map.thresholds = (0..16).map(|concept| Threshold { concept, value: -5000 }).collect();
     let sources =
         [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed, Source::Rise];
-    let sources = sources.into_iter().chain((0..3).map(Source::Host));
+    let sources = sources.into_iter().chain((0..2).map(Source::Host));
     let input = |(source, concept)| Input {
         concept,
         source,

@@ -1,9 +1,10 @@
 //! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and whether it fits.
 
 use proptest::prelude::*;
-use taxel::touches::{Head, Ridge, Shipped, export};
-use taxel::{gestures, intent};
-use taxel_core::gesture::{FEATURES, Features, LARGEST, Model, ModelError, TouchState, Touches, checksum};
+use taxel::touches::{Head, Provenance, Ridge, export};
+use taxel_core::gesture::{
+    FEATURES, Features, LARGEST, Model, ModelError, Shipped, TouchState, Touches, checksum,
+};
 
 /// Touches of a sheet that differ by how fast they go to and fro.
 fn rubbing(period: usize, seed: usize) -> impl Iterator<Item = Vec<u16>> {
@@ -72,10 +73,10 @@ fn the_board_scores_as_the_planes_do() {
 
 #[test]
 fn the_shipped_models_fit_a_board_and_name_their_data() {
-    for (bytes, classes) in [(gestures::SHIPPED, 7), (intent::SHIPPED, 3)] {
+    for (bytes, classes) in [(Shipped::Gestures.bytes(), 7), (Shipped::Intent.bytes(), 3)] {
         let model = Model::read(bytes).unwrap();
         assert_eq!(model.classes(), classes);
-        let notes = Shipped::of(&model).unwrap();
+        let notes = Provenance::of(&model).unwrap();
         assert!(notes.data.len() == 2 && notes.touches > 200);
     }
     assert!(size_of::<TouchState>() <= 8 << 10, "{} bytes", size_of::<TouchState>());
@@ -83,7 +84,7 @@ fn the_shipped_models_fit_a_board_and_name_their_data() {
 
 #[test]
 fn bad_models_are_refused_with_a_sentence() {
-    let good = gestures::SHIPPED;
+    let good = Shipped::Gestures.bytes();
     let with = |at: usize, byte: u8| {
         let mut bytes = good[..good.len() - 4].to_vec();
         bytes[at] = byte;
@@ -119,7 +120,7 @@ proptest! {
         frames in proptest::collection::vec(proptest::collection::vec(any::<u16>(), 0..200), 1..60),
         rows in any::<u16>(), columns in any::<u16>(),
     ) {
-        let mut bytes = gestures::SHIPPED[..gestures::SHIPPED.len() - 4].to_vec();
+        let mut bytes = Shipped::Gestures.bytes()[..Shipped::Gestures.bytes().len() - 4].to_vec();
         flips.into_iter().for_each(|(at, byte)| bytes[at] = byte);
         let sum = checksum(&bytes);
         bytes.extend(sum.to_le_bytes());

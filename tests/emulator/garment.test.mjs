@@ -29,7 +29,10 @@ test('levels select a taxel, inverted lines included', () => {
 
 test('a channel without a taxel gives the idle code', () => {
   assert.equal(garment().sample(0, 1), 7);
-  assert.equal(garment().sample(0, 4), 7);
+});
+
+test('the thermometer is at 27 degrees', () => {
+  assert.equal(garment().sample(0, 4), 876);
 });
 
 test('a line that nothing drives is counted', () => {

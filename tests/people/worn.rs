@@ -63,7 +63,7 @@ pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
     for start in (0..end).step_by(FRAME_PERIOD_US as usize) {
         session.frame(start, &mut raw);
         let codes: Vec<Code> = raw.iter().map(|code| Code(*code)).collect();
-        let report = ScanReport { start: Micros(start), duration_us: 5_000, overruns: 0 };
+        let report = ScanReport { start: Micros(start), duration_us: 5_000, overruns: 0, temperature: None };
         let scanned = Input::Scanned(Ok(Scan { codes: &codes, report }));
         board.step(Micros(start + 5_000), scanned, &mut ());
         let Some(said) = read(&mut board, &mut receiver, start).filter(|said| *said != leading) else {

@@ -96,6 +96,8 @@ pub struct Meaning<const N: usize = CONCEPTS> {
 pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
     released: Option<Micros>,
+    /// Time of the first frame.
+    first: Option<Micros>,
     /// Time of the last frame.
     before: Micros,
     inputs: [i32; N],
@@ -111,6 +113,7 @@ impl<const N: usize> Default for IntentState<N> {
         IntentState {
             touch: None,
             released: None,
+            first: None,
             before: Micros(0),
             inputs: [0; N],
             inference: Inference { state: [0; N], steps: 0, outcome: Outcome::Fixed },
@@ -188,6 +191,7 @@ impl<const N: usize> Intent<N> {
         host: &[Q15],
         now: Micros,
     ) -> Option<Meaning<N>> {
+        state.first.get_or_insert(now);
         let edge = self.select(state, touches, now);
         state.before = now;
         let inferred = self.refresh(state, host, edge, now);
@@ -221,7 +225,10 @@ impl<const N: usize> Intent<N> {
             (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
                 let same = |held: &Touch| state.released.is_none() && held.duration_ms <= present.duration_ms;
                 let steepest = held.filter(same).map_or(0, |held| held.rise);
-                let rise = present.mean_rise(now.millis_since(state.before)).max(steepest);
+                // Nobody saw the onset of what was there in the first frame.
+                let lasts = now.millis_since(state.first.unwrap_or(now));
+                let mean = present.mean_rise(now.millis_since(state.before));
+                let rise = if present.duration_ms < lasts { mean.max(steepest) } else { 0 };
                 (state.touch, state.released) = (Some(Touch { rise, ..present }), None);
             }
             (Some(_), present) => {

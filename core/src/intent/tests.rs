@@ -316,6 +316,18 @@ fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
     assert_eq!(words(came(200)), [Leading::Kindness, Leading::Threat, Leading::None]);
 }
 
+/// A garment that is not tared yet seems to be pressed all over.
+#[test]
+fn what_was_there_in_the_first_frame_did_not_come_suddenly() {
+    let heard = announced((0..100u32).map(|at| std::vec![touch(200.0, 200.0, 5 * at, 30, 0)]));
+    assert!(heard.iter().all(|(_, leading)| *leading != Leading::Attack), "{heard:?}");
+    let heard =
+        announced((0..100u32).map(|at| {
+            if at == 0 { List::new() } else { std::vec![touch(200.0, 200.0, 5 * (at - 1), 30, 0)] }
+        }));
+    assert!(heard.iter().any(|(_, leading)| *leading == Leading::Attack), "{heard:?}");
+}
+
 #[test]
 fn a_quiet_stage_says_nothing_after_its_first_word() {
     let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).unwrap();
