@@ -202,7 +202,7 @@ fn one_taxel_is_printed_with_code_and_pressure() {
     let lines: Vec<Vec<f64>> = text.lines().map(numbers).collect();
     assert_eq!(lines.len(), 80, "{text}");
     assert!(lines.iter().all(|line| line.len() == 3), "{text}");
-    assert_eq!(lines[79][0], 79.0 * 0.00512);
+    assert!((lines[79][0] - lines[0][0] - 79.0 * 0.00512).abs() < 1e-9, "{text}");
     let highest = lines.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
     assert!((0.25..0.35).contains(&highest[0]) && highest[1] - highest[2] > 60.0, "{highest:?}");
 }
@@ -276,7 +276,7 @@ fn the_picture_shows_maps_contacts_and_intention() {
         "right arm",
         " id region     shape        force area  axis    mm/s",
         "  1 back ",
-        "7.8 N ",
+        "7.9 N ",
         "intention kindness",
         "politeness",
         "contact 1 on the back begins",

@@ -80,7 +80,7 @@ mod tests {
         );
         let why = |from: &str, to: &str| format!("{:#}", checked(&block.replacen(from, to, 1)).unwrap_err());
         let line = |of: &str| block.lines().position(|line| line.starts_with(of)).unwrap() + 1;
-        assert!(why("columns = 16 ", "colums = 16 ").contains(", line "));
+        assert!(why("columns = 16\n", "colums = 16\n").contains(", line "));
         let outside = why("\nrow = 0", "\nrow = 2");
         assert!(
             outside.contains(&format!(

@@ -88,8 +88,11 @@ fn contact() -> Value {
 
 /// Garment, scene and firmware.
 pub fn hello() -> Value {
-    let panel =
-        [all(text, ["name", "link"]), all(integer, ["rows", "columns"]), vec![("pitch_um", list(integer()))]];
+    let panel = [
+        all(text, ["name", "link", "region"]),
+        all(integer, ["rows", "columns"]),
+        vec![("pitch_um", list(integer()))],
+    ];
     let fields = [
         all(text, ["firmware", "garment", "scene", "calibration"]),
         vec![("taxels", integer()), ("regions", list(text())), ("panels", list(object(&panel.concat())))],
