@@ -1,6 +1,6 @@
 //! The self-test: of lines and inputs by whoever has them, of the taxels by judging them anew.
 
-use super::outbox::Refusal;
+use super::refusal::Refusal;
 use super::{Board, Work, request};
 use crate::acquire::ScanError;
 use crate::format::Micros;

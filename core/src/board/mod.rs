@@ -6,6 +6,7 @@ mod examining;
 mod outbox;
 mod outputs;
 mod pace;
+mod refusal;
 mod request;
 mod saving;
 mod settings;
@@ -27,9 +28,10 @@ use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use budget::{Doing, Ledger};
 use heapless::{Deque, String, Vec};
-use outbox::{About, Outbox, Refusal};
+use outbox::{About, Outbox};
 use outputs::Outputs;
 use pace::Pace;
+use refusal::Refusal;
 use saving::Saving;
 
 /// What happened.

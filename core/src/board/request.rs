@@ -1,12 +1,12 @@
 //! What the host asks for.
 
-use super::outbox::Refusal;
 use super::outputs::Outputs;
+use super::refusal::Refusal;
 use super::{Board, Work};
 use crate::condition::Certificate;
 use crate::format::Micros;
 use crate::garment::Garment;
-use crate::gesture::GestureConfig;
+use crate::gesture::{GestureConfig, Gestures};
 use crate::scene::Scene;
 use crate::shape::Exemplar;
 use crate::wire::{Request, SHAPES_ADDED, decode};
@@ -128,7 +128,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     pub(super) fn set_gestures(&mut self, config: Option<&GestureConfig>) -> Result<(), Refusal> {
-        self.setup.pipeline.gestures = config.map(GestureConfig::build).transpose().map_err(Refusal::of)?;
+        self.setup.pipeline.gestures = config.map(Gestures::build).transpose().map_err(Refusal::of)?;
         self.state.recognise_anew();
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are examined.
 
-use super::outbox::Refusal;
+use super::refusal::Refusal;
 use super::{Board, Job, Saved, Work, request};
 use crate::format::Micros;
 use crate::wire::Level;

@@ -1,6 +1,6 @@
 //! What survives a restart.
 
-use super::outbox::Refusal;
+use super::refusal::Refusal;
 use super::setup::Setup;
 use super::{Board, request};
 use crate::condition::Certificate;

@@ -1,6 +1,5 @@
 //! Which model recognises the touches of a garment, and how its decisions are announced.
 
-use super::gestures::Gestures;
 use super::model::{Model, ModelError};
 use crate::format::Invalid;
 use core::fmt;
@@ -100,8 +99,8 @@ impl GestureConfig {
         GestureConfig { model, ..GestureConfig::default() }
     }
 
-    /// Checks the settings and the model.
-    pub fn build(&self) -> Result<Gestures, GestureError> {
+    /// Checks the settings, and the model, which it gives.
+    pub(super) fn check(&self) -> Result<Model<'static>, GestureError> {
         let refuse = |parameter, must| Err(Invalid { parameter, must }.into());
         if !(1..=200).contains(&self.rate_hz) {
             return refuse("gestures.rate_hz", "must be 1 to 200");
@@ -112,7 +111,7 @@ impl GestureConfig {
         if self.decide_ms < 50 {
             return refuse("gestures.decide_ms", "must be at least 50");
         }
-        Ok(Gestures::new(*self, Model::read(self.model.bytes())?))
+        Ok(Model::read(self.model.bytes())?)
     }
 }
 
@@ -123,12 +122,12 @@ mod tests {
     #[test]
     fn both_models_are_whole_and_bad_settings_are_named() {
         for model in [Shipped::Gestures, Shipped::Intent] {
-            assert!(GestureConfig::of(model).build().is_ok());
+            assert!(GestureConfig::of(model).check().is_ok());
         }
         let refused = |edit: fn(&mut GestureConfig)| {
             let mut config = GestureConfig::default();
             edit(&mut config);
-            match config.build() {
+            match config.check() {
                 Err(GestureError::Invalid(invalid)) => invalid.parameter,
                 _ => "",
             }

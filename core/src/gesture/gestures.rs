@@ -1,12 +1,13 @@
 //! What goes on on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
 
 use super::announce::Announced;
-use super::config::GestureConfig;
+use super::config::{GestureConfig, GestureError};
 use super::model::Model;
 use super::stage::{Decision, TouchState, Touches};
 use crate::condition::Image;
 use crate::format::{Micros, Name};
 use crate::garment::{Area, Layout};
+use core::num::NonZeroU32;
 
 /// One natural logarithm of odds, in the unit of a lead.
 const NAT: u64 = 1 << 18;
@@ -84,13 +85,11 @@ impl GestureState {
 }
 
 impl Gestures {
-    /// Of settings that were checked.
-    pub(super) const fn new(config: GestureConfig, model: Model<'static>) -> Gestures {
-        let period_us = match config.rate_hz {
-            0 => 1_000_000,
-            rate => 1_000_000 / rate as u32,
-        };
-        Gestures { config, model, period_us }
+    /// Checks settings and prepares them.
+    pub fn build(config: &GestureConfig) -> Result<Gestures, GestureError> {
+        let model = config.check()?;
+        let period_us = 1_000_000 / NonZeroU32::new(config.rate_hz.into()).unwrap_or(NonZeroU32::MIN);
+        Ok(Gestures { config: *config, model, period_us })
     }
 
     /// The settings.
@@ -212,7 +211,7 @@ mod tests {
             let mut config = GestureConfig::default();
             edit(&mut config);
             let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
-            Shown { layout, stage: config.build().unwrap(), state: GestureState::new(), frame: 0 }
+            Shown { layout, stage: Gestures::build(&config).unwrap(), state: GestureState::new(), frame: 0 }
         }
 
         /// Four by four taxels at a column of a panel, with this pressure; nothing where it is 0.

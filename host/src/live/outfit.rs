@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;
 use taxel_core::garment::{Circuit, Layout, Pins};
-use taxel_core::gesture::{GestureConfig, Shipped};
+use taxel_core::gesture::{GestureConfig, Gestures, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
@@ -55,6 +55,6 @@ pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) ->
         // What is out of range, not a number included, becomes one that is refused.
         config.gain = (gain * 256.0).round() as u16;
     }
-    config.build().context("--gestures")?;
+    Gestures::build(&config).context("--gestures")?;
     Ok(client.request(&Request::SetGestures(Some(config)))?)
 }

@@ -18,6 +18,7 @@ mod file;
 mod limit;
 mod names;
 mod play;
+mod progress;
 mod provenance;
 mod recorder;
 mod ros2;

@@ -5,7 +5,7 @@ use super::limit::Rotate;
 use super::names::{beside, numbered};
 use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
-use super::{command::Progress, provenance};
+use super::{progress::Progress, provenance};
 use crate::client::{Client, Event, Worn};
 use crate::live::Show;
 use anyhow::{Context, Result, bail};

@@ -1,9 +1,7 @@
 //! Cross-validation of a recipe.
 
-use super::calibrate::calibrate;
 use super::data::Example;
-use super::select::select;
-use super::train::{Known, Recipe, fit};
+use super::train::Known;
 use crate::learn::folds::stratified;
 use taxel_core::shape::Recognised;
 
@@ -33,15 +31,6 @@ pub fn predict(
     };
     let galleries: Vec<Known> = (0..folds).map(|n| train(&others(n))).collect();
     examples.iter().zip(fold).map(|(example, fold)| galleries[*fold].recognise(&example.descriptor)).collect()
-}
-
-/// A gallery of all examples, completed by five folds of them, and what the folds found.
-pub fn trained(examples: &[&Example], names: &[String], recipe: &Recipe) -> (Known, Vec<Recognised>) {
-    let recipe = &if recipe.select { select(examples, names, recipe) } else { recipe.clone() };
-    let found = predict(examples, &deal(examples, FOLDS, SEED), |others| fit(others, names, recipe));
-    let mut gallery = fit(examples, names, recipe);
-    calibrate(&mut gallery, examples, &found);
-    (gallery, found)
 }
 
 /// Folds by which a gallery is completed.

@@ -1,9 +1,10 @@
 //! `taxel shapes eval`: how often a base is right on labelled images.
 
 use super::base::Base;
-use super::cross::{SEED, deal, predict, trained};
+use super::cross::{SEED, deal, predict};
 use super::data::{Example, Examples, ImagesArgs};
 use super::train_command::{RecipeArgs, check, counted};
+use super::trained::trained;
 use crate::learn::confusion::Confusion;
 use crate::learn::fingerprint::Fingerprint;
 use anyhow::Result;

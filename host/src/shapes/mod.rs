@@ -22,6 +22,7 @@ mod prune;
 pub mod select;
 pub mod train;
 mod train_command;
+mod trained;
 pub mod view;
 
 use anyhow::Result;

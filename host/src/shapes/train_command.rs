@@ -1,9 +1,10 @@
 //! `taxel shapes train`: a base from labelled images.
 
 use super::base::{Base, Card, Source};
-use super::cross::{FOLDS, trained};
+use super::cross::FOLDS;
 use super::data::{Example, Examples, ImagesArgs};
 use super::train::Recipe;
+use super::trained::trained;
 use crate::learn::confusion::Confusion;
 use crate::learn::fingerprint::Fingerprint;
 use anyhow::{Result, ensure};

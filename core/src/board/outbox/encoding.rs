@@ -1,0 +1,162 @@
+//! The most urgent message, encoded.
+
+use super::super::setup::{BoardInfo, Setup};
+use super::super::under_way::UnderWay;
+use super::{About, Outbox, Waiting};
+use crate::condition::{Certificate, Image};
+use crate::format::{Micros, Name};
+use crate::garment::Layout;
+use crate::health::Monitor;
+use crate::pipeline::CONTACTS;
+use crate::shape::Taught;
+use crate::wire::*;
+use core::fmt::Write;
+use heapless::{String, Vec};
+use serde::Serialize;
+
+impl<const TAXELS: usize> Outbox<TAXELS> {
+    /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
+    #[inline(never)]
+    pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
+        let About { info, setup, monitor, examined, certificate, taught } = about;
+        let under_way = &mut self.under_way;
+        let fits = if let Some((token, received)) = self.synced.pop_front() {
+            under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
+        } else if self.hello.is_some_and(|due| due <= now) {
+            self.hello = None;
+            put_hello(under_way, now, info, setup, certificate)
+        } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
+            under_way.put(Report::SELF_TEST, report)
+        } else if let Some((request, refusal)) = self.answers.pop_front() {
+            let refusal = refusal.as_ref().map(|why| why.0.as_str());
+            under_way.put(Report::ANSWER, &Answer { request, refusal })
+        } else if let Some(report) = self.reactions.pop_front() {
+            under_way.put(Report::REACTION, &report)
+        } else if self.contacts_wait {
+            self.contacts_wait = false;
+            under_way.put(Report::CONTACTS, &self.contacts)
+        } else if self.symbols_wait {
+            self.symbols_wait = false;
+            under_way.put(Report::SYMBOLS, &self.symbols)
+        } else if let Some(report) = self.changes.pop_front().or_else(|| self.intent.take()) {
+            under_way.put(Report::INTENT, &report)
+        } else if let Some(report) = self.gestures.pop_front() {
+            under_way.put(Report::GESTURE, &report)
+        } else if core::mem::take(&mut self.shapes) {
+            put_shapes(under_way, taught)
+        } else if let Some((level, text)) = self.logs.pop_front() {
+            under_way.put(Report::LOG, &Log { time: now, level, text: &text })
+        } else if let Some(first) = self.map.take_if(|_| self.streaming) {
+            self.put_map(now, first, setup.layout.taxels(), monitor)
+        } else if self.health.is_some_and(|due| due <= now) {
+            self.health = None;
+            under_way.put(Report::HEALTH, &Health { time: now, ..*health })
+        } else if let Some(budget) = self.budget.take() {
+            under_way.put(Report::BUDGET, &budget)
+        } else if let Some(temperature) = self.temperature.take() {
+            under_way.put(Report::TEMPERATURE, &temperature)
+        } else if let Some((frame, time)) = self.image.due.take() {
+            self.put_image(frame, time, &setup.layout, image, health)
+        } else if let Some((frame, time)) = self.raw.take() {
+            self.put_raw(frame, time)
+        } else {
+            true
+        };
+        health.lost = health.lost.wrapping_add(u32::from(!fits));
+    }
+
+    /// A part of the map of health, as much as fits a message.
+    #[inline(never)]
+    fn put_map(&mut self, time: Micros, first: u16, taxels: usize, monitor: &Monitor) -> bool {
+        let mut map = HealthMap { time, first, end: taxels as u16, taxels: Vec::new() };
+        for ill in monitor.ill().iter().filter(|ill| ill.taxel >= first) {
+            match map.taxels.last_mut() {
+                Some(run) if run.health == ill.health && run.first + run.count == ill.taxel => run.count += 1,
+                _ => {
+                    if map.taxels.push(Ill { first: ill.taxel, count: 1, health: ill.health }).is_err() {
+                        map.end = ill.taxel;
+                        break;
+                    }
+                }
+            }
+        }
+        self.map = (usize::from(map.end) < taxels).then_some(map.end);
+        self.under_way.put(Report::HEALTH_MAP, &map)
+    }
+
+    /// `false`: it does not fit. An image whose code has no room is thinned.
+    fn put_image(
+        &mut self,
+        frame: u32,
+        time: Micros,
+        layout: &Layout,
+        image: &Image<'_>,
+        health: &mut Health,
+    ) -> bool {
+        let Outbox { under_way, image: Waiting { base, key, last, .. }, rates, .. } = self;
+        let against = base.filter(|_| time.since(*key) < rates.key_us);
+        let Some(length) = last.advance(layout, image, against.is_none(), under_way.scratch()) else {
+            last.clear();
+            *base = None;
+            health.thinned_frames += 1;
+            return true;
+        };
+        let head = Frame { frame, time, base: against, sum: last.sum(), data: &[] };
+        let fits = under_way.put_data(Report::FRAME, &head, length);
+        *base = fits.then_some(frame);
+        if fits && against.is_none() {
+            *key = time;
+        }
+        fits
+    }
+
+    fn put_raw(&mut self, frame: u32, time: Micros) -> bool {
+        let mut plain = [0; TAXELS];
+        for (value, code) in plain.iter_mut().zip(&self.codes) {
+            *value = code.0;
+        }
+        let plain = plain.get(..self.codes.len()).unwrap_or(&[]);
+        let length = encode_image(plain, None, self.under_way.scratch());
+        let head = Raw { frame, time, data: &[] };
+        length.is_some_and(|length| self.under_way.put_data(Report::RAW, &head, length))
+    }
+}
+
+/// As a [`ShapesReport`].
+fn put_shapes(under_way: &mut UnderWay, taught: &Taught<CONTACTS>) -> bool {
+    match taught.gallery() {
+        Some(gallery) => under_way.put(Report::SHAPES, &(gallery.prototypes.len() as u16, &gallery.names)),
+        None => under_way.put(Report::SHAPES, &(0u16, Vec::<Name, 0>::new())),
+    }
+}
+
+fn put_hello(
+    under_way: &mut UnderWay,
+    now: Micros,
+    info: &BoardInfo,
+    setup: &Setup,
+    certificate: Option<&Certificate>,
+) -> bool {
+    let mut calibration: String<48> = String::new();
+    // Its longest form has 35 characters.
+    let _ = certificate.map(|it| write!(calibration, "{it}"));
+    let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; 2048]);
+    let hello = Hello {
+        magic: MAGIC,
+        protocol: PROTOCOL,
+        garment: written(&setup.garment, &mut garment),
+        firmware: info.firmware.as_bytes(),
+        clock: written(&now, &mut clock),
+        scene: written(&setup.scene, &mut scene),
+        calibration: calibration.as_bytes(),
+    };
+    under_way.put(Report::HELLO, &hello)
+}
+
+/// postcard of a value; nothing where it does not fit.
+fn written<'a, T: Serialize>(value: &T, buffer: &'a mut [u8]) -> &'a [u8] {
+    match postcard::to_slice(value, buffer) {
+        Ok(bytes) => bytes,
+        Err(_) => &[],
+    }
+}

@@ -1,0 +1,114 @@
+//! What of a frame is to be told.
+
+use super::Outbox;
+use crate::contact::Phase;
+use crate::format::Micros;
+use crate::garment::PANELS;
+use crate::gesture::Gesture;
+use crate::pipeline::Percept;
+use crate::wire::*;
+use heapless::Vec;
+
+impl<const TAXELS: usize> Outbox<TAXELS> {
+    /// Takes what was perceived in a frame.
+    pub fn note(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        if !self.streaming {
+            return;
+        }
+        for reaction in percept.reactions.changes() {
+            let report = ReactionReport { frame, time, reaction: reaction.clone() };
+            health.lost += u32::from(self.reactions.push_back(report).is_err());
+        }
+        if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.rates.intent) {
+            let report = IntentReport {
+                frame,
+                time,
+                leading: meaning.leading,
+                outcome: meaning.outcome,
+                steps: meaning.steps,
+                concepts: meaning.activations.clone(),
+            };
+            if meaning.changed {
+                health.lost += u32::from(self.changes.push_back(report).is_err());
+                self.intent = None;
+            } else {
+                self.intent = Some(report);
+            }
+        }
+        self.note_gesture(frame, time, percept, health);
+        self.note_contacts(frame, time, percept, health);
+        self.note_symbols(frame, time, percept, health);
+        // What waits is encoded from the newest image and codes, so it bears their number.
+        let due = self.rates.frames.due(time);
+        health.thinned_frames += u32::from(due && self.image.due.is_some());
+        if due || self.image.due.is_some() {
+            self.image.due = Some((frame, time));
+        }
+        if self.rates.raw.due(time) || self.raw.is_some() {
+            self.raw = Some((frame, time));
+        }
+    }
+
+    fn note_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let Some((gesture, name)) = &percept.gesture else { return };
+        let Gesture { touch, panel, class, score, lead, observed_ms, ended } = *gesture;
+        let name = name.clone();
+        let report =
+            GestureReport { frame, time, touch, panel, class, name, score, lead, observed_ms, ended };
+        health.lost += u32::from(self.gestures.push_back(report).is_err());
+    }
+
+    /// The newest state of each contact; onsets and releases stay until they are told.
+    fn note_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let list = &mut self.contacts.contacts;
+        let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
+        let due = self.rates.contacts.due(time) && !percept.present.is_empty();
+        if self.contacts_wait {
+            health.thinned_contacts += u32::from(due);
+        } else {
+            list.clear();
+        }
+        let mut untold = Vec::<u32, LISTED>::new();
+        for told_later in list.iter().filter(|p| p.contact.phase == Phase::Onset) {
+            let _ = untold.push(told_later.contact.id);
+        }
+        list.retain(|old| {
+            let present = percept.present.iter().any(|p| p.contact.id == old.contact.id);
+            old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)
+        });
+        for placed in percept.present {
+            let mut placed = placed.clone();
+            if untold.contains(&placed.contact.id) {
+                placed.contact.phase = Phase::Onset;
+            }
+            health.lost += u32::from(list.push(placed).is_err());
+        }
+        for placed in percept.released {
+            health.lost += u32::from(list.push(placed.clone()).is_err());
+        }
+        self.contacts_wait |= due || news || !percept.released.is_empty();
+        (self.contacts.frame, self.contacts.time) = (frame, time);
+        self.contacts.dropped = percept.dropped;
+    }
+
+    fn note_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let events = percept.symbols.events();
+        if !self.rates.symbols || (events.is_empty() && !self.symbols_wait) {
+            return;
+        }
+        let list = &mut self.symbols;
+        if !self.symbols_wait {
+            list.events.clear();
+        }
+        for event in events {
+            health.lost += u32::from(list.events.push(*event).is_err());
+        }
+        list.regions.clear();
+        for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {
+            // As many as there are.
+            let _ = list.regions.push(*region);
+        }
+        (list.frame, list.time) = (frame, time);
+        self.symbols_wait = true;
+    }
+}

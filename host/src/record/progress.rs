@@ -1,0 +1,57 @@
+//! How far a recording is.
+
+use crate::client::{Client, Event};
+use std::fmt::Write;
+use std::io::{IsTerminal, stderr};
+use std::path::Path;
+
+/// What is told of a recording while it goes on.
+#[derive(Debug, Default)]
+pub struct Progress {
+    frames: u64,
+    lost: u64,
+    thinned: u64,
+    passed_us: u64,
+    earlier_us: u64,
+    written: u64,
+    files: u32,
+}
+
+impl Progress {
+    /// Takes an event, `passed_us` after the file's first.
+    pub fn take(&mut self, client: &Client, event: &Event, passed_us: u64) {
+        self.frames += u64::from(matches!(event, Event::Frame { .. }));
+        (self.lost, self.thinned) = (client.counts().lost, client.counts().thinned);
+        self.passed_us = self.passed_us.max(passed_us);
+    }
+
+    /// A file has ended.
+    pub fn ended(&mut self, bytes: u64) {
+        self.earlier_us += std::mem::take(&mut self.passed_us);
+        self.written += bytes;
+        self.files += 1;
+    }
+
+    /// Whether somebody sees it.
+    pub fn is_shown(&self) -> bool {
+        stderr().is_terminal()
+    }
+
+    /// One line; `bytes` are those of the file that is being written.
+    pub fn line(&self, path: &Path, bytes: u64) -> String {
+        let seconds = (self.earlier_us + self.passed_us) as f64 / 1e6;
+        let megabytes = (self.written + bytes) as f64 / 1e6;
+        let mut line = format!(
+            "{}: {seconds:.1} s, {} frames, {megabytes:.2} MB, {} lost, {} thinned",
+            path.display(),
+            self.frames,
+            self.lost,
+            self.thinned
+        );
+        if self.files > 1 {
+            // A string takes all.
+            let _ = write!(line, ", {} files", self.files);
+        }
+        line
+    }
+}
