@@ -3,6 +3,7 @@
 use super::cells::{CELLS, Cells};
 use super::histogram::Histogram;
 use super::log::log2;
+use crate::format::{product, wide};
 
 /// Features of a grid.
 pub const GRID: usize = 4 * (SHARES.len() + 1);
@@ -56,7 +57,7 @@ impl Grid {
         let log = log2(count - 1);
         let kinds: [fn(&Cell, u64) -> u64; 4] = [
             |cell, _| u64::from(cell.sum) << 4,
-            |cell, count| (count * cell.squares).saturating_sub(u64::from(cell.sum) * u64::from(cell.sum)),
+            |cell, count| product(count, cell.squares).saturating_sub(wide(cell.sum, cell.sum)),
             |cell, _| u64::from(cell.most) << 4,
             |cell, _| u64::from(cell.change) << 4,
         ];
@@ -77,9 +78,9 @@ impl Grid {
             let value = value(cell);
             ranks.add(log2(value).saturating_sub(scale));
             // Variances have 50 bits; their squares shall fit, too.
-            let small = (value >> 8).min(u32::MAX.into());
-            sum = sum.saturating_add(small);
-            squares = squares.saturating_add(small.saturating_mul(small) >> 8);
+            let small = (value >> 8).min(u32::MAX.into()) as u32;
+            sum = sum.saturating_add(small.into());
+            squares = squares.saturating_add(wide(small, small) >> 8);
         }
         let sharing = (2 * log2(sum)).saturating_sub(log2(squares)).saturating_sub(8 << 8);
         let mut features = [sharing; SHARES.len() + 1];

@@ -5,8 +5,16 @@
 /// The logarithm of the mantissa is f + 0.3465 f (1 - f), which is right at 0, 1 and nearly so at 1/2.
 pub const fn log2(value: u64) -> u16 {
     let above = value.saturating_add(1);
-    let exponent = 63 - above.leading_zeros();
-    let fraction = (((above << above.leading_zeros()) << 1) >> 48) as u32;
+    // In words of 32 bits, which a Cortex-M0+ shifts by as much as it likes.
+    let (high, low) = ((above >> 32) as u32, above as u32);
+    let (top, exponent) = if high == 0 {
+        let zeros = low.leading_zeros();
+        (low << zeros, 31 - zeros)
+    } else {
+        let zeros = high.leading_zeros();
+        (high << zeros | (low >> 1) >> (31 - zeros), 63 - zeros)
+    };
+    let fraction = (top << 1) >> 16;
     let bend = ((fraction >> 4) * ((65_536 - fraction) >> 4)) >> 8;
     (exponent << 8) as u16 + ((fraction + ((bend * 89) >> 8)) >> 8) as u16
 }
