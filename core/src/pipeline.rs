@@ -291,25 +291,14 @@ impl Pipeline {
         replace(present, shapes.map(|(c, m)| Placed::new(layout, c.clone(), shape(m, c))));
         let dropped = touches.dropped.saturating_add(touches.overflow);
         if taught.gallery().is_some() {
-            if let Some(index) = taught.choose(present.iter().map(|placed| placed.contact.id))
-                && let Some(placed) = present.get(index)
-            {
-                taught.look(contact, layout, &image, (index, &placed.contact));
-            }
-            present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
+            look(taught, present, contact, layout, &image);
         }
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, present, released, now);
         let gesture = self.gestures.as_ref().and_then(|stage| {
-            stage
-                .process(
-                    gesture,
-                    layout,
-                    &image,
-                    present.iter().map(|p| (p.contact.panel, p.contact.total)),
-                    now,
-                )
-                .map(|gesture| (gesture, stage.name(gesture.class)))
+            let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
+            let told = stage.process(gesture, layout, &image, totals, now)?;
+            Some((told, stage.name(told.class)))
         });
         probe.begin(Stage::Intent);
         let meaning = self.intent.as_ref().and_then(|stage| {
@@ -344,6 +333,21 @@ impl Pipeline {
             rise: 0,
         }
     }
+}
+
+/// Looks at one of the contacts with the base that was taught, and tells of each what it was found to be.
+fn look<const RUNS: usize>(
+    taught: &mut Taught<CONTACTS>,
+    present: &mut [Placed],
+    contact: &ContactState<CONTACTS, RUNS>,
+    layout: &Layout,
+    image: &Image<'_>,
+) {
+    let chosen = taught.choose(present.iter().map(|placed| placed.contact.id));
+    if let Some((index, placed)) = chosen.and_then(|index| Some((index, present.get(index)?))) {
+        taught.look(contact, layout, image, (index, &placed.contact));
+    }
+    present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
 }
 
 /// How friendly it is to touch each region of a garment, percent.

@@ -175,25 +175,7 @@ pub fn run(args: LiveArgs) -> Result<()> {
 /// Shows what comes from a source until it ends, or until enough has come.
 pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result<()> {
     let mut client = Client::new();
-    if let Some(garment) = &args.garment {
-        if source.label.starts_with("sim:") {
-            bail!("--garment {garment}: a simulated board wears the garment that its scene file names");
-        }
-        outfit::wear(&mut client, garment)?;
-    }
-    if let Some(scene) = &args.scene {
-        outfit::play(&mut client, scene)?;
-    }
-    if let Some(file) = &args.calibration {
-        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
-    }
-    client.start(args.tare.unwrap_or(source.tare))?;
-    if let Some(model) = args.gestures {
-        outfit::recognise(&mut client, model, args.gesture_gain)?;
-    }
-    if let Some(hz) = args.budget {
-        client.request(&Request::Budget { hz })?;
-    }
+    prepare(&mut client, args, &source)?;
     let mut limits = Limits {
         frames: args.frames,
         seconds: args.seconds,
@@ -241,6 +223,30 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         Some(_) => Ok(()),
         None => bail!("{}: no Hello of a taxel board in {} bytes", source.label, client.counts().bytes),
     }
+}
+
+/// Queues what is asked of the board before anything is shown.
+fn prepare(client: &mut Client, args: &LiveArgs, source: &Source) -> Result<()> {
+    if let Some(garment) = &args.garment {
+        if source.label.starts_with("sim:") {
+            bail!("--garment {garment}: a simulated board wears the garment that its scene file names");
+        }
+        outfit::wear(client, garment)?;
+    }
+    if let Some(scene) = &args.scene {
+        outfit::play(client, scene)?;
+    }
+    if let Some(file) = &args.calibration {
+        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
+    }
+    client.start(args.tare.unwrap_or(source.tare))?;
+    if let Some(model) = args.gestures {
+        outfit::recognise(client, model, args.gesture_gain)?;
+    }
+    if let Some(hz) = args.budget {
+        client.request(&Request::Budget { hz })?;
+    }
+    Ok(())
 }
 
 /// When enough has come.
