@@ -34,13 +34,13 @@ pub(super) enum Flow {
     Changed,
 }
 
-/// One taxel of both pictures, seen along its row.
+/// One column of both pictures, over three rows.
 #[derive(Debug, Default, Clone, Copy)]
 struct Smooth {
-    /// Of the sum of both, over two taxels.
-    slope: i32,
     /// Of both, smoothed.
     sum: i32,
+    /// Of the sum of both, from the row above to the row below.
+    slope: i32,
     /// From the earlier to the later, smoothed.
     change: i32,
 }
@@ -82,30 +82,30 @@ impl Sums {
     fn of(pictures: &Pictures) -> Option<Sums> {
         // Eight significant bits: what is beyond them is below the noise of any taxel.
         let scale = (16 - pictures.peak.leading_zeros()).saturating_sub(8);
+        let now = pictures.now.get(..pictures.rows)?;
+        if now.iter().any(|row| row.len() != pictures.columns) || pictures.columns > SIDE {
+            return None;
+        }
         let mut sums = Sums::default();
-        let mut lines = [Line::default(); 3];
-        let [above, here, below] = &mut lines;
-        let (mut above, mut here, mut below) = (above, here, below);
-        let mut marked = 0;
-        let lines = pictures.before.iter().zip(pictures.now).zip(pictures.inner);
-        for ((before, now), inner) in lines.take(pictures.rows) {
-            let before = before.get(..pictures.columns).filter(|before| before.len() == now.len())?;
-            smooth(before, now, below);
-            sums.take(above, here, below, marked, scale);
-            marked = *inner;
-            (above, here, below) = (here, below, above);
+        let mut line = Line::default();
+        let rows = pictures.before.array_windows().zip(now.array_windows()).zip(&pictures.inner[1..]);
+        for ((before, now), marked) in rows.filter(|(_, marked)| **marked != 0) {
+            smooth(before, now, &mut line);
+            sums.take(&line, *marked, scale);
         }
         Some(sums)
     }
 
-    /// Adds the marked taxels of the middle line.
-    fn take(&mut self, above: &Line, here: &Line, below: &Line, mut marked: u16, scale: u32) {
+    /// Adds the marked taxels of a line, whose first and last column have no neighbour.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn take(&mut self, line: &Line, marked: u16, scale: u32) {
         let half = 1 << scale >> 1;
-        for ((above, here), below) in above.iter().zip(here).zip(below) {
+        let mut marked = marked >> 1;
+        for [left, here, right] in line.array_windows() {
             if marked & 1 == 1 {
-                let x = (above.slope + 4 * here.slope + below.slope + half) >> scale;
-                let y = (below.sum - above.sum + half) >> scale;
-                let t = (above.change + 4 * here.change + below.change + 2 * half) >> scale >> 1;
+                let x = (right.sum - left.sum + half) >> scale;
+                let y = (left.slope + 4 * here.slope + right.slope + half) >> scale;
+                let t = (left.change + 4 * here.change + right.change + 2 * half) >> scale >> 1;
                 self.count += 1;
                 self.x += x;
                 self.y += y;
@@ -193,21 +193,19 @@ const LONGEST: i32 = 3 << 11;
 /// count.
 const CLEAR: i64 = 98;
 
-/// Sums, slopes and changes along one row; the first and the last taxel have none.
-fn smooth(before: &[u16], now: &[u16], out: &mut Line) {
-    let both = |(before, now): (&u16, &u16)| {
-        let (before, now) = (i32::from(*before), i32::from(*now));
-        (before + now, now - before)
-    };
-    let mut columns = before.iter().zip(now).map(both);
-    let (Some(mut left), Some(mut here)) = (columns.next(), columns.next()) else { return };
-    for (out, right) in out.iter_mut().skip(1).zip(columns) {
-        *out = Smooth {
-            slope: right.0 - left.0,
-            sum: left.0 + 4 * here.0 + right.0,
-            change: left.1 + 4 * here.1 + right.1,
-        };
-        (left, here) = (here, right);
+/// Sums, slopes and changes of the middle one of three rows.
+#[inline(never)] // the few registers of an M0+ are for this
+fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Line) {
+    let [above, here, below] = before;
+    let before = above.iter().zip(here).zip(below);
+    let [above, here, below] = *now;
+    let now = above.iter().zip(here).zip(below);
+    let three = |((above, here), below): ((&u16, &u16), &u16)| [*above, *here, *below].map(i32::from);
+    for (out, (before, now)) in out.iter_mut().zip(before.zip(now)) {
+        let ([a, h, b], [above, here, below]) = (three(before), three(now));
+        // Both together, and how much more the later has.
+        let (was, is) = (a + 4 * h + b, above + 4 * here + below);
+        *out = Smooth { sum: was + is, slope: b - a + below - above, change: is - was };
     }
 }
 
