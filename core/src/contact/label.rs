@@ -85,7 +85,7 @@ impl<const RUNS: usize> Labels<RUNS> {
             };
             match self.runs.push(run) {
                 Ok(()) if above.is_empty() => {}
-                Ok(()) => above.start = self.connect(above.clone(), left.into(), (column - 1).into()),
+                Ok(()) => above.start = self.connect(above.clone()),
                 Err(_) => self.overflow = self.overflow.saturating_add(1),
             }
         }
@@ -114,10 +114,12 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// Joins the last run to those of the row above that it touches, corners included. The first of these that may touch the
     /// next run of the row.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn connect(&mut self, above: Range<usize>, left: u32, right: u32) -> usize {
-        let (mut other, mut joined, mut covers) = (above.start, NONE, 0);
+    fn connect(&mut self, above: Range<usize>) -> usize {
+        let mut other = above.start;
+        let Some((last, runs)) = self.runs.split_last_mut() else { return other };
+        let (left, right) = (u32::from(last.left), u32::from(last.right));
         while other < above.end {
-            let Some(run) = self.runs.get_mut(other) else { break };
+            let Some(run) = runs.get_mut(other) else { break };
             let (begin, end) = (u32::from(run.left), u32::from(run.right));
             if begin > right + 1 {
                 break;
@@ -127,9 +129,15 @@ impl<const RUNS: usize> Labels<RUNS> {
                     run.covers += 1;
                 }
                 if begin <= left + 1 && right <= end + 1 {
-                    covers += 1;
+                    last.covers += 1;
                 }
-                joined = self.united(joined, other as u16);
+                let part = part(runs, other as u16);
+                // The first to be joined to takes it; another is united with that.
+                let (first, second) = (last.parent.min(part), last.parent.max(part));
+                if let Some(run) = runs.get_mut(usize::from(second)) {
+                    run.parent = first;
+                }
+                last.parent = first;
                 // What ends further right may touch the next run, too.
                 if end > right {
                     break;
@@ -137,71 +145,26 @@ impl<const RUNS: usize> Labels<RUNS> {
             }
             other += 1;
         }
-        self.attach(joined, covers);
         other
     }
 
-    /// Adds the last run to a part that is another's, or to none.
-    fn attach(&mut self, part: u16, covers: u8) {
-        let Some(last) = self.runs.last_mut() else { return };
-        last.covers = covers;
-        if part == NONE {
-            return;
-        }
-        last.parent = part;
-        let (mass, area, peak) = (last.mass, last.area, last.peak);
-        if let Some(run) = self.runs.get_mut(usize::from(part)) {
-            run.add(mass, area, peak);
-        }
-    }
-
-    /// The part of a run, once it is united with another part, or none.
-    fn united(&mut self, part: u16, run: u16) -> u16 {
-        let own = self.part(run);
-        if part == NONE || part == own {
-            return own;
-        }
-        let (first, second) = (part.min(own), part.max(own));
-        let Some(other) = self.runs.get_mut(usize::from(second)) else { return first };
-        other.parent = first;
-        let (mass, area, peak) = (other.mass, other.area, other.peak);
-        if let Some(run) = self.runs.get_mut(usize::from(first)) {
-            run.add(mass, area, peak);
-        }
-        first
-    }
-
-    /// The first run of the part that a run belongs to. Parents have smaller indices, so this ends; it halves the path.
-    fn part(&mut self, mut run: u16) -> u16 {
-        loop {
-            let parent = self.parent(run);
-            if parent >= run {
-                return run;
-            }
-            let grandparent = self.parent(parent);
-            if grandparent >= parent {
-                return parent;
-            }
-            if let Some(held) = self.runs.get_mut(usize::from(run)) {
-                held.parent = grandparent;
-            }
-            run = grandparent;
-        }
-    }
-
-    fn parent(&self, run: u16) -> u16 {
-        self.runs.get(usize::from(run)).map_or(run, |run| run.parent)
-    }
-
-    /// Makes the first run of its part the parent of each run: those before it have it already.
+    /// Makes the first run of its part the parent of each run, and gives it the sums of all.
+    #[inline(never)] // the few registers of an M0+ are for this
     fn flatten(&mut self) {
-        for index in 0..self.runs.len() as u16 {
-            let parent = self.parent(index);
-            if parent < index {
-                let part = self.parent(parent);
-                if let Some(run) = self.runs.get_mut(usize::from(index)) {
-                    run.parent = part;
-                }
+        for index in 0..self.runs.len() {
+            let Some(run) = self.runs.get(index) else { return };
+            let parent = usize::from(run.parent);
+            if parent >= index {
+                continue;
+            }
+            // Those before it have the first run of theirs already.
+            let (mass, area, peak) = (run.mass, run.area, run.peak);
+            let Some(first) = self.runs.get(parent).map(|run| run.parent) else { return };
+            if let Some(run) = self.runs.get_mut(index) {
+                run.parent = first;
+            }
+            if let Some(part) = self.runs.get_mut(usize::from(first)) {
+                part.add(mass, area, peak);
             }
         }
     }
@@ -241,7 +204,24 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     /// The parts: index and first run.
     pub fn parts(&self) -> impl Iterator<Item = (u16, &Run)> {
-        (0u16..).zip(&self.runs).filter(|(index, run)| run.parent == *index)
+        let mut rest = 0;
+        core::iter::from_fn(move || {
+            let index = self.next_part(rest)?;
+            rest = index + 1;
+            Some((index, self.runs.get(usize::from(index))?))
+        })
+    }
+
+    /// The first run from `index` on that is the first of its part.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    fn next_part(&self, mut index: u16) -> Option<u16> {
+        for run in self.runs.get(usize::from(index)..)? {
+            if run.parent == index {
+                return Some(index);
+            }
+            index += 1;
+        }
+        None
     }
 
     /// How many runs begin before or at a place of a panel.
@@ -279,5 +259,24 @@ impl<const RUNS: usize> Labels<RUNS> {
     pub fn contact_of(&self, run: &Run) -> Option<u16> {
         let part = self.runs.get(usize::from(run.parent))?;
         (part.contact != NONE).then_some(part.contact)
+    }
+}
+
+/// The first run of the part that a run belongs to. Parents have smaller indices, so this ends; it halves the path.
+fn part(runs: &mut [Run], mut run: u16) -> u16 {
+    let parent = |runs: &[Run], run: u16| runs.get(usize::from(run)).map_or(run, |run| run.parent);
+    loop {
+        let above = parent(runs, run);
+        if above >= run {
+            return run;
+        }
+        let first = parent(runs, above);
+        if first >= above {
+            return above;
+        }
+        if let Some(held) = runs.get_mut(usize::from(run)) {
+            held.parent = first;
+        }
+        run = first;
     }
 }
