@@ -133,7 +133,6 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Measures all components.
-    #[inline(never)] // a stack frame of its own is near
     pub fn measure<const RUNS: usize>(
         &mut self,
         labels: &Labels<RUNS>,
@@ -145,6 +144,27 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
+        self.take_runs(labels, joins, layout, image, low);
+        for (contact, moments) in joins.carried_moments() {
+            if let Some(component) = self.list.get_mut(usize::from(contact)) {
+                component.moments.add(&moments);
+            }
+        }
+        for component in &mut self.list {
+            component.locate();
+        }
+    }
+
+    /// Adds the runs to the components that they belong to.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    fn take_runs<const RUNS: usize>(
+        &mut self,
+        labels: &Labels<RUNS>,
+        joins: &mut Joins,
+        layout: &Layout,
+        image: &Image,
+        low: u16,
+    ) {
         let mut line = Line::NONE;
         for run in &labels.runs {
             let Some(index) = labels.contact_of(run) else { continue };
@@ -154,20 +174,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 line = Line::of(run, area, image.values);
             }
             component.contour.add(run, &line, low);
-            component.add(run, &line, joins);
-            if run.panel == component.bounds.panel {
-                widen(&mut component.bounds, run, line.row);
-            } else {
+            if !component.add(run, &line, joins) {
                 self.widen_beyond(index, run, line.row);
             }
-        }
-        for (contact, moments) in joins.carried_moments() {
-            if let Some(component) = self.list.get_mut(usize::from(contact)) {
-                component.moments.add(&moments);
-            }
-        }
-        for component in &mut self.list {
-            component.locate();
         }
     }
 
@@ -198,8 +207,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 }
 
 fn widen(rect: &mut Rect, run: &Run, row: u16) {
-    rect.top = rect.top.min(row);
-    rect.bottom = rect.bottom.max(row);
+    // The rows come one after the other.
+    if row < rect.top {
+        rect.top = row;
+    }
+    rect.bottom = row;
     rect.left = rect.left.min(run.left);
     rect.right = rect.right.max(run.right);
 }
@@ -215,9 +227,9 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds a run of a row to the sums.
+    /// Adds a run of a row to the sums; whether it is on the home panel.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn add(&mut self, run: &Run, line: &Line, joins: &mut Joins) {
+    fn add(&mut self, run: &Run, line: &Line, joins: &mut Joins) -> bool {
         let values = line.around.piece(run.left, run.right);
         // Of parts that are carried the sums are, once all their runs are in.
         let carried = if self.joined { joins.moments_of(run.parent) } else { None };
@@ -228,5 +240,10 @@ impl Component {
         {
             self.peak_at = Some(Place { panel: run.panel, row: line.row, column });
         }
+        let home = run.panel == self.bounds.panel;
+        if home {
+            widen(&mut self.bounds, run, line.row);
+        }
+        home
     }
 }
