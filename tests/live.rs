@@ -39,13 +39,12 @@ fn args(source: &str, frames: Option<u64>) -> LiveArgs {
 
 fn open(args: &LiveArgs) -> Source {
     let options = SourceOptions {
-        seed: args.seed,
         frames: args.frames,
         seconds: args.seconds,
         raw: args.taxel.is_some(),
         ..SourceOptions::default()
     };
-    source::open(&args.source, &options).unwrap()
+    args.board.open(options).unwrap().0
 }
 
 /// What `taxel live --json` prints.
@@ -117,7 +116,8 @@ fn a_run_is_repeated_to_the_byte_and_a_saved_one_reads_the_same() {
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
     let again = LiveArgs { pixels: true, ..args(&format!("file:{}", file.display()), None) };
     assert_eq!(json(&again), first);
-    let seeded = LiveArgs { seed: Some(7), pixels: true, ..args("sim:five", Some(60)) };
+    let mut seeded = LiveArgs { pixels: true, ..args("sim:five", Some(60)) };
+    seeded.board.seed = Some(7);
     assert_ne!(json(&seeded), first);
     std::fs::remove_file(file).unwrap();
     let lines = parsed(&first);
@@ -331,16 +331,18 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
         let source = open(&args);
         format!("{:#}", watch(&args, source, &mut Messages::new(false, Vec::new())).unwrap_err())
     };
-    let why = refused(&|args| args.garment = Some("mat-64x32".into()));
+    let why = refused(&|args| args.board.garment = Some("mat-64x32".into()));
     assert_eq!(why, "--garment mat-64x32: a simulated board wears the garment that its scene file names");
     let file = scratch("scene.toml");
     for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
         std::fs::write(&file, text).unwrap();
-        let why = refused(&|args| args.scene = Some(file.clone()));
+        let why = refused(&|args| args.board.scene = Some(file.clone()));
         assert!(why.starts_with(&file.display().to_string()) && why.contains(wrong), "{why}");
     }
     std::fs::write(&file, "rate_hz = 50\n[stream]\nframes_hz = 10").unwrap();
-    let lines = json(&LiveArgs { scene: Some(file.clone()), seconds: Some(2.0), ..args("sim:pat", None) });
+    let mut slower = LiveArgs { seconds: Some(2.0), ..args("sim:pat", None) };
+    slower.board.scene = Some(file.clone());
+    let lines = json(&slower);
     let images = of_type(&parsed(&lines), "frame").count();
     assert!((19..=23).contains(&images), "{images} images in 2 s at 10 a second");
     std::fs::remove_file(file).unwrap();
@@ -348,7 +350,8 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
 
 #[test]
 fn gestures_are_told_where_they_are_asked_for() {
-    let asked = LiveArgs { gestures: Some(GestureModel::Gestures), ..args("sim:pat", Some(300)) };
+    let mut asked = args("sim:pat", Some(300));
+    asked.board.gestures = Some(GestureModel::Gestures);
     let lines = parsed(&json(&asked));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
     assert!(!told.is_empty());
@@ -359,12 +362,14 @@ fn gestures_are_told_where_they_are_asked_for() {
     let ended = told.iter().filter(|line| line["ended"] == true).count();
     assert!(ended <= 1, "a touch ends once");
     assert!(of_type(&parsed(&json(&args("sim:pat", Some(300)))), "gesture").next().is_none());
-    let intent = LiveArgs { gestures: Some(GestureModel::Intent), ..asked.clone() };
+    let mut intent = asked.clone();
+    intent.board.gestures = Some(GestureModel::Intent);
     let classes = ["kindness", "threat", "attack"];
     let lines = parsed(&json(&intent));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
     assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["class"].as_str().unwrap())));
-    let refused = LiveArgs { gesture_gain: Some(17.0), ..asked };
+    let mut refused = asked;
+    refused.board.gesture_gain = Some(17.0);
     let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }

@@ -1,12 +1,12 @@
 //! `taxel health`: the taxels that are ill and where they are, and lines and inputs at fault.
 
 mod ghosts;
-mod pins;
+pub(crate) mod pins;
 
 pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
-use crate::live::{self, LiveArgs, Show};
+use crate::live::{self, BoardArgs, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, anyhow, bail};
 use ghosts::Ghosts;
@@ -45,7 +45,8 @@ pub struct HealthArgs {
 pub fn run(args: HealthArgs) -> Result<()> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
-    let live = LiveArgs { frames: Some(args.frames), tare: args.tare, ..LiveArgs::of(args.source) };
+    let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source) };
+    let live = LiveArgs { frames: Some(args.frames), ..LiveArgs::on(asked) };
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     live::watch(&live, source, &mut found)?;
     if args.self_test && !found.answered {

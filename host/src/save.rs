@@ -1,28 +1,18 @@
 //! `taxel save`: what the board knows survives a restart.
 
 use crate::client::{Client, Event};
-use crate::live::{self, LiveArgs, Show};
-use crate::source::{self, SourceOptions, SourceSpec};
+use crate::live::{self, BoardArgs, LiveArgs, Show};
+use crate::source::SourceOptions;
 use anyhow::{Result, bail};
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
 
 /// Arguments of `taxel save`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SaveArgs {
-    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`
-    #[arg(long, value_name = "SOURCE", default_value = "auto")]
-    pub source: SourceSpec,
-    /// Garment that it is to wear first: a preset or a TOML file
-    #[arg(long, value_name = "G")]
-    pub garment: Option<String>,
-    /// Scene that it is used for: a TOML file; what it does not say is as shipped
-    #[arg(long, value_name = "FILE")]
-    pub scene: Option<PathBuf>,
-    /// Take the mean of N frames as the baseline first
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
-    pub tare: Option<u16>,
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
 }
 
 /// Longest time from a request to its answer.
@@ -30,13 +20,11 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Runs the command.
 pub fn run(args: SaveArgs) -> Result<()> {
-    let source = source::open(&args.source, &SourceOptions::default())?;
+    let (source, _) = args.board.open(SourceOptions::default())?;
     let label = source.label.clone();
-    let tare = args.tare.unwrap_or(0);
+    let tare = args.board.tare.unwrap_or(source.tare);
     let mut saving = Saving { waits_for: tare > 0, asked: None, done: false };
-    let live =
-        LiveArgs { garment: args.garment, scene: args.scene, tare: Some(tare), ..LiveArgs::of(args.source) };
-    live::watch(&live, source, &mut saving)?;
+    live::watch(&LiveArgs::on(args.board), source, &mut saving)?;
     if !saving.done {
         bail!("{label} ended before it had stored its settings");
     }

@@ -2,9 +2,9 @@
 
 use super::limit::Rotate;
 use super::recorder::{Plan, Recorder};
-use crate::live::{self, LiveArgs};
-use crate::source::{self, SourceOptions, SourceSpec};
-use anyhow::{Context, Result, bail};
+use crate::live::{self, BoardArgs, LiveArgs};
+use crate::source::SourceOptions;
+use anyhow::{Context, Result};
 use clap::Args;
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
@@ -17,14 +17,14 @@ pub struct RecordArgs {
     /// File to write (.mcap)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE`
-    #[arg(long, value_name = "SOURCE", default_value = "auto")]
-    pub source: SourceSpec,
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
     /// End after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
     /// End after S seconds of the board [default: a simulation's own end; else Ctrl-C]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = live::seconds)]
     pub seconds: Option<f64>,
     /// Also write FILE.ros2.mcap with ROS 2's own messages: images, point clouds, forces, diagnostics
     #[arg(long)]
@@ -35,36 +35,20 @@ pub struct RecordArgs {
     /// Write over files that are there
     #[arg(long)]
     pub force: bool,
-    /// Garment that a real or emulated board is to wear: a preset or a TOML file
-    #[arg(long, value_name = "G")]
-    pub garment: Option<String>,
-    /// Scene that the board is used for: a TOML file
-    #[arg(long, value_name = "FILE")]
-    pub scene: Option<PathBuf>,
-    /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
-    pub tare: Option<u16>,
     /// A simulation is not faster than time
     #[arg(long)]
     pub realtime: bool,
-    /// Seed of a simulation
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
 }
 
 /// Runs the command.
 pub fn run(args: RecordArgs) -> Result<()> {
-    if args.seconds.is_some_and(|s| !s.is_finite() || s < 0.0) {
-        bail!("--seconds must be a time of 0 or more");
-    }
     let options = SourceOptions {
-        seed: args.seed,
         realtime: args.realtime,
         frames: args.frames,
         seconds: args.seconds,
         ..SourceOptions::default()
     };
-    let source = source::open(&args.source, &options)?;
+    let (source, _) = args.board.open(options)?;
     let stop = Arc::new(AtomicBool::new(false));
     let asked = stop.clone();
     ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)).context("Ctrl-C cannot be caught")?;
@@ -77,14 +61,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
         counts_per_newton: source.counts_per_newton,
         stop,
     })?;
-    let watched = LiveArgs {
-        frames: args.frames,
-        seconds: args.seconds,
-        garment: args.garment,
-        scene: args.scene,
-        tare: args.tare,
-        ..LiveArgs::of(args.source)
-    };
+    let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let done = live::watch(&watched, source, &mut recorder);
     // A source that is gone ends the recording, and not its file.
     let ended = recorder.finish();

@@ -20,7 +20,7 @@ pub struct ReportArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// End after S seconds of the board; a real board is watched for 10 where nothing is said
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = live::seconds)]
     pub seconds: Option<f64>,
 }
 
@@ -34,9 +34,6 @@ pub fn run(args: ReportArgs) -> Result<()> {
         (None, Some(spec)) => spec,
         (None, None) => bail!("give a recording, or a --source"),
     };
-    if args.seconds.is_some_and(|s| !s.is_finite() || s < 0.0) {
-        bail!("--seconds must be a time of 0 or more");
-    }
     let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
     let seconds = args.seconds.or(source.real_time.then_some(WATCHED));

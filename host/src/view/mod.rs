@@ -23,11 +23,10 @@ pub use recent::Recent;
 pub use server::serve;
 pub use viewer::Viewer;
 
-use crate::live::{self, LiveArgs};
-use crate::source::{self, SourceOptions, SourceSpec};
+use crate::live::{self, BoardArgs, LiveArgs};
+use crate::source::SourceOptions;
 use anyhow::{Context, Result};
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The port where none is given, unless it is taken: T, A, X, L on a telephone.
@@ -36,34 +35,22 @@ const PORT: u16 = 8295;
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
-    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
-    #[arg(long, value_name = "SOURCE", default_value = "auto")]
-    pub source: SourceSpec,
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
     /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
     #[arg(long, value_name = "N")]
     pub port: Option<u16>,
     /// Open the page in the browser
     #[arg(long)]
     pub open: bool,
-    /// Garment that a real or emulated board is to wear: a preset or a TOML file
-    #[arg(long, value_name = "G")]
-    pub garment: Option<String>,
-    /// Scene that the board is used for: a TOML file; what it does not say is as shipped
-    #[arg(long, value_name = "FILE")]
-    pub scene: Option<PathBuf>,
-    /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
-    pub tare: Option<u16>,
-    /// Seed of a simulation
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
 }
 
 /// Runs the command.
 pub fn run(args: ViewArgs) -> Result<()> {
     let listener = bind(args.port)?;
-    let options = SourceOptions { seed: args.seed, realtime: true, repeat: true, ..SourceOptions::default() };
-    let source = source::open(&args.source, &options)?;
+    let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    let (source, _) = args.board.open(options)?;
     let hub = Arc::new(Hub::default());
     let port = serve(listener, hub.clone())?;
     let url = format!("http://127.0.0.1:{port}/");
@@ -72,14 +59,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
         browser::open(&url)?;
     }
     let mut viewer = Viewer::new(&source, hub);
-    let live = LiveArgs {
-        garment: args.garment,
-        scene: args.scene,
-        tare: args.tare,
-        seed: args.seed,
-        ..LiveArgs::of(args.source)
-    };
-    live::watch(&live, source, &mut viewer)?;
+    live::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
     println!("Nothing more comes; what came last is kept on the page (Ctrl-C ends).");
     loop {
         std::thread::park();

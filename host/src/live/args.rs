@@ -1,0 +1,126 @@
+//! What `taxel live` takes, and what every command takes that asks something of a board before it watches it.
+
+use super::{GestureModel, TaxelPlace};
+use crate::calibrate::Calibration;
+use crate::source::{self, Source, SourceOptions, SourceSpec};
+use anyhow::Result;
+use clap::Args;
+use std::path::PathBuf;
+
+/// A board, and what is asked of it before it is watched.
+#[derive(Debug, Clone, Args)]
+pub struct BoardArgs {
+    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// Garment that a real or emulated board is to wear: a preset or a TOML file
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// Scene that the board is used for: a TOML file; what it does not say is as shipped
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Calibration that the board is to have, for forces in newtons: a file of `taxel calibrate`
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
+    /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
+    pub tare: Option<u16>,
+    /// How many times a second the board reports where its time goes; 65535: for each frame [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub budget: Option<u16>,
+    /// The board recognises what goes on by a model that it holds
+    #[arg(long, value_name = "MODEL", value_enum)]
+    pub gestures: Option<GestureModel>,
+    /// With --gestures: counts of the model's sheet per count of the garment [default: 1]
+    #[arg(long, value_name = "G", requires = "gestures")]
+    pub gesture_gain: Option<f64>,
+    /// Seed of a simulation
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+impl BoardArgs {
+    /// A board as it is.
+    pub fn of(source: SourceSpec) -> BoardArgs {
+        BoardArgs {
+            source,
+            garment: None,
+            scene: None,
+            calibration: None,
+            tare: None,
+            budget: None,
+            gestures: None,
+            gesture_gain: None,
+            seed: None,
+        }
+    }
+
+    /// Opens the source, and the calibration where there is one; the source is then of its counts per newton.
+    pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
+        let mut source = source::open(&self.source, &SourceOptions { seed: self.seed, ..options })?;
+        let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
+        let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
+        source.counts_per_newton = known.or(source.counts_per_newton);
+        Ok((source, calibration))
+    }
+}
+
+/// What `taxel live` takes.
+#[derive(Debug, Clone, Args)]
+pub struct LiveArgs {
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// End after N images
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u64>,
+    /// End after S seconds of the board
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// Print messages as JSON, one a line
+    #[arg(long)]
+    pub json: bool,
+    /// With --json: also the pressure of every taxel
+    #[arg(long, requires = "json")]
+    pub pixels: bool,
+    /// Keep the bytes that come, for --source file:FILE
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+    /// Print one taxel's time, code and pressure, frame by frame
+    #[arg(long, value_name = "PANEL,ROW,COL")]
+    pub taxel: Option<TaxelPlace>,
+    /// A simulation is not faster than time
+    #[arg(long)]
+    pub realtime: bool,
+    /// Write the terminal's last picture as SVG
+    #[arg(long, value_name = "FILE", hide = true)]
+    pub svg: Option<PathBuf>,
+}
+
+impl LiveArgs {
+    /// Everything that comes from a source, as it is.
+    pub fn of(source: SourceSpec) -> LiveArgs {
+        LiveArgs::on(BoardArgs::of(source))
+    }
+
+    /// Everything that comes from a board.
+    pub fn on(board: BoardArgs) -> LiveArgs {
+        LiveArgs {
+            board,
+            frames: None,
+            seconds: None,
+            json: false,
+            pixels: false,
+            save: None,
+            taxel: None,
+            realtime: false,
+            svg: None,
+        }
+    }
+}
+
+/// Reads a time of the command line, s.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
+    time.ok_or_else(|| "must be a time of 0 or more".into())
+}

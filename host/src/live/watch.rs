@@ -1,0 +1,154 @@
+//! A source is read until it ends, or until enough has come.
+
+use super::{BoardArgs, LiveArgs, Show, outfit};
+use crate::calibrate::Calibration;
+use crate::client::{Client, Event, ImageNews};
+use crate::clock::SteadyTime;
+use crate::source::Source;
+use anyhow::{Context, Result, bail};
+use std::fs::File;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use taxel_core::format::Micros;
+use taxel_core::wire::Request;
+
+/// Shows what comes from a source until it ends, or until enough has come.
+pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result<()> {
+    let mut client = Client::new();
+    prepare(&mut client, &args.board, &source)?;
+    let mut limits = Limits {
+        frames: args.frames,
+        seconds: args.seconds,
+        began: None,
+        codes: args.taxel.is_some(),
+        ended: false,
+    };
+    let mut save = args.save.as_ref().map(Saver::open).transpose()?;
+    let mut patience = Patience { asked: Instant::now(), times: 0 };
+    let time = SteadyTime::start();
+    let tell_time = |client: &mut Client, real: bool| {
+        if real {
+            client.tell_time(time.now_us());
+        }
+    };
+    let mut buffer = [0; 4096];
+    while !limits.ended {
+        tell_time(&mut client, source.real_time);
+        let lost = || format!("{} is gone", source.label);
+        let requests = client.take_requests();
+        show.asked(&client, &requests)?;
+        source.port.write(&requests).with_context(lost)?;
+        let Some(count) = source.port.read(&mut buffer).with_context(lost)? else { break };
+        tell_time(&mut client, source.real_time);
+        show.bytes(&buffer[..count]);
+        let mut taken = 0;
+        for byte in &buffer[..count] {
+            taken += 1;
+            let Some(event) = client.push(*byte) else { continue };
+            show.event(&client, &event)?;
+            if limits.reached(&event) {
+                break;
+            }
+        }
+        if let Some(save) = &mut save {
+            save.write(&buffer[..taken])?;
+        }
+        if !show.idle(&mut client)? {
+            break;
+        }
+        patience.ask_again(&mut client, &source)?;
+    }
+    show.end(&client)?;
+    match client.worn() {
+        Some(_) => Ok(()),
+        None => bail!("{}: no Hello of a taxel board in {} bytes", source.label, client.counts().bytes),
+    }
+}
+
+/// Queues what is asked of the board before anything is shown.
+fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
+    if let Some(garment) = &args.garment {
+        if source.label.starts_with("sim:") {
+            bail!("--garment {garment}: a simulated board wears the garment that its scene file names");
+        }
+        outfit::wear(client, garment)?;
+    }
+    if let Some(scene) = &args.scene {
+        outfit::play(client, scene)?;
+    }
+    if let Some(file) = &args.calibration {
+        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
+    }
+    client.start(args.tare.unwrap_or(source.tare))?;
+    if let Some(model) = args.gestures {
+        outfit::recognise(client, model, args.gesture_gain)?;
+    }
+    if let Some(hz) = args.budget {
+        client.request(&Request::Budget { hz })?;
+    }
+    Ok(())
+}
+
+/// When enough has come.
+struct Limits {
+    frames: Option<u64>,
+    seconds: Option<f64>,
+    began: Option<Micros>,
+    /// The codes of the last image, which come after it, are waited for.
+    codes: bool,
+    ended: bool,
+}
+
+impl Limits {
+    fn reached(&mut self, event: &Event) -> bool {
+        if self.frames == Some(0) {
+            self.ended |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
+        } else if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
+            let began = *self.began.get_or_insert(*time);
+            if let Some(frames) = &mut self.frames {
+                *frames = frames.saturating_sub(1);
+                self.ended |= *frames == 0 && !self.codes;
+            }
+            self.ended |= self.seconds.is_some_and(|seconds| time.since(began) as f64 >= seconds * 1e6);
+        }
+        self.ended
+    }
+}
+
+/// Keeps the bytes that were shown.
+struct Saver {
+    file: File,
+    path: PathBuf,
+}
+
+impl Saver {
+    fn open(path: &PathBuf) -> Result<Saver> {
+        let file = File::create(path).with_context(|| format!("{} cannot be written", path.display()))?;
+        Ok(Saver { file, path: path.clone() })
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<()> {
+        self.file.write_all(bytes).with_context(|| format!("{} cannot be written", self.path.display()))
+    }
+}
+
+/// A request that came to nothing (the board was starting, the line was noisy) is made again.
+struct Patience {
+    asked: Instant,
+    times: u32,
+}
+
+impl Patience {
+    fn ask_again(&mut self, client: &mut Client, source: &Source) -> Result<()> {
+        if client.worn().is_some() || self.asked.elapsed() < Duration::from_secs(1) {
+            return Ok(());
+        }
+        self.asked = Instant::now();
+        self.times += 1;
+        if self.times == 3 {
+            eprintln!("No Hello yet from {}.", source.label);
+        }
+        Ok(client.start(0)?)
+    }
+}
