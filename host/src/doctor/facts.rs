@@ -3,6 +3,8 @@
 use crate::client::{Client, Event};
 use crate::live::Show;
 use anyhow::Result;
+use taxel_core::garment::Garment;
+use taxel_core::selftest::Findings;
 use taxel_core::wire::{Health, Request};
 
 /// What was seen.
@@ -32,6 +34,8 @@ pub struct Facts {
     pub clock_us: Option<u64>,
     /// The answer to a self-test: none, passed, or why not.
     pub self_test: Option<Result<(), String>>,
+    /// What the last self-test has found of the lines and inputs of a garment.
+    pub pins: Option<(Garment, Findings)>,
     /// Sentences of the board that something does not work.
     pub told: Vec<String>,
     /// A self-test was asked for.
@@ -56,6 +60,10 @@ impl Show for Facts {
             }
             Event::Health(health) => {
                 self.health = Some([self.health.map_or(*health, |[first, _]| first), *health]);
+            }
+            Event::SelfTest(report) => {
+                let worn = client.worn().map(|worn| worn.garment.clone());
+                self.pins = worn.map(|garment| (garment, report.findings.clone()));
             }
             Event::Answer { request, refusal } if *request == Request::SelfTest.number() => {
                 self.self_test = Some(refusal.clone().map_or(Ok(()), Err));

@@ -3,6 +3,7 @@
 use super::facts::Facts;
 use super::finding::Finding;
 use crate::date::days_between;
+use crate::health::pins;
 use taxel_core::wire::Health;
 
 /// Part of the taxels that may be ill before the garment is.
@@ -44,10 +45,7 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     found.push(taxels(facts));
     found.extend(facts.clock_us.map(clock));
     found.push(calibration(&facts.calibration, today));
-    found.extend(facts.self_test.as_ref().map(|answer| match answer {
-        Ok(()) => Finding::good("self-test", "passed"),
-        Err(why) => Finding::good("self-test", format!("not done: {why}")),
-    }));
+    found.extend(self_test(facts));
     let told = |text: &String| Finding::weak("board", text.clone(), "see docs/troubleshooting.md");
     found.extend(facts.told.iter().map(told));
     found
@@ -149,10 +147,40 @@ fn calibration(told: &str, today: &str) -> Finding {
     }
 }
 
+fn self_test(facts: &Facts) -> Option<Finding> {
+    if let Some((garment, findings)) = &facts.pins {
+        let lines = pins::table(garment, Some(findings));
+        let what = lines.lines().collect::<Vec<_>>().join("; ");
+        return Some(match findings.faults.is_empty() {
+            true => Finding::good("self-test", what),
+            false => Finding::bad(
+                "self-test",
+                what,
+                "mend these wires and solder joints with the power off, then `taxel health --self-test`",
+            ),
+        });
+    }
+    facts.self_test.as_ref().map(|answer| match answer {
+        Ok(()) => Finding::good("self-test", "passed"),
+        Err(why) => Finding::weak(
+            "self-test",
+            format!("not done: {why}"),
+            "with nothing else under way: `taxel health --self-test`",
+        ),
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Grade;
     use super::*;
+    use taxel_core::garment::Garment;
+    use taxel_core::selftest::{Fault, Findings, PinFault};
+
+    fn examined(faults: &[PinFault]) -> Option<(Garment, Findings)> {
+        let faults = faults.iter().copied().collect();
+        Some((Garment::reference(), Findings { lines: 9, inputs: 4, faults }))
+    }
 
     fn well() -> Facts {
         Facts {
@@ -164,6 +192,7 @@ mod tests {
             health: Some([Health::default(); 2]),
             clock_us: Some(400),
             self_test: Some(Ok(())),
+            pins: examined(&[]),
             ..Facts::default()
         }
     }
@@ -187,6 +216,7 @@ mod tests {
     fn each_fault_is_graded_and_has_a_cure() {
         let failed = Health { failed: 2, ..Health::default() };
         let overrun = Health { overruns: 1, ..Health::default() };
+        let stuck = PinFault { pin: 8, fault: Fault::StuckHigh };
         let cases = [
             (Facts { firmware: None, ..well() }, "link", Grade::Bad),
             (Facts { lost: [1, 0], ..well() }, "link", Grade::Bad),
@@ -201,6 +231,8 @@ mod tests {
             (Facts { clock_us: Some(50_000), ..well() }, "clock", Grade::Weak),
             (Facts { calibration: String::new(), ..well() }, "calibration", Grade::Weak),
             (Facts { calibration: "id 0, 2025-11-21, 1 %".into(), ..well() }, "calibration", Grade::Weak),
+            (Facts { pins: examined(&[stuck]), ..well() }, "self-test", Grade::Bad),
+            (Facts { pins: None, self_test: Some(Err("busy".into())), ..well() }, "self-test", Grade::Weak),
             (Facts { told: vec!["scan: no signal".into()], ..well() }, "board", Grade::Weak),
         ];
         for (facts, of, want) in cases {
