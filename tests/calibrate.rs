@@ -136,6 +136,16 @@ fn forces_of_half_to_twenty_newtons_are_within_three_percent() {
             fit.error < 0.03 && (0.01..0.06).contains(&fit.hysteresis) && (0.01..0.03).contains(&fit.noise),
             "{fit:?}"
         );
+        // The simulation's noise at rest is 3 counts.
+        assert!((2.5..3.5).contains(&fit.rest), "{fit:?}");
+        let weights: Vec<f64> = calibration.weights.iter().map(|of| of.newtons).collect();
+        assert_eq!(weights, [5.0, 10.0, 20.0, 50.0, 100.0]);
+        assert!(
+            calibration
+                .weights
+                .iter()
+                .all(|of| of.error < 0.06 && of.going.is_some() != (of.newtons == 100.0))
+        );
         let (frames, told) = felt(&calibration, &SENSOR, seed);
         assert!(calibration.is_in_force(&told), "{told}");
         let (rms, count) = error(&frames, 0.5..=20.0);
@@ -151,6 +161,49 @@ fn forces_of_half_to_twenty_newtons_are_within_three_percent() {
         let (others, _) = felt(&calibration, &SENSOR, seed + 1_000);
         assert!(error(&others, 0.5..=20.0).0 > 1.3 * rms);
     }
+}
+
+/// A calibration of a garment by its usual weights; the last taxel is dead where that is asked for.
+fn made(garment: &Garment, name: &str, over: Over, dead: bool) -> Calibration {
+    let layout = Layout::build(garment, 128, 4095).unwrap();
+    let plates = plates(garment, &layout, over).unwrap();
+    let weights = over.weights().to_vec();
+    let mut session = script(name, &layout, &plates, &weights, &SENSOR, 401).unwrap();
+    // The last, because whoever loads does not wait.
+    session.faults.dead.extend(dead.then_some(layout.taxels() as u16 - 1));
+    let mut board = RawBoard::on(source::simulated(session, &RawBoard::options()).unwrap()).unwrap();
+    calibrate(&mut board, &Task { over, weights, by: "a test".into(), wait: 60.0, json: true }).unwrap()
+}
+
+#[test]
+fn a_plate_over_blocks_or_over_taxels_gives_the_same_gains() {
+    let mut two = Garment::block();
+    two.panels[0].rows = 8;
+    let mut second = two.blocks[0].clone();
+    (second.row, second.input) = (4, 27);
+    two.blocks.push(second).unwrap();
+    let file = std::env::temp_dir().join(format!("taxel-blocks-{}.toml", std::process::id()));
+    std::fs::write(&file, toml::to_string(&two).unwrap()).unwrap();
+    let cases = [(&two, file.to_str().unwrap(), Over::Block), (&Garment::block(), "block-4x16", Over::Taxel)];
+    for (garment, name, over) in cases {
+        let whole = made(garment, name, Over::Panel, false);
+        let parts = made(garment, name, over, over == Over::Taxel);
+        assert_eq!(parts.silent, if over == Over::Taxel { vec![63] } else { vec![] });
+        assert!(parts.fit.error < 0.03, "{over:?}: {:?}", parts.fit);
+        let pairs = parts.gains.iter().zip(&whole.gains).enumerate();
+        let live = pairs.filter(|(taxel, _)| !parts.silent.contains(&(*taxel as u16)));
+        let ratios: Vec<f64> = live.map(|(_, (a, b))| f64::from(*a) / f64::from(*b)).collect();
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        let spread =
+            (ratios.iter().map(|r| (r / mean - 1.0).powi(2)).sum::<f64>() / ratios.len() as f64).sqrt();
+        println!(
+            "{over:?}: gains differ by {:.2} % rms, forces are within {:.2} %",
+            100.0 * spread,
+            100.0 * parts.fit.error
+        );
+        assert!(spread < 0.015, "{over:?}: {spread}");
+    }
+    std::fs::remove_file(&file).unwrap();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The command `taxel calibrate check`.
 
 use super::dialogue::Dialogue;
-use super::drift::{Seen, judge};
+use super::drift::{Reason, Seen, judge};
 use super::file::Calibration;
 use super::plates::{Over, Plate, plates};
 use super::reading::Reading;
@@ -12,6 +12,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
+use std::time::Duration;
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 
@@ -27,6 +28,9 @@ pub struct CheckArgs {
     /// A known weight to be put on a plate that covers the first panel, N
     #[arg(long, value_name = "N")]
     pub press: Option<f64>,
+    /// Look again every S seconds until Ctrl-C, and tell when something has changed: a drift monitor
+    #[arg(long, value_name = "S", conflicts_with = "press")]
+    pub every: Option<f64>,
     /// Days after which a calibration is old
     #[arg(long, value_name = "DAYS", default_value_t = 180)]
     pub days: u64,
@@ -40,42 +44,65 @@ pub struct CheckArgs {
 
 /// Runs the command.
 pub fn run(args: &CheckArgs) -> Result<()> {
-    ensure!(
-        args.press.is_none_or(|press| press.is_finite() && press > 0.0),
-        "--press must be a force above 0"
-    );
+    let above = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
+    ensure!(above(args.press), "--press must be a force above 0");
+    ensure!(above(args.every), "--every must be a time above 0");
     let calibration = Calibration::read(&args.file)?;
+    let Some(every) = args.every else {
+        tell(args, &calibration, &reasons(args, &calibration)?);
+        return Ok(());
+    };
+    let pause = Duration::try_from_secs_f64(every).context("--every")?;
+    let mut told = None;
+    loop {
+        let now = reasons(args, &calibration)?;
+        // Numbers in a reason change all the time; which reasons there are is news.
+        let kinds: Vec<_> = now.iter().map(std::mem::discriminant).collect();
+        if told.as_ref() != Some(&kinds) {
+            tell(args, &calibration, &now);
+            told = Some(kinds);
+        }
+        std::thread::sleep(pause);
+    }
+}
+
+/// Looks at the garment once.
+fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
     let worn = board.worn().context("the board has not said what it wears")?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let (falling, wait, json) = (garment.wiring.falling, args.wait, args.json);
     let mut dialogue = Dialogue { board: &mut board, falling, wait, json };
-    let rest = dialogue.rest()?;
+    if args.every.is_none() {
+        dialogue.ask_for_rest();
+    }
+    let rest = dialogue.rest()?.codes;
     let mut press = None;
     if let (Some(newtons), true) = (args.press, rest.len() == calibration.gains.len()) {
         let mut plates = plates(&garment, &layout, Over::Panel)?;
         plates.truncate(1);
         let readings = dialogue.readings(&plates, &[newtons], &rest)?;
-        press = Some((newtons, felt(&calibration, &plates[0], &readings[0])?));
+        let reading = readings.first().context("nothing was felt")?;
+        press = Some((newtons, felt(calibration, &plates[0], reading)?));
     }
     let ill = board.ill().keys().copied().collect();
     board.give_back()?;
     let seen = Seen { told, rest, ill, today: date::today(), days: args.days, press };
-    let reasons: Vec<String> = judge(&calibration, &seen).iter().map(ToString::to_string).collect();
+    Ok(judge(calibration, &seen))
+}
+
+fn tell(args: &CheckArgs, calibration: &Calibration, reasons: &[Reason]) {
     if args.json {
-        println!(
-            "{}",
-            json!({ "type": "check", "id": calibration.id, "holds": reasons.is_empty(), "why": reasons })
-        );
-        return Ok(());
+        let why: Vec<String> = reasons.iter().map(ToString::to_string).collect();
+        let line = json!({ "type": "check", "id": calibration.id, "holds": why.is_empty(), "why": why });
+        return println!("{line}");
     }
     match reasons.is_empty() {
         true => println!("Calibration {} of {} holds.", calibration.id, calibration.date),
         false => println!("Calibrate again (`taxel calibrate`), because"),
     }
     reasons.iter().for_each(|reason| println!("  {reason}."));
-    Ok(())
 }
 
 /// A known force by the calibration, N.

@@ -5,6 +5,7 @@ use super::file::Calibration;
 use super::install::install;
 use super::operator;
 use super::plates::{Over, plates};
+use super::residuals::OfWeight;
 use super::task::{Task, calibrate};
 use crate::raw::RawBoard;
 use crate::sim::{self, Sensor};
@@ -39,7 +40,8 @@ pub struct CalibrateArgs {
     #[arg(long, value_enum, default_value_t = Over::Panel)]
     pub over: Over,
     /// The weights with what carries them, N, put on one after the other and taken off again
-    #[arg(long, value_name = "N,N,...", value_delimiter = ',', default_values_t = [5.0, 10.0, 20.0, 50.0, 100.0])]
+    /// [default: 5,10,20,50,100; over a taxel 0.2,0.5,1,2]
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
     pub weights: Vec<f64>,
     /// The weights are in kg
     #[arg(long)]
@@ -100,6 +102,9 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
 fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
     let unit = if args.kg { GRAVITY } else { 1.0 };
     let mut weights: Vec<f64> = args.weights.iter().map(|weight| weight * unit).collect();
+    if weights.is_empty() {
+        weights = args.over.weights().to_vec();
+    }
     if let Some(wrong) = weights.iter().find(|w| !w.is_finite() || **w <= 0.0 || **w > 10_000.0) {
         bail!("--weights must be above 0 and at most 10000 N, not {wrong}");
     }
@@ -129,17 +134,32 @@ fn tell(args: &CalibrateArgs, made: &Calibration) {
         let file = args.output.display().to_string();
         return println!(
             "{}",
-            json!({ "type": "calibrated", "id": made.id, "date": made.date, "fit": fit, "silent": made.silent, "file": file })
+            json!({
+                "type": "calibrated", "id": made.id, "date": made.date, "fit": fit, "weights": made.weights,
+                "silent": made.silent, "file": file,
+            })
         );
     }
     let percent = |part: f64| format!("{:.1} %", 100.0 * part);
+    println!("\n  weight     felt coming  going      error rms");
+    for OfWeight { newtons, coming, going, error } in &made.weights {
+        let going = going.map_or_else(|| "-".into(), |going| format!("{going:.2} N"));
+        println!(
+            "  {:<10} {:<12} {going:<10} {}",
+            format!("{newtons:.2} N"),
+            format!("{coming:.2} N"),
+            percent(*error)
+        );
+    }
     println!(
-        "Calibration {} of {}: forces within {} rms ({} at most); hysteresis {}, noise of a taxel {}.",
+        "\nCalibration {} of {}: forces within {} rms ({} at most); hysteresis {}; noise of a taxel {:.1} counts at rest, {} \
+         under the heaviest weight.",
         made.id,
         made.garment,
         percent(fit.error),
         percent(fit.worst),
         percent(fit.hysteresis),
+        fit.rest,
         percent(fit.noise)
     );
     if !made.silent.is_empty() {

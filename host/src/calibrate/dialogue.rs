@@ -1,7 +1,7 @@
 //! The weights, one after the other, on one plate after the other.
 
 use super::plates::Plate;
-use super::reading::Reading;
+use super::reading::{Reading, Rest};
 use super::steady::{Steady, mean};
 use crate::raw::RawBoard;
 use anyhow::{Result, bail};
@@ -28,20 +28,20 @@ pub struct Dialogue<'a> {
 }
 
 impl Dialogue<'_> {
-    /// Mean codes of the garment at rest.
-    pub fn rest(&mut self) -> Result<Vec<f64>> {
+    /// Says that nothing is to be touched now.
+    pub fn ask_for_rest(&self) {
         self.say("Hands off for a moment.", json!({ "type": "rest" }));
-        let mut sums = Vec::new();
-        for _ in 0..REST_FRAMES {
-            let frame = self.board.frame()?;
-            sums.resize(frame.codes.len(), 0.0);
-            sums.iter_mut().zip(&frame.codes).for_each(|(sum, code)| *sum += f64::from(*code));
-        }
-        sums.iter_mut().for_each(|sum| *sum /= REST_FRAMES as f64);
-        Ok(sums)
     }
 
-    /// All weights (N, ascending) on each of the plates, and off again.
+    /// The garment at rest.
+    pub fn rest(&mut self) -> Result<Rest> {
+        let frames: Vec<Vec<u16>> =
+            (0..REST_FRAMES).map(|_| Ok(self.board.frame()?.codes)).collect::<Result<_>>()?;
+        Ok(Rest::of(&frames))
+    }
+
+    /// All weights (N, ascending) on each of the plates, and off again. A plate over one taxel that does not feel the first is
+    /// passed over.
     pub fn readings(&mut self, plates: &[Plate], weights: &[f64], rest: &[f64]) -> Result<Vec<Reading>> {
         let mut readings = Vec::new();
         for (index, plate) in plates.iter().enumerate() {
@@ -52,8 +52,14 @@ impl Dialogue<'_> {
             let mut per_newton = 0.0;
             for (newtons, going) in coming.chain(going) {
                 let least = (STEP * per_newton * (newtons - last.0).abs()).max(FAINT);
-                let reading =
-                    self.weigh(index, plate, (newtons, going), Steady::away_from(last.1, least), rest)?;
+                let steady = Steady::away_from(last.1, least);
+                let Some(reading) = self.weigh(index, plate, (newtons, going), steady, rest)? else {
+                    if plate.taxels.len() == 1 && last.0 == 0.0 {
+                        self.say("  nothing is felt here.", json!({ "type": "silent", "plate": index }));
+                        break;
+                    }
+                    bail!("{}: no steady weight of {newtons} N came in {} s", plate.name, self.wait);
+                };
                 last = (newtons, mean(reading.counts.iter().copied()));
                 per_newton = (last.1 / newtons).max(0.0);
                 readings.push(reading);
@@ -63,7 +69,7 @@ impl Dialogue<'_> {
         Ok(readings)
     }
 
-    /// One weight.
+    /// One weight; none where it does not come in time.
     fn weigh(
         &mut self,
         index: usize,
@@ -71,7 +77,7 @@ impl Dialogue<'_> {
         (newtons, going): (f64, bool),
         mut steady: Steady,
         rest: &[f64],
-    ) -> Result<Reading> {
+    ) -> Result<Option<Reading>> {
         let again = if going { "again only " } else { "" };
         let ask = json!({ "type": "ask", "plate": plate.name, "newtons": newtons, "going": going });
         self.say(&format!("{}: put {again}{newtons} N on the plate.", plate.name), ask);
@@ -88,10 +94,10 @@ impl Dialogue<'_> {
                 let (counts, noise) = (held.counts, held.noise);
                 let reading = Reading { plate: index, newtons, going, counts, noise };
                 self.tell(&reading);
-                return Ok(reading);
+                return Ok(Some(reading));
             }
             if now - *began.get_or_insert(now) > self.wait {
-                bail!("{}: no steady weight of {newtons} N came in {} s", plate.name, self.wait);
+                return Ok(None);
             }
             if now - shown > 0.2 {
                 shown = now;

@@ -2,7 +2,8 @@
 
 use super::curve::Curve;
 use super::fit::Fitted;
-use super::residuals::Residuals;
+use super::reading::Rest;
+use super::residuals::{OfWeight, Residuals};
 use crate::date;
 use anyhow::{Context, Result, anyhow, ensure};
 use crc::{CRC_32_ISO_HDLC, Crc};
@@ -31,6 +32,9 @@ pub struct Calibration {
     pub board: String,
     /// How well it fits.
     pub fit: Residuals,
+    /// How well each weight is given back.
+    #[serde(default, rename = "weight")]
+    pub weights: Vec<OfWeight>,
     /// Taxels that show nothing.
     pub silent: Vec<u16>,
     /// Gain by taxel number, Q4.12: the board's share.
@@ -54,7 +58,7 @@ pub struct PanelCurve {
 
 impl Calibration {
     /// Of what was fitted, on this day, by this person.
-    pub fn of(fitted: Fitted, layout: &Layout, rest: Vec<u16>, about: [&str; 4]) -> Calibration {
+    pub fn of(fitted: Fitted, layout: &Layout, rest: &Rest, about: [&str; 4]) -> Calibration {
         let named = layout.areas().iter().zip(fitted.curves);
         let curve = |(area, curve): (&taxel_core::garment::Area, Option<Curve>)| {
             curve.map(|knots| PanelCurve { name: area.name.as_str().into(), knots })
@@ -67,10 +71,11 @@ impl Calibration {
             date: date::today(),
             how,
             board,
-            fit: fitted.residuals,
+            fit: Residuals { rest: rest.noise, ..fitted.residuals },
+            weights: fitted.weights,
             silent: fitted.silent,
             gains: fitted.gains,
-            rest,
+            rest: rest.codes.iter().map(|code| code.round() as u16).collect(),
             panels: named.filter_map(curve).collect(),
         };
         made.id = format!("{:08x}", made.sum());

@@ -3,7 +3,7 @@
 use super::curve::{Curve, PARTS};
 use super::plates::Plate;
 use super::reading::Reading;
-use super::residuals::Residuals;
+use super::residuals::{OfWeight, Residuals, felt, of_weights};
 use super::steady::mean;
 use anyhow::{Context, Result, ensure};
 use taxel_core::condition::UNITY;
@@ -31,6 +31,8 @@ pub struct Fitted {
     pub silent: Vec<u16>,
     /// How well it fits.
     pub residuals: Residuals,
+    /// How well each weight is given back, from the lightest.
+    pub weights: Vec<OfWeight>,
 }
 
 /// One taxel under one weight.
@@ -59,16 +61,25 @@ pub fn fit(layout: &Layout, plates: &[Plate], readings: &[Reading]) -> Result<Fi
         curves.push(curve);
     }
     let gains: Vec<u16> = gains.iter().map(|gain| (gain * f64::from(UNITY)).round() as u16).collect();
-    let residuals = Residuals::of(plates, readings, &gains, &curves, &silent);
-    Ok(Fitted { gains, curves, silent, residuals })
+    let felt = felt(plates, readings, &gains, &curves, &silent);
+    Ok(Fitted {
+        gains,
+        curves,
+        silent,
+        residuals: Residuals::of(readings, &felt),
+        weights: of_weights(&felt),
+    })
 }
 
-/// Those that show nothing under the heaviest weight of their plate, though others do.
+/// Those that show nothing under the heaviest weight of their plate, though others do, and those of a plate that shows nothing.
 fn silent(plates: &[Plate], readings: &[Reading]) -> Vec<u16> {
     let mut found = Vec::new();
     for (index, plate) in plates.iter().enumerate() {
         let of = readings.iter().filter(|reading| reading.plate == index);
-        let Some(top) = of.max_by(|a, b| a.newtons.total_cmp(&b.newtons)) else { continue };
+        let Some(top) = of.max_by(|a, b| a.newtons.total_cmp(&b.newtons)) else {
+            found.extend(&plate.taxels);
+            continue;
+        };
         let mut sorted = top.counts.clone();
         sorted.sort_by(f64::total_cmp);
         let median = sorted[sorted.len() / 2];

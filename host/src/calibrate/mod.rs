@@ -30,6 +30,6 @@ pub use force::Forces;
 pub use install::install;
 pub use operator::script;
 pub use plates::{Over, Plate, plates};
-pub use reading::Reading;
-pub use residuals::Residuals;
+pub use reading::{Reading, Rest};
+pub use residuals::{OfWeight, Residuals};
 pub use task::{Task, calibrate};

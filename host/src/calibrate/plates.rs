@@ -14,6 +14,16 @@ pub enum Over {
     Taxel,
 }
 
+impl Over {
+    /// Weights for it where nobody says which, N.
+    pub fn weights(self) -> &'static [f64] {
+        match self {
+            Over::Panel | Over::Block => &[5.0, 10.0, 20.0, 50.0, 100.0],
+            Over::Taxel => &[0.2, 0.5, 1.0, 2.0],
+        }
+    }
+}
+
 /// A place of the plate, and what it presses there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plate {

@@ -1,4 +1,26 @@
-//! What taxels showed under a known force.
+//! What taxels showed at rest, and under a known force.
+
+use super::steady::mean;
+
+/// The garment at rest.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Rest {
+    /// Mean code by taxel.
+    pub codes: Vec<f64>,
+    /// Noise of one taxel in one frame, rms over all, counts.
+    pub noise: f64,
+}
+
+impl Rest {
+    /// Of the codes of some frames.
+    pub fn of(frames: &[Vec<u16>]) -> Rest {
+        let taxels = frames.iter().map(Vec::len).min().unwrap_or(0);
+        let column = |taxel: usize| frames.iter().map(move |codes| f64::from(codes[taxel]));
+        let codes: Vec<f64> = (0..taxels).map(|taxel| mean(column(taxel))).collect();
+        let variance = |taxel: usize| mean(column(taxel).map(|code| (code - codes[taxel]).powi(2)));
+        Rest { noise: mean((0..taxels).map(variance)).sqrt(), codes }
+    }
+}
 
 /// Means over the frames of a steady load.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,5 +41,19 @@ impl Reading {
     /// Force on each taxel, N.
     pub fn each(&self) -> f64 {
         self.newtons / self.counts.len() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rest_is_the_mean_and_what_strays_from_it() {
+        let rest = Rest::of(&[vec![10, 100], vec![14, 100]]);
+        assert_eq!(rest.codes, [12.0, 100.0]);
+        // Variances of 4 and 0.
+        assert!((rest.noise - 2f64.sqrt()).abs() < 1e-12);
+        assert_eq!(Rest::of(&[]), Rest::default());
     }
 }

@@ -7,7 +7,7 @@ use super::steady::mean;
 use serde::{Deserialize, Serialize};
 use taxel_core::condition::UNITY;
 
-/// Parts of 1.
+/// How well a calibration fits: parts of 1, but for the last.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
@@ -19,36 +19,94 @@ pub struct Residuals {
     pub hysteresis: f64,
     /// Noise of one taxel in one frame under the heaviest weight, rms.
     pub noise: f64,
+    /// Noise of one taxel in one frame at rest, rms, counts.
+    #[serde(default)]
+    pub rest: f64,
+}
+
+/// What a weight is by the calibration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfWeight {
+    /// The weight, N.
+    pub newtons: f64,
+    /// What it is taken for when it comes, N, mean over the plates.
+    pub coming: f64,
+    /// And when it goes, N; none: it was the heaviest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub going: Option<f64>,
+    /// Error of both, rms over the plates, part of the weight.
+    pub error: f64,
+}
+
+/// A reading, and its force by the calibration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Felt {
+    newtons: f64,
+    going: bool,
+    felt: f64,
+}
+
+impl Felt {
+    fn error(&self) -> f64 {
+        self.felt / self.newtons - 1.0
+    }
 }
 
 impl Residuals {
     /// Of what was fitted to readings.
-    pub(super) fn of(
-        plates: &[Plate],
-        readings: &[Reading],
-        gains: &[u16],
-        curves: &[Option<Curve>],
-        silent: &[u16],
-    ) -> Residuals {
-        let errors: Vec<f64> = readings
-            .iter()
-            .filter_map(|reading| {
-                let plate = &plates[reading.plate];
-                let curve = curves[usize::from(plate.bounds.panel)].as_ref()?;
-                Some(felt(reading, plate, gains, curve, silent) / reading.newtons - 1.0)
-            })
-            .collect();
+    pub(super) fn of(readings: &[Reading], felt: &[Felt]) -> Residuals {
         Residuals {
-            error: mean(errors.iter().map(|error| error * error)).sqrt(),
-            worst: errors.iter().fold(0.0, |worst, error| error.abs().max(worst)),
+            error: rms(felt.iter().map(Felt::error)),
+            worst: felt.iter().fold(0.0, |worst, felt| felt.error().abs().max(worst)),
             hysteresis: hysteresis(readings),
             noise: noise(readings),
+            rest: 0.0,
         }
     }
 }
 
+/// All readings by the calibration.
+pub(super) fn felt(
+    plates: &[Plate],
+    readings: &[Reading],
+    gains: &[u16],
+    curves: &[Option<Curve>],
+    silent: &[u16],
+) -> Vec<Felt> {
+    let one = |reading: &Reading| {
+        let plate = &plates[reading.plate];
+        let curve = curves[usize::from(plate.bounds.panel)].as_ref()?;
+        let felt = force(reading, plate, gains, curve, silent);
+        Some(Felt { newtons: reading.newtons, going: reading.going, felt })
+    };
+    readings.iter().filter_map(one).collect()
+}
+
+/// The same by weight, from the lightest.
+pub(super) fn of_weights(all: &[Felt]) -> Vec<OfWeight> {
+    let mut weights: Vec<f64> = all.iter().map(|felt| felt.newtons).collect();
+    weights.sort_by(f64::total_cmp);
+    weights.dedup();
+    let of = |newtons: f64| {
+        let these = all.iter().filter(move |felt| felt.newtons == newtons);
+        let way = |going: bool| these.clone().filter(move |felt| felt.going == going).map(|felt| felt.felt);
+        OfWeight {
+            newtons,
+            coming: mean(way(false)),
+            going: way(true).next().map(|_| mean(way(true))),
+            error: rms(these.clone().map(Felt::error)),
+        }
+    };
+    weights.into_iter().map(of).collect()
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    mean(values.map(|value| value * value)).sqrt()
+}
+
 /// Force of a reading by the calibration, N; a silent taxel counts as the mean of the others.
-fn felt(reading: &Reading, plate: &Plate, gains: &[u16], curve: &Curve, silent: &[u16]) -> f64 {
+fn force(reading: &Reading, plate: &Plate, gains: &[u16], curve: &Curve, silent: &[u16]) -> f64 {
     let live = plate.taxels.iter().zip(&reading.counts).filter(|(taxel, _)| !silent.contains(taxel));
     let forces = live.map(|(taxel, counts)| {
         let even = counts.max(0.0) * f64::from(gains[usize::from(*taxel)]) / f64::from(UNITY);
@@ -73,5 +131,21 @@ fn noise(readings: &[Reading]) -> f64 {
     let heaviest = readings.iter().map(Reading::each).fold(0.0, f64::max);
     let top = readings.iter().filter(|reading| reading.each() == heaviest);
     let parts = top.flat_map(|r| r.noise.iter().zip(&r.counts)).filter(|(_, counts)| **counts > 0.0);
-    mean(parts.map(|(noise, counts)| (noise / counts).powi(2))).sqrt()
+    rms(parts.map(|(noise, counts)| noise / counts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_weight_has_its_own_error() {
+        let felt = |newtons, going, felt| Felt { newtons, going, felt };
+        let all = [felt(5.0, false, 4.9), felt(10.0, false, 10.0), felt(5.0, true, 5.1)];
+        let weights = of_weights(&all);
+        assert_eq!(weights.len(), 2);
+        assert_eq!((weights[0].coming, weights[0].going), (4.9, Some(5.1)));
+        assert!((weights[0].error - 0.02).abs() < 1e-9);
+        assert_eq!(weights[1], OfWeight { newtons: 10.0, coming: 10.0, going: None, error: 0.0 });
+    }
 }

@@ -35,18 +35,18 @@ pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
     let plates = plates(&garment, &layout, task.over)?;
     let (falling, wait, json) = (garment.wiring.falling, task.wait, task.json);
     let mut dialogue = Dialogue { board, falling, wait, json };
+    dialogue.ask_for_rest();
     let rest = dialogue.rest()?;
     dialogue.board.ask(&Request::Tare { frames: TARE })?;
-    let readings = dialogue.readings(&plates, &task.weights, &rest)?;
+    let readings = dialogue.readings(&plates, &task.weights, &rest.codes)?;
     let fitted = fit(&layout, &plates, &readings)?;
-    let rest = rest.iter().map(|code| code.round() as u16).collect();
     let about = [
         garment.name.as_str(),
         &task.by,
         &how(task, plates.len()),
         &format!("{firmware} at {}", board.label()),
     ];
-    Ok(Calibration::of(fitted, &layout, rest, about))
+    Ok(Calibration::of(fitted, &layout, &rest, about))
 }
 
 fn how(task: &Task, plates: usize) -> String {
