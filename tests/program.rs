@@ -41,7 +41,7 @@ fn newest_source() -> SystemTime {
         let Ok(entries) = path.read_dir() else { return changed(path) };
         entries.filter_map(|entry| newest(&entry.ok()?.path())).max()
     }
-    let folders = ["core/src", "host/src", "host/examples", "host/scenes", "host/maps"]
+    let folders = ["core/src", "host/src", "host/examples", "host/scenes", "host/maps", "host/schemas"]
         .map(|folder| newest(&root().join(folder)));
     folders.into_iter().flatten().max().unwrap()
 }

@@ -1,14 +1,20 @@
 //! Commands around a board, the examples, and the documents that others program by: as they work from outside.
 
 mod program;
+mod schema;
 
 use program::{intentions, root, taxel};
 use serde_json::Value;
-use std::io::Write;
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpListener;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
-use taxel_core::wire::{Report, Request, decode, open};
+use std::time::Duration;
+use taxel::raw::RawBoard;
+use taxel::source::{self, SourceOptions};
+use taxel_core::garment::Garment;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{LONGEST_REQUEST, Receiver, Report, Request, decode, open};
 
 fn run(args: &[&str]) -> Output {
     Command::new(taxel()).args(args).output().unwrap()
@@ -71,6 +77,7 @@ fn a_garment_file_is_begun_and_checked() {
     assert!(text.starts_with("#:schema ./taxel-garment.schema.json\n"), "{text}");
     let schema = std::fs::read_to_string(garment.with_file_name("taxel-garment.schema.json")).unwrap();
     assert_eq!(schema, said(&["config", "schema"]));
+    assert_eq!(schema, said(&["config", "schema", "garment"]));
     assert!(said(&["config", "check", name]).contains("2048 taxels in 4 panels and 32 blocks: fits."));
     let scene = file("scene.toml");
     std::fs::write(&scene, "name = \"calm\"\nrate_hz = 50\n").unwrap();
@@ -81,6 +88,66 @@ fn a_garment_file_is_begun_and_checked() {
     std::fs::write(&garment, text.replacen("rows = 32", "rows = 31", 1)).unwrap();
     let why = refused(&["config", "check", name]);
     assert!(why.contains("mine.toml, line ") && why.contains("panel chest"), "{why}");
+}
+
+/// A file as editors see it.
+fn toml_value(text: &str) -> Value {
+    serde_json::to_value(toml::from_str::<toml::Table>(text).unwrap()).unwrap()
+}
+
+#[test]
+fn the_schema_of_garments_takes_what_ships_and_nothing_wrong() {
+    let schema: Value = serde_json::from_str(&said(&["config", "schema", "garment"])).unwrap();
+    for name in Garment::PRESETS {
+        let text = toml::to_string(&Garment::preset(name).unwrap()).unwrap();
+        assert_eq!(schema::wrong(&toml_value(&text), &schema), None, "{name}");
+    }
+    let block = std::fs::read_to_string(root().join("host/garments/block-4x16.toml")).unwrap();
+    assert_eq!(schema::wrong(&toml_value(&block), &schema), None);
+    for (from, to, place) in [
+        ("columns = 16\n", "colums = 16\n", "/panels/0"),
+        ("settle_ns = 8000", "settle_ns = \"8000\"", "/wiring/settle_ns"),
+        ("{ pin = 9 }", "{ pin = 64 }", "/wiring/column/lines/0/pin"),
+        ("rows = 4\n", "rows = 0\n", "/panels/0/rows"),
+    ] {
+        assert!(block.contains(from), "{from}");
+        let why = schema::wrong(&toml_value(&block.replacen(from, to, 1)), &schema).unwrap();
+        assert!(why.starts_with(place), "{to}: {why}");
+    }
+}
+
+#[test]
+fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
+    let schema: Value = serde_json::from_str(&said(&["config", "schema", "scene"])).unwrap();
+    assert_eq!(schema::wrong(&serde_json::to_value(Scene::shipped()).unwrap(), &schema), None);
+    let begun = file("calm.toml");
+    said(&["config", "scene", begun.to_str().unwrap()]);
+    let text = std::fs::read_to_string(&begun).unwrap();
+    assert!(text.starts_with("#:schema ./taxel-scene.schema.json\n"), "{text}");
+    let scene = toml_value(&text);
+    assert_eq!(schema::wrong(&scene, &schema), None);
+    // Every simulation's own scene.
+    for script in std::fs::read_dir(root().join("host/scenes")).unwrap() {
+        let script = toml_value(&std::fs::read_to_string(script.unwrap().path()).unwrap());
+        assert_eq!(script.get("scene").and_then(|scene| schema::wrong(scene, &schema)), None);
+    }
+    for (place, wrong) in [
+        ("/stream/key_ms", Value::from(1001)),
+        ("/condition/filter", "mean".into()),
+        ("/contact/low", 0.into()),
+        ("/symbol/extent", serde_json::json!([1])),
+        ("/react/0/cause", "anger".into()),
+        ("/intent/map", 7.into()),
+        ("/name", "a name of more than sixteen".into()),
+    ] {
+        let mut changed = scene.clone();
+        *changed.pointer_mut(place).unwrap() = wrong;
+        let why = schema::wrong(&changed, &schema).unwrap();
+        assert!(why.starts_with(place), "{place}: {why}");
+    }
+    let mut unknown = scene;
+    unknown["contact"]["lo"] = 3.into();
+    assert!(schema::wrong(&unknown, &schema).unwrap().starts_with("/contact: additionalProperties"));
 }
 
 #[test]
@@ -104,6 +171,60 @@ fn a_simulated_garment_is_calibrated_and_checked() {
     assert!(
         refused(&["calibrate", "--weights", "1,0", "--simulate", "1"]).contains("--weights must be above 0")
     );
+}
+
+/// A simulated board behind TCP, until whoever connects is gone: the garments and the scenes that it was told to take.
+fn serve(listener: &TcpListener) -> [Vec<Vec<u8>>; 2] {
+    let options = SourceOptions { realtime: true, ..RawBoard::options() };
+    let mut board = source::open(&"sim:idle".parse().unwrap(), &options).unwrap();
+    let mut socket = listener.accept().unwrap().0;
+    socket.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
+    let mut receiver = Receiver::<LONGEST_REQUEST>::new();
+    let (mut told, mut buffer) = ([Vec::new(), Vec::new()], [0; 4096]);
+    loop {
+        match socket.read(&mut buffer) {
+            Ok(0) => return told,
+            Ok(count) => {
+                board.port.write(&buffer[..count]).unwrap();
+                for byte in &buffer[..count] {
+                    match receiver.push(*byte).map(|bytes| decode::<Request>(bytes.unwrap()).unwrap()) {
+                        Some(Request::SetGarment(bytes)) => told[0].push(bytes.to_vec()),
+                        Some(Request::SetScene(bytes)) => told[1].push(bytes.to_vec()),
+                        _ => {}
+                    }
+                }
+            }
+            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
+            Err(_) => return told,
+        }
+        let count = board.port.read(&mut buffer).unwrap().unwrap();
+        if socket.write_all(&buffer[..count]).is_err() {
+            return told;
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn after_ctrl_c_the_board_wears_what_it_wore() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let source = format!("tcp:{}", listener.local_addr().unwrap());
+    let board = std::thread::spawn(move || serve(&listener));
+    let mut setup = Command::new(taxel());
+    setup.args(["setup", "--source", &source, "--json"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = setup.spawn().unwrap();
+    let mut asked = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut asked).unwrap();
+    assert!(asked.contains("\"ask\""), "{asked}");
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "error: ended by Ctrl-C\n");
+    let [garments, scenes] = board.join().unwrap();
+    let reference = postcard::to_allocvec(&Garment::reference()).unwrap();
+    assert!(garments.len() == 2 && garments[0] != reference && garments[1] == reference);
+    let shipped = postcard::to_allocvec(&Scene::shipped()).unwrap();
+    assert!(scenes.len() == 2 && scenes[0] != shipped && scenes[1] == shipped);
 }
 
 #[test]

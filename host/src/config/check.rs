@@ -54,7 +54,7 @@ pub fn check(file: &Path, scene: Option<&Path>) -> Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::SCHEMA;
+    use super::super::Kind;
     use super::*;
     use serde_json::Value;
 
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn the_schema_has_the_keys_of_a_garment_and_no_others() {
-        let schema: Value = serde_json::from_str(SCHEMA).unwrap();
+        let schema: Value = serde_json::from_str(Kind::Garment.schema()).unwrap();
         let (mut have, mut want) = (Vec::new(), Vec::new());
         allowed(&schema, &schema, "", &mut have);
         for garment in Garment::PRESETS.iter().filter_map(|name| Garment::preset(name)) {

@@ -1,21 +1,44 @@
-//! `taxel config`: the file of a garment, begun, checked, and explained to editors.
+//! `taxel config`: the files of a garment and of a scene, begun, checked, and explained to editors.
 
 mod check;
 mod line;
+mod scene;
 
 pub use check::check;
 
 use crate::garments;
 use crate::sim;
 use anyhow::{Context, Result, ensure};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The JSON schema of a garment's file.
-pub const SCHEMA: &str = include_str!("../../schemas/garment.json");
-/// Name of the schema's file beside a garment's.
-const SCHEMA_FILE: &str = "taxel-garment.schema.json";
+/// Of what a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Kind {
+    /// what is worn: panels, blocks, pins, links of the body
+    Garment,
+    /// what it is used for: limits, map, reactions, stream
+    Scene,
+}
+
+impl Kind {
+    /// The JSON schema of such a file.
+    pub fn schema(self) -> &'static str {
+        match self {
+            Kind::Garment => include_str!("../../schemas/garment.json"),
+            Kind::Scene => include_str!("../../schemas/scene.json"),
+        }
+    }
+
+    /// Name of the schema's file beside such a file.
+    fn schema_file(self) -> &'static str {
+        match self {
+            Kind::Garment => "taxel-garment.schema.json",
+            Kind::Scene => "taxel-scene.schema.json",
+        }
+    }
+}
 
 /// What `taxel config` takes.
 #[derive(Debug, Clone, Args)]
@@ -35,6 +58,12 @@ enum What {
         #[arg(long, value_name = "G", default_value = "block-4x16")]
         like: String,
     },
+    /// Begin a scene's file with all that ships, and its schema beside it
+    #[command(after_help = "Example:\n  taxel config scene calm.toml")]
+    Scene {
+        /// The file to write; it must not be there yet
+        file: PathBuf,
+    },
     /// Check a garment's file, and a scene's with it; errors name line and key
     #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
     Check {
@@ -44,38 +73,50 @@ enum What {
         #[arg(long, value_name = "FILE")]
         scene: Option<PathBuf>,
     },
-    /// Print the JSON schema of a garment's file
-    #[command(after_help = "Example:\n  taxel config schema > taxel-garment.schema.json")]
-    Schema,
+    /// Print the JSON schema of a garment's or a scene's file
+    #[command(after_help = "Example:\n  taxel config schema scene > taxel-scene.schema.json")]
+    Schema {
+        /// Of what
+        #[arg(value_enum, default_value_t = Kind::Garment)]
+        of: Kind,
+    },
 }
 
 /// Runs the command.
 pub fn run(args: &ConfigArgs) -> Result<()> {
     match &args.what {
-        What::New { file, like } => new(file, like),
+        What::New { file, like } => {
+            let text = garments::text(&sim::garment(like)?, &format!("Like {like}. {}", next(file, "")))?;
+            begin(file, Kind::Garment, &text)
+        }
+        What::Scene { file } => {
+            let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
+            let comment = format!("# As it ships; what is left out stays so. {next}\n");
+            begin(file, Kind::Scene, &(comment + &scene::text()?))
+        }
         What::Check { file, scene } => {
             println!("{}", check(file, scene.as_deref())?);
             Ok(())
         }
-        What::Schema => {
-            print!("{SCHEMA}");
+        What::Schema { of } => {
+            print!("{}", of.schema());
             Ok(())
         }
     }
 }
 
-fn new(file: &Path, like: &str) -> Result<()> {
-    let garment = sim::garment(like)?;
+fn next(file: &Path, more: &str) -> String {
+    format!("Change it, then: taxel config check {}{more}", file.display())
+}
+
+/// Writes a file that is not there yet, and its schema beside it.
+fn begin(file: &Path, kind: Kind, text: &str) -> Result<()> {
     ensure!(!file.exists(), "{} is there already: give another name, or remove it", file.display());
-    let comment = format!(
-        ":schema ./{SCHEMA_FILE}\nLike {like}. Change it, then: taxel config check {}",
-        file.display()
-    );
-    // Editors look for `#:schema` without a space.
-    let text = garments::text(&garment, &comment)?.replacen("# :schema", "#:schema", 1);
+    // Editors look for `#:schema` in the first line.
+    let text = format!("#:schema ./{}\n{text}", kind.schema_file());
     fs::write(file, text).with_context(|| format!("{} cannot be written", file.display()))?;
-    let schema = file.with_file_name(SCHEMA_FILE);
-    fs::write(&schema, SCHEMA).with_context(|| format!("{} cannot be written", schema.display()))?;
+    let schema = file.with_file_name(kind.schema_file());
+    fs::write(&schema, kind.schema()).with_context(|| format!("{} cannot be written", schema.display()))?;
     println!("{} and {} are written.", file.display(), schema.display());
     Ok(())
 }

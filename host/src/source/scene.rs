@@ -1,7 +1,7 @@
-//! The scene of a simulation: the one that ships, with what a script says otherwise.
+//! Scenes as people write them: the one that ships, with what a script or a file says otherwise.
 
 use crate::fcm;
-use crate::sim::Script;
+use crate::sim::{self, Script};
 use anyhow::{Context, Result, anyhow};
 use serde_json::Value;
 use std::path::Path;
@@ -9,39 +9,33 @@ use taxel_core::scene::Scene;
 
 /// The shipped scene with the settings of a script's `[scene]` in their places.
 pub fn scene_of(script: &Script) -> Result<Scene> {
-    let wrong = |error: &dyn std::fmt::Display| anyhow!("scene {}: [scene]: {error}", script.name);
+    let said = serde_json::to_value(&script.scene)?;
+    filled(said, Path::new(".")).map_err(|error| anyhow!("scene {}: [scene]: {error:#}", script.name))
+}
+
+/// Reads the file of a scene; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
+/// Errors name the file, and the line or the section.
+pub fn read_scene(path: &Path) -> Result<Scene> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
+    let said: toml::Table = toml::from_str(&text).map_err(|e| anyhow!(sim::sentence(&e, &text, &name)))?;
+    filled(serde_json::to_value(said)?, path.parent().unwrap_or(Path::new("."))).with_context(|| name)
+}
+
+/// The shipped scene with what is said in its place. `folder` is where the path of a map begins.
+fn filled(mut said: Value, folder: &Path) -> Result<Scene> {
+    fcm::scene::resolve(&mut said, folder)?;
     // JSON in between: TOML has no 64-bit masks.
-    let mut merged = serde_json::to_value(Scene::shipped()).map_err(|e| wrong(&e))?;
-    let mut said = serde_json::to_value(&script.scene).map_err(|e| wrong(&e))?;
-    fcm::scene::resolve(&mut said, Path::new(".")).map_err(|e| wrong(&format!("{e:#}")))?;
+    let mut merged = serde_json::to_value(Scene::shipped())?;
     merge(&mut merged, said);
     if let Value::Object(sections) = &merged {
         // One by one, so that an error can say where.
         for (key, value) in sections {
             let alone = Value::Object([(key.clone(), value.clone())].into_iter().collect());
-            serde_json::from_value::<Scene>(alone).map_err(|e| wrong(&format!("{key}: {e}")))?;
+            serde_json::from_value::<Scene>(alone).map_err(|error| anyhow!("{key}: {error}"))?;
         }
     }
-    serde_json::from_value(merged).map_err(|e| wrong(&e))
-}
-
-/// Reads the file of a scene; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
-pub fn read_scene(path: &Path) -> Result<Scene> {
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
-    parse(&text, path).with_context(|| name)
-}
-
-/// JSON in between where it gives a map as people write it.
-fn parse(text: &str, path: &Path) -> Result<Scene> {
-    let table: toml::Table = toml::from_str(text)?;
-    let map = table.get("intent").and_then(|intent| intent.get("map"));
-    if map.is_none_or(|map| map.get("concepts").is_some()) {
-        return Ok(toml::from_str(text)?);
-    }
-    let mut value = serde_json::to_value(table)?;
-    fcm::scene::resolve(&mut value, path.parent().unwrap_or(Path::new(".")))?;
-    Ok(serde_json::from_value(value)?)
+    Ok(serde_json::from_value(merged)?)
 }
 
 /// Tables are merged, everything else is replaced.
