@@ -37,5 +37,6 @@ pub mod setup;
 pub mod shapes;
 pub mod sim;
 pub mod source;
+pub mod stop;
 pub mod touches;
 pub mod view;

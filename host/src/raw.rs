@@ -2,6 +2,7 @@
 
 use crate::client::{Client, Event, Worn};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::stop;
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -24,18 +25,24 @@ pub struct Codes {
     pub codes: Vec<u16>,
 }
 
-/// A board that streams raw codes and nothing else.
+/// A board that streams raw codes and nothing else. One that is dropped without [`RawBoard::leave`] or [`RawBoard::give_back`], be it
+/// by an error or Ctrl-C, gets the garment and the scene back that it had.
 pub struct RawBoard {
     source: Source,
     client: Client,
     buffer: Vec<u8>,
     scene: Scene,
     garment: Garment,
+    /// Garment or scene are not what they are to be in the end.
+    borrowed: bool,
+    /// Nothing ends it now.
+    leaving: bool,
 }
 
 impl RawBoard {
     /// Connects and asks for raw codes. A board with a scene of its own gets it back by [`RawBoard::leave`].
     pub fn open(spec: &SourceSpec) -> Result<RawBoard> {
+        stop::catch()?;
         RawBoard::on(source::open(spec, &RawBoard::options())?)
     }
 
@@ -54,11 +61,14 @@ impl RawBoard {
             buffer: Vec::new(),
             scene: Scene::shipped(),
             garment: Garment::recorded(1, 1),
+            borrowed: false,
+            leaving: false,
         };
         board.until("Hello", |client, _| client.worn().is_some())?;
         if let Some(worn) = board.client.worn() {
             (board.scene, board.garment) = (worn.scene.clone(), worn.garment.clone());
         }
+        board.borrowed = true;
         board.use_for(&raw_scene())?;
         Ok(board)
     }
@@ -88,7 +98,9 @@ impl RawBoard {
 
     /// Gives the board its own scene back; garment and gains stay.
     pub fn give_back(&mut self) -> Result<()> {
-        self.use_for(&self.scene.clone())
+        self.use_for(&self.scene.clone())?;
+        self.borrowed = false;
+        Ok(())
     }
 
     /// What the board says of itself.
@@ -142,6 +154,9 @@ impl RawBoard {
         let began = Instant::now();
         let label = self.source.label.clone();
         loop {
+            if !self.leaving {
+                stop::check()?;
+            }
             for at in 0..self.buffer.len() {
                 let Some(event) = self.client.push(self.buffer[at]) else { continue };
                 if is_it(&self.client, &event) {
@@ -159,6 +174,18 @@ impl RawBoard {
             if began.elapsed() > PATIENCE {
                 bail!("{label}: {what} did not come in {} s", PATIENCE.as_secs());
             }
+        }
+    }
+}
+
+impl Drop for RawBoard {
+    fn drop(&mut self) {
+        self.leaving = true;
+        if self.borrowed {
+            let garment = self.garment.clone();
+            let worn = self.worn().is_some_and(|worn| worn.garment == garment);
+            // Whoever was told of an error is not told of another one.
+            let _ = if worn { self.give_back() } else { self.leave(&garment) };
         }
     }
 }

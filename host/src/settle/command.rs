@@ -65,22 +65,14 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     }
     let given = args.garment.as_deref().map(sim::garment).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
-    let before = board.garment().clone();
-    let mut garment = given.unwrap_or_else(|| before.clone());
+    let mut garment = given.unwrap_or_else(|| board.garment().clone());
     if !args.json {
         println!(
             "{}: lay something with edges on the garment, on each panel at best, and leave it there.",
             board.label()
         );
     }
-    let settled = settle(&mut Worn { board: &mut board, garment: garment.clone() }, &garment, args.error);
-    let settled = match settled {
-        Ok(settled) => settled,
-        Err(why) => {
-            board.leave(&before)?;
-            return Err(why);
-        }
-    };
+    let settled = settle(&mut Worn { board: &mut board, garment: garment.clone() }, &garment, args.error)?;
     let before_ns = garment.wiring.settle_ns;
     garment.wiring.settle_ns = settled.settle_ns;
     board.leave(&garment)?;

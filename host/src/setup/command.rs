@@ -106,8 +106,7 @@ fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {
 fn on_a_board(args: &SetupArgs) -> Result<Found> {
     let given = args.garment.as_deref().map(sim::garment).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
-    let before = board.garment().clone();
-    let template = given.unwrap_or_else(|| before.clone());
+    let template = given.unwrap_or_else(|| board.garment().clone());
     let mut solver = solver(&template)?;
     board.wear(&solver.bundle().probe(&template))?;
     if !args.json {
@@ -122,9 +121,9 @@ fn on_a_board(args: &SetupArgs) -> Result<Found> {
         let frame = watch.board.frame()?;
         watch.feeler.take(0.0, &frame.codes);
     }
-    let found = converse(args, &template, &mut solver, &mut watch);
-    board.leave(found.as_ref().map_or(&before, |found| &found.garment))?;
-    found
+    let found = converse(args, &template, &mut solver, &mut watch)?;
+    board.leave(&found.garment)?;
+    Ok(found)
 }
 
 fn solver(template: &Garment) -> Result<Solver> {

@@ -1,0 +1,27 @@
+//! Ctrl-C, for commands that have to put something back before they end.
+
+use anyhow::{Result, anyhow, bail};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// From now on Ctrl-C is told by [`check`]; a second one ends the program as it stands.
+pub fn catch() -> Result<()> {
+    static CAUGHT: OnceLock<Result<(), ctrlc::Error>> = OnceLock::new();
+    let told = || {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(told)).as_ref();
+    caught.copied().map_err(|error| anyhow!("Ctrl-C cannot be caught: {error}"))
+}
+
+/// An error once Ctrl-C was pressed.
+pub fn check() -> Result<()> {
+    if ASKED.load(Ordering::Relaxed) {
+        bail!("ended by Ctrl-C");
+    }
+    Ok(())
+}
