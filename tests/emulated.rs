@@ -104,6 +104,12 @@ impl Emulated {
         self.wait_for("faults");
     }
 
+    /// Loses the converter's next samples, as if DMA had not fetched them in time.
+    pub fn starve(&mut self, samples: u32) {
+        writeln!(self.input, "starve {samples}").unwrap();
+        self.wait_for("starve");
+    }
+
     /// Waits until the harness says something of this kind.
     pub fn wait_for(&mut self, kind: &str) -> Value {
         wait_for(&self.lines, &mut self.said, kind)

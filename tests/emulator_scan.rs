@@ -153,6 +153,44 @@ fn a_mean_of_scans() {
     assert!(warm >= 1);
 }
 
+/// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is lost is counted.
+#[test]
+fn a_chain_that_loses_samples_begins_anew() {
+    let mut board = tared(&Garment::reference(), &Scene::shipped());
+    let counted = |board: &mut Emulated| loop {
+        if let Report::Health(health) = board.receive().report() {
+            return health;
+        }
+    };
+    let before = counted(&mut board);
+    let mut images = Vec::new();
+    for round in 0..20 {
+        // A prime number of frames' parts: never the same place.
+        board.starve(1 + round % 7);
+        let since = images.len();
+        while images.len() < since + 6 {
+            if let Report::Frame(image) = board.receive().report() {
+                images.push(image.time.0);
+            }
+        }
+    }
+    let after = counted(&mut board);
+    let stats = board.look("stats");
+    board.end();
+    let missing: u64 = images.windows(2).map(|pair| (pair[1] - pair[0] + 2_560) / 5_120 - 1).sum();
+    let failed = after.failed - before.failed;
+    println!(
+        "20 losses of samples: {failed} frames refused, {} more lost, {missing} missing in between; {} of {} frames had a \
+         wrong code",
+        after.overruns - before.overruns,
+        stats["check"]["wrong"],
+        stats["check"]["frames"],
+    );
+    assert_eq!(stats["check"]["wrong"].as_u64(), Some(0));
+    assert_eq!(failed, 20);
+    assert_eq!(u64::from(failed + after.overruns - before.overruns), missing);
+}
+
 #[test]
 fn a_wiring_that_no_chain_follows_is_scanned_by_the_processor() {
     let mut garment = Garment::reference();

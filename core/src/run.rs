@@ -55,7 +55,6 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
             }
-            Some(Job::Rest) => acquire.rest(),
             Some(Job::Save) => {
                 acquire.rest();
                 let result = platform.save(&board.settings());

@@ -24,6 +24,8 @@ export class Adc extends BasePeripheral {
     this.fifo = new FIFO(4);
     this.cs = this.fcs = this.div = this.intEnable = this.intForce = this.result = this.held = 0;
     this.busy = false;
+    /** Samples that are still to be lost, as if nobody had emptied the FIFO in time. */
+    this.starved = 0;
     this.conversions = 0;
     this.doneAlarm = rp2040.clock.createAlarm(() => this.done());
     this.nextAlarm = rp2040.clock.createAlarm(() => this.start());
@@ -54,8 +56,10 @@ export class Adc extends BasePeripheral {
   }
 
   keep(code) {
-    if (this.fifo.full) this.fcs |= FCS_OVER;
-    else this.fifo.push(this.fcs & FCS_SHIFT ? code >> 4 : code);
+    if (this.fifo.full || this.starved > 0) {
+      this.fcs |= FCS_OVER;
+      this.starved = Math.max(0, this.starved - 1);
+    } else this.fifo.push(this.fcs & FCS_SHIFT ? code >> 4 : code);
     this.update();
   }
 

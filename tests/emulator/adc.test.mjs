@@ -68,3 +68,13 @@ test('a full FIFO loses the sample and says so; the flag is cleared by writing i
   it.writeUint32Atomic(FCS, 1 << 11, 0);
   assert.equal(it.readUint32(FCS) & (1 << 11), 0);
 });
+
+test('a starved FIFO loses as many samples as it is told to, and then goes on', () => {
+  const { it, advance } = adc();
+  it.writeUint32(FCS, 1);
+  it.starved = 2;
+  it.writeUint32(CS, EN | MANY);
+  advance(CONVERSION_NANOS * 3.5);
+  assert.equal((it.readUint32(FCS) >> 16) & 15, 1);
+  assert.equal(it.readUint32(FCS) & (1 << 11), 1 << 11);
+});

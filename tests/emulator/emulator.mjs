@@ -124,6 +124,10 @@ async function main() {
       machine.pads.faults = JSON.parse(list);
       say({ faults: machine.pads.faults.length });
     },
+    starve: (samples) => {
+      machine.chip.adc.starved = Number(samples);
+      say({ starve: machine.micros });
+    },
     stack: () => {
       say({ stack: machine.stack });
       machine.stack.paint(machine.core.SP);

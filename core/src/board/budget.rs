@@ -65,6 +65,11 @@ impl Ledger {
         self.frames = 0;
     }
 
+    /// When the last scan ended.
+    pub fn scanned(&self) -> Micros {
+        Micros(self.frame.time.0.saturating_add(self.frame.scan.into()))
+    }
+
     /// From `now` on the board is at something else. `rest`: of the message under way the link has not taken all.
     pub fn turn(&mut self, now: Micros, doing: Doing, rest: bool) {
         let passed = us(now, self.since);

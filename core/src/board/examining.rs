@@ -8,14 +8,15 @@ use crate::selftest::Findings;
 use crate::wire::SelfTestReport;
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
-    /// Lines and inputs were examined, at the start or because it was asked for.
+    /// Lines and inputs were examined: at the start, because the garment was changed, or because it was asked for.
     #[inline(never)]
     pub(super) fn examined(&mut self, now: Micros, result: Result<Findings, ScanError>) {
+        self.rewired = false;
         let refusal = result
             .map(|findings| self.examined = Some(SelfTestReport { time: now, findings }))
             .err()
             .map(Refusal::of);
-        // Nobody asked for the one at the start.
+        // Nobody asked for the one at the start, nor for that of a changed garment: it is told with what else is new.
         let Some(us) = self.saving.ended(now) else { return };
         self.not_scanned(us);
         if refusal.is_none() {

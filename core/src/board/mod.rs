@@ -3,6 +3,7 @@
 
 mod budget;
 mod examining;
+mod lost;
 mod outbox;
 mod outputs;
 mod pace;
@@ -43,7 +44,7 @@ pub enum Input<'a> {
     Scanned(Result<Scan<'a>, ScanError>),
     /// The settings were stored, or why not.
     Saved(Result<Saved, &'static str>),
-    /// Lines and inputs were examined, or why not; at the start and wherever it was asked for.
+    /// Lines and inputs were examined, or why not; at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
     /// Nothing in particular: what is there to do?
     Tick,
@@ -56,11 +57,10 @@ pub enum Job {
     Scan(Plan),
     /// Put a pin to a level.
     Drive(u8, bool),
-    /// Stop what reads the garment by itself: the circuit has changed.
-    Rest,
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
-    /// Examine lines and inputs; answered by [`Input::Examined`].
+    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, or somebody asks for it.
+    /// Answered by [`Input::Examined`].
     Examine,
 }
 
@@ -87,6 +87,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     examined: Option<SelfTestReport>,
     scans: Pace,
     scanning: bool,
+    /// Scans that have failed since one went well.
+    stumbles: u16,
     /// The circuit has changed since the last scan.
     rewired: bool,
     health: Health,
@@ -130,6 +132,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             saving: Saving::new(),
             examined: None,
             scanning: false,
+            stumbles: 0,
             rewired: false,
             health: Health::default(),
             ledger: Ledger::new(),
@@ -188,11 +191,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         match input {
             Input::Received(bytes) => self.receive(now, bytes),
             Input::Scanned(Ok(scan)) => self.perceive(now, &scan, probe),
-            Input::Scanned(Err(error)) => {
-                self.scanning = false;
-                self.health.failed = self.health.failed.wrapping_add(1);
-                self.outbox.log(format_args!("scan: {error}"));
-            }
+            Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
             Input::Examined(result) => self.examined(now, result),
             Input::Tick => return self.next_job(now),
@@ -213,7 +212,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             return None;
         }
         if core::mem::take(&mut self.rewired) {
-            return Some(Job::Rest);
+            return Some(Job::Examine);
         }
         if !self.scans.due(now) {
             return None;
@@ -229,6 +228,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
         self.scanning = false;
+        if self.stumbles > 0 {
+            self.go_on(scan.report.start);
+        }
         self.frame = self.frame.wrapping_add(1);
         self.ledger.begin(now, self.frame, scan.report.start, scan.report.duration_us);
         self.outbox.spend(|| self.ledger.due(now, &self.health));

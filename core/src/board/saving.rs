@@ -129,14 +129,6 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         }
         self.outbox.answer(request::number_of(Work::Save), result.err().map(Refusal::of));
     }
-
-    /// Nothing was scanned for so long: counts as many scans as there would have been.
-    pub(super) fn not_scanned(&mut self, us: u64) {
-        if self.setup.scene.rate_hz == 0 {
-            let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
-            self.health.overruns = self.health.overruns.wrapping_add(lost);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -146,9 +146,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
-    /// Another garment: nothing of the old one, and `Hello` tells of the new one.
+    /// Another garment: nothing of the old one, and `Hello` tells of the new one, then what a self-test finds in it.
     pub fn renew(&mut self) {
         self.hello = Some(Micros(0));
+        self.examined |= self.streaming;
         self.forget_image();
         self.image.last.clear();
         self.drop_waiting();

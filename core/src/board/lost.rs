@@ -1,0 +1,31 @@
+//! Frames that are lost: while something else than a scan goes on, and where a scan fails.
+
+use super::Board;
+use crate::acquire::ScanError;
+use crate::format::Micros;
+
+impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+    /// A scan has failed.
+    #[cold]
+    pub(super) fn stumbled(&mut self, error: ScanError) {
+        self.scanning = false;
+        self.health.failed = self.health.failed.wrapping_add(1);
+        self.stumbles = self.stumbles.saturating_add(1);
+        self.outbox.log(format_args!("scan: {error}"));
+    }
+
+    /// The first scan after some that failed began then: what was lost beside those is counted.
+    #[cold]
+    pub(super) fn go_on(&mut self, start: Micros) {
+        let failed = u64::from(core::mem::take(&mut self.stumbles)) * u64::from(self.health.scan_us);
+        self.not_scanned(start.since(self.ledger.scanned()).saturating_sub(failed));
+    }
+
+    /// Nothing was scanned for so long: counts as many scans as there would have been.
+    pub(super) fn not_scanned(&mut self, us: u64) {
+        if self.setup.scene.rate_hz == 0 {
+            let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
+            self.health.overruns = self.health.overruns.wrapping_add(lost);
+        }
+    }
+}
