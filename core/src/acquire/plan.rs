@@ -84,7 +84,12 @@ impl Default for Plan {
 impl Plan {
     /// Whether a block of a panel is to be read.
     pub const fn reads(&self, panel: u8, block: u8) -> bool {
-        self.panels as u32 >> panel & 1 == 1 && self.blocks >> block & 1 == 1
+        self.reads_panel(panel) && self.blocks >> block & 1 == 1
+    }
+
+    /// Whether blocks of a panel may be read.
+    pub const fn reads_panel(&self, panel: u8) -> bool {
+        self.panels as u32 >> panel & 1 == 1
     }
 }
 

@@ -11,10 +11,36 @@ const RAIL: u16 = 16;
 const SIGNAL: u16 = 3 * RAIL;
 /// Taxels are pressed from here on, counts above rest.
 const PRESSED: i32 = 128;
-/// Where the codes of many taxels range over less than so many steps, one that does not move tells nothing.
-const LIVELY: u16 = 8;
-/// A code that ranges over so much more than four times what is usual is not merely noisier than most.
-const LOUD: u16 = 24;
+/// Where the codes of many taxels travel less than so many steps, one that does not move tells nothing: noise of 1.8 steps rms.
+const LIVELY: u16 = 20;
+/// A code that travels so much further than three times what is usual is not merely noisier than most, counts.
+const LOUD: u16 = 52;
+/// Nor is one that goes to the next step and back in every frame.
+const STEPS: u16 = 12;
+
+/// What tells some taxels from others.
+pub(super) struct Limits {
+    /// So many codes move that one which does not tells something.
+    lively: bool,
+    /// Noise is to travel further.
+    loud: u16,
+    /// How far the usual noise travels while something touches.
+    usual: u32,
+    /// A pressed taxel gets further from its code at rest.
+    idle: i32,
+}
+
+impl Limits {
+    /// Where the codes of half of the taxels travel further than `usual`, in steps of `step` counts.
+    pub fn of(usual: u16, step: u16) -> Limits {
+        Limits {
+            lively: usual >= LIVELY.saturating_mul(step),
+            loud: usual.saturating_mul(3).saturating_add(LOUD).saturating_add(step.saturating_mul(STEPS)),
+            usual: u32::from(usual) * 2,
+            idle: i32::from(RAIL).max(i32::from(step) + 1),
+        }
+    }
+}
 
 /// What the taxels of a garment show now.
 pub(super) struct Shown<'a> {
@@ -23,12 +49,14 @@ pub(super) struct Shown<'a> {
     pub rest: Option<&'a [u16]>,
     pub full: u16,
     pub falling: bool,
-    /// Mean range of the codes of the taxels that are watched together.
-    pub usual: u16,
-    /// Step of the codes.
-    pub step: u16,
+    pub limits: Limits,
     /// Something touches the garment: only then can a taxel be missed among its neighbours.
     pub touched: bool,
+}
+
+/// Whether some noise may not show in a code: four of the RP2040's are nine codes wide (erratum E11).
+const fn is_wide(code: u16) -> bool {
+    code % 1024 == 512
 }
 
 impl Shown<'_> {
@@ -84,19 +112,15 @@ impl Shown<'_> {
     /// Judges a taxel by what was seen of it.
     pub fn judge(&self, seen: &Seen, area: &Area, row: u16, column: u16, taxel: usize) -> TaxelHealth {
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
-        let still = seen.range() == 0 && self.usual >= LIVELY.saturating_mul(self.step);
         if low >= self.full.saturating_sub(RAIL) {
             // What presses one taxel to full scale presses those beside it, too.
             let alone = self.rest.is_some() && !self.is_near_pressure(area, row, column);
             return if alone { TaxelHealth::Shorted } else { TaxelHealth::Good };
         }
-        if still && high > 0 {
+        if seen.is_still() && high > 0 && self.limits.lively && !is_wide(low) {
             return TaxelHealth::Stuck;
         }
-        let loud = self.usual.saturating_mul(4).saturating_add(LOUD);
-        // There and back is what a touch does; the usual noise of some frames comes on top.
-        let touch = seen.range().saturating_mul(2).saturating_add(self.usual.saturating_mul(4));
-        if seen.range() > loud && seen.travel() > touch {
+        if seen.travel() > self.limits.loud && self.is_restless(seen, taxel) {
             return TaxelHealth::Noisy;
         }
         let Some(rest) = self.at_rest(taxel) else { return TaxelHealth::Good };
@@ -105,7 +129,7 @@ impl Shown<'_> {
         }
         // The frame in which it is judged counts, too: a touch may have begun since.
         let now = self.codes.get(taxel).map_or(0, |code| self.pressure(code.0));
-        if !self.touched || i32::from(high).max(now) - rest > i32::from(RAIL.max(self.step + 1)) {
+        if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
         }
         match self.surroundings(area, row, column) {
@@ -113,5 +137,13 @@ impl Shown<'_> {
             _ if high <= RAIL => TaxelHealth::Open,
             _ => TaxelHealth::Dead,
         }
+    }
+
+    /// Whether a code travelled further than a touch takes it: there and back. What is pressed may shake in proportion, by a
+    /// fifth of its signal; the usual noise comes on top.
+    fn is_restless(&self, seen: &Seen, taxel: usize) -> bool {
+        let reach = seen.reach(self.rest.and_then(|rest| rest.get(taxel)).copied());
+        let touch = u32::from(reach) * 9 / 4 + self.limits.usual;
+        u32::from(seen.travel()) > touch
     }
 }

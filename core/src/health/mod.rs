@@ -1,7 +1,7 @@
 //! The health of every taxel, found while the garment is used.
 //!
-//! 256 taxels are watched at a time, over [`FRAMES`] frames: lowest and highest code of each, and how far its code has
-//! travelled. Then each is judged, and it is the next ones' turn: each of 2,048 is judged once in 96 frames. What is found
+//! In every frame 23 taxels begin to be watched, over 11 frames: lowest and highest code of each, and how far its code has
+//! travelled. Then they are judged: each of 2,048 once in 90 frames, and what befalls it within 100. What is found
 //! stays, though the taxel may recover, until the garment is changed or a [`SelfTest`](crate::wire::Request::SelfTest) is asked
 //! for: then every taxel counts as good again, with the gain of its good days, until it is found anew. `Start` only begins the
 //! watch anew.
@@ -12,9 +12,10 @@
 //! | stuck | its code does not even show noise, while its neighbours' do |
 //! | open | no signal: below what it showed at rest, or dead there |
 //! | shorted | full scale, and nothing beside it is pressed |
-//! | noisy | its code goes to and fro, many times further than it gets |
+//! | noisy | its code goes to and fro, further than a touch of that size takes it, and those beside it do not |
 //!
-//! Where the codes are too quiet to tell (noise under 2.6 counts rms, or codes of 8 bits), nothing is called stuck.
+//! Where the codes are too quiet to tell (noise under 1.8 counts rms, or codes of 8 bits), nothing is called stuck. A pressed taxel
+//! is called noisy only where its noise is over a fifth of its signal: how a cloth lies changes under what moves.
 //!
 //! | | |
 //! |---|---|
@@ -26,6 +27,7 @@ mod judge;
 mod monitor;
 mod seen;
 mod taxel;
+mod watch;
 
-pub use monitor::{Codes, FRAMES, Found, ILL, IllTaxel, Monitor};
+pub use monitor::{Codes, Found, ILL, IllTaxel, Monitor};
 pub use taxel::TaxelHealth;

@@ -1,29 +1,22 @@
 //! Watches the taxels, some at a time.
 
-use super::judge::Shown;
+use super::judge::{Limits, Shown};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
+use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
 use crate::format::Code;
-use crate::garment::{Area, Circuit, Layout};
-use core::ops::Range;
+use crate::garment::{Area, Circuit, Layout, Place};
+use core::cmp::Ordering;
 use heapless::Vec;
 
-/// Frames from one judgement to the next.
-pub const FRAMES: u8 = 12;
-/// Frames of them in which taxels are judged, so that none takes much longer than the others.
-const JUDGING: u8 = 2;
-/// Taxels that are watched at a time.
-const WATCHED: usize = 256;
-/// Taxels that are judged in a frame.
-const JUDGED: usize = WATCHED / JUDGING as usize;
-/// Range at which a touch counts for no more in the mean.
-const TOUCHED: u16 = 64;
+/// A code that travels further is touched, and tells as much of the usual noise as one that travels so far.
+const TOUCHED: u16 = 256;
 
 /// Most ill taxels that are remembered.
 pub const ILL: usize = 128;
-/// Most taxels that fall ill in a frame. Where more seem to, it is not the taxels that are: none is called so.
-const FOUND: usize = JUDGED / 8;
+/// Most neighbours that fall ill together. Where more seem to, it is not the taxels that are: none is called so.
+const FOUND: usize = 16;
 
 /// A taxel that is ill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,21 +50,17 @@ pub type Found = Vec<(u16, TaxelHealth), FOUND>;
 pub struct Monitor {
     /// By number.
     ill: Vec<IllTaxel, ILL>,
-    seen: [Seen; WATCHED],
-    /// First of the taxels that are watched.
-    first: u16,
-    /// Frame of the watch.
-    frame: u8,
-    /// Mean range of the last watch.
+    watch: Watch,
+    /// How far the code of half of the taxels travels while it is watched, eighths.
     usual: u16,
-    /// Step of the codes of the last watch.
-    step: u16,
+    /// Too many neighbours seemed to be ill, up to the last one that was judged.
+    crowd: bool,
 }
 
 impl Monitor {
     /// Nothing is known against any taxel.
     pub const fn new() -> Self {
-        Monitor { ill: Vec::new(), seen: [Seen::NOTHING; WATCHED], first: 0, frame: 0, usual: 0, step: 1 }
+        Monitor { ill: Vec::new(), watch: Watch::new(), usual: 0, crowd: false }
     }
 
     /// Forgets everything.
@@ -82,7 +71,8 @@ impl Monitor {
 
     /// Watches anew; what was found stays.
     pub fn again(&mut self) {
-        (self.first, self.frame) = (0, 0);
+        self.watch.again();
+        (self.usual, self.crowd) = (0, false);
     }
 
     /// The ill taxels by number.
@@ -119,85 +109,78 @@ impl Monitor {
 
     /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].
     pub fn watch(&mut self, layout: &Layout, circuit: &Circuit, plan: &Plan, shown: Codes<'_>) -> Found {
-        let Codes { now: codes, rest, full, touched } = shown;
         let mut found = Found::new();
-        let watched = codes.get(usize::from(self.first)..).unwrap_or(&[]);
-        match self.frame.checked_sub(FRAMES - JUDGING) {
-            None if self.frame == 0 => {
-                self.seen.iter_mut().zip(watched).for_each(|(seen, code)| seen.begin(*code));
-            }
-            None => self.seen.iter_mut().zip(watched).for_each(|(seen, code)| seen.see(*code)),
-            Some(part) => {
-                if part == 0 {
-                    let watched = layout.taxels().saturating_sub(usize::from(self.first)).min(WATCHED);
-                    let watched = self.seen.get(..watched).unwrap_or(&[]);
-                    // Codes of 8 bits repeat their upper bits below: they do not show their step.
-                    self.step = step(watched).max(plan.depth.step());
-                    self.usual = usual_range(watched);
-                }
-                let (falling, usual, step) = (circuit.falling(), self.usual, self.step);
-                let shown = Shown { codes, rest, full, falling, usual, step, touched };
-                let first = usize::from(self.first) + usize::from(part) * JUDGED;
-                let taxels = first..(first + JUDGED).min(layout.taxels());
-                if self.suspect(layout, circuit, plan, &shown, taxels, &mut found).is_none() {
-                    found.clear();
-                }
-            }
+        if !self.watch.take(shown.now, layout.taxels()) {
+            return found;
         }
-        self.frame += 1;
-        if self.frame >= FRAMES {
-            self.frame = 0;
-            let next = usize::from(self.first) + WATCHED;
-            self.first = if next < layout.taxels() { next as u16 } else { 0 };
+        let Codes { now: codes, rest, full, touched } = shown;
+        let (first, seen) = self.watch.group(FRAMES - 1);
+        let seen = seen.get(..layout.taxels().saturating_sub(first)).unwrap_or(seen);
+        // The first ones have to tell it alone; what is not read tells nothing.
+        let read = layout.place(first).is_some_and(|place| plan.reads_panel(place.panel));
+        let rounds = u8::from(read) * if self.usual == 0 { 8 } else { 1 };
+        for seen in (0..rounds).flat_map(|_| seen) {
+            self.usual = nearer(self.usual, seen.travel().min(TOUCHED));
+        }
+        // Codes of 8 bits repeat their upper bits below: they do not show their step.
+        let step = step(seen).max(plan.depth.step());
+        let limits = Limits::of(self.usual / 8, step);
+        let shown = Shown { codes, rest, full, falling: circuit.falling(), limits, touched };
+        let bounded = self.suspect(layout, circuit, plan, &shown, FRAMES - 1, &mut found);
+        if bounded.is_some() && found.is_empty() {
+            self.crowd = false;
+            return found;
+        }
+        // What makes many ill at once may begin with the last ones of these, and end with the first ones.
+        let mut next = Found::new();
+        let apart = bounded.and_then(|()| self.suspect(layout, circuit, plan, &shown, FRAMES - 2, &mut next));
+        self.crowd |= apart.is_none() || found.len() + next.len() > FOUND;
+        if self.crowd {
+            found.clear();
         }
         found
     }
 
-    /// Whether the taxels beside, above and below one that were watched with it range over less than half as much as it does:
-    /// what touches or shakes it would move them, too.
-    fn is_alone(&self, taxel: usize, area: &Area, column: u16) -> bool {
-        let seen = |taxel: Option<usize>| self.seen.get(taxel?.checked_sub(usize::from(self.first))?);
-        let own = seen(Some(taxel)).map_or(0, Seen::range);
+    /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its own: what touches or
+    /// shakes it would move them, too.
+    fn is_alone(&self, seen: &Seen, taxel: usize, area: &Area, column: u16) -> bool {
         let columns = usize::from(area.columns);
         let left = (column > 0).then(|| taxel.wrapping_sub(1));
         let right = (column + 1 < area.columns).then_some(taxel + 1);
         [left, right, taxel.checked_sub(columns), Some(taxel + columns)]
             .into_iter()
-            .filter_map(seen)
-            .all(|beside| beside.range() < own / 2)
+            .filter_map(|taxel| self.watch.seen(taxel?))
+            .all(|beside| beside.travel() < seen.travel() / 2)
     }
 
-    /// Finds what is to be said against some taxels; none where that is too much.
+    /// Finds what is to be said against the taxels of a group that is watched; none where that is too much.
     fn suspect(
         &self,
         layout: &Layout,
         circuit: &Circuit,
         plan: &Plan,
         shown: &Shown<'_>,
-        taxels: Range<usize>,
+        age: usize,
         found: &mut Found,
     ) -> Option<()> {
-        for (panel, area) in (0u8..).zip(layout.areas()) {
-            for row in 0..area.rows {
-                let start = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
-                if start >= taxels.end || start + usize::from(area.columns) <= taxels.start {
-                    continue;
-                }
-                for (column, taxel) in (0..area.columns).zip(start..).filter(|(_, t)| taxels.contains(t)) {
-                    let Some(seen) = self.seen.get(taxel - usize::from(self.first)) else { continue };
-                    let mut health = shown.judge(seen, area, row, column, taxel);
-                    if health == TaxelHealth::Noisy && !self.is_alone(taxel, area, column) {
-                        health = TaxelHealth::Good;
-                    }
-                    // Whatever is not there, or not read, shows nothing.
-                    if health != TaxelHealth::Good
-                        && self.health(taxel) == TaxelHealth::Good
-                        && !layout.is_absent(panel, row, column)
-                        && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block))
-                    {
-                        found.push((taxel as u16, health)).ok()?;
-                    }
-                }
+        let (first, seen) = self.watch.group(age);
+        let Some(mut place) = layout.place(first) else { return Some(()) };
+        for (taxel, seen) in (first..).zip(seen) {
+            let Some(area) = layout.areas().get(usize::from(place.panel)) else { break };
+            let Place { panel, row, column } = place;
+            place = following(place, area);
+            // Whatever is not there, or not read, shows nothing.
+            if !plan.reads_panel(panel) {
+                continue;
+            }
+            let health = shown.judge(seen, area, row, column, taxel);
+            if health != TaxelHealth::Good
+                && (health != TaxelHealth::Noisy || self.is_alone(seen, taxel, area, column))
+                && self.health(taxel) == TaxelHealth::Good
+                && !layout.is_absent(panel, row, column)
+                && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block))
+            {
+                found.push((taxel as u16, health)).ok()?;
             }
         }
         Some(())
@@ -210,10 +193,26 @@ impl Default for Monitor {
     }
 }
 
-/// Mean range of some taxels; a touch does not count for much.
-fn usual_range(watched: &[Seen]) -> u16 {
-    let sum: u32 = watched.iter().map(|seen| u32::from(seen.range().min(TOUCHED))).sum();
-    sum.checked_div(watched.len() as u32).unwrap_or(0) as u16
+/// A step towards how far another taxel's code travelled: in the long run as many are above as below.
+fn nearer(usual: u16, travel: u16) -> u16 {
+    let step = 1 + usual / 32;
+    match travel.cmp(&(usual / 8)) {
+        Ordering::Less => usual.saturating_sub(step),
+        Ordering::Equal => usual,
+        Ordering::Greater => usual.saturating_add(step),
+    }
+}
+
+/// The place of the next taxel.
+fn following(place: Place, area: &Area) -> Place {
+    let Place { panel, row, column } = place;
+    if column + 1 < area.columns {
+        Place { panel, row, column: column + 1 }
+    } else if row + 1 < area.rows {
+        Place { panel, row: row + 1, column: 0 }
+    } else {
+        Place { panel: panel + 1, row: 0, column: 0 }
+    }
 }
 
 /// The power of two that all their codes are multiples of: 16 where a converter gives 8 bits of 12.

@@ -20,16 +20,18 @@ impl Seen {
     }
 
     /// The next one.
+    #[inline]
     pub fn see(&mut self, Code(code): Code) {
-        self.travel = self.travel.saturating_add(code.abs_diff(self.last));
+        // With codes of 16 bits it may pass the end: then it is told too short, and the taxel less noisy than it is.
+        self.travel = self.travel.wrapping_add(code.abs_diff(self.last));
         self.last = code;
         self.low = self.low.min(code);
         self.high = self.high.max(code);
     }
 
-    /// Distance of the lowest from the highest code.
-    pub fn range(&self) -> u16 {
-        self.high.saturating_sub(self.low)
+    /// Whether the code never changed.
+    pub fn is_still(&self) -> bool {
+        self.low == self.high
     }
 
     /// Bits that are set in its lowest or its highest code.
@@ -40,6 +42,14 @@ impl Seen {
     /// Sum of the distances from code to code.
     pub fn travel(&self) -> u16 {
         self.travel
+    }
+
+    /// How far the code got from that at rest; less where it got to both sides, as a touch does not take it. Without a code at
+    /// rest: the distance of the lowest from the highest code.
+    pub fn reach(&self, rest: Option<u16>) -> u16 {
+        let Some(rest) = rest else { return self.high.saturating_sub(self.low) };
+        let (below, above) = (rest.saturating_sub(self.low), self.high.saturating_sub(rest));
+        below.max(above) - below.min(above) / 2
     }
 
     /// Lowest and highest pressure, where pressure lowers the code from `full`.

@@ -1,0 +1,80 @@
+//! Ill taxels are told as what they are, and soon.
+
+use super::is_campaign;
+use super::scripts::all_pressed;
+use super::worn::{FRAME_S, TARE, TAXELS, Worn};
+use std::collections::BTreeMap;
+use taxel::sim::{self, Noisy, Script, Stuck};
+use taxel_core::acquire::Depth;
+use taxel_core::health::TaxelHealth;
+
+/// Breaks fifty taxels, each in one of these ways in turn.
+fn fifty(script: &mut Script, ways: &[TaxelHealth], seed: u64) -> BTreeMap<usize, TaxelHealth> {
+    let taxels = fastrand::Rng::with_seed(seed).choose_multiple(0..TAXELS, 50);
+    let ill = taxels.into_iter().zip(ways.iter().cycle()).map(|(taxel, health)| (taxel, *health));
+    let ill: BTreeMap<usize, TaxelHealth> = ill.collect();
+    for (index, (taxel, health)) in ill.iter().enumerate() {
+        let taxel = *taxel as u16;
+        match health {
+            TaxelHealth::Dead => script.faults.dead.push(taxel),
+            TaxelHealth::Stuck => script.faults.stuck.push(Stuck { taxel, code: 20 + 79 * index as u16 }),
+            _ => script.faults.noisy.push(Noisy { taxel, counts: 60.0 }),
+        }
+    }
+    ill
+}
+
+/// Frames in which a fault is to be found, the first in which it shows included.
+const SOON: u32 = 100;
+
+/// Fifty taxels break, and 101 frames later all are pressed, which shows the dead ones. Each is found as what it is, and no
+/// other; how many of them not within 100 frames.
+fn found(depth: Depth, ways: &[TaxelHealth], seed: u64) -> usize {
+    const BROKEN: u32 = TARE as u32 + 4;
+    const PRESSED: u32 = BROKEN + 101;
+    // It takes three frames for a press to come to a tenth of a newton, which counts as one.
+    const SHOWN: u32 = PRESSED + 3;
+    let seconds = |frame: u32| f64::from(frame) * FRAME_S;
+    let mut script = all_pressed(seconds(PRESSED));
+    script.seed = seed;
+    script.faults.from_s = seconds(BROKEN);
+    let expected = fifty(&mut script, ways, seed);
+    let found = Worn::at(depth).play(&script, 200 + PRESSED);
+    let classes: BTreeMap<_, _> = found.iter().map(|(taxel, (_, health))| (*taxel, *health)).collect();
+    assert_eq!(classes, expected, "seed {seed}");
+    let since = |health| if health == TaxelHealth::Dead { SHOWN } else { BROKEN };
+    found.values().filter(|(frame, health)| !(since(*health)..since(*health) + SOON).contains(frame)).count()
+}
+
+/// One set of fifty, or 20 in a campaign.
+#[test]
+fn fifty_dead_stuck_and_noisy_taxels_are_found_within_100_frames() {
+    use TaxelHealth::{Dead, Noisy, Stuck};
+    let sets = if is_campaign() { 20 } else { 1 };
+    let late: Vec<_> = (1..=sets).map(|seed| found(Depth::Twelve, &[Dead, Stuck, Noisy], seed)).collect();
+    let late: usize = late.into_iter().sum();
+    println!("{} taxels broken: each told as what it is, {late} of them not within 100 frames", 50 * sets);
+    // Noise may stay small while it is looked at: one time in 500.
+    assert!(late * 1000 <= 50 * sets as usize);
+}
+
+#[test]
+fn codes_of_8_bits_accuse_no_healthy_taxel_and_show_dead_and_noisy_ones() {
+    assert_eq!(found(Depth::Eight, &[TaxelHealth::Dead, TaxelHealth::Noisy], 1), 0);
+    let found = Worn::at(Depth::Eight).play(&sim::load("five").unwrap(), 400);
+    assert!(found.is_empty(), "{found:?}");
+}
+
+#[test]
+fn lines_that_break_or_short_are_told_apart() {
+    let mut script = all_pressed(0.1);
+    script.faults.from_s = 0.09;
+    script.faults.open = vec![100, 1500];
+    script.faults.shorted = vec![700, 2047];
+    // Nothing presses beside a short circuit that is not pressed by anything.
+    script.touches.retain(|touch| touch.panel == "chest" || touch.panel == "left arm");
+    let found = Worn::new().play(&script, 100);
+    let classes: Vec<_> = found.into_iter().map(|(taxel, (_, health))| (taxel, health)).collect();
+    use TaxelHealth::{Open, Shorted};
+    assert_eq!(classes, [(100, Open), (700, Shorted), (1500, Open), (2047, Shorted)]);
+}

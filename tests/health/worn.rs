@@ -1,0 +1,88 @@
+//! A simulated board, watched for the taxels it takes for ill.
+
+use std::collections::BTreeMap;
+use taxel::sim::{PINS, Script, SimBoard};
+use taxel_core::acquire::{Acquire, Depth, MuxScan, Scan};
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::format::Micros;
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::health::TaxelHealth;
+use taxel_core::run::block_on;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Request, encode};
+
+pub const TAXELS: usize = 2048;
+/// Frames of the baseline.
+pub const TARE: u16 = 16;
+/// Time of a scan of the simulated board.
+pub const FRAME_S: f64 = 5.128e-3;
+
+/// A simulated board, and what it finds.
+pub struct Worn {
+    pub garment: Garment,
+    pub board: Box<Board<TAXELS, 1024>>,
+}
+
+impl Worn {
+    pub fn new() -> Worn {
+        Worn::at(Depth::Twelve)
+    }
+
+    /// The codes have this depth.
+    pub fn at(depth: Depth) -> Worn {
+        let mut scene = Scene::shipped();
+        scene.plan.depth = depth;
+        let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+        let garment = Garment::reference();
+        let board = Box::new(Board::new(info, garment.clone(), scene).unwrap());
+        Worn { garment, board }
+    }
+
+    /// Plays so many frames of a script after a tare; the frame in which each ill taxel was found, and its class.
+    pub fn play(&mut self, script: &Script, frames: u32) -> BTreeMap<usize, (u32, TaxelHealth)> {
+        self.play_shaken(script, frames, 0.0)
+    }
+
+    /// The same, where what a taxel shows beyond the first frame shakes by so much of it rms.
+    pub fn play_shaken(
+        &mut self,
+        script: &Script,
+        frames: u32,
+        part: f64,
+    ) -> BTreeMap<usize, (u32, TaxelHealth)> {
+        let SimBoard { mut lines, delay, adc, clock } =
+            SimBoard::new(&self.garment, script, script.seed).unwrap();
+        let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
+        let (mut body, mut wire) = ([0; 64], [0; 64]);
+        let length = encode(&Request::Tare { frames: TARE }, &mut body, &mut wire).unwrap();
+        self.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let mut found = BTreeMap::new();
+        let (mut rng, mut rest) = (fastrand::Rng::with_seed(script.seed), Vec::new());
+        for frame in 0..u32::from(TARE) + frames {
+            let circuit = self.board.circuit().clone();
+            let Scan { codes, report } =
+                block_on(scan.scan(&circuit, &self.board.setup().scene.plan)).unwrap();
+            let mut codes = codes.to_vec();
+            if rest.is_empty() {
+                rest.clone_from(&codes);
+            }
+            if part > 0.0 {
+                // Four uniform numbers have a variance of a third.
+                let mut normal = || (0..4).map(|_| rng.f64() - 0.5).sum::<f64>() * 3f64.sqrt();
+                for (code, rest) in codes.iter_mut().zip(&rest) {
+                    let signal = f64::from(code.0) - f64::from(rest.0);
+                    code.0 = (f64::from(code.0) + part * signal * normal()).round().clamp(0.0, 4095.0) as u16;
+                }
+            }
+            let now = Micros(report.start.0 + 5_000);
+            self.board.step(now, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
+            for taxel in 0..TAXELS {
+                let health = self.board.health_of(taxel);
+                if health != TaxelHealth::Good {
+                    found.entry(taxel).or_insert((frame, health));
+                }
+            }
+        }
+        found
+    }
+}
