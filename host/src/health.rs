@@ -6,6 +6,7 @@ pub(crate) mod pins;
 pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
+use crate::garments;
 use crate::live::{self, BoardArgs, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, anyhow, bail};
@@ -23,7 +24,7 @@ pub struct HealthArgs {
     /// `auto`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `file:FILE` or `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Images to wait for; each of 2,048 taxels is judged once in 96 frames. Touch the garment meanwhile to find dead taxels
+    /// Images to wait for; each of 2,048 taxels is judged once in 90 frames. Touch the garment meanwhile to find dead taxels
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub frames: u64,
     /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
@@ -33,9 +34,10 @@ pub struct HealthArgs {
     /// board's start]
     #[arg(long)]
     pub self_test: bool,
-    /// The blocks are passive matrices: name contacts that three others may have made, which only looked like a touch
-    #[arg(long)]
-    pub passive: bool,
+    /// The blocks are passive matrices, or not: name contacts that three others may have made, which only looked like a touch
+    /// [default: true for a garment named as a passive one that comes with the program, `block-4x16`]
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    pub passive: Option<bool>,
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
@@ -52,11 +54,12 @@ pub fn run(args: HealthArgs) -> Result<()> {
     if args.self_test && !found.answered {
         bail!("no self-test has come; ask for more --frames");
     }
+    let passive = found.is_passive();
     let garment = found.garment.context("the board has not said what it wears")?;
     let places = places(&garment, &found.ill)?;
     let pins = found.pins.as_ref();
     if args.json {
-        let ghosts = args.passive.then(|| found.ghosts.report(&garment));
+        let ghosts = passive.then(|| found.ghosts.report(&garment));
         let taxels = report(&places);
         println!(
             "{}",
@@ -80,8 +83,15 @@ struct Known {
     /// A self-test is still to be asked for.
     wanted: bool,
     answered: bool,
-    passive: bool,
+    /// As asked for; none: as the garment says.
+    passive: Option<bool>,
     ghosts: Ghosts,
+}
+
+impl Known {
+    fn is_passive(&self) -> bool {
+        self.passive.unwrap_or_else(|| self.garment.as_ref().is_some_and(garments::is_passive))
+    }
 }
 
 impl Show for Known {
@@ -89,7 +99,7 @@ impl Show for Known {
         match event {
             Event::Hello => self.garment = client.worn().map(|worn| worn.garment.clone()),
             Event::HealthMap { .. } => self.ill = client.ill().clone(),
-            Event::Contacts { .. } if self.passive => {
+            Event::Contacts { .. } if self.is_passive() => {
                 if let Some(garment) = &self.garment {
                     self.ghosts.take(garment, client.contacts());
                 }
@@ -193,7 +203,7 @@ mod tests {
                 frames: 60,
                 tare: None,
                 self_test: true,
-                passive: false,
+                passive: None,
                 json: false,
             }
         };
