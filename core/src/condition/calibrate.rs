@@ -189,15 +189,19 @@ impl Marks<'_> {
         if column + count <= self.columns && self.grain == 0 {
             return self.rows.add(self.row, (bits << column) as u16);
         }
-        for bit in 0..count {
-            if column >= self.columns {
+        let mut rest = bits;
+        while rest != 0 {
+            let skipped = rest.trailing_zeros();
+            column += skipped as usize;
+            while column >= self.columns {
                 self.next_row();
-                column = 0;
+                column -= self.columns;
             }
-            if bits >> bit & 1 == 1 {
-                self.rows.add(self.row, 1 << (column >> self.grain));
-            }
-            column += 1;
+            self.rows.add(self.row, 1 << (column >> self.grain));
+            // What else is of the same group and row.
+            let group = (((column >> self.grain) + 1) << self.grain).min(self.columns) - column;
+            rest = (rest >> skipped).unbounded_shr(group as u32);
+            column += group;
         }
     }
 
