@@ -78,7 +78,7 @@ fn watched(hub: &Arc<Hub>, scene: &str, frames: u64, realtime: bool) -> JoinHand
     let options = SourceOptions { frames: Some(frames), realtime, ..SourceOptions::default() };
     let hub = hub.clone();
     thread::spawn(move || {
-        let source = source::open(&args.source, &options).unwrap();
+        let source = source::open(&args.board.source, &options).unwrap();
         let mut viewer = Viewer::new(&source, hub);
         watch(&args, source, &mut viewer).unwrap();
     })
@@ -103,7 +103,7 @@ fn images(scene: &str, frames: u64) -> BTreeMap<u64, Vec<u16>> {
     let args = LiveArgs { frames: Some(frames), ..LiveArgs::of(scene.parse().unwrap()) };
     let options = SourceOptions { frames: Some(frames), ..SourceOptions::default() };
     let mut images = Images::default();
-    watch(&args, source::open(&args.source, &options).unwrap(), &mut images).unwrap();
+    watch(&args, source::open(&args.board.source, &options).unwrap(), &mut images).unwrap();
     images.0
 }
 
