@@ -4,7 +4,7 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { connect } from "node:net";
 import { setTimeout as sleep } from "node:timers/promises";
-import { page } from "./page.fixture.mjs";
+import { page, show } from "./page.fixture.mjs";
 
 // Seconds that are watched. The first have passed when everything that is kept for a while is full.
 const [KEPT, BEFORE, WATCHED] = process.env.TAXEL_CAMPAIGN ? [30, 35, 600] : [5, 6, 20];
@@ -81,6 +81,35 @@ async function dead({ port }) {
   );
   return socket;
 }
+
+test("the surface goes along with the stream", async (t) => {
+  const { browser } = both;
+  await show(browser, "surface", "peaks");
+  await browser.until("document.querySelector('.js-plotly-plot canvas')");
+  const { plots, busy, images, seconds } = await browser.value(`(async () => {
+    const plot = document.querySelector(".js-plotly-plot");
+    const { restyle } = Plotly;
+    let [plots, busy] = [0, 0];
+    Plotly.restyle = (...what) => {
+      const start = performance.now();
+      const done = restyle(...what);
+      busy += performance.now() - start;
+      plots += 1;
+      return done;
+    };
+    const [start, before] = [performance.now(), taxel.store.count];
+    await new Promise((done) => setTimeout(done, 4000));
+    Plotly.restyle = restyle;
+    return { plots, busy, images: taxel.store.count - before, seconds: (performance.now() - start) / 1000 };
+  })()`);
+  t.diagnostic(
+    `view: in three dimensions ${(plots / seconds).toFixed(1)} of ${(images / seconds).toFixed(1)} images/s are drawn, ${(busy / plots).toFixed(1)} ms of the page each`,
+  );
+  assert.ok(plots > 0);
+  assert.equal(await browser.value("taxel.store.states.link.lost"), 0);
+  assert.equal(await browser.value("taxel.store.latest.head.missed"), 0);
+  await show(browser, "panels", "contours", "contacts", "peaks");
+});
 
 test("two pages show the same frames", async () => {
   const { browser, view } = both;

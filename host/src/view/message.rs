@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (places without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
 //! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
+//! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one that all is well) |
 //! | `say` | `text`: a line of the log |
 //! | `taxel` | of the taxel under the pointer: `taxel`, `code` (raw; null until it comes), `frame`, `block`, `wired_row`, `wired_column` (null where it has no block) |
 //! | `end` | nothing more comes, `text` says why |
@@ -25,10 +26,12 @@
 use super::mailbox::Shot;
 use crate::client::Client;
 use crate::fcm;
+use crate::health::pins;
 use crate::live::message;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use taxel_core::garment::Circuit;
+use taxel_core::selftest::Findings;
 
 /// The binary message.
 pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64, missed: u64) -> Vec<u8> {
@@ -71,6 +74,12 @@ fn map(map: &taxel_core::intent::MapConfig) -> Value {
         .iter()
         .map(|edge| json!({ "from": edge.from, "to": edge.to, "weight": f64::from(edge.weight) / one }));
     json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
+}
+
+/// `pins`
+pub fn pins(client: &Client, findings: &Findings) -> Value {
+    let table = client.worn().map_or(String::new(), |worn| pins::table(&worn.garment, Some(findings)));
+    json!({ "type": "pins", "faults": findings.faults.len(), "told": table.lines().collect::<Vec<_>>() })
 }
 
 /// `taxel`

@@ -110,6 +110,7 @@ impl Show for Viewer {
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
             Event::Health(_) => self.hub.state("health", &live::message(client, event)),
             Event::HealthMap { .. } => self.hub.state("health_map", &live::message(client, event)),
+            Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
             Event::Budget(_) => self.hub.state("budget", &live::message(client, event)),
             Event::Sync(report) if report.token == self.token => {
                 self.latency = Some(self.asked.elapsed() / 2)

@@ -28,7 +28,7 @@ export class Health {
     const context = store.garment && fit(this.canvas);
     if (!context) return;
     this.map(context, store);
-    const told = [store.states.health_map, store.states.health];
+    const told = [store.states.health_map, store.states.health, store.states.pins];
     if (this.told?.every((line, at) => line === told[at])) return;
     this.told = told;
     this.list.replaceChildren(...lists(store));
@@ -87,7 +87,7 @@ function cell(context, health, x, y, sx, sy) {
   context.fillText(letter, x + (sx - 1) / 2, y + (sy - 1) / 2 + 0.5);
 }
 
-/** What the board counts, and the ill taxels. */
+/** The ill taxels, what the board's last self-test has found, and what it counts. */
 function lists({ garment, states }) {
   const board = states.health;
   const ill = states.health_map?.ill || [];
@@ -110,9 +110,13 @@ function lists({ garment, states }) {
   const title = ill.length
     ? `${ill.length} of ${garment.taxels} taxels are ill`
     : "Nothing is known against any taxel.";
+  const items = (lines) => make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
+  const pins = states.pins?.told ?? ["The board has not examined its lines and inputs."];
   return [
     make("h2", {}, title),
-    make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...ill.slice(0, LISTED).map(line)),
+    items(ill.slice(0, LISTED).map(line)),
+    make("h2", {}, "Lines and inputs"),
+    items(pins.map((text) => make("li", {}, text))),
     make("h2", {}, "The board"),
     make("table", {}, make("tbody", {}, ...cells)),
   ];

@@ -22,6 +22,33 @@ function heightOf(held, top) {
   return top * Math.ceil(greatest / top);
 }
 
+/** Milliseconds after a picture that are left to everything else, at most. */
+const LONGEST_REST = 200;
+
+/**
+ * All panels beside each other: the place of each taxel, and triangles between neighbours. A mesh, because plotly.js makes a
+ * "surface" three times as fine before it draws it, which takes many times as long and looks the same.
+ */
+function meshOf({ panels, absent }) {
+  const mesh = { x: [], y: [], i: [], j: [], k: [] };
+  let start = 0;
+  for (const { base, rows, columns } of panels) {
+    for (let at = 0; at < rows * columns; at += 1) {
+      const [row, column] = [Math.floor(at / columns), at % columns];
+      mesh.x.push(start + column);
+      mesh.y.push(row);
+      const corners = [0, 1, columns, columns + 1].map((step) => base + at + step);
+      if (row + 1 === rows || column + 1 === columns || corners.some((taxel) => absent[taxel])) continue;
+      const [here, right, below, across] = corners;
+      mesh.i.push(here, across);
+      mesh.j.push(right, below);
+      mesh.k.push(below, right);
+    }
+    start += columns + GAP;
+  }
+  return mesh;
+}
+
 /** The view. */
 export class Surface {
   constructor(root, changed) {
@@ -51,7 +78,6 @@ export class Surface {
     const image = settings.held ? store.held : shown.image;
     const unit = isPascal(garment) ? pascalsOf(garment) : 1;
     const peaks = settings.peaks ? this.peaks(garment, image, shown, settings, unit) : NOTHING;
-    const grid = this.grid(garment, image, unit);
     const { clientWidth: width, clientHeight: height } = this.root;
     const highest = heightOf(store.held, settings.top);
     const { theme } = document.documentElement.dataset;
@@ -59,33 +85,28 @@ export class Surface {
     if (key !== this.key) {
       this.key = key;
       const scale = { top: settings.top * unit, highest: highest * unit, unit: isPascal(garment) ? "kPa" : "counts" };
-      this.build(garment, grid, scale);
+      this.build(garment, scale);
       // The peaks come with the next picture.
       this.changed();
       return;
     }
-    // The last picture has been drawn: what comes too fast is left out.
-    if (this.busy) return;
-    this.busy = true;
-    const { x, y, z, text } = peaks;
-    const data = { z: [grid.z, z], x: [grid.x, x], y: [grid.y, y], text: [null, text] };
-    window.Plotly.restyle(this.plot, data, [0, 1]).finally(() => (this.busy = false));
+    this.show(Array.from(image, (value) => value * unit), peaks);
   }
 
-  /** All panels beside each other, as one grid with gaps. */
-  grid({ panels, absent }, image, unit) {
-    const rows = Math.max(...panels.map((panel) => panel.rows));
-    const z = Array.from({ length: rows }, () => []);
-    for (const panel of panels) {
-      for (let row = 0; row < rows; row += 1) {
-        if (panel.index) for (let gap = 0; gap < GAP; gap += 1) z[row].push(null);
-        for (let column = 0; column < panel.columns; column += 1) {
-          const taxel = panel.base + row * panel.columns + column;
-          z[row].push(row < panel.rows && !absent[taxel] ? image[taxel] * unit : null);
-        }
-      }
-    }
-    return { z, x: z[0].map((_, at) => at), y: z.map((_, at) => at) };
+  /** What comes too fast is left out, so that half of the page's time is free; the last is drawn in any case. */
+  show(heights, { z, x, y, text }) {
+    this.behind = this.busy;
+    if (this.busy) return;
+    this.busy = true;
+    const start = performance.now();
+    const ready = () => {
+      this.busy = false;
+      if (this.behind) this.changed();
+    };
+    const places = { x: [this.mesh.x, x], y: [this.mesh.y, y], z: [heights, z] };
+    const data = { ...places, intensity: [heights, null], text: [null, text] };
+    const rest = () => setTimeout(ready, Math.min(performance.now() - start, LONGEST_REST));
+    window.Plotly.restyle(this.plot, data, [0, 1]).finally(rest);
   }
 
   /** Every local maximum; those of contacts bear the id. */
@@ -106,7 +127,9 @@ export class Surface {
     return all;
   }
 
-  build({ panels }, grid, { top, highest, unit }) {
+  build(garment, { top, highest, unit }) {
+    const { panels } = garment;
+    this.mesh = meshOf(garment);
     this.plot ??= make("div");
     if (this.plot.parentNode !== this.root) this.root.replaceChildren(this.plot);
     let start = -GAP;
@@ -118,23 +141,25 @@ export class Surface {
     });
     const [ink, line] = [colour("ink"), colour("line")];
     const axis = { color: ink, gridcolor: line, zerolinecolor: line, showspikes: false };
-    const rows = grid.y.length;
+    const rows = Math.max(...panels.map((panel) => panel.rows));
+    const flat = new Array(garment.taxels).fill(0);
     const surface = {
-      type: "surface",
-      ...grid,
+      type: "mesh3d",
+      ...this.mesh,
+      z: flat,
+      intensity: flat,
       cmin: 0,
       cmax: top,
       colorscale: COLOURS,
       showscale: false,
-      hoverinfo: "none",
+      hoverinfo: "skip",
       lighting: { ambient: 0.75, diffuse: 0.5, specular: 0.08, roughness: 0.8 },
-      contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } },
     };
     const marks = {
       type: "scatter3d",
       mode: "markers+text",
       ...NOTHING,
-      hoverinfo: "none",
+      hoverinfo: "skip",
       textfont: { color: MARK, size: 15 },
       marker: { symbol: "diamond", size: 4, color: MARK, line: { color: colour("card"), width: 1 } },
     };
@@ -154,7 +179,9 @@ export class Surface {
         camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
       },
     };
-    const config = { displayModeBar: false, responsive: false, doubleClick: "reset" };
+    // As fine as the screen, not twice as fine: that is four times the work where a processor draws.
+    const plotGlPixelRatio = window.devicePixelRatio;
+    const config = { plotGlPixelRatio, displayModeBar: false, responsive: false, doubleClick: "reset" };
     window.Plotly.react(this.plot, [surface, marks], layout, config);
   }
 }
