@@ -59,6 +59,11 @@ const fn is_wide(code: u16) -> bool {
     code % 1024 == 512
 }
 
+/// The first 32 answers, the first one in the lowest bit.
+fn bits(answers: impl Iterator<Item = bool>) -> u32 {
+    answers.zip(0..u32::BITS).fold(0, |bits, (answer, bit)| bits | u32::from(answer) << bit)
+}
+
 impl Shown<'_> {
     fn pressure(&self, code: u16) -> i32 {
         i32::from(if self.falling { self.full.saturating_sub(code) } else { code })
@@ -107,6 +112,26 @@ impl Shown<'_> {
                 },
             )
         })
+    }
+
+    /// Which of some taxels, from the first one in the lowest bit on, are to be judged: those that show other noise than most or
+    /// have come to an end of the range, and those beside a taxel that is pressed which are not pressed themselves. Most are not.
+    ///
+    /// Not inlined: it is short, and on its own it has registers enough.
+    #[inline(never)]
+    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> u32 {
+        let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
+        let plain =
+            |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
+        let odd = bits(seen.iter().map(|seen| !plain(seen)));
+        let Some(rest) = self.rest.filter(|_| self.touched) else { return odd };
+        // From the taxel before the first one on, where there is one.
+        let before = usize::from(first > 0);
+        let from = first - before;
+        let pairs = self.codes.iter().zip(rest).skip(from).take(seen.len() + 1 + before);
+        let pressed = bits(pairs.map(|(code, rest)| code.0.abs_diff(*rest) >= PRESSED as u16));
+        let (left, itself) = if before == 1 { (pressed, pressed >> 1) } else { (pressed << 1, pressed) };
+        odd | ((left | itself >> 1) & !itself)
     }
 
     /// Judges a taxel by what was seen of it.

@@ -7,7 +7,6 @@ use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
 use crate::format::Code;
 use crate::garment::{Area, Circuit, Layout, Place};
-use core::cmp::Ordering;
 use heapless::Vec;
 
 /// A code that travels further is touched, and tells as much of the usual noise as one that travels so far.
@@ -116,11 +115,9 @@ impl Monitor {
         let Codes { now: codes, rest, full, touched } = shown;
         let (first, seen) = self.watch.group(FRAMES - 1);
         let seen = seen.get(..layout.taxels().saturating_sub(first)).unwrap_or(seen);
-        // The first ones have to tell it alone; what is not read tells nothing.
-        let read = layout.place(first).is_some_and(|place| plan.reads_panel(place.panel));
-        let rounds = u8::from(read) * if self.usual == 0 { 8 } else { 1 };
-        for seen in (0..rounds).flat_map(|_| seen) {
-            self.usual = nearer(self.usual, seen.travel().min(TOUCHED));
+        // What is not read tells nothing.
+        if layout.place(first).is_some_and(|place| plan.reads_panel(place.panel)) {
+            self.usual = nearer(self.usual, seen);
         }
         // Codes of 8 bits repeat their upper bits below: they do not show their step.
         let step = step(seen).max(plan.depth.step());
@@ -164,11 +161,20 @@ impl Monitor {
         found: &mut Found,
     ) -> Option<()> {
         let (first, seen) = self.watch.group(age);
-        let Some(mut place) = layout.place(first) else { return Some(()) };
-        for (taxel, seen) in (first..).zip(seen) {
-            let Some(area) = layout.areas().get(usize::from(place.panel)) else { break };
+        let mut doubtful = shown.doubtful(first, seen);
+        for (taxel, seen) in (first..layout.taxels()).zip(seen) {
+            let plain = doubtful & 1 == 0;
+            doubtful >>= 1;
+            if plain {
+                continue;
+            }
+            let Some((place, area)) = layout
+                .place(taxel)
+                .and_then(|place| Some((place, layout.areas().get(usize::from(place.panel))?)))
+            else {
+                break;
+            };
             let Place { panel, row, column } = place;
-            place = following(place, area);
             // Whatever is not there, or not read, shows nothing.
             if !plan.reads_panel(panel) {
                 continue;
@@ -193,26 +199,16 @@ impl Default for Monitor {
     }
 }
 
-/// A step towards how far another taxel's code travelled: in the long run as many are above as below.
-fn nearer(usual: u16, travel: u16) -> u16 {
-    let step = 1 + usual / 32;
-    match travel.cmp(&(usual / 8)) {
-        Ordering::Less => usual.saturating_sub(step),
-        Ordering::Equal => usual,
-        Ordering::Greater => usual.saturating_add(step),
+/// A step towards how far the code of half of the taxels travels, from what some of them show; the first ones tell it alone.
+fn nearer(usual: u16, seen: &[Seen]) -> u16 {
+    let travels = || seen.iter().map(|seen| seen.travel().min(TOUCHED));
+    let count = seen.len() as u16;
+    if usual == 0 {
+        return (travels().sum::<u16>() * 8).checked_div(count).unwrap_or(0);
     }
-}
-
-/// The place of the next taxel.
-fn following(place: Place, area: &Area) -> Place {
-    let Place { panel, row, column } = place;
-    if column + 1 < area.columns {
-        Place { panel, row, column: column + 1 }
-    } else if row + 1 < area.rows {
-        Place { panel, row: row + 1, column: 0 }
-    } else {
-        Place { panel: panel + 1, row: 0, column: 0 }
-    }
+    let above = travels().filter(|travel| *travel > usual / 8).count() as u16;
+    let step = 1 + usual / 128;
+    (usual + step * above).saturating_sub(step * (count - above))
 }
 
 /// The power of two that all their codes are multiples of: 16 where a converter gives 8 bits of 12.

@@ -19,19 +19,32 @@ impl Seen {
         *self = Seen { last: code.0, low: code.0, high: code.0, travel: 0 };
     }
 
-    /// The next one.
+    /// The next one. Every frame has some hundred of these: a code that rises is not the lowest one.
     #[inline]
     pub fn see(&mut self, Code(code): Code) {
-        // With codes of 16 bits it may pass the end: then it is told too short, and the taxel less noisy than it is.
-        self.travel = self.travel.wrapping_add(code.abs_diff(self.last));
+        // With codes of 16 bits the travel may pass its end: it is told too short then, and the taxel less noisy than it is.
+        if code >= self.last {
+            self.travel = self.travel.wrapping_add(code - self.last);
+            if code > self.high {
+                self.high = code;
+            }
+        } else {
+            self.travel = self.travel.wrapping_add(self.last - code);
+            if code < self.low {
+                self.low = code;
+            }
+        }
         self.last = code;
-        self.low = self.low.min(code);
-        self.high = self.high.max(code);
     }
 
     /// Whether the code never changed.
     pub fn is_still(&self) -> bool {
         self.low == self.high
+    }
+
+    /// Whether all codes lay within these.
+    pub fn is_within(&self, low: u16, high: u16) -> bool {
+        self.low >= low && self.high <= high
     }
 
     /// Bits that are set in its lowest or its highest code.

@@ -43,15 +43,18 @@ impl Watch {
             self.slot = if usize::from(self.slot) + 1 < FRAMES { self.slot + 1 } else { 0 };
         }
         let codes = codes.get(..taxels).unwrap_or(codes);
+        let (mut group, mut slot) = (usize::from(self.group), usize::from(self.slot));
         for age in 0..usize::from(self.begun).min(FRAMES - 1) + 1 {
-            let (first, slot) = self.at(age);
-            let codes = codes.get(first..).unwrap_or(&[]);
+            let codes = codes.get(group * GROUP..).unwrap_or(&[]);
             let Some(seen) = self.seen.get_mut(slot) else { continue };
             if age == 0 {
                 seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.begin(*code));
             } else {
-                seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.see(*code));
+                see(seen, codes);
             }
+            // The one that began a frame earlier.
+            group = group.checked_sub(1).unwrap_or(usize::from(self.groups) - 1);
+            slot = slot.checked_sub(1).unwrap_or(FRAMES - 1);
         }
         self.begun = (self.begun + 1).min(FRAMES as u8);
         usize::from(self.begun) == FRAMES
@@ -78,4 +81,10 @@ impl Watch {
             seen.get(index)
         })
     }
+}
+
+/// Not inlined: on its own it has registers enough.
+#[inline(never)]
+fn see(seen: &mut [Seen; GROUP], codes: &[Code]) {
+    seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.see(*code));
 }
