@@ -61,7 +61,14 @@ const fn is_wide(code: u16) -> bool {
 
 /// The first 32 answers, the first one in the lowest bit.
 fn bits(answers: impl Iterator<Item = bool>) -> u32 {
-    answers.zip(0..u32::BITS).fold(0, |bits, (answer, bit)| bits | u32::from(answer) << bit)
+    let (mut bits, mut bit) = (0, 1);
+    for answer in answers {
+        if answer {
+            bits |= bit;
+        }
+        bit <<= 1;
+    }
+    bits
 }
 
 impl Shown<'_> {

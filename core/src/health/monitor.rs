@@ -162,34 +162,41 @@ impl Monitor {
     ) -> Option<()> {
         let (first, seen) = self.watch.group(age);
         let mut doubtful = shown.doubtful(first, seen);
-        for (taxel, seen) in (first..layout.taxels()).zip(seen) {
-            let plain = doubtful & 1 == 0;
-            doubtful >>= 1;
-            if plain {
-                continue;
-            }
-            let Some((place, area)) = layout
-                .place(taxel)
-                .and_then(|place| Some((place, layout.areas().get(usize::from(place.panel))?)))
-            else {
-                break;
-            };
-            let Place { panel, row, column } = place;
-            // Whatever is not there, or not read, shows nothing.
-            if !plan.reads_panel(panel) {
-                continue;
-            }
-            let health = shown.judge(seen, area, row, column, taxel);
-            if health != TaxelHealth::Good
-                && (health != TaxelHealth::Noisy || self.is_alone(seen, taxel, area, column))
-                && self.health(taxel) == TaxelHealth::Good
-                && !layout.is_absent(panel, row, column)
-                && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block))
+        let mut taxel = first;
+        while doubtful != 0 && taxel < layout.taxels() {
+            if doubtful & 1 == 1
+                && let Some(health) = seen
+                    .get(taxel - first)
+                    .and_then(|seen| self.fault(layout, circuit, plan, shown, (taxel, seen)))
             {
                 found.push((taxel as u16, health)).ok()?;
             }
+            doubtful >>= 1;
+            taxel += 1;
         }
         Some(())
+    }
+
+    /// What is to be said against a taxel that was not known to be ill. Whatever is not there, or not read, shows nothing.
+    #[inline(never)]
+    fn fault(
+        &self,
+        layout: &Layout,
+        circuit: &Circuit,
+        plan: &Plan,
+        shown: &Shown<'_>,
+        (taxel, seen): (usize, &Seen),
+    ) -> Option<TaxelHealth> {
+        let Place { panel, row, column } =
+            layout.place(taxel).filter(|place| plan.reads_panel(place.panel))?;
+        let area = layout.areas().get(usize::from(panel))?;
+        let health = shown.judge(seen, area, row, column, taxel);
+        let ill = health != TaxelHealth::Good
+            && (health != TaxelHealth::Noisy || self.is_alone(seen, taxel, area, column))
+            && self.health(taxel) == TaxelHealth::Good
+            && !layout.is_absent(panel, row, column)
+            && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block));
+        ill.then_some(health)
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) const GROUP: usize = 23;
 /// The groups that are watched, the last one to begin in `slot`, the one before it in the slot before.
 #[derive(Debug, Clone)]
 pub(super) struct Watch {
-    seen: [[Seen; GROUP]; FRAMES],
+    seen: [Seen; GROUP * FRAMES],
     /// Number of the group that began last.
     group: u16,
     slot: u8,
@@ -25,7 +25,7 @@ pub(super) struct Watch {
 impl Watch {
     /// Nothing has been seen.
     pub const fn new() -> Self {
-        Watch { seen: [[Seen::NOTHING; GROUP]; FRAMES], group: 0, slot: 0, begun: 0, groups: 0 }
+        Watch { seen: [Seen::NOTHING; GROUP * FRAMES], group: 0, slot: 0, begun: 0, groups: 0 }
     }
 
     /// Begins anew with the next frame.
@@ -43,35 +43,42 @@ impl Watch {
             self.slot = if usize::from(self.slot) + 1 < FRAMES { self.slot + 1 } else { 0 };
         }
         let codes = codes.get(..taxels).unwrap_or(codes);
-        let (mut group, mut slot) = (usize::from(self.group), usize::from(self.slot));
-        for age in 0..usize::from(self.begun).min(FRAMES - 1) + 1 {
-            let codes = codes.get(group * GROUP..).unwrap_or(&[]);
-            let Some(seen) = self.seen.get_mut(slot) else { continue };
-            if age == 0 {
-                seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.begin(*code));
-            } else {
-                see(seen, codes);
-            }
-            // The one that began a frame earlier.
-            group = group.checked_sub(1).unwrap_or(usize::from(self.groups) - 1);
-            slot = slot.checked_sub(1).unwrap_or(FRAMES - 1);
+        let slot = usize::from(self.slot);
+        if let Some(seen) = self.seen.get_mut(slot * GROUP..(slot + 1) * GROUP) {
+            let codes = codes.get(usize::from(self.group) * GROUP..).unwrap_or(&[]);
+            seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.begin(*code));
         }
+        // Those that have not begun yet are seen, too, and begin later.
+        self.go_on(codes, 0, slot, slot);
+        self.go_on(codes, slot + 1, FRAMES, FRAMES - 1);
         self.begun = (self.begun + 1).min(FRAMES as u8);
         usize::from(self.begun) == FRAMES
     }
 
-    /// First taxel and slot of the group that began so many frames ago, fewer than [`FRAMES`].
+    /// Takes the codes of the groups in some slots, the first of which began so many frames ago. Their taxels follow each other,
+    /// but for the last group of all, which the first one follows.
+    fn go_on(&mut self, codes: &[Code], mut from: usize, to: usize, age: usize) {
+        let mut group = self.at(age).0;
+        while from < to {
+            let end = to.min(from + usize::from(self.groups).saturating_sub(group).max(1));
+            let codes = codes.get(group * GROUP..).unwrap_or(&[]);
+            see(self.seen.get_mut(from * GROUP..end * GROUP).unwrap_or(&mut []), codes);
+            (from, group) = (end, 0);
+        }
+    }
+
+    /// Number and slot of the group that began so many frames ago, fewer than [`FRAMES`].
     fn at(&self, age: usize) -> (usize, usize) {
         let group = (usize::from(self.group) + usize::from(self.groups)).saturating_sub(age);
         let group = group.checked_sub(usize::from(self.groups)).unwrap_or(group);
         let slot = usize::from(self.slot);
-        (group * GROUP, if slot < age { slot + FRAMES - age } else { slot - age })
+        (group, if slot < age { slot + FRAMES - age } else { slot - age })
     }
 
     /// First taxel of the group of that age, and what was seen of it; past the last taxel nothing was.
     pub fn group(&self, age: usize) -> (usize, &[Seen]) {
-        let (first, slot) = self.at(age);
-        (first, self.seen.get(slot).map_or(&[], |seen| seen))
+        let (group, slot) = self.at(age);
+        (group * GROUP, self.seen.get(slot * GROUP..(slot + 1) * GROUP).unwrap_or(&[]))
     }
 
     /// What was seen of a taxel in at least half as many frames as it is to be.
@@ -85,6 +92,6 @@ impl Watch {
 
 /// Not inlined: on its own it has registers enough.
 #[inline(never)]
-fn see(seen: &mut [Seen; GROUP], codes: &[Code]) {
+fn see(seen: &mut [Seen], codes: &[Code]) {
     seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.see(*code));
 }
