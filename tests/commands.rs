@@ -82,7 +82,7 @@ fn a_broken_line_is_named_and_the_command_fails() {
 #[test]
 fn ghosts_are_named_where_the_garment_is_passive() {
     let corners = [(0, 3, 2.0), (0, 11, 2.0), (3, 3, 2.0), (3, 11, 0.6)];
-    let pens = |panel| corners.map(|(row, column, force)| pen(panel, row, column, force)).concat();
+    let pens = |panel: &str| corners.map(|(row, column, force)| pen(panel, row, column, force)).concat();
     let ghosts = |name: &str, garment: &str, panel: &str, more: &[&str]| {
         let script = format!("duration_s = 2\ngarment = \"{garment}\"\n{}", pens(panel));
         let source = scene(name, &script);

@@ -171,6 +171,11 @@ impl Shown<'_> {
         }
     }
 
+    /// Whether a code got to both sides of that at rest, as what touches or shakes a taxel does not take it.
+    pub fn is_around_rest(&self, seen: &Seen, taxel: usize) -> bool {
+        self.rest.and_then(|rest| rest.get(taxel)).is_some_and(|rest| seen.is_around(*rest, RAIL))
+    }
+
     /// Whether a code travelled further than a touch takes it: there and back. What is pressed may shake in proportion, by a
     /// fifth of its signal; the usual noise comes on top.
     fn is_restless(&self, seen: &Seen, taxel: usize) -> bool {

@@ -139,15 +139,16 @@ impl Monitor {
     }
 
     /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its own: what touches or
-    /// shakes it would move them, too.
-    fn is_alone(&self, seen: &Seen, taxel: usize, area: &Area, column: u16) -> bool {
+    /// shakes it would move them, too. Another noisy one may be among them where the code goes to both sides of that at rest.
+    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, taxel: usize, area: &Area, column: u16) -> bool {
         let columns = usize::from(area.columns);
         let left = (column > 0).then(|| taxel.wrapping_sub(1));
         let right = (column + 1 < area.columns).then_some(taxel + 1);
-        [left, right, taxel.checked_sub(columns), Some(taxel + columns)]
+        let moved = [left, right, taxel.checked_sub(columns), Some(taxel + columns)]
             .into_iter()
             .filter_map(|taxel| self.watch.seen(taxel?))
-            .all(|beside| beside.travel() < seen.travel() / 2)
+            .filter(|beside| beside.travel() >= seen.travel() / 2);
+        moved.count() <= usize::from(shown.is_around_rest(seen, taxel))
     }
 
     /// Finds what is to be said against the taxels of a group that is watched; none where that is too much.
@@ -192,7 +193,7 @@ impl Monitor {
         let area = layout.areas().get(usize::from(panel))?;
         let health = shown.judge(seen, area, row, column, taxel);
         let ill = health != TaxelHealth::Good
-            && (health != TaxelHealth::Noisy || self.is_alone(seen, taxel, area, column))
+            && (health != TaxelHealth::Noisy || self.is_alone(shown, seen, taxel, area, column))
             && self.health(taxel) == TaxelHealth::Good
             && !layout.is_absent(panel, row, column)
             && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block));

@@ -65,6 +65,11 @@ impl Seen {
         below.max(above) - below.min(above) / 2
     }
 
+    /// Whether the code got to both sides of that at rest, by so much at least.
+    pub fn is_around(&self, rest: u16, by: u16) -> bool {
+        rest.saturating_sub(self.low) >= by && self.high.saturating_sub(rest) >= by
+    }
+
     /// Lowest and highest pressure, where pressure lowers the code from `full`.
     pub fn pressure(&self, falling: Option<u16>) -> (u16, u16) {
         match falling {
