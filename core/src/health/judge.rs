@@ -87,18 +87,21 @@ impl Shown<'_> {
         more.is_some_and(|more| more >= PRESSED)
     }
 
-    /// How many of the neighbours of a taxel there are, and how many of them are pressed; counts no further than to the second
-    /// that is not.
-    fn surroundings(&self, area: &Area, row: u16, column: u16) -> (u32, u32) {
+    /// How many of the neighbours of a taxel there are that are well, and how many of them are pressed; counts no further than to
+    /// the second that is not.
+    fn surroundings(&self, area: &Area, row: u16, column: u16, is_ill: impl Fn(usize) -> bool) -> (u32, u32) {
         let (mut there, mut pressed) = (0, 0);
         for y in row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1)) {
             for x in column.saturating_sub(1)..=column.saturating_add(1).min(area.columns.saturating_sub(1)) {
                 if (y, x) == (row, column) {
                     continue;
                 }
-                there += 1;
                 let taxel =
                     usize::from(area.base) + usize::from(y) * usize::from(area.columns) + usize::from(x);
+                if is_ill(taxel) {
+                    continue;
+                }
+                there += 1;
                 pressed += u32::from(self.is_pressed(taxel));
                 if there > pressed + 1 {
                     return (there, pressed);
@@ -141,8 +144,16 @@ impl Shown<'_> {
         odd | ((left | itself >> 1) & !itself)
     }
 
-    /// Judges a taxel by what was seen of it.
-    pub fn judge(&self, seen: &Seen, area: &Area, row: u16, column: u16, taxel: usize) -> TaxelHealth {
+    /// Judges a taxel of a panel, at a row and a column, by what was seen of it, and by its neighbours that are not ill.
+    pub fn judge(
+        &self,
+        seen: &Seen,
+        area: &Area,
+        (row, column): (u16, u16),
+        is_ill: impl Fn(usize) -> bool,
+    ) -> TaxelHealth {
+        let taxel =
+            usize::from(area.base) + usize::from(row) * usize::from(area.columns) + usize::from(column);
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
         if low >= self.full.saturating_sub(RAIL) {
             // What presses one taxel to full scale presses those beside it, too.
@@ -164,7 +175,7 @@ impl Shown<'_> {
         if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
         }
-        match self.surroundings(area, row, column) {
+        match self.surroundings(area, row, column, is_ill) {
             (there, pressed) if there < 3 || pressed < 3 || there > pressed + 1 => TaxelHealth::Good,
             _ if high <= RAIL => TaxelHealth::Open,
             _ => TaxelHealth::Dead,

@@ -191,10 +191,11 @@ impl Monitor {
         let Place { panel, row, column } =
             layout.place(taxel).filter(|place| plan.reads_panel(place.panel))?;
         let area = layout.areas().get(usize::from(panel))?;
-        let health = shown.judge(seen, area, row, column, taxel);
+        let is_ill = |taxel| self.health(taxel) != TaxelHealth::Good;
+        let health = shown.judge(seen, area, (row, column), is_ill);
         let ill = health != TaxelHealth::Good
             && (health != TaxelHealth::Noisy || self.is_alone(shown, seen, taxel, area, column))
-            && self.health(taxel) == TaxelHealth::Good
+            && !is_ill(taxel)
             && !layout.is_absent(panel, row, column)
             && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block));
         ill.then_some(health)
