@@ -117,10 +117,9 @@ impl Emulated {
 
     /// Sends a request.
     pub fn ask(&mut self, request: &Request<'_>) {
-        let mut body = vec![0; LONGEST_REQUEST];
         let mut wire = vec![0; frame_bound(LONGEST_REQUEST)];
-        let length = encode(request, &mut body, &mut wire).unwrap();
-        self.link.write_all(&wire[..length]).unwrap();
+        let frame = encode(request, &mut wire).unwrap();
+        self.link.write_all(frame).unwrap();
     }
 
     /// Sends a request and waits until it has been obeyed; what comes meanwhile is dropped.

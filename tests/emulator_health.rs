@@ -93,9 +93,9 @@ fn breaking(healthy: u64) -> (Script, u64, u64) {
 fn on_this_machine(codes: &[u16]) -> BTreeMap<u16, TaxelHealth> {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<2048, 1024>::new(info, Garment::reference(), Scene::shipped()).unwrap());
-    let (mut body, mut wire) = ([0; 64], [0; 64]);
-    let length = encode(&Request::Tare { frames: TARE }, &mut body, &mut wire).unwrap();
-    board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+    let mut wire = [0; 64];
+    let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
+    board.step(Micros(0), Input::Received(frame), &mut ());
     for (frame, codes) in (1..).zip(codes.chunks(2048)) {
         let codes: Vec<Code> = codes.iter().map(|code| Code(*code)).collect();
         let report = ScanReport { start: Micros(frame * FRAME_PERIOD_US), ..ScanReport::default() };

@@ -120,9 +120,9 @@ impl Twin {
     }
 
     fn ask(&mut self, request: &Request<'_>) {
-        let (mut body, mut wire) = (vec![0; 4096], vec![0; 4096]);
-        let length = encode(request, &mut body, &mut wire).unwrap();
-        self.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let mut wire = vec![0; 4096];
+        let frame = encode(request, &mut wire).unwrap();
+        self.board.step(Micros(0), Input::Received(frame), &mut ());
     }
 
     fn scan(&mut self, codes: &[Code], start: Micros) {

@@ -47,9 +47,9 @@ fn contacts(pressed: &[(usize, usize, f64)]) -> Vec<Placed> {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), scene).unwrap());
     for request in [Request::Start, Request::Tare { frames: 4 }] {
-        let (mut body, mut wire) = ([0; 64], [0; 64]);
-        let length = encode(&request, &mut body, &mut wire).unwrap();
-        board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let mut wire = [0; 64];
+        let frame = encode(&request, &mut wire).unwrap();
+        board.step(Micros(0), Input::Received(frame), &mut ());
     }
     let mut matrix = [[REST; COLUMNS]; ROWS];
     let rest = codes(&matrix);

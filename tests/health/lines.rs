@@ -50,9 +50,9 @@ fn a_self_test_reports_its_findings_and_gives_every_taxel_another_chance() {
     assert_eq!(worn.play(&script, 100).len(), 1);
     let gain = |worn: &Worn| worn.board.state().condition.gain()[77];
     assert_eq!(gain(&worn), 0);
-    let (mut body, mut wire) = ([0; 64], [0; 64]);
-    let length = encode(&Request::SelfTest, &mut body, &mut wire).unwrap();
-    worn.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+    let mut wire = [0; 64];
+    let frame = encode(&Request::SelfTest, &mut wire).unwrap();
+    worn.board.step(Micros(0), Input::Received(frame), &mut ());
     let jobs = std::iter::from_fn(|| worn.board.step(Micros(0), Input::Tick, &mut ()));
     assert!(jobs.take(9).any(|job| job == Job::Examine));
     script.faults.pins = vec![PinFault { pin: 9, fault: Fault::Bridged(10) }];
@@ -69,12 +69,12 @@ fn a_self_test_reports_its_findings_and_gives_every_taxel_another_chance() {
 #[test]
 fn a_garment_that_is_put_on_is_examined_and_told_of() {
     let mut worn = Worn::new();
-    let (mut body, mut wire, mut bytes) = ([0; 2048], [0; 2048], [0; 2048]);
+    let (mut wire, mut bytes) = ([0; 2048], [0; 2048]);
     worn.garment.wiring.column.lines.swap(0, 3);
     let garment = postcard::to_slice(&worn.garment, &mut bytes).unwrap();
     for request in [Request::Start, Request::SetGarment(garment)] {
-        let length = encode(&request, &mut body, &mut wire).unwrap();
-        worn.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let frame = encode(&request, &mut wire).unwrap();
+        worn.board.step(Micros(0), Input::Received(frame), &mut ());
     }
     let jobs = |worn: &mut Worn| -> Vec<Job> {
         let jobs = std::iter::from_fn(|| worn.board.step(Micros(0), Input::Tick, &mut ()));

@@ -53,9 +53,9 @@ impl Worn {
         let SimBoard { mut lines, delay, adc, clock } =
             SimBoard::new(&self.garment, script, script.seed).unwrap();
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
-        let (mut body, mut wire) = ([0; 64], [0; 64]);
-        let length = encode(&Request::Tare { frames: TARE }, &mut body, &mut wire).unwrap();
-        self.board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let mut wire = [0; 64];
+        let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
+        self.board.step(Micros(0), Input::Received(frame), &mut ());
         let mut found = BTreeMap::new();
         let (mut rng, mut rest) = (fastrand::Rng::with_seed(script.seed), Vec::new());
         for frame in 0..u32::from(TARE) + frames {

@@ -51,9 +51,9 @@ pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
     let mut board = Box::new(board.expect("garment and scene fit"));
     let mut receiver = Box::new(Receiver::<8192>::new());
     for request in [Request::Start, Request::Tare { frames: TARE }] {
-        let (mut body, mut frame) = ([0; 64], [0; 64]);
-        let length = wire::encode(&request, &mut body, &mut frame).expect("it is short");
-        board.step(Micros(0), Input::Received(&frame[..length]), &mut ());
+        let mut frame = [0; 64];
+        let frame = wire::encode(&request, &mut frame).expect("it is short");
+        board.step(Micros(0), Input::Received(frame), &mut ());
     }
     let mut heard: Vec<Heard> =
         session.acts().iter().map(|act| Heard { act: act.clone(), announced: Vec::new() }).collect();

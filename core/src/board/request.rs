@@ -220,10 +220,10 @@ mod tests {
             scene.react.iter().map(|row| (row.output.unwrap().pin, false)).collect();
         assert_eq!(drives(&mut board), resting);
         scene.react.remove(0);
-        let (mut text, mut body, mut wire) = ([0; 2048], [0; 2048], [0; 2048]);
+        let (mut text, mut wire) = ([0; 2048], [0; 2048]);
         let text = postcard::to_slice(&scene, &mut text).unwrap();
-        let length = encode(&Request::SetScene(text), &mut body, &mut wire).unwrap();
-        board.step(Micros(0), Input::Received(&wire[..length]), &mut ());
+        let frame = encode(&Request::SetScene(text), &mut wire).unwrap();
+        board.step(Micros(0), Input::Received(frame), &mut ());
         assert_eq!(drives(&mut board), resting);
         assert_eq!(board.setup().scene, scene);
     }

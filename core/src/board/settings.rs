@@ -8,7 +8,7 @@ use crate::format::Code;
 use crate::garment::Garment;
 use crate::health::IllTaxel;
 use crate::scene::Scene;
-use crate::wire::decode;
+use crate::wire::{decode, write};
 use core::fmt;
 use serde::Serialize;
 
@@ -96,7 +96,8 @@ impl Settings<'_> {
 }
 
 fn text<'b, T: Serialize>(value: &T, buffer: &'b mut [u8]) -> Result<&'b [u8], TooLong> {
-    postcard::to_slice(value, buffer).map(|written| &*written).map_err(|_| TooLong)
+    let bytes = write(value, buffer).map_err(|_| TooLong)?;
+    buffer.get(..bytes).ok_or(TooLong)
 }
 
 /// Values by taxel number, some of them `other`.

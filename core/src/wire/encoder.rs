@@ -34,6 +34,10 @@ fn quiet(values: &[u16], base: Option<&[u16]>) -> usize {
         let whole = blocks.iter().take_while(|block| zero(block)).count() * 8;
         return whole + values.iter().skip(whole).take_while(|value| **value == 0).count();
     };
+    // Behind a run nearly always.
+    if values.first() != base.first() {
+        return 0;
+    }
     let pairs = blocks.iter().zip(base.as_chunks::<8>().0);
     let whole = pairs.take_while(|(block, base)| equal(block, base)).count() * 8;
     whole + values.iter().zip(base).skip(whole).take_while(|(value, base)| value == base).count()
@@ -78,21 +82,22 @@ impl<'a> Encoder<'a> {
             // Written when it is known: it has one byte.
             let length = self.out.next()?;
             let most = values.len().min(RUN);
-            let count = match base {
+            let (told, unchanged) = match base {
                 None => self.alone(values.get(..most)?)?,
                 Some(base) => self.differences(values.get(..most)?, base.get(..most)?)?,
             };
-            *length = count as u8;
-            start += count;
-            self.told = start;
-            (values, base) = (values.get(count..)?, after(base, count)?);
+            *length = told as u8;
+            self.told = start + told;
+            let seen = told + unchanged;
+            start += seen;
+            (values, base) = (values.get(seen..)?, after(base, seen)?);
         }
     }
 
-    /// Writes a run that stands alone; how many taxels it has. Not inlined, as [`Encoder::differences`]: the loop within needs
-    /// the few registers of a Cortex-M0+.
+    /// Writes a run that stands alone; how many taxels it has, and how many unchanged ones were seen behind it. Not inlined, as
+    /// [`Encoder::differences`]: the loop within needs the few registers of a Cortex-M0+.
     #[inline(never)]
-    fn alone(&mut self, values: &[u16]) -> Option<usize> {
+    fn alone(&mut self, values: &[u16]) -> Option<(usize, usize)> {
         let mut last = 0;
         self.run(values.iter().map(|value| {
             let value = i32::from(*value);
@@ -100,16 +105,16 @@ impl<'a> Encoder<'a> {
         }))
     }
 
-    /// Writes a run of differences; how many taxels it has.
+    /// Writes a run of differences, as [`Encoder::alone`].
     #[inline(never)]
-    fn differences(&mut self, values: &[u16], base: &[u16]) -> Option<usize> {
+    fn differences(&mut self, values: &[u16], base: &[u16]) -> Option<(usize, usize)> {
         let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
         self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))
     }
 
-    /// Writes the numbers of the taxels up to two unchanged ones; how many there are.
+    /// Writes the numbers of the taxels up to two unchanged ones; how many there are, and how many of these.
     #[inline(always)]
-    fn run(&mut self, mut taxels: impl ExactSizeIterator<Item = (bool, i32)>) -> Option<usize> {
+    fn run(&mut self, mut taxels: impl ExactSizeIterator<Item = (bool, i32)>) -> Option<(usize, usize)> {
         // In registers: few of them are left for what is behind a pointer.
         let mut out = take(&mut self.out);
         let (all, mut unchanged) = (taxels.len(), 0);
@@ -126,7 +131,7 @@ impl<'a> Encoder<'a> {
             varint(&mut out, zigzag(number))?;
         }
         self.out = out;
-        Some(all - taxels.len() - unchanged)
+        Some((all - taxels.len() - unchanged, unchanged))
     }
 
     fn varint(&mut self, value: u32) -> Option<()> {

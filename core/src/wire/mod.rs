@@ -36,17 +36,21 @@
 //! alone where `base` is none, else the difference to the frame of that number, which is the last `Frame` before it.
 //! `Raw` has the same coding, always alone.
 
+mod cobs;
 mod codec;
+mod crc32;
 mod encoder;
 mod image;
 mod message;
 mod receiver;
 mod reference;
+mod writer;
 
-pub(crate) use codec::{CRC_BYTES, pack, sealed, stuff};
 pub use codec::{WireError, decode, encode, frame_bound, open};
+pub(crate) use codec::{close, frame, lead};
 pub use encoder::encode_image;
 pub use image::{ImageError, ImageFault, decode_image, image_bound, image_sum};
 pub use message::*;
 pub use receiver::Receiver;
 pub(crate) use reference::Reference;
+pub(crate) use writer::write;

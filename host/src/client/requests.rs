@@ -1,7 +1,7 @@
 //! What the host asks of the board.
 
 use super::Client;
-use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode};
+use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
 
 /// Requests.
 impl Client {
@@ -14,9 +14,8 @@ impl Client {
 
     /// Queues a request. An error: it is too long.
     pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
-        let (mut body, mut frame) = ([0; LONGEST_REQUEST], [0; LONGEST_REQUEST + 1]);
-        let length = encode(request, &mut body, &mut frame)?;
-        self.requests.extend_from_slice(&frame[..length]);
+        let mut frame = [0; frame_bound(LONGEST_REQUEST)];
+        self.requests.extend_from_slice(encode(request, &mut frame)?);
         Ok(())
     }
 

@@ -46,9 +46,6 @@ fn renumbered(frame: &[u8], seq: u32) -> Result<Vec<u8>, WireError> {
     let message = wire::open(&mut bytes)?;
     let (_, report): (u32, Report<'_>) = wire::decode(message)?;
     // A number takes 5 bytes at most.
-    let mut body = vec![0; message.len() + 16];
-    let mut out = vec![0; wire::frame_bound(body.len())];
-    let length = wire::encode(&(seq, report), &mut body, &mut out)?;
-    out.truncate(length);
-    Ok(out)
+    let mut out = vec![0; wire::frame_bound(message.len() + 16)];
+    Ok(wire::encode(&(seq, report), &mut out)?.to_vec())
 }

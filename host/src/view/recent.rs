@@ -82,11 +82,9 @@ impl Recent {
         let first = self.pieces.iter().position(|piece| piece.key)?;
         let seq = self.pieces.get(first)?.seq.wrapping_sub(1);
         let hello: Report<'_> = decode(&self.hello).ok()?;
-        let mut body = vec![0; LONGEST];
-        let mut frame = vec![0; frame_bound(LONGEST)];
+        let mut room = vec![0; frame_bound(LONGEST)];
         // It takes the number before, so that nothing seems to be lost.
-        let length = encode(&(seq, &hello), &mut body, &mut frame).ok()?;
-        frame.truncate(length);
+        let mut frame = encode(&(seq, &hello), &mut room).ok()?.to_vec();
         frame.extend(self.pieces.iter().skip(first).flat_map(|piece| &piece.bytes));
         Some(frame)
     }
@@ -104,10 +102,7 @@ mod tests {
     use taxel_core::wire::{Frame, Hello, MAGIC, PROTOCOL};
 
     fn sent(seq: u32, report: &Report<'_>) -> Vec<u8> {
-        let (mut body, mut frame) = (vec![0; LONGEST], vec![0; frame_bound(LONGEST)]);
-        let length = encode(&(seq, report), &mut body, &mut frame).unwrap();
-        frame.truncate(length);
-        frame
+        encode(&(seq, report), &mut vec![0; frame_bound(LONGEST)]).unwrap().to_vec()
     }
 
     fn hello(garment: &[u8]) -> Report<'_> {

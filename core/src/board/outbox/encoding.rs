@@ -155,8 +155,6 @@ fn put_hello(
 
 /// postcard of a value; nothing where it does not fit.
 fn written<'a, T: Serialize>(value: &T, buffer: &'a mut [u8]) -> &'a [u8] {
-    match postcard::to_slice(value, buffer) {
-        Ok(bytes) => bytes,
-        Err(_) => &[],
-    }
+    let bytes = write(value, buffer).unwrap_or(0);
+    buffer.get(..bytes).unwrap_or(&[])
 }

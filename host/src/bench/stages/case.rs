@@ -169,9 +169,9 @@ impl Case {
         let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
         let (garment, scene) = (garment?, scene?);
         let ask = |request: &Request<'_>| {
-            let (mut body, mut wire) = ([0; LONGEST_REQUEST], [0; frame_bound(LONGEST_REQUEST)]);
-            let length = encode(request, &mut body, &mut wire).ok().context("a request too long")?;
-            Ok(Step::Receive(wire[..length].to_vec()))
+            let mut wire = [0; frame_bound(LONGEST_REQUEST)];
+            let frame = encode(request, &mut wire).ok().context("a request too long")?;
+            Ok(Step::Receive(frame.to_vec()))
         };
         let mut steps = [
             Request::Stop,

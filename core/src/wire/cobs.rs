@@ -1,0 +1,208 @@
+//! COBS: a group is a code byte, which tells where the next group begins, and bytes that are not 0; a 0 of the data is where the
+//! next one begins.
+//!
+//! It is coded where the data are: a 0 becomes a code byte, and what is not 0 stays. Only a full group of 254 bytes, behind which a
+//! code byte comes in between, moves what stands before it.
+//!
+//! COBS is coded here and not by the crate `cobs` (0.3): that one walks its buffers by plain indices, whose checks are
+//! panics in the image unless the optimiser proves every one of them away, and it takes a zero inside a frame for the
+//! frame's end. The test below compares the two.
+
+use bytemuck::{must_cast_mut, pod_align_to_mut};
+use core::cell::Cell;
+use core::mem::replace;
+use core::ops::Range;
+
+/// Most bytes of a group.
+const GROUP: usize = 254;
+
+/// Most code bytes that come in between some data.
+pub(super) const fn between(data: usize) -> usize {
+    data / GROUP
+}
+
+/// Codes what stands in `data` there, with [`between`] bytes and one before, and one behind, which gets a 0x00. Where the
+/// code stands, with its 0x00; `None` if there is no room.
+///
+/// Data that end with a full group end with it: no empty group follows.
+#[inline(never)] // the few registers of an M0+ are for its loop
+pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>> {
+    *place.get_mut(data.end)? = 0;
+    let first = data.start.checked_sub(1)?;
+    match link(place.get_mut(first..=data.end)?) {
+        Err(long) => apart(place, first..data.end, first + long),
+        Ok(()) => Some(first..data.end + 1),
+    }
+}
+
+/// Makes code bytes of the first of some bytes and of all zeros but the last. An error: where a code byte would have to tell more
+/// than it can; what is before it is coded.
+fn link(bytes: &mut [u8]) -> Result<(), usize> {
+    let Some((head, data)) = bytes.split_first_mut() else { return Ok(()) };
+    let mut group = Group { head, at: 0 };
+    let (first, words, last) = pod_align_to_mut::<u8, u32>(data);
+    let mut at = 1;
+    group.bytes(&mut at, first)?;
+    for word in words {
+        if has_zero(*word) {
+            group.bytes(&mut at, must_cast_mut::<u32, [u8; 4]>(word))?;
+        } else {
+            at += 4;
+        }
+    }
+    group.bytes(&mut at, last)
+}
+
+/// A group that has not ended: its code byte, and where that is.
+struct Group<'a> {
+    head: &'a mut u8,
+    at: usize,
+}
+
+impl<'a> Group<'a> {
+    /// Takes the bytes from `at` on. An error: where the group begins, which is too long.
+    #[inline(always)]
+    fn bytes(&mut self, at: &mut usize, bytes: &'a mut [u8]) -> Result<(), usize> {
+        for byte in bytes {
+            if *byte == 0 {
+                let code = *at - self.at;
+                if code > GROUP {
+                    return Err(self.at);
+                }
+                *replace(&mut self.head, byte) = code as u8;
+                self.at = *at;
+            }
+            *at += 1;
+        }
+        Ok(())
+    }
+}
+
+/// Whether one of the bytes is 0: it borrows and its highest bit is not set.
+fn has_zero(word: u32) -> bool {
+    const ONES: u32 = 0x0101_0101;
+    word.wrapping_sub(ONES) & !word & ONES << 7 != 0
+}
+
+/// As [`stuff`] from the code byte at `head` on, where a full group may begin; what stands before it moves out of its way.
+#[inline(never)]
+fn apart(place: &mut [u8], data: Range<usize>, head: usize) -> Option<Range<usize>> {
+    let (mut at, mut moved) = (head, 0);
+    while at < data.end {
+        let next = zero(place, at + 1)?;
+        moved += full(at, next, data.end);
+        at = next;
+    }
+    let first = data.start.checked_sub(moved)?;
+    shift(place, data.start..head, first)?;
+    let (mut head, mut from) = (head - moved, head + 1);
+    while head < data.end {
+        let next = zero(place, from)?;
+        for _ in 0..full(from - 1, next, data.end) {
+            *place.get_mut(head)? = 255;
+            shift(place, from..from + GROUP, head + 1)?;
+            (head, from) = (head + 1 + GROUP, from + GROUP);
+        }
+        let rest = next - from;
+        *place.get_mut(head)? = rest as u8 + 1;
+        shift(place, from..next, head + 1)?;
+        (head, from) = (head + 1 + rest, next + 1);
+    }
+    Some(first..data.end + 1)
+}
+
+/// Code bytes that come in between those from `head` to the zero at `next`; at the end a full group has none behind it.
+const fn full(head: usize, next: usize, end: usize) -> usize {
+    (next - head).saturating_sub(if next == end { 2 } else { 1 }) / GROUP
+}
+
+/// Where the next zero is, from `at` on.
+fn zero(place: &[u8], at: usize) -> Option<usize> {
+    place.get(at..)?.iter().position(|byte| *byte == 0).map(|behind| at + behind)
+}
+
+/// Moves some bytes to the front.
+fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
+    if from.start != to {
+        let place = Cell::from_mut(place).as_slice_of_cells();
+        let to = place.get(to..to + from.len())?;
+        place.get(from)?.iter().zip(to).for_each(|(from, to)| to.set(from.get()));
+    }
+    Some(())
+}
+
+/// Undoes COBS in place; the length of the data, or `None` if `frame` is not COBS.
+pub(super) fn unstuff(frame: &mut [u8]) -> Option<usize> {
+    let (mut from, mut to) = (0, 0);
+    while let Some(code) = frame.get(from).copied() {
+        let next = from + usize::from(code);
+        if code == 0 || next > frame.len() {
+            return None;
+        }
+        for at in from + 1..next {
+            let byte = *frame.get(at).filter(|byte| **byte != 0)?;
+            *frame.get_mut(to)? = byte;
+            to += 1;
+        }
+        // A group shorter than 255 stands for its bytes and a zero, but for the last one.
+        if code != 255 && next < frame.len() {
+            *frame.get_mut(to)? = 0;
+            to += 1;
+        }
+        from = next;
+    }
+    Some(to)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Lengths around the group of 254, with zeros in every place that matters.
+    fn data() -> impl Iterator<Item = Vec<u8>> {
+        let lengths = [1, 2, 5, 252, 253, 254, 255, 256, 507, 508, 509, 510, 762, 763, 1200];
+        let zeros = [usize::MAX, 0, 1, 7, 252, 253, 254, 255, 507, 508, 509, 762];
+        lengths.into_iter().flat_map(move |length| {
+            zeros.into_iter().map(move |zero| {
+                let byte = |i| if i == zero || i + 1 == length && zero == 1 { 0 } else { i as u8 | 1 };
+                (0..length).map(byte).collect()
+            })
+        })
+    }
+
+    #[test]
+    fn cobs_is_that_of_the_crate_cobs() {
+        for data in data() {
+            let mut theirs = [0; 1300];
+            let length = cobs::try_encode(&data, &mut theirs).unwrap();
+            for free in 0..4 {
+                let start = 1 + between(data.len()) + free;
+                let mut mine = vec![0xaa; start];
+                mine.extend(&data);
+                let end = mine.len();
+                assert_eq!(stuff(&mut mine, start..end), None);
+                mine.push(0xaa);
+                let range = stuff(&mut mine, start..end).unwrap();
+                let (end, frame) = mine[range].split_last_mut().unwrap();
+                assert!(*end == 0 && !frame.contains(&0));
+                assert_eq!(frame, &theirs[..length]);
+                assert_eq!(unstuff(frame), Some(data.len()));
+                assert_eq!(frame[..data.len()], data);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_cobs_is_refused() {
+        for frame in [&mut [0][..], &mut [2], &mut [3, 1], &mut [3, 1, 0], &mut [1, 0, 1], &mut [255; 254]] {
+            assert_eq!(unstuff(frame), None);
+        }
+        // Other encoders append an empty group to a full one; it means the same.
+        let mut frame = [255; 256];
+        frame[255] = 1;
+        assert_eq!(unstuff(&mut frame), Some(254));
+    }
+}
