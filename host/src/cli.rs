@@ -8,6 +8,8 @@ use crate::export::{self, ExportArgs};
 use crate::fcm::{self, FcmArgs};
 use crate::features::{self, FeaturesArgs};
 use crate::flash::{self, FlashArgs};
+#[cfg(feature = "foxglove")]
+use crate::foxglove::{self, FoxgloveArgs};
 use crate::gestures::{self, GesturesArgs};
 use crate::health::{self, HealthArgs};
 use crate::info::{self, InfoArgs};
@@ -44,6 +46,10 @@ enum Command {
     /// See the same in the browser: panels, surface, body, map, health
     #[command(after_help = VIEW)]
     View(ViewArgs),
+    /// Serve the same to Foxglove, live
+    #[cfg(feature = "foxglove")]
+    #[command(after_help = FOXGLOVE)]
+    Foxglove(FoxgloveArgs),
     /// Record what a board tells, for Foxglove, Rerun, Python and ROS 2
     #[command(after_help = RECORD)]
     Record(RecordArgs),
@@ -53,7 +59,7 @@ enum Command {
     /// Play a recording as if its board were there
     #[command(after_help = REPLAY)]
     Replay(ReplayArgs),
-    /// A recording as CSV, NumPy arrays or images
+    /// Recordings as CSV, NumPy arrays, images or a data set for LeRobot
     #[command(after_help = EXPORT)]
     Export(ExportArgs),
     /// What a recording or a board shows, as one page to send
@@ -123,6 +129,11 @@ const VIEW: &str = "Examples:
   taxel view --source sim:five
   taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
+#[cfg(feature = "foxglove")]
+const FOXGLOVE: &str = "Examples:
+  taxel foxglove --source sim:pat
+  taxel foxglove --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
 const RECORD: &str = "Examples:
   taxel record -o touch.mcap
   taxel record --source sim:pat -o pat.mcap --ros2
@@ -140,7 +151,8 @@ const REPLAY: &str = "Examples:
 const EXPORT: &str = "Examples:
   taxel export touch.mcap --to npz -o touch.npz
   taxel export touch.mcap --to csv --touched -o touch.csv
-  taxel export touch.mcap --to png -o images";
+  taxel export touch.mcap --to png -o images
+  taxel export *.mcap --to lerobot --task \"pat the robot\" -o data";
 
 const REPORT: &str = "Examples:
   taxel report touch.mcap -o report.html
@@ -174,7 +186,8 @@ const INTENT: &str = "Examples:
 const BENCH: &str = "Examples:
   taxel bench
   taxel bench acquisition
-  taxel bench nmi --json";
+  taxel bench nmi --json
+  taxel bench record";
 
 const SETUP: &str = "Examples:
   taxel setup --garment reference -o garment.toml
@@ -234,6 +247,8 @@ impl Cli {
         match self.command.or_else(live).expect("live is a command") {
             Command::Live(args) => live::run(args),
             Command::View(args) => view::run(args),
+            #[cfg(feature = "foxglove")]
+            Command::Foxglove(args) => foxglove::run(args),
             Command::Record(args) => record::run(args),
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),

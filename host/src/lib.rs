@@ -14,6 +14,8 @@ pub mod export;
 pub mod fcm;
 pub mod features;
 pub mod flash;
+#[cfg(feature = "foxglove")]
+pub mod foxglove;
 pub mod garments;
 pub mod gestures;
 pub mod health;

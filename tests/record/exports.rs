@@ -13,8 +13,9 @@ fn exported(seen_as: &str, to: Form, output: &str, every: u64) -> (Seen, PathBuf
     let seen = record("sim:two-hands", plan(&name, "sim", None, false));
     let output = file(output);
     let every = NonZeroU64::new(every).unwrap();
-    run(ExportArgs { file: file(&name), to, output: output.clone(), touched: to == Form::Csv, every })
-        .unwrap();
+    let plain = ExportArgs::of(vec![file(&name)], to, output.clone());
+    let table = to == Form::Csv;
+    run(ExportArgs { touched: table, counts: table, every, ..plain }).unwrap();
     (seen, output)
 }
 

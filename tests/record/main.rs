@@ -1,7 +1,9 @@
 //! `taxel record`, `replay`, `export` and `report` through the library: nothing of what a board told is lost or changed.
 
+mod calibrated;
 mod cost;
 mod exports;
+mod lerobot;
 mod replayed;
 mod report;
 mod rotate;

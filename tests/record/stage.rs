@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::live::{LiveArgs, Show, watch};
-use taxel::record::{Plan, Recorder, Rotate};
+use taxel::record::{Origin, Plan, Recorder, Rotate};
 use taxel::source::{self, SourceOptions};
 
 /// What came of a board.
@@ -66,8 +66,8 @@ pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan
         rotate,
         ros2,
         force: true,
-        label: label.into(),
-        counts_per_newton: Some(1000.0),
+        origin: Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None },
+        raw: false,
         stop: Default::default(),
     }
 }

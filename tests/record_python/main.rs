@@ -2,6 +2,7 @@
 //! interpreter (`TAXEL_PYTHON`) and the program (`TAXEL_PROGRAM`).
 
 mod killed;
+mod lerobot;
 mod scenes;
 #[path = "../record/stage.rs"]
 mod stage;

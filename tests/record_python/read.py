@@ -1,6 +1,6 @@
 """Reads a recording with other people's readers and prints what was found as JSON.
 
-usage: read.py mcap FILE | ros2 FILE
+usage: read.py mcap FILE | ros2 FILE | rerun FILE | lerobot FOLDER
 """
 
 import array
@@ -80,4 +80,85 @@ def read_ros2(path):
     return {"mcap_ros2": decoded, "rosbags": bag}
 
 
-print(json.dumps({"mcap": read_mcap, "ros2": read_ros2}[sys.argv[1]](sys.argv[2])))
+def depth(kind):
+    """Lists in one another, and the type in them."""
+    lists = 0
+    while hasattr(kind, "value_type"):
+        lists, kind = lists + 1, kind.value_type
+    return lists, str(kind)
+
+
+def flat(column):
+    """All numbers of a column of lists in lists."""
+    while hasattr(column.type, "value_type"):
+        column = column.combine_chunks().flatten()
+    return column
+
+
+def read_lerobot(folder):
+    from pyarrow import parquet
+
+    folder = Path(folder)
+    info = json.loads((folder / "meta/info.json").read_text())
+    stats = json.loads((folder / "meta/stats.json").read_text())
+    episodes = parquet.read_table(folder / "meta/episodes/chunk-000/file-000.parquet").to_pylist()
+    tasks = parquet.read_table(folder / "meta/tasks.parquet")
+    panels, numbers = {}, {"index": [], "episode_index": [], "frame_index": [], "timestamp": []}
+    for episode in episodes:
+        place = {"chunk_index": episode["data/chunk_index"], "file_index": episode["data/file_index"]}
+        table = parquet.read_table(folder / info["data_path"].format(**place))
+        assert table.num_rows == episode["length"] == episode["dataset_to_index"] - episode["dataset_from_index"]
+        assert sorted(table.column_names) == sorted(info["features"])
+        for name, feature in info["features"].items():
+            column, shape = table[name], feature["shape"]
+            lists, kind = depth(column.type)
+            assert (lists, kind) == (0 if shape == [1] else len(shape), {"float32": "float"}.get(feature["dtype"], "int64"))
+            values, size = flat(column).to_pylist(), 1
+            for part in shape:
+                size *= part
+            assert len(values) == size * table.num_rows, name
+            if lists == 2:
+                row = column[0].as_py()
+                assert [len(row), len(row[0])] == shape
+                panels[name] = zlib.crc32(array.array("f", values).tobytes(), panels.get(name, 0))
+                least = stats[name]["min"]
+                assert [len(least), len(least[0])] == shape
+            if name in numbers:
+                numbers[name] += values
+    assert numbers["index"] == list(range(info["total_frames"]))
+    for frame, time in zip(numbers["frame_index"], numbers["timestamp"]):
+        # As near as 32 bits are.
+        assert abs(time - frame / info["fps"]) <= 1e-6 * (1 + time)
+    index = json.loads(tasks.schema.metadata[b"pandas"])["index_columns"]
+    lengths = [episode["length"] for episode in episodes]
+    return {"info": info, "panels": panels, "lengths": lengths, "tasks": tasks.to_pydict(), "index": index}
+
+
+def read_rerun(path):
+    """What Rerun makes of a recording or of ROS 2's: messages in the order of their times, images as depth images."""
+    from rerun.chunk import McapReader
+
+    rows, images = {}, {}
+    for chunk in McapReader(path).stream():
+        name, batch = str(chunk.entity_path), chunk.to_record_batch()
+        for column in ("McapMessage:data", "DepthImage:buffer"):
+            if column in batch.schema.names:
+                times = batch["message_log_time"].cast("int64").to_pylist()
+                values = [bytes(value[0]) for value in batch[column].to_pylist()]
+                rows.setdefault((name, column), []).extend(zip(times, values))
+    panels, counts = {}, {}
+    for (name, column), messages in rows.items():
+        messages.sort(key=lambda message: message[0])
+        counts[name] = len(messages)
+        if column == "DepthImage:buffer":
+            images[name.split("/")[2]] = zlib.crc32(b"".join(data for _, data in messages))
+        elif name == "/taxel/frames":
+            for _, data in messages:
+                for panel in json.loads(data)["panels"]:
+                    values = [value for row in panel["rows"] for value in row]
+                    panels[panel["name"]] = crc_of(values, panels.get(panel["name"], 0))
+    return {"counts": counts, "panels": panels, "images": images}
+
+
+READERS = {"mcap": read_mcap, "ros2": read_ros2, "rerun": read_rerun, "lerobot": read_lerobot}
+print(json.dumps(READERS[sys.argv[1]](sys.argv[2])))

@@ -49,3 +49,14 @@ fn python_reads_every_scene_bit_for_bit() {
     }
     println!("Python's mcap, mcap-ros2-support and rosbags read {} scenes bit for bit", sim::list().len());
 }
+
+#[test]
+fn rerun_reads_a_scene_bit_for_bit() {
+    let seen = record("sim:pat", plan("rerun.mcap", "sim", None, true));
+    let found = read("rerun", &file("rerun.mcap"));
+    assert_eq!(found["counts"]["/taxel/frames"], json!(seen.frames.len()));
+    assert_eq!(found["panels"], sums(&seen, |panel| panel.into()));
+    let ros2 = read("rerun", &file("rerun.ros2.mcap"));
+    assert_eq!(ros2["images"], sums(&seen, |panel| panel.replace(' ', "_")));
+    println!("Rerun's reader finds a recording's messages, and ROS 2's images as depth images, bit for bit");
+}

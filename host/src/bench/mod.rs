@@ -4,6 +4,7 @@ pub mod acquisition;
 pub mod chart;
 pub mod nmi;
 mod outline;
+pub mod record;
 pub mod stages;
 mod touch;
 
@@ -35,6 +36,9 @@ enum Table {
     /// Spread of the NMI and its forms under rotation, scale, shift and pressure
     #[command(after_help = "Example:\n  taxel bench nmi --json")]
     Nmi(Output),
+    /// What recording costs beside perceiving, and how fast a recording is played
+    #[command(after_help = "Example:\n  taxel bench record")]
+    Record(record::RecordBench),
 }
 
 /// What comes out besides the text table.
@@ -65,6 +69,7 @@ pub fn run(args: BenchArgs) -> Result<()> {
         Table::Stages(output) => output.put(&stages::report()?),
         Table::Acquisition(output) => output.put(&acquisition::report()),
         Table::Nmi(output) => output.put(&nmi::report()?),
+        Table::Record(args) => record::run(&args),
     }
 }
 

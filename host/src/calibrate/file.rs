@@ -6,13 +6,10 @@ use super::reading::Rest;
 use super::residuals::{OfWeight, Residuals};
 use crate::date;
 use anyhow::{Context, Result, anyhow, ensure};
-use crc::{CRC_32_ISO_HDLC, Crc};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::condition::Certificate;
 use taxel_core::garment::Layout;
-
-const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// A calibration of a garment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -83,7 +80,7 @@ impl Calibration {
     }
 
     fn sum(&self) -> u32 {
-        let mut digest = CRC.digest();
+        let mut digest = crc32fast::Hasher::new();
         self.gains.iter().for_each(|gain| digest.update(&gain.to_le_bytes()));
         for panel in &self.panels {
             digest.update(panel.name.as_bytes());
@@ -96,9 +93,14 @@ impl Calibration {
     pub fn read(file: &Path) -> Result<Calibration> {
         let name = file.display().to_string();
         let text = std::fs::read_to_string(file).with_context(|| format!("{name} cannot be read"))?;
+        Calibration::parse(&text, &name)
+    }
+
+    /// Reads the text of a file of that name and checks it.
+    pub fn parse(text: &str, name: &str) -> Result<Calibration> {
         let read: Calibration =
-            toml::from_str(&text).map_err(|error| anyhow!(crate::sim::sentence(&error, &text, &name)))?;
-        read.check().with_context(|| name)?;
+            toml::from_str(text).map_err(|error| anyhow!(crate::sim::sentence(&error, text, name)))?;
+        read.check().with_context(|| name.to_string())?;
         Ok(read)
     }
 
@@ -117,10 +119,14 @@ impl Calibration {
         Ok(())
     }
 
+    /// What is in the file.
+    pub fn text(&self) -> Result<String> {
+        toml::to_string(self).context("the calibration cannot be written as TOML")
+    }
+
     /// Writes the file.
     pub fn write(&self, file: &Path) -> Result<()> {
-        let text = toml::to_string(self).context("the calibration cannot be written as TOML")?;
-        std::fs::write(file, text).with_context(|| format!("{} cannot be written", file.display()))
+        std::fs::write(file, self.text()?).with_context(|| format!("{} cannot be written", file.display()))
     }
 
     /// What the board is told of it.

@@ -25,6 +25,12 @@ impl Forces {
         Ok(Forces { curves: layout.areas().iter().map(|area| curve(area.name.as_str())).collect() })
     }
 
+    /// Force on a taxel of a panel that shows that many counts, N; none where the panel is not calibrated.
+    pub fn taxel(&self, panel: usize, counts: u16) -> Option<f64> {
+        let curve = self.curves.get(panel)?.as_ref()?;
+        Some(curve.micronewtons(u32::from(counts) * PARTS) as f64 / 1e6)
+    }
+
     /// Force on the taxels of a rectangle, N, of an image by taxel number (counts); none where the panel is not calibrated.
     pub fn within(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
         let curve = self.curves.get(usize::from(bounds.panel))?.as_ref()?;

@@ -19,6 +19,16 @@ impl Client {
         Ok(())
     }
 
+    /// Asks for the raw codes of every frame where none come. Nothing is known of the board: nothing is asked.
+    pub fn request_codes(&mut self) -> anyhow::Result<()> {
+        let Some(mut scene) = self.worn.as_ref().map(|worn| worn.scene.clone()) else { return Ok(()) };
+        if scene.stream.raw_hz == 0 {
+            scene.stream.raw_hz = u16::MAX;
+            self.request(&Request::SetScene(&postcard::to_allocvec(&scene)?))?;
+        }
+        Ok(())
+    }
+
     /// The bytes that are to be sent to the board.
     pub fn take_requests(&mut self) -> Vec<u8> {
         let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };

@@ -1,66 +1,140 @@
 //! The images of a recording, with what belongs to each.
 
+use super::units::{Scale, Units};
 use crate::client::{Client, Event, ImageNews};
 use crate::record::Play;
+use crate::recording::scan;
 use anyhow::{Result, bail};
 use std::num::NonZeroU64;
 use std::path::Path;
+use std::rc::Rc;
+use taxel_core::body::Placed;
+use taxel_core::format::{Name, Q15};
 use taxel_core::garment::{Area, Layout};
 
 /// Which images of which recording.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Frames<'a> {
     file: &'a Path,
     every: NonZeroU64,
+    /// None: counts.
+    scale: Option<Scale>,
+}
+
+/// What holds for all images.
+#[derive(Debug)]
+pub struct Worn {
+    /// The garment's geometry.
+    pub layout: Layout,
+    /// Units of its panels.
+    pub units: Units,
+    /// Concepts of the scene's map.
+    pub concepts: Vec<Name>,
+    /// What the board says of its calibration.
+    calibration: String,
 }
 
 /// One image.
 #[derive(Debug)]
-pub struct Frame<'a> {
+pub struct Frame {
     /// Number of the scan.
     pub number: u32,
     /// Start of the scan, the board's time, us.
     pub board_us: u64,
     /// The host's time of it, us since 1970.
     pub host_us: u64,
-    /// What is known after it.
-    pub client: &'a Client,
-    /// The garment's geometry.
-    pub layout: &'a Layout,
+    /// What the board wears.
+    pub worn: Rc<Worn>,
     /// Pressure by taxel number, counts.
-    pub values: &'a [u16],
+    pub values: Vec<u16>,
+    /// Raw code by taxel number; empty where none were recorded of this scan.
+    pub codes: Vec<u16>,
+    /// The contacts that are there.
+    pub contacts: Vec<Placed>,
+    /// Activation of each concept.
+    pub activations: Vec<Q15>,
 }
 
 impl<'a> Frames<'a> {
-    /// Each N-th image of a file.
-    pub fn new(file: &'a Path, every: NonZeroU64) -> Frames<'a> {
-        Frames { file, every }
+    /// Each N-th image of a file; in counts, or in the unit that the file knows.
+    pub fn new(file: &'a Path, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
+        let scale = if counts { None } else { Some(Scale::of(&scan(file)?, file)?) };
+        Ok(Frames { file, every, scale })
     }
 
-    /// Goes through them; their number. A garment that is changed on the way is refused: the forms have one.
-    pub fn each(&self, mut take: impl FnMut(&Frame<'_>) -> Result<()>) -> Result<u64> {
+    /// The recording.
+    #[cfg(feature = "lerobot")]
+    pub fn file(&self) -> &Path {
+        self.file
+    }
+
+    /// Goes through them; their number. What is changed on the way is refused: the forms have one garment, one map
+    /// and one unit.
+    pub fn each(&self, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
         let mut play = Play::open(self.file)?;
         let (mut seen, mut count) = (0u64, 0);
-        let mut known: Option<Layout> = None;
+        let mut known: Option<Rc<Worn>> = None;
+        // Codes come after their image, if they come.
+        let mut waiting: Option<Frame> = None;
         while let Some((header, event)) = play.next_event()? {
-            let Event::Frame { frame, time, image: ImageNews::Whole, .. } = event else { continue };
             let client = play.client();
-            let (Some(layout), Some((_, values))) = (client.layout(), client.image()) else { continue };
-            if known.get_or_insert_with(|| layout.clone()) != layout {
-                bail!("the garment changes at frame {frame}");
+            match event {
+                Event::Raw { frame, whole: true, .. } => {
+                    if let Some(mut image) = waiting.take_if(|waiting| waiting.number == frame) {
+                        image.codes = client.raw().to_vec();
+                        take(&image)?;
+                    }
+                }
+                Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
+                    waiting.take().map_or(Ok(()), |image| take(&image))?;
+                    let Some(worn) = self.worn(client, known.as_ref(), frame)? else { continue };
+                    known = Some(worn.clone());
+                    seen += 1;
+                    if (seen - 1) % self.every == 0 {
+                        count += 1;
+                        waiting = Some(image(client, worn, frame, [time.0, header.log_time / 1000]));
+                    }
+                }
+                _ => {}
             }
-            seen += 1;
-            if (seen - 1) % self.every != 0 {
-                continue;
-            }
-            count += 1;
-            let host_us = header.log_time / 1000;
-            take(&Frame { number: frame, board_us: time.0, host_us, client, layout, values })?;
         }
+        waiting.take().map_or(Ok(()), |image| take(&image))?;
         if count == 0 {
             bail!("{} holds no image", self.file.display());
         }
         Ok(count)
+    }
+
+    fn worn(&self, client: &Client, known: Option<&Rc<Worn>>, frame: u32) -> Result<Option<Rc<Worn>>> {
+        let Some(now) = client.worn() else { return Ok(None) };
+        match known {
+            Some(known) if known.layout != now.layout => bail!("the garment changes at frame {frame}"),
+            Some(known) if known.concepts != client.concepts() => bail!("the map changes at frame {frame}"),
+            Some(known) if self.scale.is_some() && known.calibration != now.calibration => {
+                bail!("the calibration changes at frame {frame}: --counts exports counts")
+            }
+            Some(known) => Ok(Some(known.clone())),
+            None => {
+                let scale = self.scale.as_ref().map(|scale| scale.on(&now.layout, &now.calibration));
+                let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
+                let concepts = client.concepts().to_vec();
+                let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
+                Ok(Some(Rc::new(Worn { layout, units, concepts, calibration })))
+            }
+        }
+    }
+}
+
+fn image(client: &Client, worn: Rc<Worn>, number: u32, [board_us, host_us]: [u64; 2]) -> Frame {
+    Frame {
+        number,
+        board_us,
+        host_us,
+        worn,
+        values: client.image().map_or(Vec::new(), |(_, values)| values.to_vec()),
+        codes: Vec::new(),
+        contacts: client.contacts().to_vec(),
+        activations: client.activations(),
     }
 }
 

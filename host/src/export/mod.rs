@@ -1,19 +1,24 @@
-//! `taxel export`: a recording in the forms of other programs.
+//! `taxel export`: recordings in the forms of other programs.
 //!
 //! | `--to` | what |
 //! |---|---|
-//! | `csv` | one row a taxel and frame, see `csv.rs` |
+//! | `csv` | one row a taxel and frame: where it is, volts, pressure in its unit, see `csv.rs` |
 //! | `npz` | NumPy arrays: an array of frames for each panel, times, contacts, see `npz.rs` |
 //! | `png` | a folder with an image of 16 bits for each frame and panel, counts |
+//! | `lerobot` | a folder with a data set for LeRobot, one episode a recording, see `lerobot/mod.rs`; needs the feature `lerobot` |
 
 mod csv;
 mod frames;
+#[cfg(feature = "lerobot")]
+mod lerobot;
 mod npz;
 mod png;
+mod units;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, ValueEnum};
-use std::num::NonZeroU64;
+use frames::Frames;
+use std::num::{NonZeroU16, NonZeroU64};
 use std::path::PathBuf;
 
 /// What a recording becomes.
@@ -25,42 +30,91 @@ pub enum Form {
     Npz,
     /// Images
     Png,
+    /// A data set for LeRobot
+    Lerobot,
 }
 
 /// What `taxel export` takes.
 #[derive(Debug, Clone, Args)]
 pub struct ExportArgs {
-    /// Recording: .mcap
-    pub file: PathBuf,
+    /// Recording: .mcap; for LeRobot one or more
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
     /// What it is to become
     #[arg(long, value_name = "FORM")]
     pub to: Form,
-    /// File to write; for images the folder
+    /// File to write; for images and LeRobot the folder
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// With --to csv: only taxels with pressure
+    /// Table: only taxels with pressure
     #[arg(long)]
     pub touched: bool,
+    /// Table, LeRobot: counts also where the recording says what a newton shows
+    #[arg(long)]
+    pub counts: bool,
+    /// Table: reference of the converter, V
+    #[arg(long, value_name = "V", default_value_t = 3.3)]
+    pub reference: f64,
+    /// LeRobot: rows a second
+    #[arg(long, value_name = "N", default_value = "30")]
+    pub fps: NonZeroU16,
+    /// LeRobot: what is done in the recordings
+    #[arg(long, value_name = "TEXT", default_value = "touch")]
+    pub task: String,
     /// Only each N-th frame
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroU64,
 }
 
+impl ExportArgs {
+    /// All of these recordings, with nothing else asked for.
+    pub fn of(files: Vec<PathBuf>, to: Form, output: PathBuf) -> ExportArgs {
+        ExportArgs {
+            files,
+            to,
+            output,
+            touched: false,
+            counts: false,
+            reference: 3.3,
+            fps: NonZeroU16::MIN.saturating_add(29),
+            task: "touch".into(),
+            every: NonZeroU64::MIN,
+        }
+    }
+}
+
 /// Runs the command.
 pub fn run(args: ExportArgs) -> Result<()> {
-    if args.touched && args.to != Form::Csv {
-        bail!("--touched is for --to csv");
+    ensure!(!args.touched || args.to == Form::Csv, "--touched is for --to csv");
+    let in_units = matches!(args.to, Form::Csv | Form::Lerobot);
+    ensure!(!args.counts || in_units, "--counts is for --to csv and --to lerobot: the others hold counts");
+    ensure!(args.reference.is_finite() && args.reference > 0.0, "--reference must be a voltage above 0");
+    if let Some(same) = args.files.iter().find(|file| **file == args.output) {
+        bail!("{} is the recording itself: give another name", same.display());
     }
-    if args.output == args.file {
-        bail!("{} is the recording itself: give another name", args.output.display());
-    }
-    let frames = frames::Frames::new(&args.file, args.every);
-    let written = match args.to {
-        Form::Csv => csv::write(&frames, args.touched, &args.output),
-        Form::Npz => npz::write(&frames, &args.output),
-        Form::Png => png::write(&frames, &args.output),
+    let frames = |file| Frames::new(file, args.every, args.counts || !in_units);
+    let recordings = args.files.iter().map(|file| frames(file)).collect::<Result<Vec<_>>>()?;
+    let done = match (args.to, recordings.as_slice()) {
+        (Form::Lerobot, all) => lerobot(all, &args),
+        (Form::Csv, [one]) => {
+            csv::Table { touched: args.touched, reference: args.reference }.write(one, &args.output)
+        }
+        (Form::Npz, [one]) => npz::write(one, &args.output),
+        (Form::Png, [one]) => png::write(one, &args.output),
+        (_, all) => bail!("{} recordings: only --to lerobot takes more than one", all.len()),
     };
-    let count = written.with_context(|| format!("{} to {}", args.file.display(), args.output.display()))?;
+    let names: Vec<_> = args.files.iter().map(|file| file.display().to_string()).collect();
+    let count = done.with_context(|| format!("{} to {}", names.join(", "), args.output.display()))?;
     eprintln!("{}: {count} frames", args.output.display());
     Ok(())
+}
+
+#[cfg(feature = "lerobot")]
+fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
+    lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, &args.output)
+}
+
+#[cfg(not(feature = "lerobot"))]
+fn lerobot(_: &[Frames<'_>], _: &ExportArgs) -> Result<u64> {
+    bail!("this program was built without LeRobot: cargo run --release --features lerobot -- export ...")
 }

@@ -5,6 +5,7 @@
 //! | `PANEL` | u16 \[n, rows, columns\] | pressure, counts; `taxel process` reads them back |
 //! | `frame` | u32 \[n\] | number of the scan |
 //! | `time_us`, `host_time_us` | u64 \[n\] | its start, the board's time and the host's |
+//! | `intent` | f64 \[n, concepts\] | activation of each concept of the scene's map, -1 ..= 1; where there is one |
 //! | `contact_frame` | u32 \[m\] | the scan of each contact; a contact has an entry for each frame in which it is |
 //! | `contact_id`, `_panel`, `_total`, `_peak`, `_area` | u32 \[m\] | |
 //! | `contact_x`, `_y`, `_azimuth`, `_nmi` | f64 \[m\] | taxels, taxels, rad (NaN: none), 1 |
@@ -44,25 +45,33 @@ pub fn write(frames: &Frames<'_>, path: &Path) -> Result<u64> {
     let mut archive = Archive::new(BufWriter::new(File::create(path).context("it cannot be written")?));
     let mut areas = Vec::new();
     let (mut numbers, mut times, mut host_times) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut of, mut contacts) = (Vec::new(), Vec::new());
+    let (mut of, mut contacts, mut intent) = (Vec::new(), Vec::new(), Vec::new());
+    let mut concepts = 0;
     let count = frames.each(|frame| {
-        areas = frame.layout.areas().to_vec();
+        areas = frame.worn.layout.areas().to_vec();
         numbers.push(frame.number);
         times.push(frame.board_us);
         host_times.push(frame.host_us);
-        of.extend(frame.client.contacts().iter().map(|_| frame.number));
-        contacts.extend_from_slice(frame.client.contacts());
+        of.extend(frame.contacts.iter().map(|_| frame.number));
+        contacts.extend_from_slice(&frame.contacts);
+        concepts = frame.worn.concepts.len() as u64;
+        intent.extend(frame.activations.iter().map(|activation| activation.to_f64()));
         Ok(())
     })?;
     for area in &areas {
         let shape = [count, area.rows.into(), area.columns.into()];
         let mut array = begin::<u16>(&mut archive, &area.name, &shape)?;
-        frames.each(|frame| Ok(array.extend(frames::panel(area, frame.values).iter().copied())?))?;
+        frames.each(|frame| Ok(array.extend(frames::panel(area, &frame.values).iter().copied())?))?;
         array.finish()?;
     }
     list(&mut archive, "frame", numbers)?;
     list(&mut archive, "time_us", times)?;
     list(&mut archive, "host_time_us", host_times)?;
+    if concepts > 0 {
+        let mut array = begin::<f64>(&mut archive, "intent", &[count, concepts])?;
+        array.extend(intent)?;
+        array.finish()?;
+    }
     list(&mut archive, "contact_frame", of)?;
     for (name, value) in WHOLE {
         list(&mut archive, name, contacts.iter().map(value).collect())?;

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Writes `FOLDER/PANEL/FRAME.png`; the number of frames.
 pub fn write(frames: &Frames<'_>, folder: &Path) -> Result<u64> {
     frames.each(|frame| {
-        for area in frame.layout.areas() {
+        for area in frame.worn.layout.areas() {
             let folder = folder.join(name(&area.name));
             fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
             let path = folder.join(format!("{:08}.png", frame.number));
@@ -19,7 +19,7 @@ pub fn write(frames: &Frames<'_>, folder: &Path) -> Result<u64> {
             let mut encoder = Encoder::new(BufWriter::new(file), area.columns.into(), area.rows.into());
             encoder.set_color(ColorType::Grayscale);
             encoder.set_depth(BitDepth::Sixteen);
-            let grey = frames::panel(area, frame.values).iter().flat_map(|value| value.to_be_bytes());
+            let grey = frames::panel(area, &frame.values).iter().flat_map(|value| value.to_be_bytes());
             encoder.write_header()?.write_image_data(&grey.collect::<Vec<u8>>())?;
         }
         Ok(())

@@ -8,7 +8,6 @@ use std::io::Write;
 use std::str::FromStr;
 use taxel_core::format::Micros;
 use taxel_core::garment::Place;
-use taxel_core::wire::Request;
 
 /// `PANEL,ROW,COL`: the panel by name or number.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -123,13 +122,8 @@ impl<W: Write> Show for TaxelLines<W> {
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         self.out.flush()?;
-        if let Some(worn) = client.worn().filter(|_| !self.asked) {
-            self.asked = true;
-            if !self.raw {
-                let mut scene = worn.scene.clone();
-                scene.stream.raw_hz = u16::MAX;
-                client.request(&Request::SetScene(&postcard::to_allocvec(&scene)?))?;
-            }
+        if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+            client.request_codes()?;
         }
         Ok(true)
     }

@@ -1,7 +1,9 @@
 //! The command itself.
 
 use super::limit::Rotate;
+use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
+use crate::calibrate::Calibration;
 use crate::live::{self, BoardArgs, LiveArgs};
 use crate::source::SourceOptions;
 use anyhow::{Context, Result};
@@ -35,6 +37,9 @@ pub struct RecordArgs {
     /// Write over files that are there
     #[arg(long)]
     pub force: bool,
+    /// Also record the raw code of every taxel, for volts
+    #[arg(long)]
+    pub raw: bool,
     /// A simulation is not faster than time
     #[arg(long)]
     pub realtime: bool,
@@ -46,8 +51,11 @@ pub fn run(args: RecordArgs) -> Result<()> {
         realtime: args.realtime,
         frames: args.frames,
         seconds: args.seconds,
+        raw: args.raw,
         ..SourceOptions::default()
     };
+    let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
+    let scale = calibration.as_ref().and_then(Calibration::counts_per_newton);
     let (source, _) = args.board.open(options)?;
     let stop = Arc::new(AtomicBool::new(false));
     let asked = stop.clone();
@@ -57,8 +65,12 @@ pub fn run(args: RecordArgs) -> Result<()> {
         rotate: args.rotate,
         ros2: args.ros2,
         force: args.force,
-        label: source.label.clone(),
-        counts_per_newton: source.counts_per_newton,
+        origin: Origin {
+            label: source.label.clone(),
+            counts_per_newton: scale.or(source.counts_per_newton),
+            calibration,
+        },
+        raw: args.raw,
         stop,
     })?;
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };

@@ -1,14 +1,13 @@
 //! One file of a recording: its channels, and messages as they go into them.
 
+use super::message;
 use super::ros2::Ros2;
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
-use crate::client::{Client, Event, ImageNews};
-use crate::live;
+use crate::client::{Client, Event};
 use crate::recording::{Store, Writer};
 use anyhow::Result;
-use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 use taxel_core::fold::Posture;
 
 /// Nanoseconds of a microsecond.
@@ -56,7 +55,8 @@ impl<S: Store> RecordingFile<S> {
             json!({ "joint": name, "degrees": f64::from(told.centidegrees) / 100.0 })
         };
         let joints: Vec<_> = posture.joints.iter().map(joint).collect();
-        self.json("posture", stamp, json!({ "type": "posture", "time_us": stamp.board_us, "joints": joints }))
+        let told = json!({ "type": "posture", "time_us": stamp.board_us, "joints": joints });
+        self.json("posture", stamp, &message::with_times(told, stamp)?)
     }
 
     /// What an event says, as JSON and, where asked for, as ROS 2's messages.
@@ -65,42 +65,12 @@ impl<S: Store> RecordingFile<S> {
             ros2.event(client, event, stamp, scale)?;
         }
         let Some(topic) = topics::of(event) else { return Ok(()) };
-        if let Event::Frame { frame, alone, image, .. } = event {
-            let decoded = *image == ImageNews::Whole;
-            let panels = if decoded { panels(client) } else { Vec::new() };
-            return self.serialized(
-                topic,
-                stamp,
-                &FrameMessage {
-                    kind: "frame",
-                    frame: *frame,
-                    time_us: stamp.board_us,
-                    host_time_us: stamp.host_us,
-                    host_time_uncertainty_us: stamp.uncertainty_us,
-                    key: *alone,
-                    decoded,
-                    lost: client.counts().lost,
-                    thinned: client.counts().thinned,
-                    total: panels.iter().map(|panel| panel.total).sum(),
-                    panels,
-                },
-            );
-        }
-        self.json(topic, stamp, live::message(client, event))
+        self.json(topic, stamp, &message::json_message(client, event, stamp)?)
     }
 
-    fn json(&mut self, topic: &str, stamp: Stamp, mut message: Value) -> Result<()> {
-        message["host_time_us"] = json!(stamp.host_us);
-        if let Some(uncertainty) = stamp.uncertainty_us {
-            message["host_time_uncertainty_us"] = json!(uncertainty);
-        }
-        self.serialized(topic, stamp, &message)
-    }
-
-    fn serialized(&mut self, topic: &str, stamp: Stamp, message: &impl Serialize) -> Result<()> {
+    fn json(&mut self, topic: &str, stamp: Stamp, bytes: &[u8]) -> Result<()> {
         let Some(channel) = self.topics.json(topic) else { return Ok(()) };
-        let bytes = serde_json::to_vec(message)?;
-        self.writer.message(channel, stamp.host_us * NS, stamp.board_us * NS, &bytes)
+        self.writer.message(channel, stamp.host_us * NS, stamp.board_us * NS, bytes)
     }
 
     /// Ends the chunk.
@@ -125,45 +95,4 @@ impl<S: Store> RecordingFile<S> {
         let beside = self.ros2.map_or(Ok(0), |ros2| ros2.writer.finish());
         Ok(self.writer.finish()? + beside?)
     }
-}
-
-/// A frame with the pressure of every taxel; contacts and intention have topics of their own.
-#[derive(Debug, Serialize)]
-struct FrameMessage<'a> {
-    #[serde(rename = "type")]
-    kind: &'static str,
-    frame: u32,
-    time_us: u64,
-    host_time_us: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    host_time_uncertainty_us: Option<u64>,
-    key: bool,
-    decoded: bool,
-    lost: u64,
-    thinned: u64,
-    /// Sum over the garment, counts.
-    total: u32,
-    panels: Vec<PanelImage<'a>>,
-}
-
-/// The pressure on a panel, row by row.
-#[derive(Debug, Serialize)]
-struct PanelImage<'a> {
-    name: &'a str,
-    total: u32,
-    rows: Vec<&'a [u16]>,
-}
-
-/// The panels of the last image.
-fn panels(client: &Client) -> Vec<PanelImage<'_>> {
-    let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
-    let each = layout.areas().iter().map(|area| {
-        let start = usize::from(area.base);
-        let columns = usize::from(area.columns);
-        let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
-        let total = values.iter().map(|value| u32::from(*value)).sum();
-        // A panel that has taxels has columns.
-        PanelImage { name: area.name.as_str(), total, rows: values.chunks(columns.max(1)).collect() }
-    });
-    each.collect()
 }

@@ -10,12 +10,13 @@
 //! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
 //! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
 //!
-//! Attached are `garment.toml`, `scene.json`, `geometry.json`; metadata `taxel` names versions, host, board, source and
-//! calibration.
+//! Attached are `garment.toml`, `scene.json`, `geometry.json` and, where the recorder was given it and the board says that it is in
+//! force, `calibration.toml`; metadata `taxel` names versions, host, board, source and who calibrated when, how and how well.
 
 mod command;
 mod file;
 mod limit;
+mod message;
 mod names;
 mod play;
 mod progress;
@@ -28,7 +29,11 @@ mod standing;
 mod topics;
 
 pub use command::{RecordArgs, run};
+pub use file::NS;
 pub use limit::Rotate;
+pub use message::json_message;
 pub use play::Play;
+pub use provenance::{CALIBRATION, Origin};
 pub use recorder::{Plan, Recorder};
-pub use topics::{REQUESTS, WIRE};
+pub use stamps::{Stamp, Stamps};
+pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};

@@ -1,5 +1,6 @@
 //! Where a recording comes from: what is attached to it.
 
+use crate::calibrate::Calibration;
 use crate::client::Worn;
 use crate::garments;
 use crate::recording::{Store, Writer};
@@ -9,33 +10,63 @@ use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
 
-/// Attaches garment, scene and geometry, and names versions, source, calibration and scale.
-pub fn attach<S: Store>(
-    writer: &mut Writer<S>,
-    worn: &Worn,
-    label: &str,
-    counts_per_newton: Option<f32>,
-    ns: u64,
-) -> Result<()> {
+/// The file of the calibration.
+pub const CALIBRATION: &str = "calibration.toml";
+
+/// What is known of a source beside what its board says.
+#[derive(Debug, Default, Clone)]
+pub struct Origin {
+    /// What it is, in a few words.
+    pub label: String,
+    /// Counts per newton on a taxel, where that is known.
+    pub counts_per_newton: Option<f32>,
+    /// The calibration that the board was told.
+    pub calibration: Option<Calibration>,
+}
+
+/// Attaches garment, scene, geometry and the calibration that is in force, and names versions, source, calibration and scale.
+pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns: u64) -> Result<()> {
     let garment = garments::text(&worn.garment, "the garment of a recording")?;
     writer.attach("garment.toml", "application/toml", garment.as_bytes(), ns)?;
     writer.attach("scene.json", "application/json", &serde_json::to_vec_pretty(&worn.scene)?, ns)?;
     let geometry = serde_json::to_vec(&geometry(&worn.layout))?;
     writer.attach("geometry.json", "application/json", &geometry, ns)?;
-    let scale = counts_per_newton.map_or(String::new(), |counts| counts.to_string());
+    let scale = origin.counts_per_newton.map_or(String::new(), |counts| counts.to_string());
+    let calibration = origin.calibration.as_ref().filter(|made| made.is_in_force(&worn.calibration));
+    if let Some(made) = calibration {
+        writer.attach(CALIBRATION, "application/toml", made.text()?.as_bytes(), ns)?;
+    }
     let words = [
         ("program", concat!("taxel ", env!("CARGO_PKG_VERSION")).to_string()),
         ("firmware", worn.firmware.clone()),
         ("protocol", PROTOCOL.to_string()),
-        ("source", label.to_string()),
+        ("source", origin.label.clone()),
         ("host", host()),
         ("garment", worn.garment.name.to_string()),
         ("scene", worn.scene.name.to_string()),
         ("calibration", worn.calibration.clone()),
         ("counts_per_newton", scale),
     ];
-    let words: BTreeMap<_, _> = words.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    let words = words.into_iter().chain(calibration.into_iter().flat_map(certified));
+    let words: BTreeMap<_, _> = words.map(|(name, value)| (name.to_string(), value)).collect();
     writer.metadata("taxel", words)
+}
+
+/// Who made a calibration, when, how, and how well it fits.
+fn certified(made: &Calibration) -> [(&'static str, String); 6] {
+    let [error, worst, hysteresis, noise] =
+        [made.fit.error, made.fit.worst, made.fit.hysteresis, made.fit.noise].map(|part| 100.0 * part);
+    let fit = format!(
+        "forces within {error:.2} % rms, {worst:.2} % at most; hysteresis {hysteresis:.2} %, noise of a taxel {noise:.2} %"
+    );
+    [
+        ("calibration_by", made.by.clone()),
+        ("calibration_date", made.date.clone()),
+        ("calibration_how", made.how.clone()),
+        ("calibration_board", made.board.clone()),
+        ("calibration_garment", made.garment.clone()),
+        ("calibration_fit", fit),
+    ]
 }
 
 /// The host's name, where it has one.

@@ -3,9 +3,10 @@
 use super::file::{NS, RecordingFile};
 use super::limit::Rotate;
 use super::names::{beside, numbered};
+use super::progress::Progress;
+use super::provenance::{self, Origin};
 use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
-use super::{progress::Progress, provenance};
 use crate::client::{Client, Event, Worn};
 use crate::live::Show;
 use anyhow::{Context, Result, bail};
@@ -32,10 +33,10 @@ pub struct Plan {
     pub ros2: bool,
     /// Files that are there already are written over.
     pub force: bool,
-    /// What the source is, in a few words.
-    pub label: String,
-    /// Counts per newton on a taxel, where that is known.
-    pub counts_per_newton: Option<f32>,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Raw codes are asked for, too.
+    pub raw: bool,
     /// Turns true when somebody has asked for the end.
     pub stop: Arc<AtomicBool>,
 }
@@ -123,7 +124,7 @@ impl Recorder {
             file.close()?;
         }
         file.wire(stamp, client.line())?;
-        file.event(client, event, stamp, self.plan.counts_per_newton)
+        file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
     /// Goes on in another file where it is time: with an image that stands alone, so that the file does, too.
@@ -168,7 +169,7 @@ impl Recorder {
 
 fn attach(plan: &Plan, worn: Option<&Worn>, file: &mut RecordingFile<File>, stamp: Stamp) -> Result<()> {
     let Some(worn) = worn else { return Ok(()) };
-    provenance::attach(&mut file.writer, worn, &plan.label, plan.counts_per_newton, stamp.host_us * NS)
+    provenance::attach(&mut file.writer, worn, &plan.origin, stamp.host_us * NS)
 }
 
 /// Begins a file, and the one beside it.
@@ -209,7 +210,10 @@ impl Show for Recorder {
         self.guard(done)
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if client.worn().is_some() && std::mem::take(&mut self.plan.raw) {
+            client.request_codes()?;
+        }
         let done = self.keep();
         self.guard(done)?;
         Ok(!self.plan.stop.load(Ordering::Relaxed))

@@ -13,9 +13,11 @@
 //! | `writer.rs` | a file being written |
 //! | `records.rs` | the records of a file, one after the other |
 //! | `messages.rs` | its messages |
+//! | `attached.rs` | files that are attached to it |
 //! | `repair.rs` | a file without its end, completed |
 
 mod append;
+mod attached;
 mod chunk;
 mod contents;
 mod messages;

@@ -4,7 +4,7 @@ use super::append::HEAD;
 use anyhow::{Context, Result, bail};
 use mcap::MAGIC;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// A record as it lies in the file.
@@ -48,6 +48,17 @@ impl Records<BufReader<File>> {
             bail!("{} is no MCAP file", path.display());
         }
         Ok(Records { input, offset: MAGIC.len() as u64, length })
+    }
+
+    /// Of a file, from the record that begins there.
+    pub fn open_at(path: &Path, offset: u64) -> Result<Records<BufReader<File>>> {
+        let mut records = Records::open(path)?;
+        records
+            .input
+            .seek(SeekFrom::Start(offset))
+            .with_context(|| format!("{} cannot be read", path.display()))?;
+        records.offset = offset;
+        Ok(records)
     }
 }
 

@@ -10,6 +10,7 @@ mod http;
 mod hub;
 mod mailbox;
 pub mod message;
+mod mute;
 mod pace;
 mod page;
 mod raw;
@@ -19,6 +20,7 @@ mod viewer;
 
 pub use hub::Hub;
 pub use mailbox::{Mailbox, Parcel, Shot};
+pub use mute::Mute;
 pub use recent::Recent;
 pub use server::serve;
 pub use viewer::Viewer;

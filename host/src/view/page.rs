@@ -3,7 +3,8 @@
 use super::hub::Hub;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
-use std::io::{self, Read, Write};
+use super::mute::Mute;
+use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
 use std::thread;
@@ -61,25 +62,5 @@ fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
         {
             hub.wish(mailbox, wish);
         }
-    }
-}
-
-/// A stream to which the reader writes nothing: an answer of its own would fall into a message of the writer's. Pages are not
-/// answered when they close or ping; browsers do not ping.
-struct Mute(TcpStream);
-
-impl Read for Mute {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.0.read(buffer)
-    }
-}
-
-impl Write for Mute {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }

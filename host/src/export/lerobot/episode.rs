@@ -1,0 +1,120 @@
+//! One recording as one file of rows.
+
+use super::features::Features;
+use super::parquet::{Table, Values};
+use super::sampler::Sampler;
+use super::stats;
+use crate::export::frames::Frame;
+use anyhow::{Result, ensure};
+use std::num::NonZeroU16;
+use std::path::PathBuf;
+
+/// Rows that are written at a time.
+const ROWS: usize = 256;
+
+/// An episode being written.
+pub struct Episode {
+    path: PathBuf,
+    number: u64,
+    /// Row of the data set with which it begins.
+    first: u64,
+    fps: f64,
+    sampler: Sampler,
+    open: Option<Open>,
+    length: u64,
+}
+
+/// What is known as soon as an image has come.
+struct Open {
+    table: Table,
+    names: Vec<String>,
+    /// Values of each feature of the last image, and its time.
+    last: (Vec<Vec<f32>>, u64),
+    waiting: Vec<Values>,
+    rows: usize,
+}
+
+impl Episode {
+    /// Begins the episode of a number, which begins with that row of the data set.
+    pub fn begin(path: PathBuf, [number, first]: [u64; 2], fps: NonZeroU16) -> Episode {
+        let sampler = Sampler::new(fps);
+        Episode { path, number, first, fps: fps.get().into(), sampler, open: None, length: 0 }
+    }
+
+    /// Takes an image. All recordings have the `known` features.
+    pub fn take(
+        &mut self,
+        frame: &Frame,
+        known: &mut Option<Features>,
+        stats: &mut stats::Table,
+    ) -> Result<()> {
+        let rows = self.sampler.passed(frame.board_us, false);
+        self.put(rows, stats)?;
+        if self.open.is_none() {
+            let features = Features::of(&frame.worn)?;
+            let first = known.get_or_insert_with(|| features.clone());
+            ensure!(
+                *first == features,
+                "its garment, units or concepts differ from those of the first recording"
+            );
+            let columns = features.columns();
+            self.open = Some(Open {
+                names: columns.iter().map(|column| column.name.clone()).collect(),
+                waiting: columns.iter().map(|column| column.kind.none()).collect(),
+                table: Table::create(&self.path, columns, None)?,
+                last: (Vec::new(), 0),
+                rows: 0,
+            });
+        }
+        if let (Some(open), Some(features)) = (&mut self.open, known) {
+            open.last = (features.values(frame), frame.board_us);
+        }
+        Ok(())
+    }
+
+    /// Puts the last image into rows.
+    fn put(&mut self, rows: std::ops::Range<u64>, stats: &mut stats::Table) -> Result<()> {
+        let Some(open) = &mut self.open else { return Ok(()) };
+        for row in rows {
+            let time = (row as f64 / self.fps) as f32;
+            // As the columns are ordered; there is one task.
+            let own = [row, self.number, self.first + row, 0];
+            let own = own.map(|number| Values::Whole(vec![number as i64]));
+            let features = open.last.0.iter().cloned().chain([vec![time]]).map(Values::Floats);
+            for ((name, waiting), values) in open.names.iter().zip(&mut open.waiting).zip(features.chain(own))
+            {
+                stats.take(name, values.numbers());
+                waiting.append(values);
+            }
+            self.length += 1;
+            open.rows += 1;
+            if open.rows == ROWS {
+                open.flush()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what is left; the number of rows.
+    pub fn finish(mut self, stats: &mut stats::Table) -> Result<u64> {
+        let end = self.open.as_ref().map_or(0, |open| open.last.1);
+        let rows = self.sampler.passed(end, true);
+        self.put(rows, stats)?;
+        if let Some(mut open) = self.open {
+            open.flush()?;
+            open.table.finish()?;
+        }
+        Ok(self.length)
+    }
+}
+
+impl Open {
+    fn flush(&mut self) -> Result<()> {
+        if self.rows > 0 {
+            self.table.rows(&self.waiting)?;
+            self.waiting.iter_mut().for_each(Values::clear);
+            self.rows = 0;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! In which unit pressure is told.
+
+use crate::calibrate::{Calibration, Forces};
+use crate::record::CALIBRATION;
+use crate::recording::Scan;
+use anyhow::{Context, Result};
+use std::path::Path;
+use taxel_core::garment::Layout;
+
+/// What a recording says of newtons.
+#[derive(Debug, Default, Clone)]
+pub struct Scale {
+    calibration: Option<Calibration>,
+    counts_per_newton: Option<f64>,
+}
+
+impl Scale {
+    /// The calibration that is attached, else the counts of a newton that its source knew.
+    pub fn of(scan: &Scan, path: &Path) -> Result<Scale> {
+        let attached = scan.attached(path, CALIBRATION)?;
+        let name = format!("{CALIBRATION} of {}", path.display());
+        let parsed = attached.map(|bytes| {
+            let text = String::from_utf8(bytes).with_context(|| format!("{name} is no text"))?;
+            Calibration::parse(&text, &name)
+        });
+        let words = scan.metadata.iter().rfind(|metadata| metadata.name == "taxel");
+        let counts = words.and_then(|words| words.metadata.get("counts_per_newton")?.parse::<f64>().ok());
+        Ok(Scale {
+            calibration: parsed.transpose()?,
+            counts_per_newton: counts.filter(|counts| counts.is_finite() && *counts > 0.0),
+        })
+    }
+
+    /// For a garment whose board names this calibration.
+    pub fn on(&self, layout: &Layout, in_force: &str) -> Result<Units> {
+        let made = self.calibration.as_ref().filter(|made| made.is_in_force(in_force));
+        // The mean of a calibration's curves says less than the curves.
+        let counts_per_newton = self.counts_per_newton.filter(|_| made.is_none());
+        let forces = made.map(|made| Forces::new(made, layout)).transpose()?;
+        let panel = |(panel, area): (usize, &taxel_core::garment::Area)| {
+            let known = counts_per_newton.is_some()
+                || forces.as_ref().is_some_and(|forces| forces.taxel(panel, 0).is_some());
+            let [x, y] = area.pitch_um.map(|um| f64::from(um) / 1000.0);
+            match (known, x * y > 0.0) {
+                (true, true) => Unit { name: "kPa", per_newton: 1000.0 / (x * y) },
+                (true, false) => Unit { name: "N", per_newton: 1.0 },
+                (false, _) => COUNTS,
+            }
+        };
+        let panels = layout.areas().iter().enumerate().map(panel).collect();
+        Ok(Units { panels, forces, counts_per_newton })
+    }
+}
+
+/// The unit of a panel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Unit {
+    name: &'static str,
+    /// Of a newton on a taxel.
+    per_newton: f64,
+}
+
+const COUNTS: Unit = Unit { name: "counts", per_newton: 0.0 };
+
+/// From counts to pressure: `kPa` on the square of a taxel's pitch, `N` on the taxel where the pitch is unknown, `counts` where
+/// nothing says what a newton shows.
+#[derive(Debug, Clone)]
+pub struct Units {
+    panels: Vec<Unit>,
+    forces: Option<Forces>,
+    counts_per_newton: Option<f64>,
+}
+
+impl Units {
+    /// Counts as they are.
+    pub fn counts(layout: &Layout) -> Units {
+        Units { panels: vec![COUNTS; layout.areas().len()], forces: None, counts_per_newton: None }
+    }
+
+    /// Of a panel.
+    pub fn name(&self, panel: usize) -> &'static str {
+        self.panels.get(panel).unwrap_or(&COUNTS).name
+    }
+
+    /// What a taxel of a panel shows, in its unit.
+    pub fn value(&self, panel: usize, counts: u16) -> f64 {
+        let unit = self.panels.get(panel).unwrap_or(&COUNTS);
+        if *unit == COUNTS {
+            return counts.into();
+        }
+        let curve = self.forces.as_ref().and_then(|forces| forces.taxel(panel, counts));
+        let straight = self.counts_per_newton.map(|per_newton| f64::from(counts) / per_newton);
+        unit.per_newton * curve.or(straight).unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,43 @@
+//! Takes what a board tells, for the clients.
+
+use super::hub::Hub;
+use super::protocol;
+use super::subscriber::Told;
+use crate::client::{Client, Event};
+use crate::live::Show;
+use crate::record::{self, Stamps};
+use anyhow::Result;
+use std::sync::Arc;
+
+/// The topic of images, the only one that costs something to write: left out while nobody wants it.
+const LARGE: &str = "frames";
+
+/// Tells everything to the clients of a hub.
+#[derive(Debug)]
+pub struct Publisher {
+    hub: Arc<Hub>,
+    stamps: Stamps,
+}
+
+impl Publisher {
+    /// From now on.
+    pub fn new(hub: Arc<Hub>) -> Publisher {
+        Publisher { hub, stamps: Stamps::start() }
+    }
+}
+
+impl Show for Publisher {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let stamp = self.stamps.of(client, event);
+        let Some((topic, channel)) =
+            record::topic(event).and_then(|topic| Some((topic, protocol::channel(topic)?)))
+        else {
+            return Ok(());
+        };
+        if topic != LARGE || self.hub.wants(channel) {
+            let data = record::json_message(client, event, stamp)?;
+            self.hub.tell(Told { channel, ns: stamp.host_us * record::NS, data });
+        }
+        Ok(())
+    }
+}

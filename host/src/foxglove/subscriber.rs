@@ -1,0 +1,147 @@
+//! What waits for one client: a bounded amount, however slow it is.
+
+use super::protocol::{self, Channel};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use tungstenite::{Bytes, Message};
+
+/// Bytes that wait at most; the oldest messages give way.
+const WAITING: usize = 8 << 20;
+
+/// A message of a channel.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Told {
+    /// Whose it is.
+    pub channel: Channel,
+    /// The host's time of it, ns since 1970.
+    pub ns: u64,
+    /// JSON.
+    pub data: Vec<u8>,
+}
+
+/// A client.
+#[derive(Debug, Default)]
+pub struct Subscriber {
+    waiting: Mutex<Waiting>,
+    changed: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Waiting {
+    /// Channels by the client's number.
+    subscriptions: BTreeMap<u32, Channel>,
+    messages: VecDeque<(u32, Arc<Told>)>,
+    bytes: usize,
+    left_out: u64,
+    pong: Option<Bytes>,
+    closed: bool,
+}
+
+impl Subscriber {
+    /// A thread that panicked leaves everything as it was.
+    fn lock(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut Waiting)) {
+        change(&mut self.lock());
+        self.changed.notify_all();
+    }
+
+    /// It wants a channel, and is told what is known there.
+    pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<Told>>) {
+        self.change(|waiting| {
+            waiting.subscriptions.insert(id, channel);
+            known.into_iter().for_each(|told| waiting.put(id, told));
+        });
+    }
+
+    /// It wants a channel no more.
+    pub fn unsubscribe(&self, id: u32) {
+        self.change(|waiting| _ = waiting.subscriptions.remove(&id));
+    }
+
+    /// Whether it wants a channel.
+    pub fn wants(&self, channel: Channel) -> bool {
+        self.lock().subscriptions.values().any(|wanted| *wanted == channel)
+    }
+
+    /// Tells it, where it wants to know.
+    pub fn tell(&self, told: &Arc<Told>) {
+        self.change(|waiting| {
+            let of = |(id, channel): (&u32, &Channel)| (*channel == told.channel).then_some(*id);
+            let ids: Vec<u32> = waiting.subscriptions.iter().filter_map(of).collect();
+            ids.into_iter().for_each(|id| waiting.put(id, told));
+        });
+    }
+
+    /// It has pinged; of several pings the last is answered.
+    pub fn pong(&self, bytes: Bytes) {
+        self.change(|waiting| waiting.pong = Some(bytes));
+    }
+
+    /// It has gone.
+    pub fn close(&self) {
+        self.change(|waiting| waiting.closed = true);
+    }
+
+    /// Waits for what is to be sent next; none: it has gone.
+    pub fn next(&self) -> Option<Message> {
+        let mut waiting = self.lock();
+        loop {
+            if waiting.closed {
+                return None;
+            }
+            if let Some(message) = waiting.due() {
+                return Some(message);
+            }
+            waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl Waiting {
+    fn put(&mut self, id: u32, told: &Arc<Told>) {
+        self.messages.push_back((id, told.clone()));
+        self.bytes += told.data.len();
+        while self.bytes > WAITING {
+            let Some((_, oldest)) = self.messages.pop_front() else { return };
+            self.bytes -= oldest.data.len();
+            self.left_out += 1;
+        }
+    }
+
+    fn due(&mut self) -> Option<Message> {
+        if let Some(pong) = self.pong.take() {
+            return Some(Message::Pong(pong));
+        }
+        if self.left_out > 0 {
+            return Some(Message::text(protocol::left_out(std::mem::take(&mut self.left_out))));
+        }
+        let (id, told) = self.messages.pop_front()?;
+        self.bytes -= told.data.len();
+        Some(Message::binary(protocol::data(id, told.ns, &told.data)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_grows_while_nobody_reads() {
+        let slow = Subscriber::default();
+        slow.subscribe(9, 2, None);
+        let told = |ns| Arc::new(Told { channel: 2, ns, data: vec![b' '; 1 << 20] });
+        (0..20).for_each(|ns| slow.tell(&told(ns)));
+        slow.tell(&Arc::new(Told { channel: 3, ns: 0, data: Vec::new() }));
+        assert!(slow.wants(2) && !slow.wants(3));
+        let text = slow.next().unwrap().into_text().unwrap();
+        assert!(text.contains("12 messages were left out"), "{text}");
+        let first = slow.next().unwrap().into_data();
+        assert_eq!(first[..13], protocol::data(9, 12, b"")[..]);
+        slow.unsubscribe(9);
+        slow.close();
+        assert!(slow.next().is_none());
+    }
+}

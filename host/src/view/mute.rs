@@ -1,0 +1,24 @@
+//! A stream for who only reads.
+
+use std::io::{self, Read, Write};
+use std::net::TcpStream;
+
+/// A stream to which the reader of a WebSocket writes nothing: an answer of its own would fall into a message of the writer's. Who closes
+/// or pings is not answered here.
+pub struct Mute(pub TcpStream);
+
+impl Read for Mute {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer)
+    }
+}
+
+impl Write for Mute {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
