@@ -90,8 +90,9 @@ def depth(kind):
 
 def flat(column):
     """All numbers of a column of lists in lists."""
+    column = column.combine_chunks()
     while hasattr(column.type, "value_type"):
-        column = column.combine_chunks().flatten()
+        column = column.flatten()
     return column
 
 
