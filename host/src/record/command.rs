@@ -3,7 +3,6 @@
 use super::limit::Rotate;
 use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
-use crate::calibrate::Calibration;
 use crate::live::{self, BoardArgs, LiveArgs};
 use crate::source::SourceOptions;
 use anyhow::{Context, Result};
@@ -54,9 +53,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
         raw: args.raw,
         ..SourceOptions::default()
     };
-    let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
-    let scale = calibration.as_ref().and_then(Calibration::counts_per_newton);
-    let (source, _) = args.board.open(options)?;
+    let (source, calibration) = args.board.open(options)?;
     let stop = Arc::new(AtomicBool::new(false));
     let asked = stop.clone();
     ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)).context("Ctrl-C cannot be caught")?;
@@ -67,7 +64,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
         force: args.force,
         origin: Origin {
             label: source.label.clone(),
-            counts_per_newton: scale.or(source.counts_per_newton),
+            counts_per_newton: source.counts_per_newton,
             calibration,
         },
         raw: args.raw,

@@ -9,6 +9,7 @@ use std::path::Path;
 #[derive(Debug, Default)]
 pub struct Progress {
     frames: u64,
+    earlier_frames: u64,
     lost: u64,
     thinned: u64,
     passed_us: u64,
@@ -28,8 +29,15 @@ impl Progress {
     /// A file has ended.
     pub fn ended(&mut self, bytes: u64) {
         self.earlier_us += std::mem::take(&mut self.passed_us);
+        self.earlier_frames += std::mem::take(&mut self.frames);
         self.written += bytes;
         self.files += 1;
+    }
+
+    /// A file has ended before its time, with so many frames.
+    pub fn cut(&mut self, bytes: u64, frames: u64) {
+        self.frames = frames;
+        self.ended(bytes);
     }
 
     /// Whether somebody sees it.
@@ -44,7 +52,7 @@ impl Progress {
         let mut line = format!(
             "{}: {seconds:.1} s, {} frames, {megabytes:.2} MB, {} lost, {} thinned",
             path.display(),
-            self.frames,
+            self.earlier_frames + self.frames,
             self.lost,
             self.thinned
         );

@@ -53,7 +53,7 @@ pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns
 }
 
 /// Who made a calibration, when, how, and how well it fits.
-fn certified(made: &Calibration) -> [(&'static str, String); 6] {
+fn certified(made: &Calibration) -> [(&'static str, String); 5] {
     let [error, worst, hysteresis, noise] =
         [made.fit.error, made.fit.worst, made.fit.hysteresis, made.fit.noise].map(|part| 100.0 * part);
     let fit = format!(
@@ -64,7 +64,6 @@ fn certified(made: &Calibration) -> [(&'static str, String); 6] {
         ("calibration_date", made.date.clone()),
         ("calibration_how", made.how.clone()),
         ("calibration_board", made.board.clone()),
-        ("calibration_garment", made.garment.clone()),
         ("calibration_fit", fit),
     ]
 }

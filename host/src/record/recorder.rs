@@ -22,6 +22,9 @@ const CHUNK: Duration = Duration::from_millis(500);
 /// The same by the board's time, for those that are faster than time, us: who reads can go to any second.
 const CHUNK_US: u64 = 1_000_000;
 
+/// The topic that counts for frames.
+const FRAMES: &str = "/taxel/frames";
+
 /// What is to be recorded, and where.
 #[derive(Debug, Clone)]
 pub struct Plan {
@@ -96,15 +99,15 @@ impl Recorder {
     /// What could not be written ends the recording; what was written before stays, with an end.
     fn guard(&mut self, done: Result<()>) -> Result<()> {
         let Err(error) = done else { return Ok(()) };
-        let ended = self.file.take().map(RecordingFile::finish).transpose();
-        let kept = match ended {
-            Ok(_) => "what was recorded before is whole".to_string(),
-            // The last messages are known to be lost: the rest may be whole for all that.
-            Err(_) if crate::recording::scan(&self.path).is_ok_and(|scan| scan.whole) => {
-                "what was recorded before is whole".into()
-            }
-            Err(_) => self.incomplete(),
-        };
+        let mut kept = "what was recorded before is whole".to_string();
+        if let Some(file) = self.file.take() {
+            // The last messages are lost in any case; whether the rest has its end, the file itself says.
+            let _ = file.finish();
+            let scan = crate::recording::scan(&self.path).ok().filter(|scan| scan.whole);
+            let bytes = std::fs::metadata(&self.path).map_or(0, |known| known.len());
+            self.progress.cut(bytes, scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES)));
+            kept = if scan.is_some() { kept } else { self.incomplete() };
+        }
         Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
     }
 

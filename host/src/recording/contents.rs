@@ -51,6 +51,13 @@ impl Contents {
         counts
     }
 
+    /// Messages of a topic.
+    pub fn messages(&self, topic: &str) -> u64 {
+        let counts = self.counts();
+        let of = self.channels.values().filter(|channel| channel.topic == topic);
+        of.filter_map(|channel| counts.get(&channel.id)).sum()
+    }
+
     /// Chunks.
     pub fn chunks(&self) -> usize {
         self.chunks.len()

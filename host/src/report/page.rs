@@ -50,9 +50,9 @@ pub fn page(seen: &Seen) -> Result<String> {
         (
             "Pressure, 2-D",
             format!(
-                "<p>At {moment}, the moment of the greatest force: {force} in {} contacts. Lines are the limits of the ranges \
+                "<p>At {moment}, the moment of the greatest force: {force} in {}. Lines are the limits of the ranges \
              below, dots centroids with the main axis, red crosses peaks; marks are taxels.</p>\n{}",
-                contacts.len(),
+                if contacts.len() == 1 { "1 contact".into() } else { format!("{} contacts", contacts.len()) },
                 each(&|area, values, contacts| plane::draw(area, values, contacts, top, &limits))
             ),
         ),

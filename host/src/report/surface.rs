@@ -6,11 +6,11 @@ use taxel_core::body::Placed;
 use taxel_core::garment::Area;
 
 /// The drawing, SVG units.
-const SIZE: [f64; 2] = [380.0, 290.0];
-/// Height of the greatest pressure.
-const HIGH: f64 = 150.0;
+const SIZE: [f64; 2] = [380.0, 330.0];
+/// Height of the greatest pressure; with its number it has room also at the far corner.
+const HIGH: f64 = 135.0;
 /// Place of the panel's middle.
-const MIDDLE: [f64; 2] = [190.0, 195.0];
+const MIDDLE: [f64; 2] = [190.0, 240.0];
 /// The view: turned about the vertical by 50 degrees (cosine, sine), seen from 30 degrees above (sine).
 const TURN: [f64; 2] = [0.642_787_6, 0.766_044_4];
 const ABOVE: f64 = 0.5;
