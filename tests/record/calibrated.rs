@@ -2,9 +2,9 @@
 
 use super::stage::{file, plan};
 use std::path::Path;
-use taxel::calibrate::{Calibration, Curve, Fitted, Residuals};
+use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel::export::{ExportArgs, Form, run};
-use taxel::live::{LiveArgs, watch};
+use taxel::live::{BoardArgs, LiveArgs, watch};
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::source::{self, SourceOptions};
 use taxel_core::condition::UNITY;
@@ -32,9 +32,11 @@ fn knee() -> Calibration {
         gains: vec![UNITY; 64],
         curves: vec![Some(Curve::new(vec![[16_000, 1_000_000], [24_000, 2_000_000]]).unwrap())],
         silent: Vec::new(),
-        residuals: Residuals { error: 0.0125, worst: 0.03, hysteresis: 0.02, noise: 0.015 },
+        residuals: Residuals { error: 0.0125, worst: 0.03, hysteresis: 0.02, noise: 0.015, rest: 0.0 },
+        weights: Vec::new(),
     };
-    Calibration::of(fitted, &layout, vec![300; 64], ["block-4x16", "Anna", "plates of 5 N", "sim"])
+    let rest = Rest { codes: vec![300.0; 64], noise: 2.0 };
+    Calibration::of(fitted, &layout, &rest, ["block-4x16", "Anna", "plates of 5 N", "sim"])
 }
 
 /// Records the scene with what the calibration says, and raw codes.
@@ -47,7 +49,7 @@ fn recorded(name: &str, calibration: &Calibration) {
     let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
     let mut recorder =
         Recorder::create(Plan { origin, ..plan(&format!("{name}.mcap"), "sim", None, false) }).unwrap();
-    let args = LiveArgs { calibration: Some(certificate), ..LiveArgs::of(spec) };
+    let args = LiveArgs::on(BoardArgs { calibration: Some(certificate), ..BoardArgs::of(spec) });
     watch(&args, source, &mut recorder).unwrap();
 }
 
