@@ -201,7 +201,8 @@ fn a_plate_over_blocks_or_over_taxels_gives_the_same_gains() {
             100.0 * spread,
             100.0 * parts.fit.error
         );
-        assert!(spread < 0.015, "{over:?}: {spread}");
+        // Taxels that differ by 10 %, and two measurements of each, whose noise of 2 % has hardly changed within a reading.
+        assert!(spread < 0.025, "{over:?}: {spread}");
     }
     std::fs::remove_file(&file).unwrap();
 }

@@ -72,14 +72,13 @@ fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let worn = board.worn().context("the board has not said what it wears")?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
-    let (falling, wait, json) = (garment.wiring.falling, args.wait, args.json);
-    let mut dialogue = Dialogue { board: &mut board, falling, wait, json };
+    let mut dialogue = Dialogue::new(&mut board, garment.wiring.falling, args.wait, args.json);
     if args.every.is_none() {
         dialogue.ask_for_rest();
     }
-    let rest = dialogue.rest()?.codes;
+    let rest = dialogue.rest()?;
     let mut press = None;
-    if let (Some(newtons), true) = (args.press, rest.len() == calibration.gains.len()) {
+    if let (Some(newtons), true) = (args.press, rest.codes.len() == calibration.gains.len()) {
         let mut plates = plates(&garment, &layout, Over::Panel)?;
         plates.truncate(1);
         let readings = dialogue.readings(&plates, &[newtons], &rest)?;
@@ -88,7 +87,7 @@ fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     }
     let ill = board.ill().keys().copied().collect();
     board.give_back()?;
-    let seen = Seen { told, rest, ill, today: date::today(), days: args.days, press };
+    let seen = Seen { told, rest: rest.codes, ill, today: date::today(), days: args.days, press };
     Ok(judge(calibration, &seen))
 }
 

@@ -10,10 +10,19 @@ use std::io::{IsTerminal, Write, stdout};
 
 /// Frames of the garment at rest.
 const REST_FRAMES: usize = 64;
-/// Least step from nothing, counts.
-const FAINT: f64 = 2.0;
+/// Least step from nothing: counts, and times the noise at rest of one frame of the plate.
+const FAINT: (f64, f64) = (2.0, 3.0);
 /// Least step to the next weight by what the last ones lead to expect, part of it.
 const STEP: f64 = 0.5;
+
+/// Part of what a plate usually shows under its first weight, from which on that is one.
+const FIRST: f64 = 0.25;
+/// Part of what it showed under its first weight, below which it is taken off.
+const OFF: f64 = 0.4;
+
+/// Least time from one frame to the next that is looked at, s: a small garment's frames come so fast that a weight on its way seems
+/// to rest.
+const APART: f64 = 0.004;
 
 /// Somebody before a board, who is asked for weights.
 pub struct Dialogue<'a> {
@@ -25,9 +34,16 @@ pub struct Dialogue<'a> {
     pub wait: f64,
     /// One JSON object a line instead of sentences.
     pub json: bool,
+    /// Time of the last frame that was looked at, s.
+    seen: f64,
 }
 
-impl Dialogue<'_> {
+impl<'a> Dialogue<'a> {
+    /// Before a board whose codes fall under pressure, or rise; a weight is waited for so many seconds.
+    pub fn new(board: &'a mut RawBoard, falling: bool, wait: f64, json: bool) -> Dialogue<'a> {
+        Dialogue { board, falling, wait, json, seen: f64::NEG_INFINITY }
+    }
+
     /// Says that nothing is to be touched now.
     pub fn ask_for_rest(&self) {
         self.say("Hands off for a moment.", json!({ "type": "rest" }));
@@ -42,16 +58,21 @@ impl Dialogue<'_> {
 
     /// All weights (N, ascending) on each of the plates, and off again. A plate over one taxel that does not feel the first is
     /// passed over.
-    pub fn readings(&mut self, plates: &[Plate], weights: &[f64], rest: &[f64]) -> Result<Vec<Reading>> {
-        let mut readings = Vec::new();
+    pub fn readings(&mut self, plates: &[Plate], weights: &[f64], rest: &Rest) -> Result<Vec<Reading>> {
+        let mut readings: Vec<Reading> = Vec::new();
+        // Counts of a newton on a taxel.
+        let mut usual = 0.0;
         for (index, plate) in plates.iter().enumerate() {
             let coming = weights.iter().map(|weight| (*weight, false));
             let going = weights.iter().rev().skip(1).map(|weight| (*weight, true));
             // Weight and mean counts of what lies there.
             let mut last = (0.0, 0.0);
             let mut per_newton = 0.0;
+            let first = FIRST * usual * weights.first().copied().unwrap_or(0.0) / plate.taxels.len() as f64;
+            let faint = FAINT.0.max(FAINT.1 * rest.noise / (plate.taxels.len() as f64).sqrt());
             for (newtons, going) in coming.chain(going) {
-                let least = (STEP * per_newton * (newtons - last.0).abs()).max(FAINT);
+                let least = (STEP * per_newton * (newtons - last.0).abs()).max(faint);
+                let least = if last.0 == 0.0 { least.max(first) } else { least };
                 let steady = Steady::away_from(last.1, least);
                 let Some(reading) = self.weigh(index, plate, (newtons, going), steady, rest)? else {
                     if plate.taxels.len() == 1 && last.0 == 0.0 {
@@ -63,6 +84,12 @@ impl Dialogue<'_> {
                 last = (newtons, mean(reading.counts.iter().copied()));
                 per_newton = (last.1 / newtons).max(0.0);
                 readings.push(reading);
+            }
+            let lightest = readings.iter().find(|reading| reading.plate == index);
+            if let (Some(lightest), true) = (lightest, index + 1 < plates.len()) {
+                let shown = mean(lightest.counts.iter().copied());
+                usual = shown / lightest.each();
+                self.take_off(plate, OFF * shown, rest)?;
             }
         }
         self.say("Take everything off.", json!({ "type": "end" }));
@@ -76,21 +103,15 @@ impl Dialogue<'_> {
         plate: &Plate,
         (newtons, going): (f64, bool),
         mut steady: Steady,
-        rest: &[f64],
+        rest: &Rest,
     ) -> Result<Option<Reading>> {
         let again = if going { "again only " } else { "" };
         let ask = json!({ "type": "ask", "plate": plate.name, "newtons": newtons, "going": going });
         self.say(&format!("{}: put {again}{newtons} N on the plate.", plate.name), ask);
         let (mut began, mut shown) = (None, 0.0);
         loop {
-            let frame = self.board.frame()?;
-            let now = frame.time_us as f64 / 1e6;
-            let sign = if self.falling { -1.0 } else { 1.0 };
-            let above = |taxel: &u16| {
-                let taxel = usize::from(*taxel);
-                sign * (frame.codes.get(taxel).map_or(0.0, |code| f64::from(*code)) - rest[taxel])
-            };
-            if let Some(held) = steady.take(plate.taxels.iter().map(above).collect()) {
+            let (now, counts) = self.counts(plate, rest)?;
+            if let Some(held) = steady.take(counts) {
                 let (counts, noise) = (held.counts, held.noise);
                 let reading = Reading { plate: index, newtons, going, counts, noise };
                 self.tell(&reading);
@@ -104,6 +125,36 @@ impl Dialogue<'_> {
                 self.progress(steady.now());
             }
         }
+    }
+
+    /// Waits until a plate shows less than that many counts: it would press on its neighbours, too.
+    fn take_off(&mut self, plate: &Plate, below: f64, rest: &Rest) -> Result<()> {
+        self.say("  Take it off.", json!({ "type": "off" }));
+        let mut began = None;
+        loop {
+            let (now, counts) = self.counts(plate, rest)?;
+            if mean(counts.into_iter()) < below {
+                return Ok(());
+            }
+            if now - *began.get_or_insert(now) > self.wait {
+                bail!("{}: the weight was not taken off in {} s", plate.name, self.wait);
+            }
+        }
+    }
+
+    /// A frame some time after the last: its time, s, and counts above rest of the plate's taxels.
+    fn counts(&mut self, plate: &Plate, rest: &Rest) -> Result<(f64, Vec<f64>)> {
+        let mut frame = self.board.frame()?;
+        while (0.0..APART).contains(&(frame.time_us as f64 / 1e6 - self.seen)) {
+            frame = self.board.frame()?;
+        }
+        self.seen = frame.time_us as f64 / 1e6;
+        let sign = if self.falling { -1.0 } else { 1.0 };
+        let above = |taxel: &u16| {
+            let taxel = usize::from(*taxel);
+            sign * (frame.codes.get(taxel).map_or(0.0, |code| f64::from(*code)) - rest.codes[taxel])
+        };
+        Ok((self.seen, plate.taxels.iter().map(above).collect()))
     }
 
     fn tell(&self, reading: &Reading) {

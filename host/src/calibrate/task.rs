@@ -33,12 +33,11 @@ pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
     let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, task.over)?;
-    let (falling, wait, json) = (garment.wiring.falling, task.wait, task.json);
-    let mut dialogue = Dialogue { board, falling, wait, json };
+    let mut dialogue = Dialogue::new(board, garment.wiring.falling, task.wait, task.json);
     dialogue.ask_for_rest();
     let rest = dialogue.rest()?;
     dialogue.board.ask(&Request::Tare { frames: TARE })?;
-    let readings = dialogue.readings(&plates, &task.weights, &rest.codes)?;
+    let readings = dialogue.readings(&plates, &task.weights, &rest)?;
     let fitted = fit(&layout, &plates, &readings)?;
     let about = [
         garment.name.as_str(),
