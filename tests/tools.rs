@@ -90,66 +90,6 @@ fn a_garment_file_is_begun_and_checked() {
     assert!(why.contains("mine.toml, line ") && why.contains("panel chest"), "{why}");
 }
 
-/// A file as editors see it.
-fn toml_value(text: &str) -> Value {
-    serde_json::to_value(toml::from_str::<toml::Table>(text).unwrap()).unwrap()
-}
-
-#[test]
-fn the_schema_of_garments_takes_what_ships_and_nothing_wrong() {
-    let schema: Value = serde_json::from_str(&said(&["config", "schema", "garment"])).unwrap();
-    for name in Garment::PRESETS {
-        let text = toml::to_string(&Garment::preset(name).unwrap()).unwrap();
-        assert_eq!(schema::wrong(&toml_value(&text), &schema), None, "{name}");
-    }
-    let block = std::fs::read_to_string(root().join("host/garments/block-4x16.toml")).unwrap();
-    assert_eq!(schema::wrong(&toml_value(&block), &schema), None);
-    for (from, to, place) in [
-        ("columns = 16\n", "colums = 16\n", "/panels/0"),
-        ("settle_ns = 8000", "settle_ns = \"8000\"", "/wiring/settle_ns"),
-        ("{ pin = 9 }", "{ pin = 64 }", "/wiring/column/lines/0/pin"),
-        ("rows = 4\n", "rows = 0\n", "/panels/0/rows"),
-    ] {
-        assert!(block.contains(from), "{from}");
-        let why = schema::wrong(&toml_value(&block.replacen(from, to, 1)), &schema).unwrap();
-        assert!(why.starts_with(place), "{to}: {why}");
-    }
-}
-
-#[test]
-fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
-    let schema: Value = serde_json::from_str(&said(&["config", "schema", "scene"])).unwrap();
-    assert_eq!(schema::wrong(&serde_json::to_value(Scene::shipped()).unwrap(), &schema), None);
-    let begun = file("calm.toml");
-    said(&["config", "scene", begun.to_str().unwrap()]);
-    let text = std::fs::read_to_string(&begun).unwrap();
-    assert!(text.starts_with("#:schema ./taxel-scene.schema.json\n"), "{text}");
-    let scene = toml_value(&text);
-    assert_eq!(schema::wrong(&scene, &schema), None);
-    // Every simulation's own scene.
-    for script in std::fs::read_dir(root().join("host/scenes")).unwrap() {
-        let script = toml_value(&std::fs::read_to_string(script.unwrap().path()).unwrap());
-        assert_eq!(script.get("scene").and_then(|scene| schema::wrong(scene, &schema)), None);
-    }
-    for (place, wrong) in [
-        ("/stream/key_ms", Value::from(1001)),
-        ("/condition/filter", "mean".into()),
-        ("/contact/low", 0.into()),
-        ("/symbol/extent", serde_json::json!([1])),
-        ("/react/0/cause", "anger".into()),
-        ("/intent/map", 7.into()),
-        ("/name", "a name of more than sixteen".into()),
-    ] {
-        let mut changed = scene.clone();
-        *changed.pointer_mut(place).unwrap() = wrong;
-        let why = schema::wrong(&changed, &schema).unwrap();
-        assert!(why.starts_with(place), "{place}: {why}");
-    }
-    let mut unknown = scene;
-    unknown["contact"]["lo"] = 3.into();
-    assert!(schema::wrong(&unknown, &schema).unwrap().starts_with("/contact: additionalProperties"));
-}
-
 #[test]
 fn a_simulated_garment_is_calibrated_and_checked() {
     let calibration = file("calibration.toml");
