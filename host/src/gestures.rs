@@ -9,12 +9,13 @@ use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::{CLASSES, Shipped};
 
 /// Chosen by cross-validation by participant.
-const SETTINGS: Settings = Settings { pressed: 12, part: 216, penalty: 40.0, balance: 0.0, mirrored: false };
+const SETTINGS: Settings =
+    Settings { pressed: 12, halves: true, penalty: 40.0, balance: 0.0, mirrored: false };
 
 const TASK: Task = Task {
     shipped: Shipped::Gestures,
     settings: SETTINGS,
-    candidates: || grid(SETTINGS, &[0, 108, 216], &[10.0, 40.0, 160.0], &[0.0, 0.5]),
+    candidates: || grid(SETTINGS, &[3.0, 10.0, 40.0, 160.0, 640.0], &[0.0, 0.5]),
 };
 
 /// Times of observation, seconds.

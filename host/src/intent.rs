@@ -9,12 +9,13 @@ use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::Shipped;
 
 /// Chosen by cross-validation by day.
-const SETTINGS: Settings = Settings { pressed: 200, part: 0, penalty: 10.0, balance: 0.5, mirrored: true };
+const SETTINGS: Settings =
+    Settings { pressed: 200, halves: true, penalty: 10.0, balance: 1.0, mirrored: true };
 
 const TASK: Task = Task {
     shipped: Shipped::Intent,
     settings: SETTINGS,
-    candidates: || grid(SETTINGS, &[0], &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
+    candidates: || grid(SETTINGS, &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
 };
 
 /// Frames of observation.

@@ -3,7 +3,8 @@
 use super::announce::Announced;
 use super::config::{GestureConfig, GestureError};
 use super::model::Model;
-use super::stage::{Decision, TouchState, Touches};
+use super::stage::{Decision, Touches};
+use super::state::TouchState;
 use crate::condition::Image;
 use crate::format::{Micros, Name};
 use crate::garment::{Area, Layout};
@@ -214,14 +215,14 @@ mod tests {
             Shown { layout, stage: Gestures::build(&config).unwrap(), state: GestureState::new(), frame: 0 }
         }
 
-        /// Four by four taxels at a column of a panel, with this pressure; nothing where it is 0.
+        /// A hand, 16 by 8 taxels, at a column of a panel, with this pressure; nothing where it is 0.
         fn show(&mut self, panel: u8, column: usize, pressure: u16) -> Option<Gesture> {
             let mut values = [0; 2048];
             let base = usize::from(self.layout.areas()[usize::from(panel)].base);
-            for row in 10..14 {
-                values[base + row * 16 + column..][..4].fill(pressure);
+            for row in 8..24 {
+                values[base + row * 16 + column..][..8].fill(pressure);
             }
-            let present = (pressure > 0).then_some((panel, 16 * u32::from(pressure)));
+            let present = (pressure > 0).then_some((panel, 128 * u32::from(pressure)));
             self.frame += 1;
             let image = Image { values: &values, rows: &Rows::NONE };
             let now = Micros(self.frame * SCAN_US);
@@ -266,8 +267,7 @@ mod tests {
         let mut shown = Shown::new(|config| {
             (config.decide_ms, config.onset_ms, config.lead, config.gain) = (50, 0, 0, 512)
         });
-        let told =
-            shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 12, 300 + 5 * (frame as u16 % 60)));
+        let told = shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
         // The same, frame by frame, without a garment: every frame from 1/54 s to 1/54 s.
         let model = Model::read(Shipped::Gestures.bytes()).unwrap();
         let (touches, mut state) = (Touches::new(model, 32, 16), TouchState::new());
@@ -279,8 +279,8 @@ mod tests {
             }
             next = (next + (1e6 / 54.0f64).floor()).max(now as f64);
             let mut image = [0; 512];
-            for row in 10..14 {
-                image[row * 16 + (frame as usize / 20) % 12..][..4].fill(2 * (300 + 5 * (frame as u16 % 60)));
+            for row in 8..24 {
+                image[row * 16 + (frame as usize / 20) % 8..][..8].fill(2 * (300 + 5 * (frame as u16 % 60)));
             }
             touches.process(&mut state, &image);
             decisions.push((now, touches.decide(&state)));

@@ -4,7 +4,7 @@ use super::course::LAGS;
 use super::signal::{SIGNALS, Signals};
 
 /// Frames that are kept: the longest lag.
-const KEPT: usize = 48;
+const KEPT: usize = 32;
 
 /// A ring of the last frames' numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,14 +31,13 @@ impl History {
         if let Some(place) = self.ring.get_mut(self.next) {
             *place = *signals;
         }
-        self.next = if self.next + 1 < KEPT { self.next + 1 } else { 0 };
+        self.next = (self.next + 1) % KEPT;
     }
 
     /// The number `index` of the frames as many before the next as [`LAGS`] says.
     pub fn back(&self, index: usize) -> impl Iterator<Item = u16> {
         LAGS.into_iter().map(move |lag| {
-            let place = self.next + KEPT - usize::from(lag);
-            let place = if place >= KEPT { place - KEPT } else { place };
+            let place = (self.next + KEPT - usize::from(lag)) % KEPT;
             self.ring.get(place).and_then(|signals| signals.get(index)).copied().unwrap_or(0)
         })
     }

@@ -1,8 +1,8 @@
 //! Touch over time: what a touch is by how it goes on, recognised by a model that was trained on recordings.
 //!
-//! Each frame of a sheet of any size becomes eight by eight cells, these nine numbers; of each number, and of the cells, sums are
-//! kept over a window of time, from which 300 features follow: levels, percentiles, rise and fall, change over twelve lags
-//! (what a spectrum tells), rhythm, and how the cells share in all that. A linear model scores the classes.
+//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of the cells, sums are
+//! kept while the touch goes on, from which 127 features follow: levels, rise and fall, change over six lags, how the cells share
+//! in that, how neighbours change together, and the octaves of its rhythm. A linear model scores the classes.
 //!
 //! | | |
 //! |---|---|
@@ -11,10 +11,11 @@
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
 //! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
 //! | on a garment | [`Gestures`]: the panel that is touched becomes the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, a decision is announced when it has lasted |
-//! | RAM | [`TouchState`], at most 8 KiB |
-//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 6.4 KB |
+//! | RAM | [`TouchState`], at most 4 KiB |
+//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 2.9 KB |
 
 mod announce;
+mod bands;
 mod cells;
 mod config;
 mod course;
@@ -24,18 +25,20 @@ mod histogram;
 mod history;
 mod log;
 mod model;
+mod motion;
 mod signal;
 mod stage;
-mod window;
+mod state;
 
 pub use announce::Announced;
+pub use bands::BANDS;
 pub use cells::{CELLS, Cells, SIDE, Sheet};
 pub use config::{GestureConfig, GestureError, Shipped};
 pub use course::{COURSE, LAGS};
 pub use gestures::{Gesture, GestureState, Gestures};
 pub use grid::GRID;
-pub use history::History;
 pub use model::{CLASSES, LARGEST, LIMIT, MAGIC, Model, ModelError, Scores, checksum};
-pub use signal::{NAMES, SIGNALS, Signals, signals};
-pub use stage::{Decision, TouchState, Touches};
-pub use window::{FEATURES, Features, LONGEST, Window};
+pub use motion::MOTION;
+pub use signal::{NAMES, SIGNALS, Signals};
+pub use stage::{Decision, Touches};
+pub use state::{FEATURES, Features, LONGEST, TouchState};

@@ -2,13 +2,12 @@
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `taxel-t` and the version, 1 |
+//! | 8 | `taxel-t` and the version, 2 |
 //! | 4 | length of the notes |
 //! | n | notes: the provenance as JSON, which the board passes over |
 //! | 2 | classes, 2 ..= 8 |
 //! | 2 | features that are used |
 //! | 2 | a cell above this counts as touched |
-//! | 2 | frames of a part, see [`Touches`](super::Touches) |
 //! | 16 each | names of the classes, padded with zeros |
 //! | 4 each | offsets of the classes, Q18, signed |
 //! | 6 + 2 c each | a feature: its index, its middle, its scale (65,536 / deviation), its weights, Q10, signed |
@@ -16,7 +15,7 @@
 //!
 //! All numbers are little-endian.
 
-use super::window::{FEATURES, Features};
+use super::state::{FEATURES, Features};
 use crate::format::{Name, name};
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
@@ -27,7 +26,7 @@ pub const CLASSES: usize = 8;
 pub const LARGEST: usize = 48 << 10;
 
 /// How a model begins; the last byte is the version.
-pub const MAGIC: [u8; 8] = *b"taxel-t\x01";
+pub const MAGIC: [u8; 8] = *b"taxel-t\x02";
 
 /// A feature lies within 2.5 deviations of its middle, Q8; what is beyond counts as that.
 pub const LIMIT: i32 = 640;
@@ -67,7 +66,7 @@ impl core::fmt::Display for ModelError {
                 write!(f, "{bytes} bytes are too many for a board: at most {LARGEST}")
             }
             ModelError::Foreign => write!(f, "not a model of touches"),
-            ModelError::Version(version) => write!(f, "a model of version {version}, known is 1"),
+            ModelError::Version(version) => write!(f, "a model of version {version}, known is 2"),
             ModelError::Truncated(bytes) => {
                 write!(f, "truncated: {bytes} bytes are fewer than the head says")
             }
@@ -91,7 +90,6 @@ pub struct Model<'a> {
     notes: &'a [u8],
     classes: u8,
     pressed: u16,
-    part: u16,
     names: &'a [u8],
     offsets: &'a [u8],
     features: &'a [u8],
@@ -119,8 +117,7 @@ impl<'a> Model<'a> {
             let weights = model.used().filter_map(|feature| feature.weights().nth(class));
             let most: i64 = weights.map(|w| i64::from(w.unsigned_abs()) * i64::from(LIMIT)).sum();
             let offset = model.offset(class).unsigned_abs();
-            // Half of the range: a decision adds two windows, and more where it is bounded.
-            if most + i64::from(offset) < i64::from(i32::MAX) / 2 {
+            if most + i64::from(offset) < i64::from(i32::MAX) {
                 Ok(())
             } else {
                 Err(ModelError::Heavy(class))
@@ -142,8 +139,8 @@ impl<'a> Model<'a> {
         }
         let (length, rest) = rest.split_first_chunk::<4>().ok_or(short)?;
         let (notes, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize).ok_or(short)?;
-        let (head, rest) = rest.split_first_chunk::<8>().ok_or(short)?;
-        let [c0, c1, f0, f1, p0, p1, n0, n1] = *head;
+        let (head, rest) = rest.split_first_chunk::<6>().ok_or(short)?;
+        let [c0, c1, f0, f1, p0, p1] = *head;
         let [classes, count] = [u16::from_le_bytes([c0, c1]), u16::from_le_bytes([f0, f1])];
         if !(2..=CLASSES as u16).contains(&classes) {
             return Err(ModelError::Classes(classes));
@@ -160,8 +157,8 @@ impl<'a> Model<'a> {
         if checksum(summed) != u32::from_le_bytes(*sum) {
             return Err(ModelError::Damaged);
         }
-        let [pressed, part] = [u16::from_le_bytes([p0, p1]), u16::from_le_bytes([n0, n1])];
-        Ok(Model { notes, classes: classes as u8, pressed, part, names, offsets, features })
+        let pressed = u16::from_le_bytes([p0, p1]);
+        Ok(Model { notes, classes: classes as u8, pressed, names, offsets, features })
     }
 
     /// The provenance, as JSON.
@@ -179,11 +176,6 @@ impl<'a> Model<'a> {
         self.pressed
     }
 
-    /// Frames of a part.
-    pub fn part(&self) -> u16 {
-        self.part
-    }
-
     /// Name of a class, from 0.
     pub fn name(&self, class: usize) -> Option<Name> {
         let padded = self.names.chunks_exact(16).nth(class)?;
@@ -191,7 +183,7 @@ impl<'a> Model<'a> {
         core::str::from_utf8(text).ok().map(name)
     }
 
-    /// What each class scores for the features of a window.
+    /// What each class scores for the features of a touch.
     pub fn scores(&self, features: &Features) -> Scores {
         let mut scores: Scores = core::array::from_fn(|class| self.offset(class));
         for used in self.used() {

@@ -1,35 +1,32 @@
-//! What is told of each frame: nine numbers.
+//! What is told of each frame: eight numbers.
 
 use super::cells::{Cells, SIDE};
 use super::log::log2;
 
 /// Numbers of a frame.
-pub const SIGNALS: usize = 9;
+pub const SIGNALS: usize = 8;
 
 /// Names of the numbers, in their order.
-pub const NAMES: [&str; SIGNALS] =
-    ["total", "peak", "area", "x", "y", "spread", "anisotropy", "change", "evenness"];
+pub const NAMES: [&str; SIGNALS] = ["total", "peak", "area", "x", "y", "spread", "anisotropy", "change"];
 
 /// The numbers of a frame, each in 0 ..= 4095:
 /// log2 of total and of peak (Q8), cells above `pressed` (Q6), centroid (cells, Q9 of eight), spread about it (cells squared, Q7),
-/// anisotropy (Q11), log2 of the change of all cells since the frame before (Q8), log2 of sum f^2 / sum f (Q8).
+/// anisotropy (Q11), log2 of the change of all cells since the frame before (Q8).
 pub type Signals = [u16; SIGNALS];
 
-/// The numbers of a frame after that of `before`; a cell above `pressed` counts as touched.
-pub fn signals(cells: &Cells, before: &Cells, pressed: u16) -> Signals {
-    let (mut peak, mut area, mut change, mut squares) = (0, 0, 0, 0);
-    for (now, then) in cells.iter().zip(before) {
-        peak = peak.max(*now);
-        area += u16::from(*now > pressed);
-        change += u32::from(now.abs_diff(*then));
-        squares += u64::from(*now) * u64::from(*now);
+/// The total of a frame whose cells have changed by `change`, and its numbers; a cell above `pressed` counts as touched.
+pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
+    let (mut peak, mut area) = (0, 0);
+    for cell in cells {
+        peak = peak.max(*cell);
+        area += u16::from(*cell > pressed);
     }
     let sums = Sums::of(cells);
     let [x, y, spread, anisotropy] = sums.form();
-    let total = log2(sums.m.into());
-    let evenness = log2(squares).saturating_sub(total);
-    let all = [total, log2(peak.into()), area << 6, x, y, spread, anisotropy, log2(change.into()), evenness];
-    all.map(|signal| signal.min(4095))
+    let (total, peak, change) = (log2(sums.m.into()), log2(peak.into()), log2(change.into()));
+    let all = [total, peak, area << 6, x, y, spread, anisotropy, change];
+    // log2 of 22 bits in Q8, and 64 cells in Q6, are 4,096 at most.
+    (sums.m, all.map(|signal| signal.min(4095)))
 }
 
 /// Sums over the cells; at most 64 x 65,535 x 49, 28 bits.
@@ -99,27 +96,27 @@ mod tests {
 
     #[test]
     fn a_press_on_one_cell() {
-        let have = signals(&at(&[(2, 6)], 60_000), &[0; 64], 10);
+        let (total, have) = signals(&at(&[(2, 6)], 60_000), 60_000, 10);
         // log2(60,000) is 15.87.
         assert!(have[0].abs_diff(4063) <= 3 && have[1] == have[0] && have[2] == 64, "{have:?}");
         assert!(have[3].abs_diff(1024) < 4 && have[4].abs_diff(3072) < 4 && have[5] < 8, "{have:?}");
-        assert!(have[7] == have[0] && have[8].abs_diff(4063) < 8, "{have:?}");
+        assert!(have[7] == have[0] && total == 60_000, "{have:?}");
     }
 
     #[test]
     fn a_line_is_anisotropic_and_a_square_is_not() {
         let line: [(usize, usize); 8] = core::array::from_fn(|x| (x, 3));
-        let have = signals(&at(&line, 9000), &at(&line, 9000), 10);
+        let (_, have) = signals(&at(&line, 9000), 0, 10);
         // The variance of eight places is 5.25.
         assert!(have[5].abs_diff((5.25 * 128.0) as u16) < 4 && have[6] > 1900 && have[7] == 0, "{have:?}");
-        let square = signals(&at(&[(0, 0), (7, 0), (0, 7), (7, 7)], 9000), &[0; 64], 10);
+        let (_, square) = signals(&at(&[(0, 0), (7, 0), (0, 7), (7, 7)], 9000), 0, 10);
         assert!(square[6] < 20, "{square:?}");
     }
 
     #[test]
     fn nothing_overflows() {
         for cells in [[0; 64], [u16::MAX; 64], [1; 64]] {
-            let have = signals(&cells, &[u16::MAX; 64], 0);
+            let (_, have) = signals(&cells, 64 * 65_535, 0);
             assert!(have.iter().all(|signal| *signal < 4096));
             assert_eq!((have[3], have[4]), (1792, 1792));
         }

@@ -117,19 +117,10 @@ impl Task {
 }
 
 /// Settings that differ from `one` in what is chosen by trial.
-pub fn grid(one: Settings, parts: &[u16], penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
-    let mut all = Vec::new();
-    for part in parts {
-        for penalty in penalties {
-            all.extend(balances.iter().map(|balance| Settings {
-                part: *part,
-                penalty: *penalty,
-                balance: *balance,
-                ..one
-            }));
-        }
-    }
-    all
+pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
+    let with =
+        |penalty: f64| balances.iter().map(move |balance| Settings { penalty, balance: *balance, ..one });
+    penalties.iter().flat_map(|penalty| with(*penalty)).collect()
 }
 
 /// The labels of recorded touches; the error says that they are missing.

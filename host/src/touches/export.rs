@@ -11,8 +11,6 @@ pub struct Head<'a> {
     pub names: &'a [String],
     /// A cell above this counts as touched.
     pub pressed: u16,
-    /// Frames of a part.
-    pub part: u16,
     /// The provenance as JSON.
     pub notes: &'a str,
 }
@@ -23,7 +21,7 @@ pub fn export(ridge: &Ridge, head: Head<'_>) -> Result<Vec<u8>> {
     bytes.extend(u32::try_from(head.notes.len())?.to_le_bytes());
     bytes.extend(head.notes.as_bytes());
     let count = ridge.middle.len();
-    for number in [head.names.len().try_into()?, count.try_into()?, head.pressed, head.part] {
+    for number in [head.names.len().try_into()?, count.try_into()?, head.pressed] {
         bytes.extend(u16::to_le_bytes(number));
     }
     for name in head.names {

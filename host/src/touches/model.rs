@@ -7,15 +7,15 @@ use crate::date::today;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use taxel_core::gesture::{Cells, Features, History, Model, Sheet, TouchState, Touches, Window, signals};
+use taxel_core::gesture::{Cells, Features, Model, SIDE, Sheet, TouchState, Touches};
 
 /// How a model is trained; a task's own, chosen by cross-validation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// A cell above this counts as touched.
     pub pressed: u16,
-    /// Frames of a part that is recognised by itself; 0: none is.
-    pub part: u16,
+    /// Whether is learnt from the first and from the second half of a touch, too.
+    pub halves: bool,
     /// Draws weights towards 0.
     pub penalty: f64,
     /// 1: every class counts alike, 0: every example.
@@ -49,12 +49,15 @@ impl Provenance {
     }
 }
 
-/// The windows of a touch from which is learnt.
+/// Fewest frames of a half.
+const LEAST: usize = 3;
+
+/// What is learnt of a touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
     /// The whole touch.
     pub whole: Features,
-    /// Its parts, overlapping and half as long, too, where parts are recognised; its mirror images, where these are learnt.
+    /// Its halves and its mirror images, where these are learnt.
     pub more: Vec<Features>,
 }
 
@@ -63,43 +66,35 @@ impl Course {
     pub fn of(data: &Data, touch: &Touch, settings: &Settings) -> Course {
         let sheet = Sheet::new(data.rows, data.columns);
         let cells: Vec<Cells> = data.frames(touch).map(|frame| sheet.cells(frame)).collect();
-        let window = |cells: &[Cells]| features(cells, settings.pressed);
-        let part = usize::from(settings.part);
+        let learnt = |cells: &[Cells]| features(cells, settings.pressed);
         let mut more = Vec::new();
-        if part >= 4 && cells.len() > part {
-            more.extend(
-                (0..=cells.len() - part).step_by(part / 2).map(|start| window(&cells[start..start + part])),
-            );
-            more.extend(cells.chunks_exact(part / 2).map(window));
+        if settings.halves {
+            let half = (cells.len() / 2).max(LEAST.min(cells.len()));
+            more.extend([learnt(&cells[..half]), learnt(&cells[cells.len() - half..])]);
         }
         if settings.mirrored {
-            let columns = usize::from(data.columns);
-            let images: [Mirror; 3] = [
-                |frame, columns| frame.chunks(columns).flat_map(|row| row.iter().rev()).copied().collect(),
-                |frame, columns| frame.chunks(columns).rev().flatten().copied().collect(),
-                |frame, _| frame.iter().rev().copied().collect(),
-            ];
-            more.extend(images.iter().map(|image| {
-                let cells = data.frames(touch).map(|frame| sheet.cells(&image(frame, columns)));
-                window(&cells.collect::<Vec<_>>())
-            }));
+            let images: [Mirror; 3] =
+                [|x, y| (SIDE - 1 - x, y), |x, y| (x, SIDE - 1 - y), |x, y| (SIDE - 1 - x, SIDE - 1 - y)];
+            let of = |frame: &Cells, image: Mirror| -> Cells {
+                std::array::from_fn(|cell| {
+                    let (x, y) = image(cell % SIDE, cell / SIDE);
+                    frame[y * SIDE + x]
+                })
+            };
+            let seen = |image: &Mirror| cells.iter().map(|frame| of(frame, *image)).collect::<Vec<_>>();
+            more.extend(images.iter().map(|image| learnt(&seen(image))));
         }
-        Course { whole: window(&cells), more }
+        Course { whole: learnt(&cells), more }
     }
 }
 
-/// Another image of a frame with so many columns.
-type Mirror = fn(&[u16], usize) -> Vec<u16>;
+/// Which cell is seen at a place.
+type Mirror = fn(usize, usize) -> (usize, usize);
 
 fn features(cells: &[Cells], pressed: u16) -> Features {
-    let (mut window, mut history) = (Window::default(), History::default());
-    for (number, now) in cells.iter().enumerate() {
-        let before = &cells[number.saturating_sub(1)];
-        let signals = signals(now, before, pressed);
-        window.add(now, before, &signals, &history);
-        history.push(&signals);
-    }
-    window.features()
+    let mut state = TouchState::new();
+    cells.iter().for_each(|frame| state.add(frame, pressed));
+    state.features()
 }
 
 /// Trains on touches whose courses are given; the bytes of a model.
@@ -117,10 +112,7 @@ pub fn train(data: &Data, examples: &[(&Course, usize)], settings: &Settings) ->
         settings: *settings,
     };
     let notes = serde_json::to_string(&notes)?;
-    export(
-        &ridge,
-        Head { names: &data.classes, pressed: settings.pressed, part: settings.part, notes: &notes },
-    )
+    export(&ridge, Head { names: &data.classes, pressed: settings.pressed, notes: &notes })
 }
 
 /// Applies a model to touches: for each the class in the data's numbering, and the classes after as many frames as `times` says

@@ -4,7 +4,7 @@ use super::compare::apart;
 use super::data::Data;
 use super::model::{Course, Settings};
 use super::report::{Outcome, Report, accuracy};
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
 /// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn, trains with
@@ -12,10 +12,14 @@ use serde_json::json;
 pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());
-    let courses: Vec<Vec<Course>> = candidates
-        .iter()
-        .map(|settings| data.touches.iter().map(|touch| Course::of(data, touch, settings)).collect())
-        .collect();
+    let same =
+        |a: &Settings, b: &Settings| (a.pressed, a.halves, a.mirrored) == (b.pressed, b.halves, b.mirrored);
+    let first = candidates.first().context("there are no settings to choose from")?;
+    ensure!(
+        candidates.iter().all(|other| same(first, other)),
+        "settings differ in what is learnt of a touch"
+    );
+    let courses: Vec<Course> = data.touches.iter().map(|touch| Course::of(data, touch, first)).collect();
     let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());
     for group in &groups {
         let others: Vec<&str> = groups.iter().filter(|other| *other != group).map(String::as_str).collect();
@@ -24,7 +28,7 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
             let mut inner: Vec<Outcome> = Vec::new();
             for test in &others {
                 let known: Vec<&str> = others.iter().filter(|other| *other != test).copied().collect();
-                inner.extend(apart(data, &courses[number], settings, &known, test)?);
+                inner.extend(apart(data, &courses, settings, &known, test)?);
             }
             let share = accuracy(&inner);
             if best.is_none_or(|(before, _)| share > before) {
@@ -32,7 +36,7 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
             }
         }
         let (share, number) = best.unwrap_or_default();
-        let own = apart(data, &courses[number], &candidates[number], &others, group)?;
+        let own = apart(data, &courses, &candidates[number], &others, group)?;
         eprintln!(
             "{group}: {:.1} % of {} touches; the others {:.1} %",
             100.0 * accuracy(&own),
