@@ -6,7 +6,10 @@ use super::log::log2;
 use crate::format::{product, wide};
 
 /// Features of a grid.
-pub const GRID: usize = 4 * (SHARES.len() + 1);
+pub const GRID: usize = 4 * RANKED;
+
+/// Features of one kind of sums.
+const RANKED: usize = SHARES.len() + 1;
 
 /// Of 256: the shares of the cells below the ranks that are features; more of the high ones.
 const SHARES: [u16; 4] = [0, 172, 232, 252];
@@ -53,23 +56,19 @@ impl Grid {
     pub fn features(&self, frames: u32) -> [u16; GRID] {
         let count = u64::from(frames.max(1));
         let log = log2(count - 1);
-        let kinds: [fn(&Cell, u64) -> u64; 4] = [
-            |cell, _| u64::from(cell.sum) << 4,
-            |cell, count| product(count, cell.squares).saturating_sub(wide(cell.sum, cell.sum)),
-            |cell, _| u64::from(cell.most) << 4,
-            |cell, _| u64::from(cell.change) << 4,
-        ];
-        let scales = [log, 2 * log, 0, log];
+        // Sums have 26 bits.
+        let means = self.ranked(|cell| (cell.sum << 4).into(), log);
+        let spread = |cell: &Cell| product(count, cell.squares).saturating_sub(wide(cell.sum, cell.sum));
+        let variances = self.ranked(spread, 2 * log);
+        let peaks = self.ranked(|cell| (u32::from(cell.most) << 4).into(), 0);
+        let changes = self.ranked(|cell| (cell.change << 4).into(), log);
         let mut features = [0; GRID];
-        let chunks = features.chunks_exact_mut(SHARES.len() + 1);
-        for ((out, kind), scale) in chunks.zip(kinds).zip(scales) {
-            let ranked = self.ranked(|cell| kind(cell, count), scale);
-            out.iter_mut().zip(ranked).for_each(|(place, feature)| *place = feature);
-        }
+        let kinds = [means, variances, peaks, changes];
+        features.iter_mut().zip(kinds.iter().flatten()).for_each(|(place, feature)| *place = *feature);
         features
     }
 
-    fn ranked(&self, value: impl Fn(&Cell) -> u64, scale: u16) -> [u16; SHARES.len() + 1] {
+    fn ranked(&self, value: impl Fn(&Cell) -> u64, scale: u16) -> [u16; RANKED] {
         let mut ranks = Histogram::<6>::default();
         let (mut sum, mut squares) = (0u64, 0u64);
         for cell in &self.cells {
@@ -78,10 +77,11 @@ impl Grid {
             // Variances have 50 bits; their squares shall fit, too.
             let small = (value >> 8).min(u32::MAX.into()) as u32;
             sum = sum.saturating_add(small.into());
-            squares = squares.saturating_add(wide(small, small) >> 8);
+            let square = if small >> 16 == 0 { (small * small).into() } else { wide(small, small) };
+            squares = squares.saturating_add(square >> 8);
         }
         let sharing = (2 * log2(sum)).saturating_sub(log2(squares)).saturating_sub(8 << 8);
-        let mut features = [sharing; SHARES.len() + 1];
+        let mut features = [sharing; RANKED];
         let ranks = ranks.percentiles(&SHARES, CELLS as u32);
         features.iter_mut().zip(ranks).for_each(|(place, rank)| *place = rank);
         features

@@ -221,10 +221,7 @@ struct Used<'a> {
 
 impl Used<'_> {
     fn weights(&self) -> impl Iterator<Item = i16> {
-        self.weights
-            .chunks_exact(2)
-            .filter_map(|pair| pair.first_chunk())
-            .map(|pair| i16::from_le_bytes(*pair))
+        self.weights.as_chunks().0.iter().map(|pair| i16::from_le_bytes(*pair))
     }
 }
 
