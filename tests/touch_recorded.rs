@@ -35,5 +35,5 @@ fn intentions_on_days_that_were_kept_apart() {
     };
     let report = intent::across_days(&files).unwrap().json();
     println!("intentions by day: {report}");
-    assert!(share(&report, "/accuracy") > 0.70 && share(&report, "/recall/attack") > 0.75);
+    assert!(share(&report, "/accuracy") > 0.75 && share(&report, "/recall/attack") > 0.75);
 }

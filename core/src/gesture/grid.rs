@@ -74,11 +74,11 @@ impl Grid {
         for cell in &self.cells {
             let value = value(cell);
             ranks.add(log2(value).saturating_sub(scale));
-            // Variances have 50 bits; their squares shall fit, too.
+            // Variances have 50 bits; their squares, and the sum of these, shall fit, too.
             let small = (value >> 8).min(u32::MAX.into()) as u32;
-            sum = sum.saturating_add(small.into());
+            sum = sum.wrapping_add(small.into());
             let square = if small >> 16 == 0 { (small * small).into() } else { wide(small, small) };
-            squares = squares.saturating_add(square >> 8);
+            squares = squares.wrapping_add(square >> 8);
         }
         let sharing = (2 * log2(sum)).saturating_sub(log2(squares)).saturating_sub(8 << 8);
         let mut features = [sharing; RANKED];
