@@ -168,10 +168,11 @@ impl Layout {
         self.areas.iter().enumerate().find_map(|(panel, area)| {
             let local = taxel.checked_sub(usize::from(area.base))?;
             let columns = usize::from(area.columns);
-            (local < columns * usize::from(area.rows)).then(|| Place {
+            let row = local.checked_div(columns)?;
+            (row < usize::from(area.rows)).then(|| Place {
                 panel: panel as u8,
-                row: (local / columns) as u16,
-                column: (local % columns) as u16,
+                row: row as u16,
+                column: (local - row * columns) as u16,
             })
         })
     }
