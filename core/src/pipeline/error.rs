@@ -1,0 +1,37 @@
+//! Why a scene is refused.
+
+use crate::format::Invalid;
+use crate::intent::MapError;
+use core::fmt;
+
+/// Why a scene does not fit a garment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SceneError {
+    /// A parameter is out of its range.
+    Invalid(Invalid),
+    /// The map is wrong.
+    Map(MapError),
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SceneError::Invalid(invalid) => invalid.fmt(f),
+            SceneError::Map(map) => write!(f, "intent.map: {map}"),
+        }
+    }
+}
+
+impl core::error::Error for SceneError {}
+
+impl From<Invalid> for SceneError {
+    fn from(invalid: Invalid) -> Self {
+        SceneError::Invalid(invalid)
+    }
+}
+
+impl From<MapError> for SceneError {
+    fn from(map: MapError) -> Self {
+        SceneError::Map(map)
+    }
+}

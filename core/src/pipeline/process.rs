@@ -1,0 +1,128 @@
+//! A frame, stage by stage.
+
+use super::compose::Pipeline;
+use super::percept::Percept;
+use super::probe::{Probe, Stage};
+use super::state::{CONTACTS, PipelineState};
+use crate::body::Placed;
+use crate::condition::Image;
+use crate::contact::{Contact, ContactState, Touches};
+use crate::format::{Code, Micros};
+use crate::garment::Layout;
+use crate::intent::Touch;
+use crate::shape::{Shape, Taught};
+use heapless::Vec;
+
+impl Pipeline {
+    /// Takes one frame of codes, scanned at `now`.
+    pub fn process<'s, const TAXELS: usize, const RUNS: usize>(
+        &self,
+        state: &'s mut PipelineState<TAXELS, RUNS>,
+        layout: &Layout,
+        codes: &[Code],
+        falling: bool,
+        now: Micros,
+        probe: &mut impl Probe,
+    ) -> Percept<'s> {
+        let PipelineState { condition, contact, present, released, symbol, intent, react, taught, .. } =
+            state;
+        probe.begin(Stage::Condition);
+        self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
+        let condition = &*condition;
+        let image = self.condition.image(condition, layout);
+        probe.begin(Stage::Contact);
+        let touches = self.contact.process(contact, layout, &image, now);
+        probe.begin(Stage::Shape);
+        let dropped = touches.dropped.saturating_add(touches.overflow);
+        self.place(&touches, layout, present, released);
+        if taught.gallery().is_some() {
+            look(taught, present, contact, layout, &image);
+        }
+        probe.begin(Stage::Symbol);
+        self.symbol.process(symbol, present, released, now);
+        let gesture = self.gestures.as_ref().and_then(|stage| {
+            let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
+            let told = stage.process(&mut state.gesture, layout, &image, totals, now)?;
+            Some((told, stage.name(told.class)))
+        });
+        probe.begin(Stage::Intent);
+        let meaning = self.intent.as_ref().and_then(|stage| {
+            let mut felt: Vec<Touch, CONTACTS> = Vec::new();
+            replace(&mut felt, present.iter().map(|placed| self.touch(layout, placed)));
+            stage.process(intent, &felt, &state.fed.values(now), now)
+        });
+        probe.begin(Stage::React);
+        self.react.process(react, symbol.regions(layout.regions().len()), meaning.as_ref(), now);
+        probe.begin(Stage::Idle);
+        Percept {
+            image: image.values,
+            present,
+            released,
+            dropped,
+            symbols: symbol,
+            meaning,
+            gesture,
+            reactions: react,
+            tare: condition.tare_progress(),
+        }
+    }
+
+    /// Gives contacts their shapes and their places on the body; those that have gone keep the shape that they had.
+    #[inline(always)] // once, and its iterators take what is there
+    fn place(
+        &self,
+        touches: &Touches<'_>,
+        layout: &Layout,
+        present: &mut Vec<Placed, CONTACTS>,
+        released: &mut Vec<Placed, CONTACTS>,
+    ) {
+        let gone = |contact: &Contact| {
+            let last = present.iter().find(|placed| placed.contact.id == contact.id);
+            Placed::new(layout, contact.clone(), last.map_or_else(Shape::default, |placed| placed.shape))
+        };
+        replace(released, touches.released.iter().map(gone));
+        let there = |(contact, moments): (&Contact, _)| {
+            let shape =
+                self.shape.as_ref().map_or_else(Shape::default, |stage| stage.process(moments, contact));
+            Placed::new(layout, contact.clone(), shape)
+        };
+        replace(present, touches.present.iter().zip(touches.moments).map(there));
+    }
+
+    /// What the map is told of a contact.
+    fn touch(&self, layout: &Layout, placed: &Placed) -> Touch {
+        Touch {
+            press: placed.contact.peak_total,
+            breadth: placed.contact.peak_breadth,
+            friendliness: self.friendliness.get(usize::from(placed.region)).copied().unwrap_or(0),
+            duration_ms: placed.contact.duration_ms,
+            speed: placed.speed(layout),
+            rise: 0,
+        }
+    }
+}
+
+/// Looks at one of the contacts with the base that was taught, and tells of each what it was found to be.
+fn look<const RUNS: usize>(
+    taught: &mut Taught<CONTACTS>,
+    present: &mut [Placed],
+    contact: &ContactState<CONTACTS, RUNS>,
+    layout: &Layout,
+    image: &Image<'_>,
+) {
+    let chosen = taught.choose(present.iter().map(|placed| placed.contact.id));
+    if let Some((index, placed)) = chosen.and_then(|index| Some((index, present.get(index)?))) {
+        taught.look(contact, layout, image, (index, &placed.contact));
+    }
+    present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
+}
+
+/// Fills a list anew; what does not fit is left out.
+fn replace<T, const N: usize>(list: &mut Vec<T, N>, items: impl Iterator<Item = T>) {
+    list.clear();
+    for item in items {
+        if list.push(item).is_err() {
+            break;
+        }
+    }
+}
