@@ -7,7 +7,7 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
 //! | RAM | 940 + 4 C bytes for each of C contacts, 20 per run, and 4.3 KB |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 360 k if all 2,048 taxels are touched, 1.4 M as a checkerboard of 1,024 runs |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 345 k if all 2,048 taxels are touched, 1.3 M as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
@@ -25,7 +25,7 @@
 //! contact of 10 x 10), structures of at least five taxels, and a step of less than half of one (in an outline just as
 //! large, less than one taxel). A slip begins when three steps in a row go the same way, together at the slip speed at least and
 //! three times the contact's own jitter (`slip`), and lasts as long as the velocity is above the slip speed.
-//! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 19 k
+//! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 16 k
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
 //! The stage makes four passes: runs of each active row and their union (`run`, `label`); joins across seams (`join`);
