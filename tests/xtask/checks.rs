@@ -120,7 +120,9 @@ fn clippy(log: &Path) -> Result<Result<(), String>, String> {
     };
     let apart: Vec<&str> = targets::APART.iter().flat_map(|name| ["--test", *name]).collect();
     let apart = [&["--package", "taxel-tests"], apart.as_slice()].concat();
-    Ok(run(&["--workspace", "--all-targets"]).and_then(|()| run(&apart)))
+    // The tests ask for all features of the program: as most build it, it is looked at for itself.
+    let plain = ["--package", "taxel"];
+    Ok(run(&["--workspace", "--all-targets"]).and_then(|()| run(&apart)).and_then(|()| run(&plain)))
 }
 
 fn compare_locks(_: &Path) -> Result<Result<(), String>, String> {
