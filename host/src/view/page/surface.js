@@ -27,7 +27,7 @@ const LONGEST_REST = 200;
 
 /**
  * All panels beside each other: the place of each taxel, and triangles between neighbours. A mesh, because plotly.js makes a
- * "surface" three times as fine before it draws it, which takes many times as long and looks the same.
+ * "surface" three times as fine before it draws it, which takes longer and looks the same.
  */
 function meshOf({ panels, absent }) {
   const mesh = { x: [], y: [], i: [], j: [], k: [] };
