@@ -37,6 +37,7 @@ pub mod session;
 pub mod settle;
 pub mod setup;
 pub mod shapes;
+mod shared;
 pub mod sim;
 pub mod source;
 pub mod stop;

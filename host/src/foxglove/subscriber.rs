@@ -1,8 +1,10 @@
 //! What waits for one client: a bounded amount, however slow it is.
 
 use super::protocol::{self, Channel};
+use crate::shared::Shared;
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+use std::time::Duration;
 use tungstenite::{Bytes, Message};
 
 /// Bytes that wait at most; the oldest messages give way.
@@ -21,10 +23,7 @@ pub struct Told {
 
 /// A client.
 #[derive(Debug, Default)]
-pub struct Subscriber {
-    waiting: Mutex<Waiting>,
-    changed: Condvar,
-}
+pub struct Subscriber(Shared<Waiting>);
 
 #[derive(Debug, Default)]
 struct Waiting {
@@ -38,19 +37,9 @@ struct Waiting {
 }
 
 impl Subscriber {
-    /// A thread that panicked leaves everything as it was.
-    fn lock(&self) -> MutexGuard<'_, Waiting> {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Waiting)) {
-        change(&mut self.lock());
-        self.changed.notify_all();
-    }
-
     /// It wants a channel, and is told what is known there.
     pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<Told>>) {
-        self.change(|waiting| {
+        self.0.change(|waiting| {
             waiting.subscriptions.insert(id, channel);
             known.into_iter().for_each(|told| waiting.put(id, told));
         });
@@ -58,17 +47,17 @@ impl Subscriber {
 
     /// It wants a channel no more.
     pub fn unsubscribe(&self, id: u32) {
-        self.change(|waiting| _ = waiting.subscriptions.remove(&id));
+        self.0.change(|waiting| _ = waiting.subscriptions.remove(&id));
     }
 
     /// Whether it wants a channel.
     pub fn wants(&self, channel: Channel) -> bool {
-        self.lock().subscriptions.values().any(|wanted| *wanted == channel)
+        self.0.lock().subscriptions.values().any(|wanted| *wanted == channel)
     }
 
     /// Tells it, where it wants to know.
     pub fn tell(&self, told: &Arc<Told>) {
-        self.change(|waiting| {
+        self.0.change(|waiting| {
             let of = |(id, channel): (&u32, &Channel)| (*channel == told.channel).then_some(*id);
             let ids: Vec<u32> = waiting.subscriptions.iter().filter_map(of).collect();
             ids.into_iter().for_each(|id| waiting.put(id, told));
@@ -77,17 +66,17 @@ impl Subscriber {
 
     /// It has pinged; of several pings the last is answered.
     pub fn pong(&self, bytes: Bytes) {
-        self.change(|waiting| waiting.pong = Some(bytes));
+        self.0.change(|waiting| waiting.pong = Some(bytes));
     }
 
     /// It has gone.
     pub fn close(&self) {
-        self.change(|waiting| waiting.closed = true);
+        self.0.change(|waiting| waiting.closed = true);
     }
 
     /// Waits for what is to be sent next; none: it has gone.
     pub fn next(&self) -> Option<Message> {
-        let mut waiting = self.lock();
+        let mut waiting = self.0.lock();
         loop {
             if waiting.closed {
                 return None;
@@ -95,7 +84,7 @@ impl Subscriber {
             if let Some(message) = waiting.due() {
                 return Some(message);
             }
-            waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+            waiting = self.0.wait(waiting, Duration::from_secs(1));
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Two byte queues between the host and a board in another thread. The board waits for a slow reader, so that in a
 //! simulation nothing is thinned because of it.
 
+use crate::shared::Shared;
 use std::collections::VecDeque;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 use taxel_core::run::Link;
 
@@ -21,23 +22,6 @@ struct Queues {
     board_gone: bool,
 }
 
-#[derive(Debug, Default)]
-struct Shared {
-    queues: Mutex<Queues>,
-    changed: Condvar,
-}
-
-impl Shared {
-    /// A thread that panicked leaves the queues as they were.
-    fn lock(&self) -> MutexGuard<'_, Queues> {
-        self.queues.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn wait<'a>(&self, guard: MutexGuard<'a, Queues>, longest: Duration) -> MutexGuard<'a, Queues> {
-        self.changed.wait_timeout(guard, longest).unwrap_or_else(PoisonError::into_inner).0
-    }
-}
-
 /// Both ends.
 pub fn pipe() -> (HostEnd, BoardEnd) {
     let shared = Arc::new(Shared::default());
@@ -46,13 +30,13 @@ pub fn pipe() -> (HostEnd, BoardEnd) {
 
 /// The host's end.
 #[derive(Debug)]
-pub struct HostEnd(Arc<Shared>);
+pub struct HostEnd(Arc<Shared<Queues>>);
 
 impl super::Port for HostEnd {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<Option<usize>> {
         let mut queues = self.0.lock();
         queues.begun = true;
-        self.0.changed.notify_all();
+        self.0.wake();
         if queues.to_host.is_empty() && !queues.board_gone {
             queues = self.0.wait(queues, PATIENCE);
         }
@@ -60,7 +44,7 @@ impl super::Port for HostEnd {
         for (slot, byte) in buffer.iter_mut().zip(queues.to_host.drain(..count)) {
             *slot = byte;
         }
-        self.0.changed.notify_all();
+        self.0.wake();
         Ok((count > 0 || !queues.board_gone).then_some(count))
     }
 
@@ -72,14 +56,13 @@ impl super::Port for HostEnd {
 
 impl Drop for HostEnd {
     fn drop(&mut self) {
-        self.0.lock().host_gone = true;
-        self.0.changed.notify_all();
+        self.0.change(|queues| queues.host_gone = true);
     }
 }
 
 /// The board's end.
 #[derive(Debug)]
-pub struct BoardEnd(Arc<Shared>);
+pub struct BoardEnd(Arc<Shared<Queues>>);
 
 impl BoardEnd {
     /// Waits for the host's first read: whether it came.
@@ -126,7 +109,7 @@ impl Link for &BoardEnd {
         }
         if !queues.host_gone {
             queues.to_host.extend(bytes);
-            self.0.changed.notify_all();
+            self.0.wake();
         }
         bytes.len()
     }
@@ -134,8 +117,7 @@ impl Link for &BoardEnd {
 
 impl Drop for BoardEnd {
     fn drop(&mut self) {
-        self.0.lock().board_gone = true;
-        self.0.changed.notify_all();
+        self.0.change(|queues| queues.board_gone = true);
     }
 }
 

@@ -1,8 +1,9 @@
 //! What waits for one page: never more than one image and a few lines, however slow the page is.
 
 use super::message;
+use crate::shared::Shared;
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Lines of the log that wait at most.
@@ -38,10 +39,7 @@ pub enum Parcel {
 
 /// The waiting place.
 #[derive(Debug, Default)]
-pub struct Mailbox {
-    waiting: Mutex<Waiting>,
-    changed: Condvar,
-}
+pub struct Mailbox(Shared<Waiting>);
 
 #[derive(Debug, Default)]
 struct Waiting {
@@ -63,24 +61,14 @@ struct Waiting {
 }
 
 impl Mailbox {
-    /// A thread that panicked leaves everything as it was.
-    fn lock(&self) -> MutexGuard<'_, Waiting> {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Waiting)) {
-        change(&mut self.lock());
-        self.changed.notify_all();
-    }
-
     /// What holds until the next of its kind.
     pub fn state(&self, kind: &'static str, line: Arc<str>) {
-        self.change(|waiting| _ = waiting.states.insert(kind, line));
+        self.0.change(|waiting| _ = waiting.states.insert(kind, line));
     }
 
     /// A line that is to be seen besides all others.
     pub fn line(&self, line: Arc<str>) {
-        self.change(|waiting| {
+        self.0.change(|waiting| {
             waiting.lines.push_back(line);
             while waiting.lines.len() > LINES {
                 waiting.lines.pop_front();
@@ -91,27 +79,27 @@ impl Mailbox {
 
     /// The newest image.
     pub fn shot(&self, shot: &Shot) {
-        self.change(|waiting| waiting.take(shot));
+        self.0.change(|waiting| waiting.take(shot));
     }
 
     /// The taxel under the pointer.
     pub fn hover(&self, taxel: Option<u16>) {
-        self.lock().hovered = taxel;
+        self.0.lock().hovered = taxel;
     }
 
     /// See [`Mailbox::hover`].
     pub fn hovered(&self) -> Option<u16> {
-        self.lock().hovered
+        self.0.lock().hovered
     }
 
     /// Nobody reads any more.
     pub fn close(&self) {
-        self.change(|waiting| waiting.closed = true);
+        self.0.change(|waiting| waiting.closed = true);
     }
 
     /// Waits for what is to be sent next: lines at once, images when it is time for one.
     pub fn next(&self) -> Parcel {
-        let mut waiting = self.lock();
+        let mut waiting = self.0.lock();
         loop {
             let now = Instant::now();
             if let Some(parcel) = waiting.due(now) {
@@ -122,8 +110,7 @@ impl Mailbox {
                 (Some(_), Some(sent)) => (sent + PERIOD).saturating_duration_since(now),
                 _ => longest,
             };
-            let waited = self.changed.wait_timeout(waiting, rest.min(longest));
-            waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
+            waiting = self.0.wait(waiting, rest.min(longest));
         }
     }
 }
@@ -202,7 +189,7 @@ mod tests {
             mailbox.line(format!("line {number}").into());
             mailbox.state("health", format!("{number}").into());
         }
-        let waiting = mailbox.lock();
+        let waiting = mailbox.0.lock();
         assert_eq!((waiting.lines.len(), waiting.samples.len(), waiting.states.len()), (LINES, SAMPLES, 1));
         assert_eq!(waiting.missed, 2 * 10_000 - (LINES + SAMPLES) as u64);
         assert_eq!(waiting.replaced, 9_999);
