@@ -13,4 +13,5 @@ mod sewn;
 mod symmetry;
 mod thresholds;
 mod tracks;
+mod turns;
 mod words;

@@ -20,6 +20,8 @@ pub struct Rig {
 pub struct Frame {
     pub present: Vec<Contact>,
     pub moments: Vec<Moments>,
+    /// Whether the form of each is of this frame.
+    pub looked: Vec<bool>,
     pub released: Vec<Contact>,
     pub dropped: u16,
     pub overflow: u16,
@@ -83,14 +85,15 @@ impl Rig {
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
-        let Touches { present, moments, released, dropped, overflow } = touches;
-        assert_eq!(present.len(), moments.len());
+        let Touches { present, moments, looked, released, dropped, overflow } = touches;
+        assert_eq!((present.len(), present.len()), (moments.len(), looked.len()));
         for (contact, moments) in present.iter().zip(moments) {
             assert_eq!(u64::from(contact.total), moments.m);
         }
         Frame {
             present: present.to_vec(),
             moments: moments.to_vec(),
+            looked: looked.to_vec(),
             released: released.to_vec(),
             dropped,
             overflow,

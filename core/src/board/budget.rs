@@ -31,7 +31,12 @@ pub(super) struct Ledger {
     /// The dearest of the frames since the last report, and how many they are.
     dearest: Frame,
     frames: u16,
+    /// Frames in a row that began late.
+    late: u8,
 }
+
+/// Of so many frames in a row that begin late one has its image nevertheless.
+const SPARED: u8 = 8;
 
 /// What a frame took, us.
 #[derive(Debug, Default, Clone, Copy)]
@@ -56,6 +61,7 @@ impl Ledger {
             frame: none,
             dearest: none,
             frames: 0,
+            late: 0,
         }
     }
 
@@ -112,6 +118,14 @@ impl Ledger {
         // Before the first frame there was none.
         self.frames = self.frames.saturating_add(u16::from(self.frame.number != 0));
         self.frame = Frame { number, time, scan: scan_us, ..Frame::default() };
+        let late = us(now, self.scanned()) > scan_us / 2;
+        self.late = if late { self.late.wrapping_add(1) } else { 0 };
+    }
+
+    /// The frame under way began to be processed more than half a scan after its own had ended: with any more delay scans will be
+    /// lost.
+    pub fn is_late(&self) -> bool {
+        self.late % SPARED != 0
     }
 
     /// The frames since the last report, if it is time for one.
@@ -170,6 +184,19 @@ mod tests {
         assert_eq!(told, [(1, 1, 2_000, 350, 500), (2, 1, 2_900, 350, 500), (3, 1, 2_000, 350, 500 + 2_270)]);
         assert_eq!((budgets[1].scan_us, budgets[1].overruns, budgets[1].thinned_frames), (5_100, 4, 5));
         assert_eq!((budgets[1].time, ledger.process_us()), (Micros(5_120), 2_000));
+    }
+
+    #[test]
+    fn a_frame_is_late_by_half_a_scan() {
+        let mut ledger = Ledger::new();
+        let mut late = |number, by| {
+            let start = Micros(u64::from(number) * 5_120);
+            ledger.begin(Micros(start.0 + 5_120 + by), number, start, 5_120);
+            ledger.is_late()
+        };
+        assert_eq!([0, 2_560, 2_561, 5_000, 0].map(|by| late(1, by)), [false, false, true, true, false]);
+        let told = (0..800).filter(|number| !late(*number, 4_000)).count();
+        assert_eq!(told, 100, "an image now and then");
     }
 
     #[test]

@@ -250,7 +250,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
                 self.outputs.set(line.pin, change.active != line.inverted);
             }
         }
-        self.outbox.note(self.frame, time, &percept, &mut self.health);
+        // Where the converter waits for nobody.
+        let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
+        self.outbox.note(self.frame, time, &percept, late, &mut self.health);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
             self.outbox.answer(request::TARE, None);

@@ -33,9 +33,6 @@ pub(crate) struct Neighbourhood<'a> {
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Of no row.
-    pub const NONE: Neighbourhood<'static> = Neighbourhood { values: &[], rows: [0; 3], columns: 0 };
-
     /// Of a row that the panel has.
     pub fn of(values: &'a [u16], area: &Area, row: u16) -> Self {
         let here = area.base + row * area.columns;

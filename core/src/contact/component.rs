@@ -1,12 +1,11 @@
 //! Which components are contacts, and what is measured on each of them.
 
 use super::config::ContactConfig;
-use super::contour::{Contour, Line};
 use super::join::{Joins, weigh};
 use super::label::Labels;
 use super::moments::Moments;
 use super::run::{NONE, Run};
-use crate::condition::{CARRIED, Feedback, Image};
+use crate::condition::{CARRIED, Feedback, Image, row_of};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Layout, Place, Rect};
 use heapless::Vec;
@@ -25,7 +24,6 @@ pub struct Component {
     pub peak_at: Option<Place>,
     /// Taxels.
     pub area: u16,
-    pub(super) contour: Contour,
     /// In the home panel, where it lies there.
     pub bounds: Rect,
     /// In the frame of the home panel.
@@ -75,7 +73,6 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 peak,
                 peak_at: None,
                 area,
-                contour: Contour::NONE,
                 bounds: Rect { panel: run.panel, ..NOWHERE },
                 moments: Moments::default(),
                 inverse: Inverse::of(0),
@@ -155,7 +152,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the runs to the components that they belong to.
+    /// Adds the runs to the components that they belong to, those of one part and row at once.
     #[inline(never)] // the few registers of an M0+ are for its loop
     fn take_runs<const RUNS: usize>(
         &mut self,
@@ -165,27 +162,29 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         image: &Image,
         low: u16,
     ) {
-        let mut line = Line::NONE;
-        for run in &labels.runs {
-            let Some(index) = labels.contact_of(run) else { continue };
+        let mut rest = labels.runs.as_slice();
+        while let Some((first, after)) = rest.split_first() {
+            let more = after.iter().take_while(|run| run.row == first.row && run.parent == first.parent);
+            let (runs, later) = rest.split_at_checked(1 + more.count()).unwrap_or((rest, &[]));
+            rest = later;
+            let Some(index) = labels.contact_of(first) else { continue };
             let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
-            if !line.is_of(run) {
-                let Some(area) = layout.areas().get(usize::from(run.panel)) else { continue };
-                line = Line::of(run, area, image.values);
-            }
-            component.contour.add(run, &line, low);
-            if !component.add(run, &line, joins) {
-                self.widen_beyond(index, run, line.row);
+            let Some(area) = layout.areas().get(usize::from(first.panel)) else { continue };
+            let row = first.row - area.first_row;
+            let Some(span) = Span::of(runs, row) else { continue };
+            component.add(&span, row_of(image.values, area, row), joins, low);
+            if span.panel != component.bounds.panel {
+                self.widen_beyond(index, &span);
             }
         }
     }
 
-    fn widen_beyond(&mut self, index: u16, run: &Run, row: u16) {
-        match self.beyond.iter_mut().find(|(i, rect)| *i == index && rect.panel == run.panel) {
-            Some((_, rect)) => widen(rect, run, row),
+    fn widen_beyond(&mut self, index: u16, span: &Span) {
+        match self.beyond.iter_mut().find(|(i, rect)| *i == index && rect.panel == span.panel) {
+            Some((_, rect)) => widen(rect, span),
             None => {
-                let mut rect = Rect { panel: run.panel, ..NOWHERE };
-                widen(&mut rect, run, row);
+                let mut rect = Rect { panel: span.panel, ..NOWHERE };
+                widen(&mut rect, span);
                 // At most one per join, and there are no more joins than places.
                 let _ = self.beyond.push((index, rect));
             }
@@ -206,17 +205,68 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 }
 
-fn widen(rect: &mut Rect, run: &Run, row: u16) {
-    // The rows come one after the other.
-    if row < rect.top {
-        rect.top = row;
+/// The runs of one part in one row, and what is between them.
+struct Span {
+    part: u16,
+    panel: u8,
+    /// in the panel
+    row: u16,
+    left: u16,
+    /// last column
+    right: u16,
+    /// At least the greatest value.
+    peak: u16,
+    /// There is nothing between.
+    whole: bool,
+}
+
+impl Span {
+    /// Of at least one run.
+    fn of(runs: &[Run], row: u16) -> Option<Span> {
+        let (first, last) = (runs.first()?, runs.last()?);
+        let peak = runs.iter().map(|run| run.peak).fold(0, u16::max);
+        let whole = runs.len() == 1;
+        Some(Span {
+            part: first.parent,
+            panel: first.panel,
+            row,
+            left: first.left,
+            right: last.right,
+            peak,
+            whole,
+        })
     }
-    rect.bottom = row;
-    rect.left = rect.left.min(run.left);
-    rect.right = rect.right.max(run.right);
+}
+
+fn widen(rect: &mut Rect, span: &Span) {
+    // The rows come one after the other.
+    if span.row < rect.top {
+        rect.top = span.row;
+    }
+    rect.bottom = span.row;
+    rect.left = rect.left.min(span.left);
+    rect.right = rect.right.max(span.right);
 }
 
 impl Component {
+    /// Its runs; its number is `index`.
+    pub(super) fn runs<'l, const RUNS: usize>(
+        &self,
+        index: u16,
+        labels: &'l Labels<RUNS>,
+        layout: &Layout,
+    ) -> impl Iterator<Item = &'l Run> {
+        let (part, joined) = (self.part, self.joined);
+        let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !joined);
+        let runs = match area {
+            Some(area) => {
+                labels.in_rows(area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
+            }
+            None => &labels.runs,
+        };
+        runs.iter().filter(move |run| run.parent == part || (joined && labels.contact_of(run) == Some(index)))
+    }
+
     /// Finds the centroid, rounded once to the nearest 2^-16 taxel.
     fn locate(&mut self) {
         self.inverse = Inverse::of(self.total);
@@ -227,23 +277,23 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds a run of a row to the sums; whether it is on the home panel.
+    /// Adds runs to the sums, given with the values of their row; those below `low` are between the runs.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn add(&mut self, run: &Run, line: &Line, joins: &mut Joins) -> bool {
-        let values = line.around.piece(run.left, run.right);
+    fn add(&mut self, span: &Span, row: &[u16], joins: &mut Joins, low: u16) {
+        let values = row.get(span.left.into()..usize::from(span.right) + 1).unwrap_or(&[]);
         // Of parts that are carried the sums are, once all their runs are in.
-        let carried = if self.joined { joins.moments_of(run.parent) } else { None };
-        carried.unwrap_or(&mut self.moments).add_run(run.left.into(), line.row.into(), values, self.peak);
+        let carried = if self.joined { joins.moments_of(span.part) } else { None };
+        let (x, y) = (span.left.into(), span.row.into());
+        let floor = if span.whole { 0 } else { low };
+        carried.unwrap_or(&mut self.moments).add_run(x, y, values, floor, self.peak);
         if self.peak_at.is_none()
-            && run.peak == self.peak
-            && let Some((column, _)) = (run.left..).zip(values).find(|(_, value)| **value == self.peak)
+            && span.peak == self.peak
+            && let Some((column, _)) = (span.left..).zip(values).find(|(_, value)| **value == self.peak)
         {
-            self.peak_at = Some(Place { panel: run.panel, row: line.row, column });
+            self.peak_at = Some(Place { panel: span.panel, row: span.row, column });
         }
-        let home = run.panel == self.bounds.panel;
-        if home {
-            widen(&mut self.bounds, run, line.row);
+        if span.panel == self.bounds.panel {
+            widen(&mut self.bounds, span);
         }
-        home
     }
 }

@@ -1,38 +1,23 @@
 //! The contour of a contact: how long it is, and how steep.
 
+use super::component::Component;
+use super::label::Labels;
 use super::run::Run;
-use crate::condition::Neighbourhood;
-use crate::garment::Area;
+use crate::condition::{Image, Neighbourhood};
+use crate::garment::{Area, Layout};
 
-/// The row whose runs are being measured.
-pub(super) struct Line<'a> {
-    pub around: Neighbourhood<'a>,
-    /// over all panels
-    number: Option<u16>,
-    /// in the panel
-    pub row: u16,
+/// A row with what lies above and below it.
+struct Line<'a> {
+    around: Neighbourhood<'a>,
     /// The first or the last row of the panel.
     border: bool,
 }
 
 impl<'a> Line<'a> {
-    /// Before the first row.
-    pub const NONE: Line<'static> = Line { around: Neighbourhood::NONE, number: None, row: 0, border: true };
-
-    /// Whether it is the row of a run.
-    pub fn is_of(&self, run: &Run) -> bool {
-        self.number == Some(run.row)
-    }
-
     /// The row of a run.
-    pub fn of(run: &Run, area: &Area, values: &'a [u16]) -> Line<'a> {
+    fn of(run: &Run, area: &Area, values: &'a [u16]) -> Line<'a> {
         let row = run.row - area.first_row;
-        Line {
-            around: Neighbourhood::of(values, area, row),
-            number: Some(run.row),
-            row,
-            border: row == 0 || row + 1 >= area.rows,
-        }
+        Line { around: Neighbourhood::of(values, area, row), border: row == 0 || row + 1 >= area.rows }
     }
 }
 
@@ -46,11 +31,27 @@ pub(super) struct Contour {
 }
 
 impl Contour {
-    pub const NONE: Contour = Contour { length: 0, slope: 0 };
+    /// Of component `index`.
+    pub fn of<const RUNS: usize>(
+        index: u16,
+        component: &Component,
+        labels: &Labels<RUNS>,
+        layout: &Layout,
+        image: &Image,
+        low: u16,
+    ) -> Contour {
+        let mut contour = Contour { length: 0, slope: 0 };
+        for run in component.runs(index, labels, layout) {
+            if let Some(area) = layout.areas().get(usize::from(run.panel)) {
+                contour.add(run, &Line::of(run, area, image.values), low);
+            }
+        }
+        contour
+    }
 
     /// Adds what a run has of it.
     #[inline(never)] // the few registers of an M0+ are for this
-    pub fn add(&mut self, run: &Run, line: &Line, low: u16) {
+    fn add(&mut self, run: &Run, line: &Line, low: u16) {
         let (left, right, around) = (run.left, run.right, &line.around);
         self.take(around, left);
         if left == right {

@@ -224,6 +224,14 @@ impl<const RUNS: usize> Labels<RUNS> {
         None
     }
 
+    /// The runs of some rows, over all panels.
+    pub fn in_rows(&self, first: u16, last: u16) -> &[Run] {
+        let from = self.runs.partition_point(|run| run.row < first);
+        let (_, runs) = self.runs.split_at_checked(from).unwrap_or_default();
+        let count = runs.partition_point(|run| run.row <= last);
+        runs.get(..count).unwrap_or(runs)
+    }
+
     /// How many runs begin before or at a place of a panel.
     pub fn before(&self, area: &Area, row: u16, column: u16) -> usize {
         let place = key(area.first_row.saturating_add(row), column);

@@ -6,6 +6,7 @@ use super::point::{Images, LONGEST, Point};
 use super::record::Contact;
 use super::run::NONE;
 use super::track::Tracks;
+use super::trail::Trail;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::{Layout, PANELS};
 use core::ops::Range;
@@ -59,13 +60,16 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         for component in components {
             let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
         }
-        let spans = spans(&self.points);
+        let crowds = crowds(&self.points);
         let rows = self.distance.iter_mut().zip(&mut self.least);
         for ((row, least), (contact, trail)) in rows.zip(tracks.contacts.iter().zip(&mut tracks.trails)) {
             trail.component = NONE;
             let (at, reach) = expected(contact, seconds, config.gate);
             at.list_images(layout, &mut self.expected);
-            *least = distances(&self.expected, &self.points, &spans, reach, row);
+            *least = distances(&self.expected, &self.points, &crowds, reach, row);
+        }
+        if self.is_settled(&mut tracks.trails) {
+            return;
         }
         while let Some((track, component)) = self.nearest() {
             if let Some(trail) = tracks.trails.get_mut(track) {
@@ -73,6 +77,25 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
             }
             self.take(track, component);
         }
+    }
+
+    /// Where each contact has another component nearest, as mostly, that is its own, whichever pair is taken first.
+    fn is_settled(&mut self, trails: &mut [Trail]) -> bool {
+        let nearest =
+            || self.least.iter().take(self.used.0).map(|(distance, at)| (*distance < FAR).then_some(at));
+        for component in nearest().flatten() {
+            match self.taken.get_mut(usize::from(*component)) {
+                Some(taken) if !*taken => *taken = true,
+                _ => {
+                    self.taken.fill(false);
+                    return false;
+                }
+            }
+        }
+        for (trail, component) in trails.iter_mut().zip(nearest()) {
+            trail.component = component.copied().unwrap_or(NONE);
+        }
+        true
     }
 
     /// The pair that is nearest; of equals the oldest contact.
@@ -125,15 +148,40 @@ fn expected(contact: &Contact, seconds: u32, gate: u16) -> (Point, u32) {
     (Point { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
 }
 
-/// From where to where some points are on each panel; points of others may be between them.
-fn spans(points: &[Point]) -> [Range<usize>; PANELS] {
-    let mut spans = [const { 0..0 }; PANELS];
+/// The points on a panel.
+#[derive(Debug, Clone)]
+struct Crowd {
+    /// From which to which they are; points of other panels may be between them.
+    span: Range<usize>,
+    /// The rectangle around them.
+    left: i32,
+    right: i32,
+    top: i32,
+    bottom: i32,
+}
+
+impl Crowd {
+    const NONE: Crowd =
+        Crowd { span: 0..0, left: i32::MAX, right: i32::MIN, top: i32::MAX, bottom: i32::MIN };
+
+    /// Whether one of them may be within reach of a point.
+    fn is_near(&self, point: &Point, reach: i32) -> bool {
+        let near = |at: i32, from: i32, to: i32| at + reach >= from && at - reach <= to;
+        near(point.x, self.left, self.right) && near(point.y, self.top, self.bottom)
+    }
+}
+
+/// The points of each panel.
+fn crowds(points: &[Point]) -> [Crowd; PANELS] {
+    let mut crowds = [const { Crowd::NONE }; PANELS];
     for (index, point) in points.iter().enumerate() {
-        if let Some(span) = spans.get_mut(usize::from(point.panel)) {
-            *span = if span.end == 0 { index } else { span.start }..index + 1;
+        if let Some(crowd) = crowds.get_mut(usize::from(point.panel)) {
+            crowd.span = if crowd.span.end == 0 { index } else { crowd.span.start }..index + 1;
+            (crowd.left, crowd.right) = (crowd.left.min(point.x), crowd.right.max(point.x));
+            (crowd.top, crowd.bottom) = (crowd.top.min(point.y), crowd.bottom.max(point.y));
         }
     }
-    spans
+    crowds
 }
 
 /// Squared distances of some points from the nearest of the images, [`FAR`] if out of reach; the least of them, and the first
@@ -142,14 +190,18 @@ fn spans(points: &[Point]) -> [Range<usize>; PANELS] {
 fn distances(
     images: &Images,
     points: &[Point],
-    spans: &[Range<usize>; PANELS],
+    crowds: &[Crowd; PANELS],
     reach: u32,
     row: &mut [u32],
 ) -> (u32, u16) {
     row.iter_mut().take(points.len()).for_each(|cell| *cell = FAR);
     let mut least = (FAR, 0);
     for image in images {
-        let Some(span) = spans.get(usize::from(image.panel)) else { continue };
+        let Some(crowd) = crowds.get(usize::from(image.panel)) else { continue };
+        if !crowd.is_near(image, reach as i32) {
+            continue;
+        }
+        let span = &crowd.span;
         let (Some(row), Some(points)) = (row.get_mut(span.clone()), points.get(span.clone())) else {
             continue;
         };

@@ -29,14 +29,16 @@
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
 //! The stage makes four passes: runs of each active row and their union (`run`, `label`); joins across seams (`join`);
-//! the choice of contacts; and the measures of the chosen ones only (`component`, `contour`). So far goes
-//! [`Contacts::segment`]; then they are matched to those of the last frame (`track`).
+//! the choice of contacts; and the sums of the chosen ones only (`component`). So far goes [`Contacts::segment`]; then they are
+//! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
+//! is costs as much as all the rest of it, and changes slowly.
 
 mod axis;
 mod component;
 mod config;
 mod contour;
 mod flow;
+mod form;
 mod join;
 mod label;
 mod matching;

@@ -57,9 +57,9 @@ struct Piece {
 impl Piece {
     /// At most [`PIECE`] values. From the last to the first, three running sums: no multiplication by a coordinate per
     /// taxel.
-    fn of(values: &[u16]) -> Piece {
+    fn of(values: impl DoubleEndedIterator<Item = u32>) -> Piece {
         let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
-        for value in values.iter().rev().map(|value| u32::from(*value)) {
+        for value in values.rev() {
             s0 = s0.wrapping_add(value);
             s1 = s1.wrapping_add(s0);
             s2 = s2.wrapping_add(s1);
@@ -69,9 +69,9 @@ impl Piece {
     }
 
     /// The same of values up to [`NARROW`].
-    fn of_narrow(values: &[u16]) -> Piece {
+    fn of_narrow(values: impl DoubleEndedIterator<Item = u32>) -> Piece {
         let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u32);
-        for value in values.iter().rev().map(|value| u32::from(*value)) {
+        for value in values.rev() {
             s0 = s0.wrapping_add(value);
             s1 = s1.wrapping_add(s0);
             s2 = s2.wrapping_add(s1);
@@ -81,24 +81,37 @@ impl Piece {
     }
 }
 
+/// Values with 0 in the place of those below `floor`.
+fn above(floor: u16, values: &[u16]) -> impl DoubleEndedIterator<Item = u32> {
+    values.iter().map(move |value| if *value < floor { 0 } else { u32::from(*value) })
+}
+
+/// All of them.
+fn whole(values: &[u16]) -> impl DoubleEndedIterator<Item = u32> {
+    values.iter().map(|value| u32::from(*value))
+}
+
 impl Moments {
     /// Of a piece of a row whose first taxel is (x, y).
     pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
         let mut sum = Moments::default();
-        sum.add_run(x, y, values, values.iter().copied().max().unwrap_or(0));
+        sum.add_run(x, y, values, 0, values.iter().copied().max().unwrap_or(0));
         sum
     }
 
-    /// Adds a piece of a row whose first taxel is (x, y), with no value above `peak`.
+    /// Adds a piece of a row whose first taxel is (x, y): its values from `floor` on, of which none is above `peak`.
     #[inline(never)] // the few registers of an M0+ are for its loop
-    pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], peak: u16) {
+    pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], floor: u16, peak: u16) {
         if x < 64 && y < 128 && values.len() <= PIECE && peak <= NARROW {
-            let piece = Piece::of_narrow(values);
+            let piece = match floor {
+                0 => Piece::of_narrow(whole(values)),
+                _ => Piece::of_narrow(above(floor, values)),
+            };
             if piece.s0 < 1 << 17 {
                 return self.add_near(x, y, &piece);
             }
         }
-        self.add_far(x, y, values);
+        self.add_far(x, y, values, floor);
     }
 
     /// Small coordinates and sums, as nearly always: everything below 128^2 * 2^17 = 2^31 fits in 32 bits, where a
@@ -123,10 +136,10 @@ impl Moments {
 
     /// Any coordinates, values and length.
     #[cold]
-    fn add_far(&mut self, x: u32, y: u32, values: &[u16]) {
+    fn add_far(&mut self, x: u32, y: u32, values: &[u16], floor: u16) {
         let (mut x, y) = (u64::from(x), u64::from(y));
         for values in values.chunks(PIECE) {
-            let Piece { s0, s1, s2, squares } = Piece::of(values);
+            let Piece { s0, s1, s2, squares } = Piece::of(above(floor, values));
             let [s0, s1, s2] = [s0, s1, s2].map(u64::from);
             let first = s1.wrapping_sub(s0);
             let second = (s2 * 2).wrapping_add(s0).wrapping_sub(s1 * 3);
@@ -227,19 +240,21 @@ mod tests {
             let (x, y) = ([0, 15, 63, 64, 1000][round % 7 % 5], [0, 31, 127, 128, 3000][round % 11 % 5]);
             let least = if round % 2 == 0 { peak } else { 0 };
             let values: Vec<u16> = (0..length).map(|_| least.max(next(u32::from(peak) + 1) as u16)).collect();
+            let floor = if round % 3 == 0 { peak / 2 } else { 0 };
+            let counted: Vec<u16> = values.iter().map(|f| if *f < floor { 0 } else { *f }).collect();
             let sum = |weight: &dyn Fn(u128) -> u128| -> u128 {
-                (u128::from(x)..).zip(&values).map(|(x, f)| weight(x) * u128::from(*f)).sum()
+                (u128::from(x)..).zip(&counted).map(|(x, f)| weight(x) * u128::from(*f)).sum()
             };
             let mut have = Moments::default();
-            have.add_run(x, y, &values, peak);
+            have.add_run(x, y, &values, floor, peak);
             let wide_y = u128::from(y);
             assert_eq!(u128::from(have.m), sum(&|_| 1));
             assert_eq!((have.sx as u128, have.sy as u128), (sum(&|x| x), sum(&|_| wide_y)));
             assert_eq!(u128::from(have.sxx), sum(&|x| x * x));
             assert_eq!(u128::from(have.syy), sum(&|_| wide_y * wide_y));
             assert_eq!(have.sxy as u128, sum(&|x| x * wide_y));
-            assert_eq!(u128::from(have.s2), values.iter().map(|f| u128::from(*f).pow(2)).sum());
-            assert_eq!(have, Moments::of_run(x, y, &values));
+            assert_eq!(u128::from(have.s2), counted.iter().map(|f| u128::from(*f).pow(2)).sum());
+            assert_eq!(have, Moments::of_run(x, y, &counted));
         }
     }
 }

@@ -19,6 +19,10 @@ pub enum Phase {
 
 /// One contact in one frame. Coordinates are taxels of its home panel, the one with most of its mass; a part beyond a
 /// seam continues them past the border.
+///
+/// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`, `anisotropy`, `breadth`) is that of
+/// the last frame in which it was looked at: its first one, and from then on each of those present has its turn, one in a frame.
+/// Of a lone contact it is always of the frame, of five contacts at most four frames old.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contact {
     /// From 1 upwards in the order of onsets; the same from onset to release.
@@ -68,6 +72,6 @@ pub struct Contact {
     pub duration_ms: u32,
     /// Greatest total since onset.
     pub peak_total: u32,
-    /// Breadth in the frame of the greatest total: what touches, not what is left of it while it comes or goes.
+    /// Breadth when it was looked at with the greatest total: what touches, not what is left of it while it comes or goes.
     pub peak_breadth: u32,
 }

@@ -37,6 +37,8 @@ pub struct Touches<'a> {
     pub present: &'a [Contact],
     /// Their moments, in the same order, in the frame of the home panel.
     pub moments: &'a [Moments],
+    /// Whether the form of each is of this frame, in the same order: see [`Contact`].
+    pub looked: &'a [bool],
     /// Those that have gone since the last frame.
     pub released: &'a [Contact],
     /// Contacts that did not fit into this frame: those with the smallest totals.
@@ -151,10 +153,11 @@ impl Contacts {
         let ContactState { labels, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
         tracks.merge(labels, layout);
-        tracks.update(&self.config, &components.list, layout, image, now);
+        tracks.update(&self.config, &components.list, labels, layout, image, now);
         Touches {
             present: tracks.contacts(),
             moments: tracks.moments(),
+            looked: tracks.looked(),
             released: tracks.released(),
             dropped: components.dropped,
             overflow: labels.overflow.saturating_add(joins.overflow),

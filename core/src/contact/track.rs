@@ -1,8 +1,8 @@
 //! Contacts over time: who goes on as whom.
 
-use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::config::ContactConfig;
+use super::form::Sight;
 use super::label::Labels;
 use super::moments::Moments;
 use super::record::{Contact, Phase};
@@ -20,6 +20,10 @@ pub(super) struct Tracks<const CONTACTS: usize> {
     pub trails: Vec<Trail, CONTACTS>,
     moments: Vec<Moments, CONTACTS>,
     released: Vec<Contact, CONTACTS>,
+    /// Whether the form of each is of this frame.
+    looked: Vec<bool, CONTACTS>,
+    /// Whose turn it is to be looked at.
+    turn: usize,
     id: u32,
     pub clock: Clock,
 }
@@ -31,6 +35,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             trails: Vec::new(),
             moments: Vec::new(),
             released: Vec::new(),
+            looked: Vec::new(),
+            turn: 0,
             id: 0,
             clock: Clock::new(),
         }
@@ -41,6 +47,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.trails.clear();
         self.moments.clear();
         self.released.clear();
+        self.looked.clear();
     }
 
     pub fn contacts(&self) -> &[Contact] {
@@ -53,6 +60,10 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     pub fn released(&self) -> &[Contact] {
         &self.released
+    }
+
+    pub fn looked(&self) -> &[bool] {
+        &self.looked
     }
 
     /// Index of the contact that a component became.
@@ -95,10 +106,11 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Brings all contacts up to date.
-    pub fn update(
+    pub fn update<const RUNS: usize>(
         &mut self,
         config: &ContactConfig,
         components: &[Component],
+        labels: &Labels<RUNS>,
         layout: &Layout,
         image: &Image,
         now: Micros,
@@ -111,7 +123,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
                     trail.follow(contact, component, &scenery);
-                    describe(contact, component, layout);
+                    describe(contact, component);
                     contact.phase = Phase::Held;
                     contact.duration_ms = now.millis_since(contact.onset);
                 }
@@ -130,15 +142,35 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             trails.get(index - 1).is_some_and(|trail| trail.component != NONE)
         });
         self.trails.retain(|trail| trail.component != NONE);
+        let held = self.contacts.len();
         for (index, component) in (0u16..).zip(components) {
             if is_new(config, &known, index, component) {
-                self.begin(index, component, layout, now);
+                self.begin(index, component, now);
             }
         }
+        self.look(held, components, &Sight { labels, layout, image, low: config.low });
         self.moments.clear();
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {
                 let _ = self.moments.push(component.moments);
+            }
+        }
+    }
+
+    /// Looks at the form of those that are new, and of one of those that were `held` before them.
+    fn look<const RUNS: usize>(&mut self, held: usize, components: &[Component], sight: &Sight<'_, RUNS>) {
+        self.turn = if self.turn + 1 < held { self.turn + 1 } else { 0 };
+        self.looked.clear();
+        for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
+            let due = index == self.turn || index >= held;
+            // As many places as contacts.
+            let _ = self.looked.push(due);
+            let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
+                continue;
+            };
+            sight.look(contact, trail.component, component);
+            if contact.total >= trail.looked {
+                (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }
         }
     }
@@ -166,7 +198,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    fn begin(&mut self, index: u16, component: &Component, layout: &Layout, now: Micros) {
+    fn begin(&mut self, index: u16, component: &Component, now: Micros) {
         self.id = self.id.checked_add(1).unwrap_or(1);
         let mut contact = Contact {
             id: self.id,
@@ -194,7 +226,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             duration_ms: 0,
             peak_total: 0,
         };
-        describe(&mut contact, component, layout);
+        describe(&mut contact, component);
         // There are no more contacts than components, and both lists have the same capacity.
         if self.contacts.push(contact).is_ok() {
             let _ = self.trails.push(Trail::new(index));
@@ -219,25 +251,14 @@ fn beside<const RUNS: usize>(labels: &Labels<RUNS>, layout: &Layout, place: Plac
         .find_map(|(row, column)| labels.contact_at(area, row, column))
 }
 
-/// What the frame alone tells.
-fn describe(contact: &mut Contact, component: &Component, layout: &Layout) {
-    let panel = component.bounds.panel;
-    let pitch = layout.areas().get(usize::from(panel)).map_or([0, 0], |area| area.pitch_um);
-    let (axis, breadth) =
-        axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
-    contact.panel = panel;
+/// What the frame alone tells, but for the form.
+fn describe(contact: &mut Contact, component: &Component) {
+    contact.panel = component.bounds.panel;
     contact.total = component.total;
     contact.peak = component.peak;
     contact.peak_at = component.peak_at.unwrap_or(contact.peak_at);
     contact.area = component.area;
-    contact.perimeter = component.contour.length as u16;
-    contact.edge =
-        component.contour.slope.checked_div(component.contour.length).unwrap_or(0).min(0xffff) as u16;
     contact.bounds = component.bounds;
     (contact.x, contact.y) = (component.x, component.y);
-    (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
-    contact.breadth = breadth;
-    if component.total >= contact.peak_total {
-        (contact.peak_total, contact.peak_breadth) = (component.total, contact.breadth);
-    }
+    contact.peak_total = contact.peak_total.max(component.total);
 }

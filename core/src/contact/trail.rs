@@ -17,6 +17,8 @@ pub(super) struct Trail {
     pub component: u16,
     /// It has merged or come apart in this frame: its centroid leaps, and that is no motion.
     pub leaps: bool,
+    /// The greatest total with which its form was looked at.
+    pub looked: u32,
     pattern: Pattern,
     slip: Slip,
 }
@@ -31,7 +33,7 @@ pub(super) struct Scenery<'a> {
 
 impl Trail {
     pub const fn new(component: u16) -> Self {
-        Trail { component, leaps: false, pattern: Pattern::new(), slip: Slip::new() }
+        Trail { component, leaps: false, looked: 0, pattern: Pattern::new(), slip: Slip::new() }
     }
 
     /// Carries a contact's way and velocity on to its component, of which the rest is still to be told.

@@ -67,7 +67,8 @@ impl Pipeline {
         }
     }
 
-    /// Gives contacts their shapes and their places on the body; those that have gone keep the shape that they had.
+    /// Gives contacts their shapes and their places on the body; those that have gone, and those that were not looked at, keep the
+    /// shape that they had.
     #[inline(always)] // once, and its iterators take what is there
     fn place(
         &self,
@@ -76,17 +77,23 @@ impl Pipeline {
         present: &mut Vec<Placed, CONTACTS>,
         released: &mut Vec<Placed, CONTACTS>,
     ) {
-        let gone = |contact: &Contact| {
-            let last = present.iter().find(|placed| placed.contact.id == contact.id);
-            Placed::new(layout, contact.clone(), last.map_or_else(Shape::default, |placed| placed.shape))
-        };
+        let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
         replace(released, touches.released.iter().map(gone));
-        let there = |(contact, moments): (&Contact, _)| {
-            let shape =
-                self.shape.as_ref().map_or_else(Shape::default, |stage| stage.process(moments, contact));
-            Placed::new(layout, contact.clone(), shape)
-        };
-        replace(present, touches.present.iter().zip(touches.moments).map(there));
+        let forms = touches.moments.iter().zip(touches.looked);
+        for (index, (contact, (moments, looked))) in touches.present.iter().zip(forms).enumerate() {
+            let shape = match &self.shape {
+                Some(stage) if *looked => stage.process(moments, contact),
+                Some(_) => shape_in(present.get(index..).unwrap_or(&[]), contact.id),
+                None => Shape::default(),
+            };
+            let placed = Placed::new(layout, contact.clone(), shape);
+            match present.get_mut(index) {
+                Some(last) => *last = placed,
+                // As many places as contacts.
+                None => _ = present.push(placed),
+            }
+        }
+        present.truncate(touches.present.len());
     }
 
     /// What the map is told of a contact.
@@ -115,6 +122,12 @@ fn look<const RUNS: usize>(
         taught.look(contact, layout, image, (index, &placed.contact));
     }
     present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
+}
+
+/// The shape that a contact had. Lists of contacts are in the order of their onset, so that what is left of one can be overwritten
+/// by what comes before.
+fn shape_in(list: &[Placed], id: u32) -> Shape {
+    list.iter().find(|placed| placed.contact.id == id).map_or_else(Shape::default, |placed| placed.shape)
 }
 
 /// Fills a list anew; what does not fit is left out.

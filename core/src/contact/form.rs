@@ -1,0 +1,35 @@
+//! The form of a contact: what is costly to tell, and changes slowly.
+
+use super::axis::axis_and_breadth;
+use super::component::Component;
+use super::contour::Contour;
+use super::label::Labels;
+use super::record::Contact;
+use crate::condition::Image;
+use crate::garment::Layout;
+
+/// Where forms are seen.
+pub(super) struct Sight<'a, const RUNS: usize> {
+    pub labels: &'a Labels<RUNS>,
+    pub layout: &'a Layout,
+    pub image: &'a Image<'a>,
+    /// The threshold from which on a taxel belongs to a contact.
+    pub low: u16,
+}
+
+impl<const RUNS: usize> Sight<'_, RUNS> {
+    /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`.
+    #[inline(never)] // a stack frame of its own is near
+    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
+        let Contour { length, slope } =
+            Contour::of(index, component, self.labels, self.layout, self.image, self.low);
+        contact.perimeter = length as u16;
+        contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
+        let area = self.layout.areas().get(usize::from(component.bounds.panel));
+        let pitch = area.map_or([0, 0], |area| area.pitch_um);
+        let (axis, breadth) =
+            axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
+        (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
+        contact.breadth = breadth;
+    }
+}
