@@ -224,7 +224,8 @@ impl Symbols {
             let words = last.map_or_else(|| self.words(placed, None), |(_, words)| *words);
             let _ = state.events.push(symbol(placed, Phase::Released, words));
         }
-        state.said.retain(|(id, _)| present.iter().any(|p| p.contact.id == *id));
+        // Each contact is released before it is gone.
+        state.said.retain(|(id, _)| released.iter().all(|gone| gone.contact.id != *id));
         regions(&mut state.regions, present, now);
     }
 

@@ -6,17 +6,16 @@ use super::point::{Images, LONGEST, Point};
 use super::record::Contact;
 use super::run::NONE;
 use super::track::Tracks;
-use super::trail::Trail;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::{Layout, PANELS};
 use core::ops::Range;
 use heapless::Vec;
 
-/// Work space: squared distances, a row per contact and a column per component.
+/// Work space.
 #[derive(Debug, Clone)]
 pub(super) struct Matching<const CONTACTS: usize> {
-    distance: [[u32; CONTACTS]; CONTACTS],
-    /// The least of each row, and its column.
+    /// Of each contact the squared distance to the nearest component that is not taken, [`FAR`] if none is within reach, and which one that is,
+    /// the first of equals.
     least: [(u32, u16); CONTACTS],
     /// Where the components are.
     points: Vec<Point, CONTACTS>,
@@ -24,8 +23,6 @@ pub(super) struct Matching<const CONTACTS: usize> {
     expected: Images,
     /// Components that have found their contact.
     taken: [bool; CONTACTS],
-    /// Rows and columns in use.
-    used: (usize, usize),
 }
 
 /// Out of reach.
@@ -34,12 +31,10 @@ const FAR: u32 = u32::MAX;
 impl<const CONTACTS: usize> Matching<CONTACTS> {
     pub const fn new() -> Self {
         Matching {
-            distance: [[FAR; CONTACTS]; CONTACTS],
             least: [(FAR, 0); CONTACTS],
             points: Vec::new(),
             expected: Images::new(),
             taken: [false; CONTACTS],
-            used: (0, 0),
         }
     }
 
@@ -54,79 +49,62 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         now: Micros,
     ) {
         let seconds = seconds(now.since(tracks.clock.last()));
-        self.used = (tracks.contacts.len(), components.len());
         self.taken.fill(false);
         self.points.clear();
         for component in components {
             let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
         }
         let crowds = crowds(&self.points);
-        let rows = self.distance.iter_mut().zip(&mut self.least);
-        for ((row, least), (contact, trail)) in rows.zip(tracks.contacts.iter().zip(&mut tracks.trails)) {
-            trail.component = NONE;
+        let Tracks { contacts, trails, .. } = tracks;
+        let (points, taken, images) = (&self.points, &mut self.taken, &mut self.expected);
+        let mut look = |contact: &Contact, taken: &[bool]| {
             let (at, reach) = expected(contact, seconds, config.gate);
-            at.list_images(layout, &mut self.expected);
-            *least = distances(&self.expected, &self.points, &crowds, reach, row);
+            at.list_images(layout, images);
+            nearest(images, points, &crowds, reach, taken)
+        };
+        for (least, contact) in self.least.iter_mut().zip(&*contacts) {
+            *least = look(contact, taken);
         }
-        if self.is_settled(&mut tracks.trails) {
+        let least = self.least.get_mut(..contacts.len()).unwrap_or(&mut []);
+        for (trail, least) in trails.iter_mut().zip(&*least) {
+            trail.component = if least.0 < FAR { least.1 } else { NONE };
+        }
+        if are_distinct(least, taken) {
+            // As mostly: whichever pair comes first, each has its nearest.
             return;
         }
-        while let Some((track, component)) = self.nearest() {
-            if let Some(trail) = tracks.trails.get_mut(track) {
+        taken.fill(false);
+        trails.iter_mut().for_each(|trail| trail.component = NONE);
+        while let Some((track, component)) = nearest_pair(least) {
+            if let Some(trail) = trails.get_mut(track) {
                 trail.component = component;
             }
-            self.take(track, component);
-        }
-    }
-
-    /// Where each contact has another component nearest, as mostly, that is its own, whichever pair is taken first.
-    fn is_settled(&mut self, trails: &mut [Trail]) -> bool {
-        let nearest =
-            || self.least.iter().take(self.used.0).map(|(distance, at)| (*distance < FAR).then_some(at));
-        for component in nearest().flatten() {
-            match self.taken.get_mut(usize::from(*component)) {
-                Some(taken) if !*taken => *taken = true,
-                _ => {
-                    self.taken.fill(false);
-                    return false;
-                }
+            if let Some(taken) = taken.get_mut(usize::from(component)) {
+                *taken = true;
             }
-        }
-        for (trail, component) in trails.iter_mut().zip(nearest()) {
-            trail.component = component.copied().unwrap_or(NONE);
-        }
-        true
-    }
-
-    /// The pair that is nearest; of equals the oldest contact.
-    fn nearest(&self) -> Option<(usize, u16)> {
-        let rows =
-            self.least.iter().take(self.used.0).enumerate().filter(|(_, (distance, _))| *distance < FAR);
-        rows.min_by_key(|(_, (distance, _))| *distance).map(|(track, (_, component))| (track, *component))
-    }
-
-    /// Takes a pair out. Only the rows whose least it was need another look.
-    fn take(&mut self, track: usize, component: u16) {
-        if let Some(least) = self.least.get_mut(track) {
-            *least = (FAR, 0);
-        }
-        let (rows, columns) = self.used;
-        if let Some(taken) = self.taken.get_mut(usize::from(component)) {
-            *taken = true;
-        }
-        for (row, least) in self.distance.iter().zip(&mut self.least).take(rows) {
-            if least.1 == component && least.0 < FAR {
-                *least = least_of(row.get(..columns).unwrap_or(row), &self.taken);
+            for (index, (least, contact)) in least.iter_mut().zip(&*contacts).enumerate() {
+                if index == track {
+                    *least = (FAR, 0);
+                } else if least.1 == component && least.0 < FAR {
+                    *least = look(contact, taken);
+                }
             }
         }
     }
 }
 
-/// The least distance of a row to what is not taken, and its column, the first of equals.
-fn least_of(row: &[u32], taken: &[bool]) -> (u32, u16) {
-    let free = (0u16..).zip(row.iter().zip(taken)).filter(|(_, (_, taken))| !**taken);
-    let least = free.min_by_key(|(_, (distance, _))| **distance);
-    least.map_or((FAR, 0), |(column, (distance, _))| (*distance, column))
+/// Whether no two are nearest to the same component; marks these, up to the first that is.
+fn are_distinct(least: &[(u32, u16)], taken: &mut [bool]) -> bool {
+    let mut within = least.iter().filter(|(distance, _)| *distance < FAR);
+    within.all(|(_, component)| {
+        taken.get_mut(usize::from(*component)).is_some_and(|taken| !core::mem::replace(taken, true))
+    })
+}
+
+/// The pair that is nearest; of equals the oldest contact.
+fn nearest_pair(least: &[(u32, u16)]) -> Option<(usize, u16)> {
+    let within = least.iter().enumerate().filter(|(_, (distance, _))| *distance < FAR);
+    within.min_by_key(|(_, (distance, _))| *distance).map(|(track, (_, component))| (track, *component))
 }
 
 /// Microseconds as seconds in Q16, at most 16.
@@ -184,44 +162,36 @@ fn crowds(points: &[Point]) -> [Crowd; PANELS] {
     crowds
 }
 
-/// Squared distances of some points from the nearest of the images, [`FAR`] if out of reach; the least of them, and the first
-/// point that has it.
+/// The least squared distance of the points that are not taken from any of the images, and the first point that has it; [`FAR`] if none is
+/// within reach.
 #[inline(never)] // the few registers of an M0+ are for this
-fn distances(
+fn nearest(
     images: &Images,
     points: &[Point],
     crowds: &[Crowd; PANELS],
     reach: u32,
-    row: &mut [u32],
+    taken: &[bool],
 ) -> (u32, u16) {
-    row.iter_mut().take(points.len()).for_each(|cell| *cell = FAR);
     let mut least = (FAR, 0);
     for image in images {
         let Some(crowd) = crowds.get(usize::from(image.panel)) else { continue };
         if !crowd.is_near(image, reach as i32) {
             continue;
         }
-        let span = &crowd.span;
-        let (Some(row), Some(points)) = (row.get_mut(span.clone()), points.get(span.clone())) else {
-            continue;
-        };
-        for ((cell, point), column) in row.iter_mut().zip(points).zip(span.start as u16..) {
-            if point.panel != image.panel {
-                continue;
-            }
+        let points = points.get(crowd.span.clone()).unwrap_or(&[]);
+        for (point, column) in points.iter().zip(crowd.span.start as u16..) {
             let x = (image.x - point.x).unsigned_abs();
             // Most pairs are told apart by this.
-            if x > reach {
+            if x > reach || point.panel != image.panel {
                 continue;
             }
             let y = (image.y - point.y).unsigned_abs();
-            if y > reach {
+            if y > reach || taken.get(usize::from(column)) == Some(&true) {
                 continue;
             }
             // No reach is longer than LONGEST.
             let squared = x * x + y * y;
-            if squared <= reach * reach && squared < *cell {
-                *cell = squared;
+            if squared <= reach * reach {
                 least = least.min((squared, column));
             }
         }
