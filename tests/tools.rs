@@ -101,10 +101,10 @@ fn a_simulated_garment_is_calibrated_and_checked() {
     let text = std::fs::read_to_string(&calibration).unwrap();
     assert!(text.contains("by = \"Anna\"") && text.contains("a plate on each panel (1)"), "{text}");
     // Another board, which was never calibrated, and another garment.
-    let check: Value = serde_json::from_str(
-        said(&["calibrate", "check", name, "--source", "sim:idle", "--json"]).lines().last().unwrap(),
-    )
-    .unwrap();
+    let check = run(&["calibrate", "check", name, "--source", "sim:idle", "--json"]);
+    assert_eq!(check.status.code(), Some(2), "it does not hold");
+    let check = String::from_utf8(check.stdout).unwrap();
+    let check: Value = serde_json::from_str(check.lines().last().unwrap()).unwrap();
     assert_eq!(check["holds"], false);
     let why = check["why"].to_string();
     assert!(why.contains("no calibration") && why.contains("2048 taxels"), "{why}");

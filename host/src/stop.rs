@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C is told by [`check`]; a second one ends the program as it stands.
+/// From now on Ctrl-C is told by [`asked`] and [`check`]; a second one ends the program as it stands.
 pub fn catch() -> Result<()> {
     static CAUGHT: OnceLock<Result<(), ctrlc::Error>> = OnceLock::new();
     let told = || {
@@ -18,9 +18,14 @@ pub fn catch() -> Result<()> {
     caught.copied().map_err(|error| anyhow!("Ctrl-C cannot be caught: {error}"))
 }
 
-/// An error once Ctrl-C was pressed.
+/// Whether Ctrl-C was pressed.
+pub fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
+/// An error once it was.
 pub fn check() -> Result<()> {
-    if ASKED.load(Ordering::Relaxed) {
+    if asked() {
         bail!("ended by Ctrl-C");
     }
     Ok(())

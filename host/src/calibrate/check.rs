@@ -49,7 +49,9 @@ pub fn run(args: &CheckArgs) -> Result<()> {
     ensure!(above(args.every), "--every must be a time above 0");
     let calibration = Calibration::read(&args.file)?;
     let Some(every) = args.every else {
-        tell(args, &calibration, &reasons(args, &calibration)?);
+        let reasons = reasons(args, &calibration)?;
+        tell(args, &calibration, &reasons);
+        ensure!(reasons.is_empty(), "calibration {} does not hold", calibration.id);
         return Ok(());
     };
     let pause = Duration::try_from_secs_f64(every).context("--every")?;

@@ -5,12 +5,11 @@ use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
 use crate::live::{self, BoardArgs, LiveArgs};
 use crate::source::SourceOptions;
-use anyhow::{Context, Result};
+use crate::stop;
+use anyhow::Result;
 use clap::Args;
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What `taxel record` takes.
 #[derive(Debug, Clone, Args)]
@@ -54,9 +53,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
         ..SourceOptions::default()
     };
     let (source, calibration) = args.board.open(options)?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let asked = stop.clone();
-    ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)).context("Ctrl-C cannot be caught")?;
+    stop::catch()?;
     let mut recorder = Recorder::create(Plan {
         path: args.output,
         rotate: args.rotate,
@@ -68,7 +65,6 @@ pub fn run(args: RecordArgs) -> Result<()> {
             calibration,
         },
         raw: args.raw,
-        stop,
     })?;
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let done = live::watch(&watched, source, &mut recorder);

@@ -9,11 +9,10 @@ use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
 use crate::client::{Client, Event, Worn};
 use crate::live::Show;
+use crate::stop;
 use anyhow::{Context, Result, bail};
 use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use taxel_core::wire::{self, Request};
 
@@ -40,8 +39,6 @@ pub struct Plan {
     pub origin: Origin,
     /// Raw codes are asked for, too.
     pub raw: bool,
-    /// Turns true when somebody has asked for the end.
-    pub stop: Arc<AtomicBool>,
 }
 
 /// A recording under way.
@@ -219,7 +216,7 @@ impl Show for Recorder {
         }
         let done = self.keep();
         self.guard(done)?;
-        Ok(!self.plan.stop.load(Ordering::Relaxed))
+        Ok(!stop::asked())
     }
 
     fn end(&mut self, _: &Client) -> Result<()> {

@@ -40,5 +40,7 @@ pub fn run(args: ReportArgs) -> Result<()> {
     let mut seen = Seen::new(source.label.clone(), source.counts_per_newton);
     live::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
     std::fs::write(&args.output, page(&seen)?)
-        .with_context(|| format!("{} cannot be written", args.output.display()))
+        .with_context(|| format!("{} cannot be written", args.output.display()))?;
+    println!("{}: figures of {}", args.output.display(), seen.label);
+    Ok(())
 }
