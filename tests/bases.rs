@@ -2,7 +2,12 @@
 
 use proptest::prelude::*;
 use taxel::shapes::base::{Base, SHIPPED_NAMES};
-use taxel_core::shape::{Descriptor, MEASURES};
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::format::Micros;
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::shape::{Descriptor, Exemplar, GalleryHead, MEASURES};
+use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 
 fn shipped() -> Vec<Base> {
     SHIPPED_NAMES.iter().map(|name| Base::open(name.as_ref()).expect("it ships")).collect()
@@ -43,6 +48,61 @@ fn what_is_wrong_is_said_in_one_sentence() {
     }
     let many = "{\"class\":0,\"at\":[0,0,0,0,0,0,0,0,0,0,0,0]},".repeat(201);
     refused("\"prototypes\":[", &format!("\"prototypes\":[{many}"), "at most 200");
+}
+
+#[test]
+fn a_bad_base_is_refused_by_the_board_in_one_sentence() {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
+    let mut ask = |request: &Request<'_>| {
+        let mut wire = [0; 4096];
+        let frame = encode(request, &mut wire).unwrap().to_vec();
+        board.step(Micros(0), Input::Received(&frame), &mut ());
+        let (mut refusal, mut receiver) = (None, Box::new(Receiver::<8192>::new()));
+        while let [byte, ..] = board.pending(Micros(0), &mut ()) {
+            if let Some(body) = receiver.push(*byte)
+                && let (_, Report::Answer(answer)) = decode::<(u32, Report<'_>)>(body.unwrap()).unwrap()
+            {
+                refusal = answer.refusal.map(String::from);
+            }
+            board.sent(1);
+        }
+        refusal
+    };
+    let gallery = shipped().remove(0).gallery;
+    let head = |prototypes: u16, k: u8, reject: u16| {
+        let (names, space, sureness) =
+            (gallery.names.clone(), gallery.space.clone(), gallery.sureness.clone());
+        postcard::to_allocvec(&GalleryHead { names, space, k, reject, sureness, prototypes }).unwrap()
+    };
+    let examples = |count: usize, class: u8| {
+        let one = Exemplar { class, ..gallery.prototypes[0] };
+        postcard::to_allocvec(&vec![one; count]).unwrap()
+    };
+    let one = head(1, 3, 100);
+    assert_eq!(
+        ask(&Request::AddShapes(&examples(1, 0))).as_deref(),
+        Some("shapes.prototypes must be as many as the gallery's head says")
+    );
+    for (begun, added, why) in [
+        (&head(201, 3, 100), None, "shapes.prototypes must be 1 to 200 on this board"),
+        (&one[..one.len() - 1].to_vec(), None, "shapes: these"),
+        (&[&one[..], &[0]].concat(), None, "shapes: bytes after its end"),
+        (&head(1, 0, 100), Some(examples(1, 0)), "shapes.k must be 1 to 9"),
+        (&head(1, 3, 0), Some(examples(1, 0)), "shapes.reject must be at least 1"),
+        (&one, Some(examples(1, 31)), "shapes.names must name the class of every prototype"),
+        (&one, Some(examples(2, 0)), "shapes.prototypes must be as many as the gallery's head says"),
+        (&one, Some(examples(65, 0)), "prototypes: these"),
+        (&one, Some(examples(1, 0)[..5].to_vec()), "prototypes: these"),
+    ] {
+        let refusal = match (ask(&Request::SetShapes(begun)), added) {
+            (None, Some(added)) => ask(&Request::AddShapes(&added)),
+            (refusal, None) => refusal,
+            (refusal, Some(_)) => panic!("refused already: {refusal:?}"),
+        };
+        assert!(refusal.as_deref().is_some_and(|it| it.starts_with(why)), "{refusal:?}, expected {why}");
+    }
+    assert_eq!((ask(&Request::SetShapes(&one)), ask(&Request::AddShapes(&examples(1, 0)))), (None, None));
 }
 
 proptest! {

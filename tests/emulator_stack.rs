@@ -7,10 +7,10 @@ use emulated::Emulated;
 use taxel_core::condition::Filter;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Absent, Block, Edge, Garment, Line, Panel, Seam, Side};
-use taxel_core::intent::{Edge as Link, Input, Source, Threshold};
+use taxel_core::intent::{CONCEPTS, Edge as Link, Input, Map, Source, Threshold};
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::{Friendliness, Scene};
-use taxel_core::wire::{Hello, LONGEST_REQUEST, Report, Request};
+use taxel_core::wire::{Hello, IntentReport, LONGEST_REQUEST, Report, Request};
 
 /// What must stay free, of the RAM that the program's data leaves: bytes.
 const MARGIN: u64 = 32 * 1024;
@@ -20,6 +20,9 @@ const COLUMNS: usize = 16;
 /// Different frames, and how often they are shown, each time with other random numbers.
 const KINDS: u32 = 4;
 const ROUNDS: u32 = 40;
+/// Inputs of the greatest map, each a cause of others, and the most steps of an inference.
+const INPUTS: usize = 8;
+const STEPS: u16 = 64;
 /// Code at rest.
 const REST: u16 = 90;
 
@@ -111,7 +114,7 @@ fn greatest_scene() -> Scene {
     scene.condition.filter = Filter::Off;
     scene.stream.raw_hz = u16::MAX;
     let intent = scene.intent.as_mut().unwrap();
-    intent.steps = 64;
+    intent.steps = STEPS;
     let map = &mut intent.map;
     // As many as there may be, by names with which they fit into a request.
     map.concepts = (0..map.concepts.capacity()).map(|index| name(&format!("c{index:02}"))).collect();
@@ -119,11 +122,12 @@ fn greatest_scene() -> Scene {
         *place = name(intention);
     }
     map.decimals = 4;
-    // Eight causes of all others.
+    // Eight inputs, and each of the first is a cause of all others.
     let effects = map.concepts.len() as u8 - 8;
-    let link = |k: u8| Link { from: k / effects, to: 8 + k % effects, weight: 10_000 - i16::from(k) * 100 };
-    map.edges = (0..map.edges.capacity() as u8).map(link).collect();
-    map.thresholds = (0..16).map(|concept| Threshold { concept, value: -5000 }).collect();
+    let link = |k: u8| Link { from: k / effects, to: 8 + k % effects, weight: 10_000 - i16::from(k) * 70 };
+    map.edges = (0..=u8::MAX).map(link).collect();
+    assert!(map.edges.is_full() && map.concepts.is_full());
+    map.thresholds = (0..64).map(|concept| Threshold { concept, value: -5000 }).collect();
     let sources =
         [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed, Source::Rise];
     let sources = sources.into_iter().chain((0..2).map(Source::Host));
@@ -162,16 +166,40 @@ fn refused(board: &mut Emulated, request: &Request<'_>) -> String {
     }
 }
 
-/// Waits until all kinds of frames were shown twice; says how much was sent meanwhile.
-fn watch(board: &mut Emulated) {
-    let (mut first, mut bytes) = (None, 0);
+/// Whether a board told just what this machine infers from the inputs that it told.
+fn agrees(report: &IntentReport, map: &Map) -> bool {
+    let mut start = [0; CONCEPTS];
+    let inputs = start.iter_mut().zip(&report.concepts).take(INPUTS);
+    inputs.for_each(|(to, value)| *to = value.0);
+    let run = map.infer(&start, STEPS);
+    let told = report.concepts.iter().map(|value| value.0);
+    run.state.into_iter().take(map.len()).eq(told)
+        && (run.steps, run.outcome) == (report.steps, report.outcome)
+}
+
+/// Waits until all kinds of frames were shown twice; says how much was sent meanwhile. With a map, inferences are compared.
+fn watch(board: &mut Emulated, map: Option<&Map>) {
+    let (mut first, mut bytes, mut inferred) = (None, 0, 0);
     loop {
         let message = board.receive();
         bytes += message.wire_bytes;
-        let Report::Frame(frame) = message.report() else { continue };
+        let frame = match message.report() {
+            Report::Frame(frame) => frame,
+            Report::Intent(report) if map.is_some() => {
+                assert!(map.is_some_and(|map| agrees(&report, map)), "{report:?}");
+                inferred += 1;
+                continue;
+            }
+            _ => continue,
+        };
         let frames = frame.frame - *first.get_or_insert(frame.frame);
         if frames >= 2 * KINDS {
-            return println!("{:>24} {:>6} bytes sent for each scan", "", bytes / frames as usize);
+            assert!(map.is_none() || inferred > 0);
+            return println!(
+                "{:>24} {:>6} bytes sent for each scan, {inferred} inferences compared",
+                "",
+                bytes / frames as usize
+            );
         }
     }
 }
@@ -205,7 +233,7 @@ fn the_stack_has_room() {
     board.obey(&Request::Start);
     board.play();
     free(&mut board, "tare");
-    watch(&mut board);
+    watch(&mut board, None);
     free(&mut board, "frames");
     board.obey(&Request::SetGarment(&garment));
     free(&mut board, "greatest garment");
@@ -214,7 +242,8 @@ fn the_stack_has_room() {
     board.ask(&Request::Start);
     assert_eq!(hello(&mut board), (garment, scene), "they are told whole");
     free(&mut board, "greatest hello");
-    watch(&mut board);
+    let map = Map::build(&greatest_scene().intent.unwrap().map).unwrap();
+    watch(&mut board, Some(&map));
     free(&mut board, "frames, all of it on");
     let mut wrong = greatest_garment();
     wrong.blocks[63].select = 0;
@@ -225,7 +254,7 @@ fn the_stack_has_room() {
     refused(&mut board, &Request::SetScene(&vec![1; LONGEST_REQUEST - 16]));
     free(&mut board, "no scene");
     board.obey(&Request::SetScene(&shipped));
-    watch(&mut board);
+    watch(&mut board, None);
     let free = free(&mut board, "shipped scene, frames");
     println!("{free} bytes always free; {} us", board.look("stats")["emulated_us"]);
     assert!(free >= MARGIN);

@@ -126,8 +126,8 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         friendliness: 40,
         duration_ms,
         speed,
-        // The stage finds it.
-        rise: 0,
+        // What is left, the stage finds.
+        ..Touch::default()
     };
     let mut latest = [0; 2];
     for seed in 0..100 {

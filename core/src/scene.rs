@@ -91,6 +91,24 @@ impl Default for Scene {
 }
 
 impl Scene {
+    /// Nothing but what every scene has, with the usual settings.
+    pub fn empty() -> Scene {
+        Scene {
+            name: Name::new(),
+            plan: Plan::default(),
+            rate_hz: 0,
+            condition: ConditionConfig::default(),
+            contact: ContactConfig::default(),
+            shape: None,
+            symbol: SymbolConfig::default(),
+            intent: None,
+            friendliness: Vec::new(),
+            joints: Vec::new(),
+            react: Vec::new(),
+            stream: StreamConfig::default(),
+        }
+    }
+
     /// The scene that ships: everything on, limits for 12 bit and 1000 counts per newton.
     pub fn shipped() -> Scene {
         let friendly = |region, percent| Friendliness { region: name(region), percent };
@@ -161,7 +179,8 @@ impl Scene {
             row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
         }
         if let Some(intent) = &mut scene.intent {
-            let pressure = |i: &&mut Input| matches!(i.source, Source::Press | Source::Rise);
+            let pressure =
+                |i: &&mut Input| matches!(i.source, Source::Press | Source::Rise | Source::Hardness);
             for input in intent.map.inputs.iter_mut().filter(pressure) {
                 input.low = scale(input.low.unsigned_abs()).min(i32::MAX as u32) as i32;
                 input.high = scale(input.high.unsigned_abs()).min(i32::MAX as u32) as i32;

@@ -173,7 +173,7 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
 }
 
 /// The checked stage.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Symbols {
     config: SymbolConfig,
 }

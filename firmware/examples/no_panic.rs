@@ -50,7 +50,6 @@ pub struct Given {
     info: BoardInfo,
     garment: Garment,
     scene: Scene,
-    setup: Setup,
     touch: TouchState,
     image: &'static [u16],
 }
@@ -71,7 +70,7 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep(Reference::with(*info, &given.setup)),
+        10 => keep((Reference::bare(*info), board.dress(garment.clone()), board.employ(scene.clone()))),
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),

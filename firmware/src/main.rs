@@ -17,7 +17,7 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, MuxScan};
-use taxel_core::board::{Board, BoardInfo, Setup, SetupError};
+use taxel_core::board::{Board, BoardInfo, SetupError};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
 
@@ -37,24 +37,25 @@ type Pool = Lines<pins::Line, { board::LINES }>;
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
-/// What ships, checked.
 #[inline(never)]
-fn shipped(info: &BoardInfo) -> Result<Setup, SetupError> {
-    Setup::build(info, Garment::reference(), Scene::shipped(), TAXELS)
+fn dress(board: &mut Board<TAXELS, RUNS>) -> Result<(), SetupError> {
+    board.dress(Garment::reference())
 }
 
-/// The board with what ships. A function of its own: the main task's stack would keep room for ever for what is only needed
+#[inline(never)]
+fn employ(board: &mut Board<TAXELS, RUNS>) -> Result<(), SetupError> {
+    board.employ(Scene::shipped())
+}
+
+/// Gives the board what ships. Functions of their own: the main task's stack would keep room for ever for what is only needed
 /// here.
 #[inline(never)]
-fn begin(info: BoardInfo) -> Board<TAXELS, RUNS> {
-    match &shipped(&info) {
-        Ok(setup) => Board::with(info, setup),
-        Err(error) => {
-            defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
-            // Nothing feeds the watchdog from here on, so the board starts again and says so again.
-            loop {
-                cortex_m::asm::wfe();
-            }
+fn ship(board: &mut Board<TAXELS, RUNS>) {
+    if let Err(error) = dress(board).and_then(|()| employ(board)) {
+        defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
+        // Nothing feeds the watchdog from here on, so the board starts again and says so again.
+        loop {
+            cortex_m::asm::wfe();
         }
     }
 }
@@ -74,7 +75,8 @@ async fn main(_spawner: Spawner) {
         let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
         scan::Scanner::new(processor, chain)
     });
-    let mut board = begin(info);
+    let mut board = Board::bare(info);
+    ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;
 }

@@ -170,6 +170,7 @@ const FCM: &str = "Examples:
   taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json
   taxel fcm tactile --input press=0.8 --input time=0.1
   taxel fcm why tactile --input press=0.8 --input time=0.1 --set shape=1
+  taxel fcm why --source sim:lash
   taxel fcm check my-map.toml
   taxel fcm combine anna.toml ben.toml carla.toml -o ours.toml
   taxel fcm draw tactile --input shape=1 -o tactile.svg";

@@ -27,6 +27,7 @@ pub use counts::Counts;
 pub use event::{Event, ImageNews};
 pub use worn::Worn;
 
+use crate::growths::Growths;
 use picture::Picture;
 use std::collections::BTreeMap;
 use syncs::Syncs;
@@ -57,6 +58,7 @@ pub struct Client {
     picture: Picture,
     raw: Vec<u16>,
     contacts: Vec<Placed>,
+    growths: Growths,
     released: Vec<u32>,
     /// The releases belong to a frame that has been told.
     told: bool,
@@ -92,6 +94,7 @@ impl Client {
             picture: Picture::default(),
             raw: Vec::new(),
             contacts: Vec::new(),
+            growths: Growths::default(),
             released: Vec::new(),
             told: false,
             regions: Vec::new(),
@@ -244,6 +247,7 @@ impl Client {
         }
         let (gone, here): (Vec<_>, Vec<_>) =
             list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
+        self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
         self.contacts = here;
         Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }

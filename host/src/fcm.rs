@@ -23,6 +23,7 @@ pub mod search;
 pub mod steps;
 pub mod sweep;
 pub mod terms;
+pub mod told;
 pub mod touches;
 pub mod unite;
 pub mod weight;

@@ -18,6 +18,7 @@ pub mod flash;
 pub mod foxglove;
 pub mod garments;
 pub mod gestures;
+pub mod growths;
 pub mod health;
 pub mod info;
 pub mod intent;

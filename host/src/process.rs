@@ -1,6 +1,7 @@
 //! `taxel process`: the board's pipeline over recorded frames, one JSON object a frame.
 
 use crate::arrays::{self, Frames};
+use crate::growths::Growths;
 use crate::json;
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -145,6 +146,7 @@ pub struct Replay {
     names: Vec<Name>,
     leading: Leading,
     concepts: Vec<Q15>,
+    growths: Growths,
 }
 
 impl Replay {
@@ -157,19 +159,29 @@ impl Replay {
         state.reset(&layout, falling, full_scale);
         let names = pipeline.intent().map_or_else(Vec::new, |intent| intent.map().concepts().to_vec());
         let concepts = vec![Q15(0); names.len()];
-        Ok(Replay { layout, falling, pipeline, state, names, leading: Leading::None, concepts })
+        Ok(Replay {
+            layout,
+            falling,
+            pipeline,
+            state,
+            names,
+            leading: Leading::None,
+            concepts,
+            growths: Growths::default(),
+        })
     }
 
     /// Perceives one frame: an object with time, contacts and intent.
     pub fn frame(&mut self, values: &[u16], time: Micros) -> Value {
         let codes: Vec<Code> = values.iter().map(|value| Code(*value)).collect();
-        let Replay { layout, falling, pipeline, state, names, leading, concepts } = self;
+        let Replay { layout, falling, pipeline, state, names, leading, concepts, growths } = self;
         let percept = pipeline.process(state, layout, &codes, *falling, time, &mut ());
         if let Some(meaning) = &percept.meaning {
             *leading = meaning.leading;
             *concepts = meaning.activations.to_vec();
         }
-        let mut object = perceived(&percept, layout);
+        growths.feel(percept.present, percept.released);
+        let mut object = perceived(&percept, layout, growths);
         object["time"] = json!(time.0 as f64 / 1e6);
         object["intent"] = json::intent(*leading, names, concepts);
         object
@@ -177,9 +189,13 @@ impl Replay {
 }
 
 /// What was perceived in a frame, but for its meaning.
-fn perceived(percept: &Percept<'_>, layout: &Layout) -> Value {
-    let list = |placed: &[Placed]| placed.iter().map(|p| json::contact(p, layout)).collect::<Vec<_>>();
-    let mut object = json!({ "contacts": list(percept.present) });
+fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
+    let contact = |placed: &Placed| {
+        let mut object = json::contact(placed, layout);
+        object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
+        object
+    };
+    let mut object = json!({ "contacts": percept.present.iter().map(contact).collect::<Vec<_>>() });
     if !percept.released.is_empty() {
         object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
     }

@@ -6,6 +6,9 @@ use taxel_core::intent::{Map, MapConfig, tactile};
 /// Concepts of a map of the board.
 pub const CONCEPTS: usize = taxel_core::intent::CONCEPTS;
 
+/// Concepts that are computed with floats: enough for the map that ships.
+pub const PLAIN: usize = 16;
+
 /// How it is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Activation {
@@ -20,7 +23,7 @@ pub enum Activation {
 /// The map in both forms.
 pub struct Maps {
     map: Map<CONCEPTS>,
-    weights: [[f32; CONCEPTS]; CONCEPTS],
+    weights: [[f32; PLAIN]; PLAIN],
     lambda: f32,
 }
 
@@ -28,7 +31,7 @@ impl Maps {
     /// The map that ships: rule kosko, tanh, inputs held.
     pub fn shipped() -> Option<Maps> {
         let config: MapConfig = tactile();
-        let mut weights = [[0.0; CONCEPTS]; CONCEPTS];
+        let mut weights = [[0.0; PLAIN]; PLAIN];
         let step = (0..config.decimals).fold(1.0f32, |step, _| step * 10.0);
         for edge in &config.edges {
             let row = weights.get_mut(usize::from(edge.to))?;
@@ -45,7 +48,7 @@ impl Maps {
     }
 
     /// The weights by effect and cause, and the steepness.
-    pub const fn plain(&self) -> (&[[f32; CONCEPTS]; CONCEPTS], f32) {
+    pub const fn plain(&self) -> (&[[f32; PLAIN]; PLAIN], f32) {
         (&self.weights, self.lambda)
     }
 }
@@ -63,11 +66,15 @@ impl Activation {
         }
     }
 
-    /// The next state (Q15, or the bits of f32) from one in Q15.
+    /// The next state of the first concepts (Q15, or the bits of f32) from one in Q15.
     #[inline(never)]
-    pub fn step(self, maps: &Maps, state: &[i32; CONCEPTS]) -> [u32; CONCEPTS] {
+    pub fn step(self, maps: &Maps, state: &[i32; CONCEPTS]) -> [u32; PLAIN] {
         match self {
-            Activation::Q15 => maps.map.step(state).map(|value| value as u32),
+            Activation::Q15 => {
+                let mut next = [0; PLAIN];
+                next.iter_mut().zip(maps.map.step(state)).for_each(|(to, value)| *to = value as u32);
+                next
+            }
             // tanh z = 1 - 2 / (e^(2 z) + 1)
             Activation::Micromath => plain(maps, state, |z| 1.0 - 2.0 / (F32Ext::exp(2.0 * z) + 1.0)),
             Activation::Libm => plain(maps, state, libm::tanhf),
@@ -83,8 +90,9 @@ impl Activation {
     }
 }
 
-fn plain(maps: &Maps, state: &[i32; CONCEPTS], transfer: fn(f32) -> f32) -> [u32; CONCEPTS] {
-    let state = state.map(|value| value as f32 / 32768.0);
+fn plain(maps: &Maps, start: &[i32; CONCEPTS], transfer: fn(f32) -> f32) -> [u32; PLAIN] {
+    let mut state = [0.0; PLAIN];
+    state.iter_mut().zip(start).for_each(|(to, value)| *to = *value as f32 / 32768.0);
     let mut next = state;
     for (value, weights) in next.iter_mut().zip(&maps.weights) {
         // What nothing causes is held.

@@ -2,7 +2,7 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, Setup, SetupError};
+use taxel_core::board::{Board, BoardInfo, Input, SetupError};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
@@ -38,19 +38,23 @@ pub struct Said {
 }
 
 impl Chain {
-    /// What is checked before a board can be made: the reference garment and the scene that ships.
-    pub fn setup() -> Result<Setup, SetupError> {
-        Setup::build(&Chain::info(), Garment::reference(), Scene::shipped(), TAXELS)
-    }
-
-    fn info() -> BoardInfo {
-        BoardInfo { firmware: "bench", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: u32::MAX }
-    }
-
-    /// A board with what was checked.
+    /// A board without a garment, made where the caller keeps it.
     #[inline(never)]
-    pub fn with(setup: &Setup) -> Chain {
-        Chain { board: Board::with(Chain::info(), setup), scans: 0 }
+    pub fn bare() -> Chain {
+        let info = BoardInfo {
+            firmware: "bench",
+            pins: Pins::ANY,
+            full_scale: FULL_SCALE,
+            link_bytes_per_s: u32::MAX,
+        };
+        Chain { board: Board::bare(info), scans: 0 }
+    }
+
+    /// Gives it the reference garment and the scene that ships.
+    #[inline(never)]
+    pub fn ship(&mut self) -> Result<(), SetupError> {
+        self.board.dress(Garment::reference())?;
+        self.board.employ(Scene::shipped())
     }
 
     fn now(&self) -> Micros {

@@ -1,6 +1,6 @@
 //! What is measured besides the chain, by number: kernels that take 2,048 codes and give a few words.
 
-use crate::activation::{Activation, CONCEPTS, Maps};
+use crate::activation::{Activation, CONCEPTS, Maps, PLAIN};
 use crate::chain::TAXELS;
 use crate::dense::Dense;
 use crate::measure::Measure;
@@ -109,7 +109,7 @@ impl Kernel {
                 fold(found.into_iter().flatten())
             }
             Kernel::Activate(activation) => {
-                let state = state(codes, CONCEPTS);
+                let state = state(codes, PLAIN);
                 let Some(maps) = &bench.maps else { return 0 };
                 let next = activation.step(maps, &state);
                 probe.begin(Stage::Scan);

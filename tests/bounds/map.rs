@@ -132,8 +132,15 @@ fn states_outside_their_range_are_clamped() {
 fn measures_outside_their_ramp_are_held_at_its_ends() {
     let map = Map::<10>::build(&tactile()).unwrap();
     let of = |press, friendliness| {
-        let touch =
-            Touch { press, breadth: press, friendliness, duration_ms: press, speed: press, rise: press };
+        let touch = Touch {
+            press,
+            breadth: press,
+            friendliness,
+            duration_ms: press,
+            speed: press,
+            rise: press,
+            ..Touch::default()
+        };
         let state = map.encode(Some(&touch), &[]);
         [state[0], state[1], state[2], state[3]]
     };

@@ -4,7 +4,7 @@ use taxel::fcm::board::BoardMap;
 use taxel::fcm::decimal::Decimal;
 use taxel::fcm::map::MapFile;
 use taxel::fcm::{engine, load};
-use taxel_core::intent::{MapConfig, Source, Touch, tactile};
+use taxel_core::intent::{CONCEPTS, EDGES, MapConfig, Source, Touch, tactile};
 
 /// A map of everything that the format has.
 pub const WHOLE: &str = r#"
@@ -53,7 +53,7 @@ pub fn map(text: &str) -> MapFile {
 #[test]
 fn the_shipped_map_is_that_of_the_board() {
     let map = load::map("tactile").unwrap();
-    assert_eq!(*map.to_config::<16, 64>().unwrap(), tactile());
+    assert_eq!(*map.to_config::<CONCEPTS, EDGES>().unwrap(), tactile());
     assert!(map.concept.iter().all(|c| !c.note.is_empty()) && map.edge.iter().all(|e| !e.note.is_empty()));
 }
 
@@ -64,9 +64,12 @@ fn a_file_survives_being_read_and_written() {
     let config: MapConfig = *whole.to_config().unwrap();
     // What the core does not hold: terms, notes; a falling ramp is written as a rising one that ends lower.
     let back = MapFile::from_config(&config);
-    assert_eq!(*back.to_config::<16, 64>().unwrap(), config);
+    assert_eq!(*back.to_config::<CONCEPTS, EDGES>().unwrap(), config);
     assert_eq!(back.input[1], whole.input[1]);
-    assert_eq!(MapFile::from_config(&tactile()).to_config::<16, 64>().unwrap().inputs, tactile().inputs);
+    assert_eq!(
+        MapFile::from_config(&tactile()).to_config::<CONCEPTS, EDGES>().unwrap().inputs,
+        tactile().inputs
+    );
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
     let refused = |from: &str, to: &str| {
         assert!(WHOLE.contains(from), "{from}");
         let read = load::parse(&WHOLE.replacen(from, to, 1), "map.toml");
-        let error = read.and_then(|map| map.to_config::<16, 64>().map(drop)).unwrap_err();
+        let error = read.and_then(|map| map.to_config::<CONCEPTS, EDGES>().map(drop)).unwrap_err();
         format!("{error:#}")
     };
     for (from, to, message) in [

@@ -7,6 +7,7 @@ mod lost;
 mod outbox;
 mod outputs;
 mod pace;
+mod reading;
 mod refusal;
 mod request;
 mod saving;
@@ -24,7 +25,7 @@ use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
 use crate::health::Monitor;
 use crate::pipeline::{PipelineState, Probe, Stage};
-use crate::scene::Scene;
+use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use budget::{Doing, Ledger};
@@ -105,32 +106,28 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// A board that wears `garment` and is used for `scene`.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
-        Ok(Board::with(info, &Setup::build(&info, garment, scene, TAXELS)?))
+        let mut board = Board::bare(info);
+        board.dress(garment)?;
+        board.employ(scene)?;
+        Ok(board)
     }
 
-    /// A board with a copy of a setup built before.
+    /// A board without a garment, which is made where the caller keeps it, part by part; what its stages remember is put to rest
+    /// there when it begins: the stack of a microcontroller has no room for the whole.
     #[inline(never)]
-    pub fn with(info: BoardInfo, setup: &Setup) -> Self {
-        Board::made(info, setup.clone())
-    }
-
-    /// It is made where the caller keeps it, part by part, and what its stages remember is put to rest there when it begins: the
-    /// stack of a microcontroller has no room for the whole.
-    #[inline(never)]
-    fn made(info: BoardInfo, setup: Setup) -> Self {
-        // Before the large parts: a loop between them, and they would be made on the stack and copied.
-        let (scans, outputs) = (Pace::new(setup.scan_rate()), Outputs::at_rest(setup.pipeline.reactions()));
+    pub fn bare(info: BoardInfo) -> Self {
         Board {
             info,
-            scans,
+            setup: Setup::empty(),
             begun: false,
             state: PipelineState::default(),
             inbox: Receiver::new(),
-            outbox: Outbox::new(&setup.scene.stream),
-            outputs,
+            outbox: Outbox::new(&StreamConfig::default()),
+            outputs: Outputs::default(),
             works: Deque::new(),
             saving: Saving::new(),
             examined: None,
+            scans: Pace::new(0),
             scanning: false,
             stumbles: 0,
             rewired: false,
@@ -141,8 +138,21 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             tared: false,
             monitor: const { Monitor::new() },
             certificate: None,
-            setup,
         }
+    }
+
+    /// Puts the first garment on a board that has not begun yet.
+    pub fn dress(&mut self, garment: Garment) -> Result<(), SetupError> {
+        self.setup.change_garment(&self.info, garment, TAXELS)
+    }
+
+    /// Gives a board that has not begun yet its first scene.
+    pub fn employ(&mut self, scene: Scene) -> Result<(), SetupError> {
+        self.setup.change_scene(&self.info, scene)?;
+        self.scans = Pace::new(self.setup.scan_rate());
+        self.outbox.pace(&self.setup.scene.stream);
+        self.outputs = Outputs::at_rest(self.setup.pipeline.reactions());
+        Ok(())
     }
 
     /// Nothing is remembered of any frame.

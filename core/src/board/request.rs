@@ -2,14 +2,14 @@
 
 use super::outputs::Outputs;
 use super::refusal::Refusal;
-use super::{Board, Work};
+use super::{Board, Work, reading};
 use crate::condition::Certificate;
 use crate::format::Micros;
 use crate::garment::Garment;
 use crate::gesture::{GestureConfig, Gestures};
 use crate::scene::Scene;
 use crate::shape::Exemplar;
-use crate::wire::{Request, SHAPES_ADDED, decode};
+use crate::wire::{Request, SHAPES_ADDED, WireError, decode};
 use heapless::Vec;
 use serde::Deserialize;
 
@@ -26,10 +26,13 @@ pub(super) fn number_of(work: Work) -> u8 {
     }
 }
 
-/// Reads something large. Not inlined: it needs stack only meanwhile.
+/// Reads something large, which the host calls `what`. Not inlined: it needs stack only meanwhile.
 #[inline(never)]
-pub(super) fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Refusal> {
-    decode(bytes).map_err(Refusal::of)
+pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
+    decode(bytes).map_err(|error| match error {
+        WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
+        _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
+    })
 }
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
@@ -110,7 +113,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
     #[inline(never)]
     fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let garment = read::<Garment>(bytes)?;
+        let garment = read::<Garment>("garment", bytes)?;
         self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
         self.worn();
         Ok(())
@@ -118,7 +121,8 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     #[inline(never)]
     pub(super) fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let scene = read::<Scene>(bytes)?;
+        let mut scene = Scene::empty();
+        reading::scene(bytes, &mut scene)?;
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
         // What the new scene does not drive must not stay where the old one left it.
@@ -140,12 +144,12 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.shapes_changed();
             return Ok(());
         }
-        self.state.taught.begin(read(bytes)?).map_err(Refusal::of)
+        self.state.taught.begin(read("shapes", bytes)?).map_err(Refusal::of)
     }
 
     #[inline(never)]
     fn add_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>(bytes)?;
+        let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>("prototypes", bytes)?;
         self.state.taught.add(&prototypes).map_err(Refusal::of)?;
         if self.state.taught.gallery().is_some() {
             self.outbox.shapes_changed();

@@ -19,7 +19,7 @@ pub struct BoardInfo {
     pub link_bytes_per_s: u32,
 }
 
-/// A checked garment and scene.
+/// A checked garment and scene; at first neither.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// The garment as it was sent.
@@ -72,19 +72,28 @@ const CONTACT_BYTES: u32 = 90;
 const TYPICAL_CONTACTS: u32 = 5;
 
 impl Setup {
+    /// No garment, and a scene without a map.
+    pub fn empty() -> Setup {
+        Setup {
+            garment: Garment::default(),
+            scene: Scene::empty(),
+            layout: Layout::default(),
+            circuit: Circuit::default(),
+            pipeline: Pipeline::default(),
+        }
+    }
+
     /// Checks everything for a board that holds `capacity` taxels.
-    #[inline(never)] // its caller would keep room for what is only needed meanwhile
     pub fn build(
         info: &BoardInfo,
         garment: Garment,
         scene: Scene,
         capacity: usize,
     ) -> Result<Setup, SetupError> {
-        // A gain may take a conditioned value past the converter's range.
-        let layout = Layout::build(&garment, capacity, u16::MAX)?;
-        let circuit = Circuit::build(&garment, &layout, info.pins)?;
-        let pipeline = checked(info, &scene, &layout, &circuit)?;
-        Ok(Setup { garment, scene, layout, circuit, pipeline })
+        let mut setup = Setup::empty();
+        setup.change_garment(info, garment, capacity)?;
+        setup.change_scene(info, scene)?;
+        Ok(setup)
     }
 
     /// Takes another garment for the same scene; nothing changes if it is refused. What is new is built beside what is there,
@@ -96,26 +105,27 @@ impl Setup {
         garment: Garment,
         capacity: usize,
     ) -> Result<(), SetupError> {
+        // A gain may take a conditioned value past the converter's range.
         let layout = Layout::build(&garment, capacity, u16::MAX)?;
         let circuit = Circuit::build(&garment, &layout, info.pins)?;
-        self.change_pipeline(checked(info, &self.scene, &layout, &circuit)?);
+        check(info, &self.scene, &circuit)?;
+        self.pipeline.fit(&self.scene, &layout)?;
         (self.garment, self.layout, self.circuit) = (garment, layout, circuit);
         Ok(())
     }
 
-    /// Takes another scene for the same garment; nothing changes if it is refused.
+    /// Takes another scene for the same garment; nothing changes if it is refused. What is no part of a scene stays.
     #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: Scene) -> Result<(), SetupError> {
-        self.change_pipeline(checked(info, &scene, &self.layout, &self.circuit)?);
-        self.scene = scene;
-        Ok(())
-    }
-
-    /// What is no part of a scene stays.
-    fn change_pipeline(&mut self, pipeline: Pipeline) {
-        let gestures = self.pipeline.gestures;
-        self.pipeline = pipeline;
-        self.pipeline.gestures = gestures;
+        check(info, &scene, &self.circuit)?;
+        let done = self.pipeline.fill(&scene, &self.layout);
+        if done.is_err() {
+            // It is the scene that was there: nothing is wrong with it.
+            let _ = self.pipeline.fill(&self.scene, &self.layout);
+        } else {
+            self.scene = scene;
+        }
+        done.map_err(SetupError::Scene)
     }
 
     /// Scans per second, as [`Pace`](super::pace::Pace) wants it: a scene's 0 is "as many as possible".
@@ -124,14 +134,9 @@ impl Setup {
     }
 }
 
-/// The scene's stages, if the scene fits the garment and the board.
+/// Whether the board and the wiring of the garment leave the scene what it needs.
 #[inline(never)]
-fn checked(
-    info: &BoardInfo,
-    scene: &Scene,
-    layout: &Layout,
-    circuit: &Circuit,
-) -> Result<Pipeline, SceneError> {
+fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), SceneError> {
     let rate = u32::from(scene.stream.contacts_hz);
     let asked = rate.saturating_mul(CONTACT_BYTES).saturating_mul(TYPICAL_CONTACTS);
     if scene.stream.contacts_hz != u16::MAX && asked > info.link_bytes_per_s {
@@ -149,5 +154,5 @@ fn checked(
             return Err(Invalid { parameter, must: "must not be used twice" }.into());
         }
     }
-    Pipeline::build(scene, layout)
+    Ok(())
 }

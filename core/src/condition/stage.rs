@@ -10,7 +10,7 @@ use crate::format::{Code, Invalid};
 use crate::garment::Layout;
 
 /// Makes pressure out of codes; see the [module](super).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Condition {
     config: ConditionConfig,
 }

@@ -13,7 +13,7 @@ use crate::format::{Invalid, Micros};
 use crate::garment::Layout;
 
 /// Finds and follows contacts; see the [module](super).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Contacts {
     config: ContactConfig,
 }

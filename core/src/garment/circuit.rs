@@ -55,7 +55,7 @@ impl Site {
 
 /// The checked wiring. Levels of all lines form one word, bit `i` for `lines()[i]`: block lines first, then row lines,
 /// column lines and enables.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Circuit {
     lines: Vec<u8, CIRCUIT_LINES>,
     inverted: u32,

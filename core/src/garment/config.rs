@@ -16,7 +16,7 @@ pub const SEAMS: usize = 8;
 pub const ABSENT: usize = 32;
 
 /// A whole garment: panels of taxels, the blocks that tile them, seams, gaps and wiring.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Garment {
     /// What people call it.
@@ -150,7 +150,7 @@ pub struct Absent {
 
 /// The select lines and the converter. A single binary address is three groups that follow each other; separate row
 /// and column multiplexers are two groups; one-hot rows or chip enables are a group with [`Coding::OneHot`].
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wiring {
     /// Lines that choose the block.

@@ -8,7 +8,7 @@ use crate::format::Name;
 use heapless::Vec;
 
 /// The checked geometry: panels with their numbering, seams, regions, gaps.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Layout {
     areas: Vec<Area, PANELS>,
     joints: Vec<Joint, SEAMS>,

@@ -7,9 +7,9 @@ use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 /// Concepts of a map on the board, unless a type says otherwise.
-pub const CONCEPTS: usize = 16;
+pub const CONCEPTS: usize = 64;
 /// Edges of a map on the board, unless a type says otherwise.
-pub const EDGES: usize = 64;
+pub const EDGES: usize = 256;
 /// The finest decimal step is 10^-4: products of weight and state then fit 32 bits.
 pub const DECIMALS: u8 = 4;
 
@@ -75,4 +75,31 @@ pub struct MapConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub held: bool,
     /// Which concepts are fed from the touch or the host, and how.
     pub inputs: Vec<Input, N>,
+}
+
+/// What the stage is to do.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
+    /// The map.
+    pub map: MapConfig<N, E>,
+    /// Time that an intention must lead before it is announced, in ms.
+    pub onset_ms: u16,
+    /// Activation from which an intention may lead, in thousandths.
+    pub level: u16,
+    /// Lead over the other two that it needs, in thousandths.
+    pub margin: u16,
+    /// Time after the release for which the touch still counts, in ms.
+    pub hold_ms: u16,
+    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited for.
+    pub period_ms: u16,
+    /// Largest number of steps of an inference.
+    pub steps: u16,
+}
+
+impl<const N: usize, const E: usize> IntentConfig<N, E> {
+    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 20 ms period, 16 steps.
+    pub fn new(map: MapConfig<N, E>) -> Self {
+        IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 20, steps: 16 }
+    }
 }

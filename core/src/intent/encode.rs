@@ -19,6 +19,9 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 Source::Duration => measured(|t| t.duration_ms),
                 Source::Speed => measured(|t| t.speed),
                 Source::Rise => measured(|t| t.rise),
+                Source::Hardness => {
+                    touch.and_then(|t| t.hardness).map(|it| i32::try_from(it).unwrap_or(i32::MAX))
+                }
                 Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
             };
             if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {

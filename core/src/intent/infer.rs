@@ -49,58 +49,59 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The period is
     /// exact; a cycle is noticed after at most three times the steps it took to enter and go round it once.
     pub fn infer(&self, start: &[i32; N], steps: u16) -> Inference<N> {
-        let mut state = self.clamped(start);
-        let mut mark = state;
+        let (mut one, mut other) = (self.clamped(start), [0; N]);
+        let (mut state, mut next, mut mark) = (&mut one, &mut other, [0; N]);
+        self.copy(state, &mut mark);
         let (mut since, mut reach, mut extent) = (0u16, 1u16, 0i32);
         for taken in 1..=steps {
-            let next = self.advance(&state);
-            let (change, distance) = (self.distance(&next, &state), self.distance(&next, &mark));
-            state = next;
+            self.advance(state, next);
+            let (change, distance) = (self.distance(next, state), self.distance(next, &mark));
+            core::mem::swap(&mut state, &mut next);
             if change == 0 {
-                return Inference { state, steps: taken, outcome: Outcome::Fixed };
+                return Inference { state: *state, steps: taken, outcome: Outcome::Fixed };
             }
             since = since.saturating_add(1);
             extent = extent.max(distance);
             if distance == 0 {
                 let rounding = extent <= ROUNDING && !self.transfer.is_threshold();
                 let outcome = if rounding { Outcome::Fixed } else { Outcome::Cycle(since) };
-                return Inference { state, steps: taken, outcome };
+                return Inference { state: *state, steps: taken, outcome };
             }
             if since == reach {
-                (mark, since, extent) = (state, 0, 0);
+                self.copy(state, &mut mark);
+                (since, extent) = (0, 0);
                 reach = reach.saturating_mul(2);
             }
         }
-        Inference { state, steps, outcome: Outcome::Unsettled }
+        Inference { state: *state, steps, outcome: Outcome::Unsettled }
     }
 
     /// One step from any state; values beyond -1 ..= 1 are clamped first. Total.
     pub fn step(&self, state: &[i32; N]) -> [i32; N] {
-        self.advance(&self.clamped(state))
+        let mut next = [0; N];
+        self.advance(&self.clamped(state), &mut next);
+        next
     }
 
     /// One step from a state within -1 ..= 1, which is what `build` proved the sums for.
-    fn advance(&self, state: &[i32; N]) -> [i32; N] {
-        let mut y = *state;
-        if self.rule == Rule::Rescaled {
-            y.iter_mut().for_each(|v| *v = 2 * *v - self.one);
-        }
+    fn advance(&self, state: &[i32; N], next: &mut [i32; N]) {
+        let rescaled = self.rule == Rule::Rescaled;
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };
-        let mut next = *state;
+        let y = |x: i32| if rescaled { 2 * x - self.one } else { x };
         let mut causes = self.causes.iter();
-        for ((value, row), own_y) in next.iter_mut().zip(&self.rows).zip(&y) {
+        for ((value, row), x) in next.iter_mut().zip(&self.rows).zip(state) {
             if row.held {
-                continue; // it has no causes
+                *value = *x; // it has no causes
+                continue;
             }
-            let mut sum = row.bias + ((own * own_y) >> self.shift);
-            for cause in causes.by_ref().take(row.causes) {
+            let mut sum = row.bias + ((own * y(*x)) >> self.shift);
+            for cause in causes.by_ref().take(row.causes.into()) {
                 // `build` proved that the cause is there.
-                let y = y.get(usize::from(cause.from)).copied().unwrap_or(0);
-                sum += (i32::from(cause.weight) * y) >> self.shift;
+                let x = state.get(usize::from(cause.from)).copied().unwrap_or(0);
+                sum += (i32::from(cause.weight) * y(x)) >> self.shift;
             }
             *value = self.transferred(sum);
         }
-        next
     }
 
     fn transferred(&self, sum: i32) -> i32 {
@@ -112,11 +113,23 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
     }
 
-    // `clamp` would panic on an empty range, which the compiler cannot exclude.
+    /// The concepts of the map within -1 ..= 1, and 0 where it has none: a small map must not cost what a large one does.
     fn clamped(&self, state: &[i32; N]) -> [i32; N] {
-        let mut out = *state;
-        out.iter_mut().for_each(|v| *v = (*v).max(-self.one).min(self.one));
+        let mut out = [0; N];
+        for (to, from) in out.iter_mut().zip(state).take(self.concepts.len()) {
+            // `clamp` would panic on an empty range, which the compiler cannot exclude.
+            *to = (*from).max(-self.one).min(self.one);
+        }
         out
+    }
+
+    fn copy(&self, from: &[i32; N], to: &mut [i32; N]) {
+        to.iter_mut().zip(from).take(self.concepts.len()).for_each(|(to, from)| *to = *from);
+    }
+
+    /// Whether two states of this map are equal.
+    pub(super) fn same(&self, a: &[i32; N], b: &[i32; N]) -> bool {
+        self.distance(a, b) == 0
     }
 
     fn distance(&self, a: &[i32; N], b: &[i32; N]) -> i32 {

@@ -28,6 +28,15 @@ pub struct Touch {
     pub speed: u32,
     /// How steeply the force came, in counts/ms: the greatest mean rise since the onset. The stage finds it itself.
     pub rise: u32,
+    /// Total pressure now, in counts.
+    pub force: u32,
+    /// Taxels that are touched now.
+    pub area: u16,
+    /// Area of one of them, in mm2; may be 0 where no input is [`Source::Hardness`].
+    pub cell_mm2: u32,
+    /// How hard what touches seems, in counts per cm2: see [`hardness`](crate::contact::hardness). The stage finds it itself, and
+    /// only where an input asks for it.
+    pub hardness: Option<u32>,
 }
 
 impl Touch {
@@ -56,6 +65,8 @@ pub enum Source {
     Host(u8),
     /// [`Touch::rise`], counts/ms: with the duration the concept *time*, sudden to slow.
     Rise,
+    /// [`Touch::hardness`], counts per cm2, soft to hard; gives 0 before it is known.
+    Hardness,
 }
 
 /// One input of a map. The ramp may fall (`at_high` below `at_low`).
@@ -83,19 +94,16 @@ pub(crate) struct Encoder {
     pub source: Source,
     low: i32,
     high: i32,
-    /// `high - low`
-    span: NonZeroU32,
     at_low: i32,
     at_high: i32,
 }
 
 impl Encoder {
     pub(crate) fn build(input: &Input, concept: &Name, decimals: u8, one: i32) -> Result<Encoder, MapError> {
-        let range = MapError::InputRange { concept: concept.clone(), low: input.low, high: input.high };
         if input.low >= input.high {
-            return Err(range);
+            let (low, high) = (input.low, input.high);
+            return Err(MapError::InputRange { concept: concept.clone(), low, high });
         }
-        let span = NonZeroU32::new(input.high.abs_diff(input.low)).ok_or(range)?;
         let step = 10i64.pow(decimals.into());
         let value = |steps: i16| -> Result<i32, MapError> {
             if i64::from(steps).abs() > step {
@@ -111,7 +119,6 @@ impl Encoder {
             source: input.source,
             low: input.low,
             high: input.high,
-            span,
             at_low,
             at_high,
         })
@@ -126,12 +133,14 @@ impl Encoder {
         } else {
             (self.at_high, self.high.abs_diff(value))
         };
+        // `build` has checked that it is not 0.
+        let span = NonZeroU32::new(self.high.abs_diff(self.low)).unwrap_or(NonZeroU32::MIN);
         // run <= span < 2^32 and rise <= 2^16: the product fits 49 bits.
         let product =
-            u64::from(run) * u64::from(self.at_high.abs_diff(self.at_low)) + u64::from(self.span.get() / 2);
+            u64::from(run) * u64::from(self.at_high.abs_diff(self.at_low)) + u64::from(span.get() / 2);
         let rise = match u32::try_from(product) {
-            Ok(product) => product / self.span, // the usual case, and four times cheaper on a Cortex-M0+
-            Err(_) => (product / core::num::NonZeroU64::from(self.span)) as u32,
+            Ok(product) => product / span, // the usual case, and four times cheaper on a Cortex-M0+
+            Err(_) => (product / core::num::NonZeroU64::from(span)) as u32,
         };
         base.saturating_add_unsigned(rise)
     }

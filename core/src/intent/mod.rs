@@ -4,25 +4,28 @@
 //! encoding of a touch, [`fed`] what the host feeds, [`stage`] the decision with its debounce, [`why`] the reason for it, [`mod@tactile`] the map that
 //! ships.
 
+mod build;
 pub mod config;
 mod encode;
 pub mod error;
 pub mod fed;
 pub mod infer;
 pub mod input;
+pub mod leading;
 pub mod map;
 pub mod stage;
 pub mod tactile;
 pub mod transfer;
 pub mod why;
 
-pub use config::{CONCEPTS, EDGES, Edge, MapConfig, Rule, Threshold};
+pub use config::{CONCEPTS, EDGES, Edge, IntentConfig, MapConfig, Rule, Threshold};
 pub use error::MapError;
 pub use fed::{Fed, Feed, SLOTS};
 pub use infer::{Inference, Outcome};
 pub use input::{Input, Source, Touch};
+pub use leading::Leading;
 pub use map::Map;
-pub use stage::{Intent, IntentConfig, IntentState, Leading, Meaning};
+pub use stage::{Intent, IntentState, Meaning};
 pub use tactile::{PRESS_PER_NEWTON, tactile};
 pub use transfer::Transfer;
 pub use why::{Part, Why};

@@ -9,72 +9,16 @@
 //! | RAM | [`IntentState`]: 4 N bytes twice and about 80 |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
 
-use super::config::{CONCEPTS, EDGES, MapConfig};
+use super::config::{CONCEPTS, IntentConfig};
 use super::error::MapError;
 use super::infer::{Inference, Outcome};
-use super::input::Touch;
+use super::input::{Source, Touch};
+use super::leading::Leading;
 use super::map::Map;
 use super::why::Why;
+use crate::contact::Growth;
 use crate::format::{Micros, Q15};
 use heapless::Vec;
-use serde::{Deserialize, Serialize};
-
-/// What the stage is to do.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
-    /// The map.
-    pub map: MapConfig<N, E>,
-    /// Time that an intention must lead before it is announced, in ms.
-    pub onset_ms: u16,
-    /// Activation from which an intention may lead, in thousandths.
-    pub level: u16,
-    /// Lead over the other two that it needs, in thousandths.
-    pub margin: u16,
-    /// Time after the release for which the touch still counts, in ms.
-    pub hold_ms: u16,
-    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited for.
-    pub period_ms: u16,
-    /// Largest number of steps of an inference.
-    pub steps: u16,
-}
-
-impl<const N: usize, const E: usize> IntentConfig<N, E> {
-    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 20 ms period, 16 steps.
-    pub fn new(map: MapConfig<N, E>) -> Self {
-        IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 20, steps: 16 }
-    }
-}
-
-/// The intention that leads. Variants are only appended.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Leading {
-    /// None of the three clearly.
-    #[default]
-    None,
-    /// The concept *kindness*.
-    Kindness,
-    /// The concept *threat*.
-    Threat,
-    /// The concept *attack*.
-    Attack,
-}
-
-impl Leading {
-    /// The three intentions, in the order in which the stage keeps them.
-    pub const INTENTIONS: [Leading; 3] = [Leading::Kindness, Leading::Threat, Leading::Attack];
-
-    /// The word for it, which is also the name of its concept.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Leading::None => "none",
-            Leading::Kindness => "kindness",
-            Leading::Threat => "threat",
-            Leading::Attack => "attack",
-        }
-    }
-}
 
 /// A new result: after every inference, and when the announced intention changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -95,6 +39,8 @@ pub struct Meaning<const N: usize = CONCEPTS> {
 #[derive(Debug, Clone)]
 pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
+    /// How it grew.
+    growth: Growth,
     released: Option<Micros>,
     /// Time of the first frame.
     first: Option<Micros>,
@@ -112,6 +58,7 @@ impl<const N: usize> Default for IntentState<N> {
     fn default() -> Self {
         IntentState {
             touch: None,
+            growth: Growth::default(),
             released: None,
             first: None,
             before: Micros(0),
@@ -145,33 +92,62 @@ pub struct Intent<const N: usize = CONCEPTS> {
     hold_us: u64,
     period_us: u64,
     steps: u16,
+    /// An input asks how hard things are.
+    feels: bool,
 }
 
 impl<const N: usize> Intent<N> {
+    /// A stage without a map, to be filled.
+    pub const fn new() -> Self {
+        Intent {
+            map: Map::new(),
+            intentions: [None; 3],
+            level: 0,
+            margin: 0,
+            onset_us: 0,
+            hold_us: 0,
+            period_us: 0,
+            steps: 0,
+            feels: false,
+        }
+    }
+
     /// Checks `config` and prepares it.
     pub fn build<const C: usize, const E: usize>(config: &IntentConfig<C, E>) -> Result<Self, MapError> {
-        let map = Map::build(&config.map)?;
-        let intentions = Leading::INTENTIONS.map(|leading| map.find(leading.as_str()));
-        if intentions.iter().all(Option::is_none) {
+        let mut stage = Intent::new();
+        stage.fill(config)?;
+        Ok(stage)
+    }
+
+    /// As [`Intent::build`], in the place of what this stage was; after an error it is of no use.
+    pub fn fill<const C: usize, const E: usize>(
+        &mut self,
+        config: &IntentConfig<C, E>,
+    ) -> Result<(), MapError> {
+        self.map.fill(&config.map)?;
+        self.intentions = Leading::INTENTIONS.map(|leading| self.map.find(leading.as_str()));
+        if self.intentions.iter().all(Option::is_none) {
             return Err(MapError::NoIntention);
         }
         if config.steps == 0 {
             return Err(MapError::NoSteps);
         }
         let fraction = |parameter, thousandths: u16| match thousandths {
-            0..=1000 => Ok((i32::from(thousandths) * map.one() + 500) / 1000),
+            0..=1000 => Ok((i32::from(thousandths) * self.map.one() + 500) / 1000),
             _ => Err(MapError::Fraction { parameter, thousandths }),
         };
-        Ok(Intent {
-            level: fraction("level", config.level)?,
-            margin: fraction("margin", config.margin)?,
-            onset_us: 1000 * u64::from(config.onset_ms),
-            hold_us: 1000 * u64::from(config.hold_ms),
-            period_us: 1000 * u64::from(config.period_ms),
-            steps: config.steps,
-            intentions,
-            map,
-        })
+        (self.level, self.margin) = (fraction("level", config.level)?, fraction("margin", config.margin)?);
+        self.onset_us = 1000 * u64::from(config.onset_ms);
+        self.hold_us = 1000 * u64::from(config.hold_ms);
+        self.period_us = 1000 * u64::from(config.period_ms);
+        self.steps = config.steps;
+        self.feels = config.map.inputs.iter().any(|input| input.source == Source::Hardness);
+        Ok(())
+    }
+
+    /// Whether an input asks how hard things are; else [`Touch::cell_mm2`] is not looked at.
+    pub const fn feels(&self) -> bool {
+        self.feels
     }
 
     /// The map.
@@ -224,12 +200,14 @@ impl<const N: usize> Intent<N> {
         match (state.touch, strongest) {
             (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
                 let same = |held: &Touch| state.released.is_none() && held.duration_ms <= present.duration_ms;
-                let steepest = held.filter(same).map_or(0, |held| held.rise);
+                let before = held.filter(same);
+                let steepest = before.map_or(0, |held| held.rise);
                 // Nobody saw the onset of what was there in the first frame.
                 let lasts = now.millis_since(state.first.unwrap_or(now));
                 let mean = present.mean_rise(now.millis_since(state.before));
                 let rise = if present.duration_ms < lasts { mean.max(steepest) } else { 0 };
-                (state.touch, state.released) = (Some(Touch { rise, ..present }), None);
+                let hardness = self.feel(&mut state.growth, before.is_some(), &present);
+                (state.touch, state.released) = (Some(Touch { rise, hardness, ..present }), None);
             }
             (Some(_), present) => {
                 let released = *state.released.get_or_insert(now);
@@ -242,11 +220,23 @@ impl<const N: usize> Intent<N> {
         state.touch.is_some() != before
     }
 
+    /// How hard the touch seems by now; `known`: it has been there before.
+    fn feel(&self, growth: &mut Growth, known: bool, touch: &Touch) -> Option<u32> {
+        if !self.feels {
+            return None;
+        }
+        if !known {
+            *growth = Growth::default();
+        }
+        growth.feel(touch.force, touch.area);
+        growth.hardness(touch.cell_mm2)
+    }
+
     /// Infers if the inputs have changed and the period is over; true if it did.
     fn refresh(&self, state: &mut IntentState<N>, host: &[Q15], edge: bool, now: Micros) -> bool {
         let inputs = self.map.encode(state.touch.as_ref(), host);
         let due = state.inferred.is_none_or(|last| edge || now.since(last) >= self.period_us);
-        if !due || (inputs == state.inputs && state.inferred.is_some()) {
+        if !due || (state.inferred.is_some() && self.map.same(&inputs, &state.inputs)) {
             return false;
         }
         state.inference = self.map.infer(&inputs, self.steps);
@@ -290,5 +280,11 @@ impl<const N: usize> Intent<N> {
             }
         }
         Leading::None
+    }
+}
+
+impl<const N: usize> Default for Intent<N> {
+    fn default() -> Self {
+        Intent::new()
     }
 }

@@ -17,6 +17,7 @@ fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8, rise: u32) -> Touch {
         duration_ms: ms,
         speed: 0,
         rise,
+        ..Touch::default()
     }
 }
 

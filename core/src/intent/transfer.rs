@@ -83,6 +83,9 @@ pub struct Gain {
 }
 
 impl Gain {
+    /// The gain of a map that has none yet: everything becomes 0.
+    pub(crate) const NONE: Gain = Gain { factor: 0, shift: 0, limit: 0 };
+
     /// The gain nearest to `numerator / denominator`, relative error below 2^-16. Both below 2^60; 0 / x is no gain
     /// and is built as the smallest one. Only called by `build`, hence 128-bit arithmetic.
     pub(crate) fn new(numerator: u64, denominator: u64) -> Gain {

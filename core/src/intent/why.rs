@@ -33,11 +33,11 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// Total. A few divisions: for the moment of an announcement, not for each frame.
     pub fn why(&self, state: &[i32; N], concept: usize) -> Option<Why<N>> {
         let row = self.rows.get(concept).filter(|row| concept < self.len() && !row.held)?;
-        let before = self.rows.iter().take(concept).map(|row| row.causes).sum();
+        let before = self.rows.iter().take(concept).map(|row| usize::from(row.causes)).sum();
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };
         let mut why = Why { concept: concept as u8, parts: Vec::new(), threshold: Q15(0), sum: Q15(0) };
         let mut itself = own;
-        for cause in self.causes.iter().skip(before).take(row.causes) {
+        for cause in self.causes.iter().skip(before).take(row.causes.into()) {
             if own != 0 && usize::from(cause.from) == concept {
                 itself += i32::from(cause.weight);
             } else {

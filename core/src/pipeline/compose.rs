@@ -12,8 +12,8 @@ use crate::scene::Scene;
 use crate::shape::{BUILT_IN, Base, Shapes};
 use crate::symbol::Symbols;
 
-/// All stages of a scene.
-#[derive(Debug, Clone)]
+/// All stages of a scene; at first of none.
+#[derive(Debug, Default, Clone)]
 pub struct Pipeline {
     pub(super) panels: u8,
     pub(super) condition: Condition,
@@ -30,26 +30,33 @@ pub struct Pipeline {
 impl Pipeline {
     /// Checks a scene against the garment it is for.
     pub fn build(scene: &Scene, layout: &Layout) -> Result<Pipeline, SceneError> {
-        let friendliness = friendliness(scene, layout)?;
+        let mut pipeline = Pipeline::default();
+        pipeline.fill(scene, layout)?;
+        Ok(pipeline)
+    }
+
+    /// As [`Pipeline::build`], in the place of what it was: on a microcontroller the stack has no room for a second one. After an
+    /// error some stages are those of the new scene and some are not: it is to be filled again with what it was.
+    pub fn fill(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
         if !(1..=1000).contains(&scene.stream.key_ms) {
             return Err(Invalid { parameter: "stream.key_ms", must: "must be 1 to 1000" }.into());
         }
-        let mut pipeline = Pipeline {
-            panels: scene.plan.panels,
-            condition: scene.condition.build()?,
-            contact: scene.contact.build()?,
-            shape: None,
-            symbol: scene.symbol.build()?,
-            gestures: None,
-            friendliness,
-            intent: None,
-            react: Reactions::default(),
-        };
-        // One after the other, in place: on a microcontroller the stack is short.
-        pipeline.recognise(scene)?;
-        pipeline.mean(scene)?;
-        pipeline.react = Reactions::build(&scene.react, layout, pipeline.intent.as_ref().map(Intent::map))?;
-        Ok(pipeline)
+        self.panels = scene.plan.panels;
+        self.condition = scene.condition.build()?;
+        self.contact = scene.contact.build()?;
+        self.symbol = scene.symbol.build()?;
+        self.recognise(scene)?;
+        self.mean(scene)?;
+        self.fit(scene, layout)
+    }
+
+    /// Takes the same scene to another garment; nothing changes if it does not fit.
+    #[inline(never)]
+    pub fn fit(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
+        let friendliness = friendliness(scene, layout)?;
+        self.react = Reactions::build(&scene.react, layout, self.intent.as_ref().map(Intent::map))?;
+        self.friendliness = friendliness;
+        Ok(())
     }
 
     #[inline(never)]
@@ -60,8 +67,9 @@ impl Pipeline {
 
     #[inline(never)]
     fn mean(&mut self, scene: &Scene) -> Result<(), SceneError> {
-        if let Some(intent) = &scene.intent {
-            self.intent = Some(Intent::build(intent)?);
+        match &scene.intent {
+            Some(intent) => self.intent.get_or_insert_default().fill(intent)?,
+            None => self.intent = None,
         }
         Ok(())
     }

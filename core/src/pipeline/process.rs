@@ -6,10 +6,11 @@ use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
 use crate::body::Placed;
 use crate::condition::Image;
+use crate::contact::hardness::cell_mm2;
 use crate::contact::{Contact, ContactState, Touches};
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
-use crate::intent::Touch;
+use crate::intent::{Intent, Touch};
 use crate::shape::{Shape, Taught};
 use heapless::Vec;
 
@@ -104,8 +105,20 @@ impl Pipeline {
             friendliness: self.friendliness.get(usize::from(placed.region)).copied().unwrap_or(0),
             duration_ms: placed.contact.duration_ms,
             speed: placed.speed(layout),
-            rise: 0,
+            force: placed.contact.total,
+            area: placed.contact.area,
+            cell_mm2: self.cell_mm2(layout, placed),
+            ..Touch::default()
         }
+    }
+
+    /// Area of a taxel where it touches, if the map asks how hard things are.
+    fn cell_mm2(&self, layout: &Layout, placed: &Placed) -> u32 {
+        if !self.intent.as_ref().is_some_and(Intent::feels) {
+            return 0;
+        }
+        let area = layout.areas().get(usize::from(placed.contact.panel));
+        cell_mm2(area.map_or([0, 0], |area| area.pitch_um))
     }
 }
 

@@ -65,7 +65,8 @@ impl Probe for Marks {
 #[entry]
 fn main() -> ! {
     // Made where it stays: the stack has no room for a second one. The harness counts the stack below this frame.
-    let chain = &mut begin();
+    let chain = &mut Chain::bare();
+    ship(chain);
     let bench = &mut Bench::default();
     let codes = CODES.take();
     let mailbox = &TAXEL_MAILBOX;
@@ -88,12 +89,11 @@ fn main() -> ! {
     }
 }
 
-/// The board with what ships. A function of its own: what it needs of the stack it needs only here.
+/// Gives the board what ships. A function of its own: what it needs of the stack it needs only here.
 #[inline(never)]
-fn begin() -> Chain {
-    match &Chain::setup() {
-        Ok(setup) => Chain::with(setup),
-        Err(_) => panic!("what ships does not fit this board"),
+fn ship(chain: &mut Chain) {
+    if chain.ship().is_err() {
+        panic!("what ships does not fit this board");
     }
 }
 

@@ -46,6 +46,11 @@ impl Client {
         &self.contacts
     }
 
+    /// How hard a contact seems that is there or has just gone, counts per cm2; none where its growth does not tell.
+    pub fn hardness(&self, contact: u32) -> Option<u32> {
+        self.growths.hardness(contact, self.layout()?)
+    }
+
     /// Ids of the contacts that have gone with the last frame.
     pub fn released(&self) -> &[u32] {
         &self.released

@@ -6,6 +6,7 @@ use super::decimal::Decimal;
 use super::layers;
 use super::load;
 use super::map::{EdgeFile, MapFile};
+use super::told::ToldArgs;
 use anyhow::{Context, Result};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -14,13 +15,17 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, clap::Args)]
 pub struct DrawArgs {
     /// TOML file, or the name of a shipped map
-    pub map: String,
+    #[arg(required_unless_present = "source")]
+    pub map: Option<String>,
     /// Where the SVG is written
     #[arg(short, long)]
     pub output: PathBuf,
     /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
+    /// Or a source, whose activations are drawn.
+    #[command(flatten)]
+    pub told: ToldArgs,
 }
 
 /// Distance of layers and of concepts in one, and the size of a concept, pixels.
@@ -35,10 +40,16 @@ const LESS: &str = "#d55e00";
 
 /// Runs the command.
 pub fn run(args: DrawArgs) -> Result<()> {
-    let map = load::map(&args.map)?;
-    let activations = match args.input.is_empty() {
-        true => None,
-        false => Some(settled(&map, &args.input)?),
+    let (map, activations) = match args.told.listen()? {
+        Some(told) => {
+            let activations = told.report.concepts.iter().map(|value| value.to_f64()).collect();
+            (told.map, Some(activations))
+        }
+        None => {
+            let map = load::map(args.map.as_deref().unwrap_or_default())?;
+            let activations = (!args.input.is_empty()).then(|| settled(&map, &args.input)).transpose()?;
+            (map, activations)
+        }
     };
     let place = || format!("{}: cannot be written", args.output.display());
     std::fs::write(&args.output, svg(&map, activations.as_deref())).with_context(place)

@@ -6,6 +6,7 @@ use super::engine::Q15_CONCEPTS;
 use super::load;
 use super::map::MapFile;
 use super::paths::{Shares, shares};
+use super::told::{Told, ToldArgs};
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use taxel_core::intent::{Inference, Leading, Outcome, Why};
@@ -14,11 +15,15 @@ use taxel_core::intent::{Inference, Leading, Outcome, Why};
 #[derive(Debug, Clone, clap::Args)]
 pub struct WhyArgs {
     /// TOML file, or the name of a shipped map
-    pub map: String,
+    #[arg(required_unless_present = "source")]
+    pub map: Option<String>,
     /// Activation of a concept that nothing causes, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
-    /// Concept to explain [the strongest intention, else the strongest concept that has causes]
+    /// Or a source.
+    #[command(flatten)]
+    pub told: ToldArgs,
+    /// Concept to explain [the announced or the strongest intention, else the strongest concept that has causes]
     #[arg(long)]
     pub of: Option<String>,
     /// What if: another value of an input, or a concept held at a value against its causes, as NAME=VALUE
@@ -46,12 +51,26 @@ pub struct Explained {
 
 /// Runs the command.
 pub fn run(args: WhyArgs) -> Result<()> {
-    let file = load::map(&args.map)?;
-    let explained = explain(&file, &args.input, args.of.as_deref())?;
-    let changed = if args.set.is_empty() { None } else { Some(what_if(&file, &args.input, &args.set)?) };
+    let told = args.told.listen()?;
+    let (file, inputs) = match (&told, &args.map) {
+        (Some(told), _) => (told.map.clone(), told.inputs()),
+        (None, map) => (load::map(map.as_deref().unwrap_or_default())?, args.input.clone()),
+    };
+    let explained = match &told {
+        Some(told) => explain_told(told, args.of.as_deref())?,
+        None => explain(&file, &inputs, args.of.as_deref())?,
+    };
+    let changed = if args.set.is_empty() { None } else { Some(what_if(&file, &inputs, &args.set)?) };
     if args.json {
-        println!("{}", report(&explained, changed.as_ref()));
+        let mut value = report(&explained, changed.as_ref());
+        if let Some(Told { report, seconds, .. }) = &told {
+            value["leading"] = json!(report.leading.as_str());
+            value["frame"] = json!(report.frame);
+            value["seconds"] = json!(seconds);
+        }
+        println!("{value}");
     } else {
+        print!("{}", told.as_ref().map_or_else(String::new, Told::text));
         print!("{}", text(&file, &explained, changed.as_ref(), args.paths));
     }
     Ok(())
@@ -61,6 +80,23 @@ pub fn run(args: WhyArgs) -> Result<()> {
 pub fn explain(file: &MapFile, inputs: &[(String, Decimal)], of: Option<&str>) -> Result<Explained> {
     let map = BoardMap::build(file)?;
     let run = map.infer(&start(file, &map, inputs)?);
+    explain_run(file, map, run, of)
+}
+
+/// Explains what a board told: the state that it ended in, not one that is inferred again.
+pub fn explain_told(told: &Told, of: Option<&str>) -> Result<Explained> {
+    let map = BoardMap::build(&told.map)?;
+    let run = told.run(map.map.one());
+    let leading = Some(told.report.leading).filter(|leading| *leading != Leading::None);
+    explain_run(&told.map, map, run, of.or(leading.map(Leading::as_str)))
+}
+
+fn explain_run(
+    file: &MapFile,
+    map: BoardMap,
+    run: Inference<Q15_CONCEPTS>,
+    of: Option<&str>,
+) -> Result<Explained> {
     let concept = match of {
         Some(name) => file.index(name, "--of")?,
         None => strongest(file, &run.state).context("no concept of the map has a cause")?,

@@ -1,7 +1,7 @@
 //! What came, in sentences: for the plain lines and for the log of the picture.
 
 use crate::client::{Client, Event, Worn};
-use taxel_core::contact::Phase;
+use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Leading;
 use taxel_core::symbol::{Extent, Strength, Symbol};
@@ -111,8 +111,12 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
         Extent::Wide => "wide",
     };
     let moving = if symbol.words.moving { ", sliding" } else { "" };
+    let feels = match client.hardness(symbol.contact).map(Hardness::of) {
+        None | Some(Hardness::Firm) => String::new(),
+        Some(word) => format!(", feels {}", word.as_str()),
+    };
     format!(
-        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, at most {}",
+        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, at most {}{feels}",
         symbol.contact,
         client.shape_name(symbol.words.class),
         symbol.duration_ms,

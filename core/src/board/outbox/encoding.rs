@@ -140,7 +140,7 @@ fn put_hello(
     let mut calibration: String<48> = String::new();
     // Its longest form has 35 characters.
     let _ = certificate.map(|it| write!(calibration, "{it}"));
-    let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; 2048]);
+    let (mut clock, mut garment, mut scene) = ([0; 10], [0; 2048], [0; LONGEST_REQUEST]);
     let hello = Hello {
         magic: MAGIC,
         protocol: PROTOCOL,

@@ -54,9 +54,9 @@ impl Probe for Watch {
 
 impl Default for Twin {
     fn default() -> Twin {
-        let setup = Chain::setup().expect("what ships fits");
-        let receiver = Box::new(Receiver::new());
-        Twin { chain: Box::new(Chain::with(&setup)), bench: Box::new(Bench::default()), receiver }
+        let mut chain = Box::new(Chain::bare());
+        chain.ship().expect("what ships fits");
+        Twin { chain, bench: Box::new(Bench::default()), receiver: Box::new(Receiver::new()) }
     }
 }
 

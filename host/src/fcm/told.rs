@@ -1,0 +1,153 @@
+//! What a board told of a touch, to be explained: from any source, when an intention is announced or at a given time.
+
+use super::decimal::Decimal;
+use super::engine::Q15_CONCEPTS;
+use super::map::MapFile;
+use crate::client::{Client, Event};
+use crate::live::{self, BoardArgs, LiveArgs, Show};
+use crate::source::{SourceOptions, SourceSpec};
+use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
+use taxel_core::format::Micros;
+use taxel_core::intent::{Inference, Leading};
+use taxel_core::wire::IntentReport;
+
+/// What commands take that show a map as a board has it.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ToldArgs {
+    /// In place of a map: a board or a recording, whose first announced intention is shown: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`,
+    /// `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
+    #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
+    pub source: Option<SourceSpec>,
+    /// With --source: what was told last in the first S seconds, announced or not
+    #[arg(long, value_name = "S", value_parser = live::seconds, requires = "source")]
+    pub at: Option<f64>,
+    /// With --source: the scene that the board is used for, a TOML file
+    #[arg(long, value_name = "FILE", requires = "source")]
+    pub scene: Option<PathBuf>,
+}
+
+impl ToldArgs {
+    /// What the source tells; none where none is given.
+    pub fn listen(self) -> Result<Option<Told>> {
+        let Some(source) = self.source else { return Ok(None) };
+        listen(BoardArgs { scene: self.scene, ..BoardArgs::of(source) }, self.at).map(Some)
+    }
+}
+
+/// A report of an intention, and the map that it came from.
+#[derive(Debug, Clone)]
+pub struct Told {
+    /// The map of the board's scene.
+    pub map: MapFile,
+    /// What the board told.
+    pub report: IntentReport,
+    /// Since the first frame of the stream.
+    pub seconds: f64,
+}
+
+impl Told {
+    /// Where the board's inference ended; `one` is 1.0 of the map's states.
+    pub fn run(&self, one: i32) -> Inference<Q15_CONCEPTS> {
+        let mut state = [0; Q15_CONCEPTS];
+        for (slot, value) in state.iter_mut().zip(&self.report.concepts) {
+            // The board rounds what a threshold map counts in decimal steps, which are coarser than 2^-15, so this is its inverse.
+            *slot = (f64::from(value.0) * f64::from(one) / 32768.0).round() as i32;
+        }
+        Inference { state, steps: self.report.steps, outcome: self.report.outcome }
+    }
+
+    /// The concepts that the touch or the host has fed, with their activations.
+    pub fn inputs(&self) -> Vec<(String, Decimal)> {
+        let value = |at: usize| self.report.concepts.get(at).and_then(|v| Decimal::from_f64(v.to_f64()));
+        let entries = self.map.entries().into_iter();
+        entries.filter_map(|name| Some((name.to_string(), value(self.map.find(name)?)?))).collect()
+    }
+
+    /// When it was, and what it began from.
+    pub fn text(&self) -> String {
+        let inputs = self.inputs();
+        let inputs = inputs.iter().map(|(name, value)| format!("{name}={:.4}", value.to_f64()));
+        let inputs = inputs.collect::<Vec<_>>().join(" ");
+        let (leading, frame) = (self.report.leading.as_str(), self.report.frame);
+        format!("after {:.3} s, frame {frame}: {leading} leads; inputs {inputs}\n", self.seconds)
+    }
+}
+
+/// Listens until an intention is announced, or for `at` seconds and takes what was told last.
+pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
+    let (source, _) = board.open(SourceOptions { seconds: at, ..SourceOptions::default() })?;
+    let label = source.label.clone();
+    if source.real_time {
+        eprintln!("{label}: waiting for {}.", if at.is_some() { "the time" } else { "an intention" });
+    }
+    let mut ear = Ear { at, began: None, now: Micros(0), leading: Leading::None, found: None, done: false };
+    live::watch(&LiveArgs::on(board), source, &mut ear)?;
+    match (ear.found, at) {
+        (Some(told), _) => Ok(told),
+        (None, None) => {
+            bail!("{label}: no intention was announced; --at S explains what was told until then")
+        }
+        (None, Some(at)) => bail!("{label}: nothing was told of an intention in the first {at} s"),
+    }
+}
+
+/// What is kept while listening.
+struct Ear {
+    at: Option<f64>,
+    /// Time of the first frame.
+    began: Option<Micros>,
+    now: Micros,
+    leading: Leading,
+    found: Option<Told>,
+    done: bool,
+}
+
+impl Ear {
+    /// The board's time is this.
+    fn clock(&mut self, time: Micros) {
+        self.began.get_or_insert(time);
+        self.now = time;
+        self.done |= self.at.is_some_and(|at| self.seconds() > at);
+    }
+
+    fn seconds(&self) -> f64 {
+        self.began.map_or(0.0, |began| self.now.since(began) as f64 / 1e6)
+    }
+
+    fn take(&mut self, client: &Client, report: &IntentReport) -> Result<()> {
+        let announced = report.leading != self.leading && report.leading != Leading::None;
+        self.leading = report.leading;
+        if self.at.is_none() && !announced {
+            return Ok(());
+        }
+        let intent = client.worn().and_then(|worn| worn.scene.intent.as_ref());
+        let map = MapFile::from_config(&intent.context("the board's scene has no map")?.map);
+        self.found = Some(Told { map, report: report.clone(), seconds: self.seconds() });
+        self.done = self.at.is_none();
+        Ok(())
+    }
+}
+
+impl Show for Ear {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        if self.done {
+            return Ok(());
+        }
+        match event {
+            Event::Frame { time, .. } => self.clock(*time),
+            Event::Intent(report) => {
+                self.clock(report.time);
+                if !self.done {
+                    self.take(client, report)?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
+        Ok(!self.done)
+    }
+}
