@@ -25,6 +25,7 @@ mod worn;
 
 pub use counts::Counts;
 pub use event::{Event, ImageNews};
+pub use requests::scene_bytes;
 pub use worn::Worn;
 
 use crate::growths::Growths;

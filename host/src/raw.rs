@@ -1,6 +1,6 @@
 //! A board that is asked for raw codes, and that wears what it is told meanwhile.
 
-use crate::client::{Client, Event, Worn};
+use crate::client::{Client, Event, Worn, scene_bytes};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use crate::stop;
 use anyhow::{Context, Result, bail};
@@ -127,8 +127,7 @@ impl RawBoard {
     }
 
     fn use_for(&mut self, scene: &Scene) -> Result<()> {
-        let bytes = postcard::to_allocvec(scene).context("the scene cannot be written")?;
-        self.ask(&Request::SetScene(&bytes))
+        self.ask(&Request::SetScene(&scene_bytes(scene)?))
     }
 
     /// Makes a request and waits for its answer.

@@ -69,6 +69,30 @@ fn where_there_is_nothing_to_explain_it_is_said() {
     assert!(silent.ends_with("nothing was told of an intention in the first 0.1 s"), "{silent}");
 }
 
+/// A map that knows nothing but how warm it is, which only a host can tell.
+const WARM: &str = "name = \"warm\"\nlambda = 1\n[[concept]]\nname = \"warmth\"\n[[concept]]\nname = \"kindness\"\n\
+                    [[input]]\nconcept = \"warmth\"\nsource = { host = 3 }\nrise = [-32768, 32768]\nat = [-1, 1]\n\
+                    [[edge]]\nfrom = \"warmth\"\nto = \"kindness\"\nweight = 1\n";
+
+#[test]
+fn what_the_host_feeds_counts_until_it_is_too_old() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let scene = folder.join("warm scene.toml");
+    std::fs::write(folder.join("warm map.toml"), WARM).unwrap();
+    std::fs::write(&scene, "react = []\n[intent]\nmap = \"warm map.toml\"\n").unwrap();
+    let fed = |words: &str| {
+        let feed = vec![live::feed(words).unwrap()];
+        let board = BoardArgs { scene: Some(scene.clone()), feed, ..BoardArgs::of(spec("sim:lash")) };
+        let told = listen(board, Some(0.4)).unwrap();
+        let explained = explain_told(&told, Some("kindness")).unwrap();
+        (told.report.concepts[0].0, told.report.leading, explained.why.sum.0)
+    };
+    assert_eq!(fed("warmth=0.75"), (24_576, Leading::Kindness, 24_576));
+    assert_eq!(fed("warmth=0.75,0,60000,-0.5"), (24_576, Leading::Kindness, 24_576));
+    assert_eq!(fed("warmth=0.75,0,100,-0.5"), (-16_384, Leading::None, -16_384));
+    assert_eq!(fed("warmth=0.75,200,100"), (0, Leading::None, 0));
+}
+
 /// Shows nothing.
 struct Silent;
 

@@ -1,7 +1,20 @@
 //! What the host asks of the board.
 
 use super::Client;
+use anyhow::{Context, Result, bail};
+use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
+
+/// A scene as a `SetScene` carries it. An error says that it is too long for a request.
+pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
+    let bytes = postcard::to_allocvec(scene).context("the scene cannot be written")?;
+    // The request around it: its number and the length.
+    let room = LONGEST_REQUEST - 3;
+    if bytes.len() > room {
+        bail!("the scene takes {} bytes, and a request holds {room} of it", bytes.len());
+    }
+    Ok(bytes)
+}
 
 /// Requests.
 impl Client {
@@ -19,12 +32,17 @@ impl Client {
         Ok(())
     }
 
+    /// Queues `SetScene`.
+    pub fn use_for(&mut self, scene: &Scene) -> Result<()> {
+        Ok(self.request(&Request::SetScene(&scene_bytes(scene)?))?)
+    }
+
     /// Asks for the raw codes of every frame where none come. Nothing is known of the board: nothing is asked.
-    pub fn request_codes(&mut self) -> anyhow::Result<()> {
+    pub fn request_codes(&mut self) -> Result<()> {
         let Some(mut scene) = self.worn.as_ref().map(|worn| worn.scene.clone()) else { return Ok(()) };
         if scene.stream.raw_hz == 0 {
             scene.stream.raw_hz = u16::MAX;
-            self.request(&Request::SetScene(&postcard::to_allocvec(&scene)?))?;
+            self.use_for(&scene)?;
         }
         Ok(())
     }

@@ -5,11 +5,11 @@ use super::decimal::Decimal;
 use super::load;
 use super::map::MapFile;
 use super::sweep::{Sweep, sweep};
-use anyhow::{Result, bail};
+use crate::client::scene_bytes;
+use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use taxel_core::intent::{IntentConfig, Leading, MapConfig};
 use taxel_core::scene::Scene;
-use taxel_core::wire::LONGEST_REQUEST;
 
 /// Arguments of `taxel fcm check`.
 #[derive(Debug, Clone, clap::Args)]
@@ -67,12 +67,7 @@ fn board(map: &MapFile) -> Result<()> {
     // Reactions speak of concepts of the shipped map.
     scene.react.clear();
     scene.intent = Some(IntentConfig::new(config));
-    let bytes = postcard::to_allocvec(&scene)?.len();
-    // The request around it: its number and the length.
-    if bytes + 3 > LONGEST_REQUEST {
-        bail!("the shipped scene with this map takes {bytes} bytes, and a request holds {LONGEST_REQUEST}");
-    }
-    Ok(())
+    scene_bytes(&scene).context("with this map as the shipped one").map(drop)
 }
 
 /// What the edges do not reach.

@@ -9,7 +9,7 @@ use crate::source::{SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use taxel_core::format::Micros;
-use taxel_core::intent::{Inference, Leading};
+use taxel_core::intent::{Feed, Inference, Leading};
 use taxel_core::wire::IntentReport;
 
 /// What commands take that show a map as a board has it.
@@ -25,13 +25,16 @@ pub struct ToldArgs {
     /// With --source: the scene that the board is used for, a TOML file
     #[arg(long, value_name = "FILE", requires = "source")]
     pub scene: Option<PathBuf>,
+    /// With --source: value of a concept that the host feeds, as for `taxel live`
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = live::feed, requires = "source")]
+    pub feed: Vec<Feed>,
 }
 
 impl ToldArgs {
     /// What the source tells; none where none is given.
     pub fn listen(self) -> Result<Option<Told>> {
         let Some(source) = self.source else { return Ok(None) };
-        listen(BoardArgs { scene: self.scene, ..BoardArgs::of(source) }, self.at).map(Some)
+        listen(BoardArgs { scene: self.scene, feed: self.feed, ..BoardArgs::of(source) }, self.at).map(Some)
     }
 }
 

@@ -1,11 +1,12 @@
 //! What `taxel live` takes, and what every command takes that asks something of a board before it watches it.
 
-use super::{GestureModel, TaxelPlace};
+use super::{GestureModel, TaxelPlace, feed};
 use crate::calibrate::Calibration;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
+use taxel_core::intent::Feed;
 
 /// A board, and what is asked of it before it is watched.
 #[derive(Debug, Clone, Args)]
@@ -34,6 +35,9 @@ pub struct BoardArgs {
     /// With --gestures: counts of the model's sheet per count of the garment [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
+    /// Value of a concept that the host feeds: -1 to 1, its age, from which age on it no longer counts [never], and what counts then [0]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
+    pub feed: Vec<Feed>,
     /// Seed of a simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -51,6 +55,7 @@ impl BoardArgs {
             budget: None,
             gestures: None,
             gesture_gain: None,
+            feed: Vec::new(),
             seed: None,
         }
     }

@@ -1,6 +1,7 @@
 //! `taxel live`: what a board tells, as a picture in the terminal, as lines, or as JSON.
 
 mod args;
+mod feed;
 mod lines;
 mod map;
 mod messages;
@@ -16,6 +17,7 @@ mod view;
 mod watch;
 
 pub use args::{BoardArgs, LiveArgs, seconds};
+pub use feed::feed;
 pub use lines::Lines;
 pub use messages::{Messages, message};
 pub use outfit::GestureModel;

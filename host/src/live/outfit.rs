@@ -32,8 +32,7 @@ pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let mut elsewhere = scene.clone();
     elsewhere.react.iter_mut().for_each(|row| row.region.clear());
     Pipeline::build(&elsewhere, &layout).with_context(place)?;
-    let bytes = postcard::to_allocvec(&scene).context("the scene cannot be written")?;
-    client.request(&Request::SetScene(&bytes)).with_context(place)
+    client.use_for(&scene).with_context(place)
 }
 
 /// A model that the board holds.

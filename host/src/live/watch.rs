@@ -77,6 +77,9 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(scene) = &args.scene {
         outfit::play(client, scene)?;
     }
+    for feed in &args.feed {
+        client.request(&Request::Feed(feed.clone()))?;
+    }
     if let Some(file) = &args.calibration {
         Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
     }

@@ -4,7 +4,6 @@ use crate::client::Client;
 use anyhow::Result;
 use std::time::{Duration, Instant};
 use taxel_core::scene::Scene;
-use taxel_core::wire::Request;
 
 /// Raw codes a second: enough to read a number.
 const RATE: u16 = 10;
@@ -50,6 +49,6 @@ impl RawCodes {
                 scene
             }
         };
-        Ok(client.request(&Request::SetScene(&postcard::to_allocvec(&scene)?))?)
+        client.use_for(&scene)
     }
 }

@@ -1,0 +1,67 @@
+//! A concept's value on the command line, as a host feeds it to a board.
+
+use anyhow::{Context, Result, bail};
+use taxel_core::format::{Q15, name};
+use taxel_core::intent::Feed;
+
+/// Reads `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, how old it is (0 ms if not said), from which age on it no
+/// longer counts (never if not said, or 0), and what counts then (0 if not said).
+pub fn feed(text: &str) -> Result<Feed> {
+    let (concept, values) =
+        text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]")?;
+    let short = name(concept);
+    if short != concept || short.is_empty() {
+        bail!("{concept:?} is no name of a concept: 1 to 16 bytes");
+    }
+    let words: Vec<&str> = values.split(',').map(str::trim).collect();
+    if words.len() > 4 {
+        bail!("{text}: {} values, expected 1 to 4", words.len());
+    }
+    let word = |at: usize| words.get(at).copied();
+    let ms = |at: usize| {
+        word(at).map_or(Ok(0), |text| text.parse().with_context(|| format!("{text:?} is no number of ms")))
+    };
+    Ok(Feed {
+        concept: short,
+        value: fraction(word(0).unwrap_or_default())?,
+        age_ms: ms(1)?,
+        lasts_ms: ms(2)?,
+        otherwise: word(3).map_or(Ok(Q15(0)), fraction)?,
+    })
+}
+
+fn fraction(text: &str) -> Result<Q15> {
+    let value: Option<f64> = text.parse().ok().filter(|value: &f64| (-1.0..=1.0).contains(value));
+    let value = value.with_context(|| format!("{text:?} is not a number in -1 ..= 1"))?;
+    Ok(Q15((value * f64::from(Q15::ONE.0)).round() as i32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_has_an_age_and_a_default() {
+        let whole = feed("warmth=-0.5,80,2000,0.25").unwrap();
+        assert_eq!((whole.concept.as_str(), whole.value, whole.age_ms), ("warmth", Q15(-16_384), 80));
+        assert_eq!((whole.lasts_ms, whole.otherwise), (2000, Q15(8_192)));
+        let short = feed("warmth=1").unwrap();
+        assert_eq!((short.value, short.age_ms, short.lasts_ms, short.otherwise), (Q15::ONE, 0, 0, Q15(0)));
+    }
+
+    #[test]
+    fn what_is_no_value_is_refused_in_one_sentence() {
+        for (text, why) in [
+            ("warmth", "expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]"),
+            ("=1", "\"\" is no name of a concept: 1 to 16 bytes"),
+            ("seventeen-letters=1", "\"seventeen-letters\" is no name of a concept: 1 to 16 bytes"),
+            ("warmth=1.5", "\"1.5\" is not a number in -1 ..= 1"),
+            ("warmth=NaN", "\"NaN\" is not a number in -1 ..= 1"),
+            ("warmth=1,-3", "\"-3\" is no number of ms"),
+            ("warmth=1,0,5,2", "\"2\" is not a number in -1 ..= 1"),
+            ("warmth=1,0,0,0,0", "warmth=1,0,0,0,0: 5 values, expected 1 to 4"),
+        ] {
+            assert_eq!(feed(text).unwrap_err().to_string(), why);
+        }
+    }
+}
