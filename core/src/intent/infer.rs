@@ -7,12 +7,13 @@
 //! | saturation | none inside: `build` proves that every sum fits 32 bits |
 //! | error | one step: sigmoid 0.8, tanh 1.1 steps of 2^-15, thresholds none; settled, the shipped map: 4e-4 |
 //! | latency | within the call |
-//! | RAM | 3 states of 4 N bytes on the stack |
+//! | RAM | 3 states of 4 N bytes on the stack, of which those of the concepts that the map has are written |
 //! | M0+ cycles | one step about 12 for each pair of a free concept and a cause, 100 for each free concept, 400 (read off the disassembly, not measured): the shipped map under 2,000, settled within six steps |
 
 use super::config::Rule;
 use super::map::Map;
 use super::transfer::{Transfer, sigmoid_of_twice, tanh};
+use heapless::Vec;
 
 /// Extent in units of 2^-15 up to which a cycle of a smooth map counts as a fixed point: 4.9e-4. Rounding to Q15 is
 /// noise of half a unit at every step, which a map that settles slowly amplifies; fcmpy8 of the reference set (kosko,
@@ -49,49 +50,51 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The period is
     /// exact; a cycle is noticed after at most three times the steps it took to enter and go round it once.
     pub fn infer(&self, start: &[i32; N], steps: u16) -> Inference<N> {
-        let (mut one, mut other) = (self.clamped(start), [0; N]);
-        let (mut state, mut next, mut mark) = (&mut one, &mut other, [0; N]);
-        self.copy(state, &mut mark);
+        // Lists, because they need not be filled with zeros first: a small map must not cost what a large one does.
+        let (mut next, mut mark) = (Vec::new(), Vec::new());
+        let mut run = Inference { state: self.clamped(start), steps, outcome: Outcome::Unsettled };
+        self.keep(&run.state, &mut mark);
         let (mut since, mut reach, mut extent) = (0u16, 1u16, 0i32);
         for taken in 1..=steps {
-            self.advance(state, next);
-            let (change, distance) = (self.distance(next, state), self.distance(next, &mark));
-            core::mem::swap(&mut state, &mut next);
-            if change == 0 {
-                return Inference { state: *state, steps: taken, outcome: Outcome::Fixed };
-            }
+            self.advance(&run.state, &mut next);
+            let (change, distance) = (distance(&next, &run.state), distance(&next, &mark));
+            run.state.iter_mut().zip(&next).for_each(|(to, from)| *to = *from);
             since = since.saturating_add(1);
             extent = extent.max(distance);
-            if distance == 0 {
+            if change == 0 || distance == 0 {
                 let rounding = extent <= ROUNDING && !self.transfer.is_threshold();
-                let outcome = if rounding { Outcome::Fixed } else { Outcome::Cycle(since) };
-                return Inference { state: *state, steps: taken, outcome };
+                let fixed = change == 0 || rounding;
+                run.outcome = if fixed { Outcome::Fixed } else { Outcome::Cycle(since) };
+                run.steps = taken;
+                break;
             }
             if since == reach {
-                self.copy(state, &mut mark);
+                self.keep(&run.state, &mut mark);
                 (since, extent) = (0, 0);
                 reach = reach.saturating_mul(2);
             }
         }
-        Inference { state: *state, steps, outcome: Outcome::Unsettled }
+        run
     }
 
     /// One step from any state; values beyond -1 ..= 1 are clamped first. Total.
     pub fn step(&self, state: &[i32; N]) -> [i32; N] {
-        let mut next = [0; N];
-        self.advance(&self.clamped(state), &mut next);
-        next
+        let (mut state, mut next) = (self.clamped(state), Vec::new());
+        self.advance(&state, &mut next);
+        state.iter_mut().zip(&next).for_each(|(to, from)| *to = *from);
+        state
     }
 
-    /// One step from a state within -1 ..= 1, which is what `build` proved the sums for.
-    fn advance(&self, state: &[i32; N], next: &mut [i32; N]) {
+    /// One step from a state within -1 ..= 1, which is what `build` proved the sums for; `next` are as many as there are concepts.
+    fn advance(&self, state: &[i32; N], next: &mut Vec<i32, N>) {
         let rescaled = self.rule == Rule::Rescaled;
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };
         let y = |x: i32| if rescaled { 2 * x - self.one } else { x };
         let mut causes = self.causes.iter();
-        for ((value, row), x) in next.iter_mut().zip(&self.rows).zip(state) {
+        next.clear();
+        for (row, x) in self.rows.iter().zip(state) {
             if row.held {
-                *value = *x; // it has no causes
+                let _ = next.push(*x); // it has no causes
                 continue;
             }
             let mut sum = row.bias + ((own * y(*x)) >> self.shift);
@@ -100,7 +103,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 let x = state.get(usize::from(cause.from)).copied().unwrap_or(0);
                 sum += (i32::from(cause.weight) * y(x)) >> self.shift;
             }
-            *value = self.transferred(sum);
+            // As many as rows.
+            let _ = next.push(self.transferred(sum));
         }
     }
 
@@ -113,7 +117,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
     }
 
-    /// The concepts of the map within -1 ..= 1, and 0 where it has none: a small map must not cost what a large one does.
+    /// The concepts of the map within -1 ..= 1, and 0 where it has none.
     fn clamped(&self, state: &[i32; N]) -> [i32; N] {
         let mut out = [0; N];
         for (to, from) in out.iter_mut().zip(state).take(self.concepts.len()) {
@@ -123,16 +127,19 @@ impl<const N: usize, const E: usize> Map<N, E> {
         out
     }
 
-    fn copy(&self, from: &[i32; N], to: &mut [i32; N]) {
-        to.iter_mut().zip(from).take(self.concepts.len()).for_each(|(to, from)| *to = *from);
+    /// Keeps the concepts of the map.
+    fn keep(&self, state: &[i32; N], to: &mut Vec<i32, N>) {
+        to.clear();
+        state.iter().take(self.concepts.len()).for_each(|value| _ = to.push(*value));
     }
 
     /// Whether two states of this map are equal.
     pub(super) fn same(&self, a: &[i32; N], b: &[i32; N]) -> bool {
-        self.distance(a, b) == 0
+        a.iter().zip(b).take(self.concepts.len()).all(|(a, b)| a == b)
     }
+}
 
-    fn distance(&self, a: &[i32; N], b: &[i32; N]) -> i32 {
-        a.iter().zip(b).take(self.concepts.len()).map(|(a, b)| (a - b).abs()).max().unwrap_or(0)
-    }
+/// The largest difference between concepts.
+fn distance(a: &[i32], b: &[i32]) -> i32 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).max().unwrap_or(0)
 }

@@ -38,8 +38,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if self.symbols_wait {
             self.symbols_wait = false;
             under_way.put(Report::SYMBOLS, &self.symbols)
-        } else if let Some(report) = self.changes.pop_front().or_else(|| self.intent.take()) {
-            under_way.put(Report::INTENT, &report)
+        } else if let Some(report) = self.changes.front().or(self.intent.as_ref()) {
+            // Told where it lies: it may have 64 concepts.
+            let fits = under_way.put(Report::INTENT, report);
+            if self.changes.pop_front().is_none() {
+                self.intent = None;
+            }
+            fits
         } else if let Some(report) = self.gestures.pop_front() {
             under_way.put(Report::GESTURE, &report)
         } else if core::mem::take(&mut self.shapes) {
