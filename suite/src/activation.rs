@@ -1,7 +1,7 @@
 //! One step of the map that ships in several formats of numbers.
 
 use micromath::F32Ext;
-use taxel_core::intent::{Map, MapConfig, tactile};
+use taxel_core::intent::{Inference, Map, MapConfig, tactile};
 
 /// Concepts of a map of the board.
 pub const CONCEPTS: usize = taxel_core::intent::CONCEPTS;
@@ -40,11 +40,10 @@ impl Maps {
         Some(Maps { map: Map::build(&config).ok()?, weights, lambda: f32::from(config.lambda) / 1000.0 })
     }
 
-    /// A whole inference by the core, with the steps that a scene allows: the last state and the steps taken.
+    /// A whole inference by the core, with the steps that a scene allows, in the place of the last one.
     #[inline(never)]
-    pub fn infer(&self, start: &[i32; CONCEPTS]) -> ([i32; CONCEPTS], u16) {
-        let run = self.map.infer(start, 16);
-        (run.state, run.steps)
+    pub fn infer(&self, start: &[i32], run: &mut Inference<CONCEPTS>) {
+        self.map.infer_into(start, 16, run);
     }
 
     /// The weights by effect and cause, and the steepness.

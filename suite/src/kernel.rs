@@ -8,6 +8,7 @@ use crate::windows::{AREA, SIDE, WINDOWS};
 use core::hint::black_box;
 use taxel_core::format::Code;
 use taxel_core::gesture::{Model, Shipped, TouchState, Touches};
+use taxel_core::intent::{Inference, Outcome};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::shape::{DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Patch, descriptor};
 
@@ -43,6 +44,7 @@ const PANEL: usize = 512;
 pub struct Bench {
     dense: Dense,
     maps: Option<Maps>,
+    inferred: Inference<CONCEPTS>,
     gestures: Option<Touches<'static>>,
     touch: TouchState,
     gallery: Gallery<GALLERY_PROTOTYPES>,
@@ -55,6 +57,7 @@ impl Default for Bench {
         Bench {
             dense: Dense::new(),
             maps: Maps::shipped(),
+            inferred: Inference { state: [0; CONCEPTS], steps: 0, outcome: Outcome::Unsettled },
             gestures,
             touch: const { TouchState::new() },
             gallery: gallery(),
@@ -117,11 +120,12 @@ impl Kernel {
             }
             Kernel::Infer => {
                 // Four inputs; the others start at rest.
-                let start = state(codes, 4);
+                let start: [i32; PLAIN] = state(codes, 4);
                 let Some(maps) = &bench.maps else { return 0 };
-                let (end, steps) = maps.infer(&start);
+                maps.infer(&start, &mut bench.inferred);
                 probe.begin(Stage::Scan);
-                fold(end.into_iter().map(|value| value as u32).chain([steps.into()]))
+                let Inference { state, steps, .. } = &bench.inferred;
+                fold(state.iter().map(|value| *value as u32).chain([u32::from(*steps)]))
             }
             Kernel::Touch => {
                 let Some(gestures) = &bench.gestures else { return 0 };
@@ -185,8 +189,8 @@ fn gallery() -> Gallery<GALLERY_PROTOTYPES> {
 }
 
 /// Codes as activations from 0 to 1, the first `count`.
-fn state(codes: &[Code], count: usize) -> [i32; CONCEPTS] {
-    let mut state = [0; CONCEPTS];
+fn state<const N: usize>(codes: &[Code], count: usize) -> [i32; N] {
+    let mut state = [0; N];
     for (value, code) in state.iter_mut().zip(codes).take(count) {
         *value = i32::from(code.0) << 3;
     }

@@ -9,6 +9,12 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// is held within -1 ..= 1 after each of them. `host` holds the values the host feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
     pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
         let mut state = [0; N];
+        self.encode_into(touch, host, &mut state);
+        state
+    }
+
+    /// As [`Map::encode`], into a state whose concepts are 0.
+    pub(super) fn encode_into(&self, touch: Option<&Touch>, host: &[Q15], state: &mut [i32]) {
         for input in &self.inputs {
             let measured =
                 |pick: fn(&Touch) -> u32| touch.map(|t| i32::try_from(pick(t)).unwrap_or(i32::MAX));
@@ -28,6 +34,5 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 *out = (*out + input.ramp(value)).max(-self.one).min(self.one);
             }
         }
-        state
     }
 }

@@ -50,9 +50,18 @@ impl<const N: usize, const E: usize> Map<N, E> {
     /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The period is
     /// exact; a cycle is noticed after at most three times the steps it took to enter and go round it once.
     pub fn infer(&self, start: &[i32; N], steps: u16) -> Inference<N> {
+        let mut run = Inference { state: [0; N], steps, outcome: Outcome::Unsettled };
+        self.infer_into(start, steps, &mut run);
+        run
+    }
+
+    /// As [`Map::infer`], in the place of another result; `start` has a value for each concept of the map. What is beyond these stays as it
+    /// was.
+    pub fn infer_into(&self, start: &[i32], steps: u16, run: &mut Inference<N>) {
         // Lists, because they need not be filled with zeros first: a small map must not cost what a large one does.
         let (mut next, mut mark) = (Vec::new(), Vec::new());
-        let mut run = Inference { state: self.clamped(start), steps, outcome: Outcome::Unsettled };
+        self.clamp(start, &mut run.state);
+        (run.steps, run.outcome) = (steps, Outcome::Unsettled);
         self.keep(&run.state, &mut mark);
         let (mut since, mut reach, mut extent) = (0u16, 1u16, 0i32);
         for taken in 1..=steps {
@@ -66,7 +75,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 let fixed = change == 0 || rounding;
                 run.outcome = if fixed { Outcome::Fixed } else { Outcome::Cycle(since) };
                 run.steps = taken;
-                break;
+                return;
             }
             if since == reach {
                 self.keep(&run.state, &mut mark);
@@ -74,15 +83,15 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 reach = reach.saturating_mul(2);
             }
         }
-        run
     }
 
     /// One step from any state; values beyond -1 ..= 1 are clamped first. Total.
     pub fn step(&self, state: &[i32; N]) -> [i32; N] {
-        let (mut state, mut next) = (self.clamped(state), Vec::new());
-        self.advance(&state, &mut next);
-        state.iter_mut().zip(&next).for_each(|(to, from)| *to = *from);
-        state
+        let (mut out, mut next) = ([0; N], Vec::new());
+        self.clamp(state, &mut out);
+        self.advance(&out, &mut next);
+        out.iter_mut().zip(&next).for_each(|(to, from)| *to = *from);
+        out
     }
 
     /// One step from a state within -1 ..= 1, which is what `build` proved the sums for; `next` are as many as there are concepts.
@@ -117,25 +126,18 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
     }
 
-    /// The concepts of the map within -1 ..= 1, and 0 where it has none.
-    fn clamped(&self, state: &[i32; N]) -> [i32; N] {
-        let mut out = [0; N];
+    /// The concepts of the map, held within -1 ..= 1.
+    fn clamp(&self, state: &[i32], out: &mut [i32; N]) {
         for (to, from) in out.iter_mut().zip(state).take(self.concepts.len()) {
-            // `clamp` would panic on an empty range, which the compiler cannot exclude.
+            // `clamp` of numbers would panic on an empty range, which the compiler cannot exclude.
             *to = (*from).max(-self.one).min(self.one);
         }
-        out
     }
 
     /// Keeps the concepts of the map.
     fn keep(&self, state: &[i32; N], to: &mut Vec<i32, N>) {
         to.clear();
         state.iter().take(self.concepts.len()).for_each(|value| _ = to.push(*value));
-    }
-
-    /// Whether two states of this map are equal.
-    pub(super) fn same(&self, a: &[i32; N], b: &[i32; N]) -> bool {
-        a.iter().zip(b).take(self.concepts.len()).all(|(a, b)| a == b)
     }
 }
 

@@ -234,13 +234,15 @@ impl<const N: usize> Intent<N> {
 
     /// Infers if the inputs have changed and the period is over; true if it did.
     fn refresh(&self, state: &mut IntentState<N>, host: &[Q15], edge: bool, now: Micros) -> bool {
-        let inputs = self.map.encode(state.touch.as_ref(), host);
+        let mut inputs: Vec<i32, N> = Vec::new();
+        let _ = inputs.resize(self.map.len(), 0);
+        self.map.encode_into(state.touch.as_ref(), host, &mut inputs);
         let due = state.inferred.is_none_or(|last| edge || now.since(last) >= self.period_us);
-        if !due || (state.inferred.is_some() && self.map.same(&inputs, &state.inputs)) {
+        if !due || (state.inferred.is_some() && inputs.iter().eq(state.inputs.iter().take(inputs.len()))) {
             return false;
         }
-        state.inference = self.map.infer(&inputs, self.steps);
-        state.inputs = inputs;
+        self.map.infer_into(&inputs, self.steps, &mut state.inference);
+        state.inputs.iter_mut().zip(&inputs).for_each(|(to, from)| *to = *from);
         state.inferred = Some(now);
         true
     }
