@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::live::{GestureModel, Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
-use taxel::shapes::{base::Base, install};
+use taxel::shapes::{base::Base, teach::teach};
 use taxel::source::{self, Source, SourceOptions};
 use taxel_core::shape::{Patch, descriptor};
 
@@ -415,7 +415,7 @@ impl Show for Teacher {
 
     fn idle(&mut self, client: &mut Client) -> anyhow::Result<bool> {
         if client.worn().is_some() && !std::mem::replace(&mut self.taught, true) {
-            install::teach(client, &self.base)?;
+            teach(client, &self.base)?;
         }
         Ok(true)
     }

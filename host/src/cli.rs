@@ -215,6 +215,8 @@ const SAVE: &str = "Examples:
 
 const SHAPES: &str = "Examples:
   taxel shapes list
+  taxel shapes learn mug -o mine.json
+  taxel live --shapes mine.json
   taxel shapes train --images images.npz --labels labels.csv -o objects.json
   taxel shapes eval --images images.npz --labels labels.csv --cross 5 --json
   taxel shapes eval --images shapes.npz --set 32x64_C_n3 --classes three

@@ -91,9 +91,14 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         self.sureness.check()
     }
 
-    /// Recognises a touch. Of classes with equal votes, the one with the nearest prototype.
+    /// Recognises a touch.
     pub fn recognise(&self, descriptor: &Descriptor) -> Recognised {
-        let nearest = self.nearest(&self.space.place(descriptor));
+        self.recognise_at(&self.space.place(descriptor))
+    }
+
+    /// Recognises a touch by its place. Of classes with equal votes, the one with the nearest prototype.
+    pub fn recognise_at(&self, point: &Point) -> Recognised {
+        let nearest = self.nearest(point);
         let distance = nearest[0].0;
         let mut best = (0, None);
         let mut all = 0;

@@ -5,22 +5,18 @@
 //!
 //! One contact is looked at in a frame, those that nobody has looked at first: a description takes as long as everything else.
 
-use super::descriptor::descriptor;
 use super::gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery};
 use super::knn::Class;
-use super::patch::Patch;
+use super::seen::seen;
 use super::space::Space;
 use super::stage::Shape;
 use super::sureness::Sureness;
 use crate::condition::Image;
 use crate::contact::{Contact, ContactState};
 use crate::format::{Invalid, Name, Q15};
-use crate::garment::{Layout, Place};
+use crate::garment::Layout;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-
-/// Taxels of the rectangle around a contact; of a larger one the last rows are left out.
-const PATCH: usize = 2048;
 
 /// A gallery without its prototypes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -128,9 +124,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         new.or((contacts.len() > 0).then_some(self.turn))
     }
 
-    /// Looks at a contact, which is number `index` of those that `contacts` holds. Of one that crosses a seam, what lies on its
-    /// home panel is looked at.
-    #[inline(never)] // it needs stack only meanwhile
+    /// Looks at a contact, which is number `index` of those that `contacts` holds; see [`seen`].
     pub fn look<const RUNS: usize>(
         &mut self,
         contacts: &ContactState<CONTACTS, RUNS>,
@@ -138,22 +132,8 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         image: &Image<'_>,
         (index, contact): (usize, &Contact),
     ) {
-        let bounds = &contact.bounds;
-        let Some(area) = layout.areas().get(usize::from(bounds.panel)) else { return };
-        let width = usize::from(bounds.right.saturating_sub(bounds.left)) + 1;
-        let (mut values, mut length) = ([0; PATCH], 0);
-        for (row, to) in (bounds.top..=bounds.bottom).zip(values.chunks_exact_mut(width)) {
-            let from = image.row(area, row).iter().skip(bounds.left.into());
-            for ((column, value), to) in (bounds.left..).zip(from).zip(to) {
-                let place = Place { panel: bounds.panel, row, column };
-                if *value > 0 && contacts.contact_at(layout, place) == Some(index) {
-                    *to = *value;
-                }
-            }
-            length += width;
-        }
-        let patch = Patch::new(values.get(..length).unwrap_or(&[]), width);
-        let found = self.gallery.recognise(&descriptor(&patch));
+        let Some(descriptor) = seen(contacts, layout, image, (index, contact)) else { return };
+        let found = self.gallery.recognise(&descriptor);
         let class = found.class.map_or(Class::UNKNOWN, |class| Class(class.saturating_add(1)));
         let known = Known { contact: contact.id, class, confidence: found.confidence };
         match self.known.iter_mut().find(|known| known.contact == contact.id) {

@@ -38,6 +38,9 @@ pub struct BoardArgs {
     /// Value of a concept that the host feeds: -1 to 1, its age, from which age on it no longer counts [never], and what counts then [0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
+    /// The board recognises shapes by a base that it is taught: a file, or the name of one that is shipped
+    #[arg(long, value_name = "BASE")]
+    pub shapes: Option<PathBuf>,
     /// Seed of a simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -56,6 +59,7 @@ impl BoardArgs {
             gestures: None,
             gesture_gain: None,
             feed: Vec::new(),
+            shapes: None,
             seed: None,
         }
     }

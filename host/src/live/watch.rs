@@ -4,6 +4,8 @@ use super::{BoardArgs, LiveArgs, Show, outfit};
 use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews};
 use crate::clock::SteadyTime;
+use crate::shapes::base::Base;
+use crate::shapes::teach::teach;
 use crate::source::Source;
 use anyhow::{Context, Result, bail};
 use std::fs::File;
@@ -86,6 +88,9 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {
         outfit::recognise(client, model, args.gesture_gain)?;
+    }
+    if let Some(base) = &args.shapes {
+        teach(client, &Base::open(base)?)?;
     }
     if let Some(hz) = args.budget {
         client.request(&Request::Budget { hz })?;

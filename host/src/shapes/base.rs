@@ -20,6 +20,9 @@ const SHIPPED: [(&str, &str); 2] = [
     ("objects", include_str!("../../bases/objects.json")),
 ];
 
+/// How a base was tested that was taught from nothing: each of its prototypes by the others.
+pub const LEFT_OUT: &str = "each prototype left out in turn";
+
 /// A base.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,7 +47,7 @@ pub struct Base {
 pub struct Source {
     /// Name without folders.
     pub file: String,
-    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint).
+    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint); empty: it was a board.
     pub fingerprint: String,
     /// The sets of it that were used; all if empty.
     pub sets: Vec<String>,
@@ -69,6 +72,17 @@ impl Base {
     pub fn new(view: View, trained_on: Source, card: Card, gallery: Known) -> Base {
         let measures = MEASURE_NAMES.map(String::from).to_vec();
         Base { kind: KIND.into(), measures, view, trained_on: vec![trained_on], card, gallery }
+    }
+
+    /// One that knows nothing yet, and sees as `drawn` does.
+    pub fn empty() -> Result<Base> {
+        let mut base = Base::open(Path::new(SHIPPED[0].0))?;
+        base.gallery.names.clear();
+        base.gallery.prototypes.clear();
+        // Of a few examples the nearest decides.
+        base.gallery.k = 1;
+        base.card = Card { split: LEFT_OUT.into(), ..Card::default() };
+        Ok(base)
     }
 
     /// The shipped one of that name, else the file.

@@ -28,14 +28,19 @@ pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised
         |(found, example): (&Recognised, &&Example)| found.class.map(usize::from) == Some(example.class);
     let hits: Vec<bool> = found.iter().zip(examples).map(right).collect();
     let mean = hits.iter().filter(|hit| **hit).count() as f64 / hits.len().max(1) as f64;
+    count(&mut gallery.sureness, found, &hits, mean);
+}
+
+/// Fills the table by which answers were right; where there were few, `mean` is what is expected.
+pub fn count(sureness: &mut Sureness, found: &[Recognised], hits: &[bool], mean: f64) {
     let mut cells = [[(DOUBT * mean, DOUBT); STEPS]; STEPS];
-    for (found, hit) in found.iter().zip(&hits) {
-        let (row, column) = gallery.sureness.cell(found.share, found.distance.into());
+    for (found, hit) in found.iter().zip(hits) {
+        let (row, column) = sureness.cell(found.share, found.distance.into());
         if let Some((right, all)) = cells.get_mut(row).and_then(|row| row.get_mut(column)) {
             *right += f64::from(u8::from(*hit));
             *all += 1.0;
         }
     }
-    gallery.sureness.right =
+    sureness.right =
         cells.map(|row| row.map(|(right, all)| (right / all * f64::from(Q15::ONE.0)).round() as u16));
 }

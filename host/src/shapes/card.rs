@@ -23,7 +23,10 @@ fn text(path: &Path, base: &Base) -> String {
     let source = |source: &Source| {
         let sets =
             if source.sets.is_empty() { String::new() } else { format!(", sets {}", source.sets.join(" ")) };
-        format!("  {} images of {} ({}){sets}\n", source.images, source.file, source.fingerprint)
+        match source.fingerprint.as_str() {
+            "" => format!("  {} touches of {}\n", source.images, source.file),
+            print => format!("  {} images of {} ({print}){sets}\n", source.images, source.file),
+        }
     };
     let names = base.names();
     let confusion = Confusion { counts: base.card.confusion.clone(), ..Confusion::new(&names, &names) };

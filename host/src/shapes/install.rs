@@ -1,14 +1,14 @@
 //! `taxel shapes install`: a board recognises by a base that it was taught, until it is switched off.
 
 use super::base::Base;
+use super::teach::teach;
 use crate::client::{Client, Event};
 use crate::live::{self, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use taxel_core::shape::GalleryHead;
-use taxel_core::wire::{Request, SHAPES_ADDED};
+use taxel_core::wire::Request;
 
 /// Arguments of `taxel shapes install`.
 #[derive(Debug, Clone, clap::Args)]
@@ -37,24 +37,6 @@ pub fn run(args: InstallArgs) -> Result<()> {
         }
         None => bail!("{label} ended before it had the base"),
     }
-}
-
-/// Queues the requests that teach a board a base.
-pub fn teach(client: &mut Client, base: &Base) -> Result<()> {
-    let known = &base.gallery;
-    let head = GalleryHead {
-        names: known.names.clone(),
-        space: known.space.clone(),
-        k: known.k,
-        reject: known.reject,
-        sureness: known.sureness.clone(),
-        prototypes: known.prototypes.len() as u16,
-    };
-    client.request(&Request::SetShapes(&postcard::to_allocvec(&head)?))?;
-    for some in known.prototypes.chunks(SHAPES_ADDED) {
-        client.request(&Request::AddShapes(&postcard::to_allocvec(some)?))?;
-    }
-    Ok(())
 }
 
 /// Waits for the board, teaches it, and waits until it says what it knows.

@@ -1,29 +1,40 @@
-//! `taxel shapes learn`: one more class for a base, or more of a class, by images of it.
+//! `taxel shapes learn`: one more class for a base, or more of a class, by touches of a board or by images of it.
 
-use super::base::{Base, Source};
-use super::cluster::centres;
+use super::base::{Base, LEFT_OUT, Source};
+use super::extend::{check_name, extend};
+use super::hold::Hold;
 use super::view::ViewArgs;
 use crate::arrays;
 use crate::learn::fingerprint::Fingerprint;
+use crate::live::{self, BoardArgs, LiveArgs, seconds};
+use crate::source::{SourceOptions, SourceSpec};
 use anyhow::{Result, ensure};
-use std::path::PathBuf;
-use taxel_core::format::name;
-use taxel_core::shape::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Point};
+use std::path::{Path, PathBuf};
+use taxel_core::shape::Point;
 
 /// Arguments of `taxel shapes learn`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct LearnArgs {
     /// What it is called, at most 16 bytes
     pub name: String,
-    /// Images or frames of it: .npz, .npy or .csv
-    #[arg(long, value_name = "FILE")]
-    pub images: PathBuf,
+    /// Learn from images or frames of it: .npz, .npy or .csv; without it, from touches of the board
+    #[arg(long, value_name = "FILE", conflicts_with = "source")]
+    pub images: Option<PathBuf>,
     /// Which array of an .npz with several
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "images")]
     pub array: Option<String>,
-    /// Base to add it to: a file, or the name of one that is shipped
+    /// The board that it is held against
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// How many touches to wait for
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub touches: u16,
+    /// Wait for touches no longer than S seconds of the board
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// Base to add it to: a file, or the name of one that is shipped [default: the file to write; if it is not there, an empty base]
     #[arg(long, value_name = "BASE")]
-    pub base: PathBuf,
+    pub base: Option<PathBuf>,
     /// Most prototypes to add
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub prototypes: usize,
@@ -34,56 +45,64 @@ pub struct LearnArgs {
 
 /// Runs the command.
 pub fn run(args: LearnArgs) -> Result<()> {
-    let mut base = Base::open(&args.base)?;
-    let view = ViewArgs::default().build(Some(base.view), 0);
-    let frames = arrays::read(&args.images, args.array.as_deref())?;
-    let touched = frames.iter().filter(|image| image.iter().any(|value| *value >= view.threshold));
-    let place = |image| base.gallery.space.place(&view.describe(image, frames.columns));
-    let points: Vec<Point> = touched.map(place).collect();
-    let file = args.images.display();
-    ensure!(!points.is_empty(), "{file}: nothing touches: no value reaches {} counts", view.threshold);
-    let added = teach(&mut base, &args.name, &points, args.prototypes)?;
-    base.trained_on.push(Source {
-        file: args.images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        fingerprint: Fingerprint::of(&args.images)?.to_string(),
-        sets: args.array.into_iter().collect(),
-        images: points.len(),
-    });
+    check_name(&args.name)?;
+    let mut base = match &args.base {
+        Some(base) => Base::open(base)?,
+        None if args.output.exists() => Base::open(&args.output)?,
+        None => Base::empty()?,
+    };
+    let (points, source) = match &args.images {
+        Some(images) => shown(&args, images, &base)?,
+        None => held(&args, &base)?,
+    };
+    let added = extend(&mut base, &args.name, &points, args.prototypes)?;
+    base.trained_on.push(source);
     base.save(&args.output)?;
-    eprintln!("{}: {added} prototypes of {} from {} images", args.output.display(), args.name, points.len());
+    let (file, name) = (args.output.display(), &args.name);
+    eprintln!("{file}: {added} prototypes of {name} from {} touches", points.len());
+    if base.card.split == LEFT_OUT {
+        let count = base.gallery.prototypes.len();
+        eprintln!("{:.0} % of {count} are known by the others", 100.0 * base.card.accuracy);
+    }
     Ok(())
 }
 
-/// Adds prototypes of a class; how many.
-fn teach(base: &mut Base, class: &str, points: &[Point], most: usize) -> Result<usize> {
-    let gallery = &mut base.gallery;
-    ensure!(
-        !class.is_empty() && class.len() <= 16,
-        "the name {class:?} has {} bytes, expected 1 to 16",
-        class.len()
+/// A place for each image of a file on which something touches.
+fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, Source)> {
+    let view = ViewArgs::default().build(Some(base.view), 0);
+    let frames = arrays::read(images, args.array.as_deref())?;
+    let touched = frames.iter().filter(|image| image.iter().any(|value| *value >= view.threshold));
+    let place = |image| base.gallery.space.place(&view.describe(image, frames.columns));
+    let points: Vec<Point> = touched.map(place).collect();
+    let file = images.display();
+    ensure!(!points.is_empty(), "{file}: nothing touches: no value reaches {} counts", view.threshold);
+    let source = Source {
+        file: images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        fingerprint: Fingerprint::of(images)?.to_string(),
+        sets: args.array.iter().cloned().collect(),
+        images: points.len(),
+    };
+    Ok((points, source))
+}
+
+/// A place for each touch that was held against a board.
+fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
+    let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
+    let (source, _) = args.board.open(options)?;
+    let (label, wanted) = (source.label.clone(), usize::from(args.touches));
+    eprintln!(
+        "{label}: hold {} against the garment {wanted} times, for half a second each, elsewhere and turned each time",
+        args.name
     );
-    let index = gallery.names.iter().position(|known| known == class).unwrap_or(gallery.names.len());
-    if index == gallery.names.len() {
-        let room = gallery.names.push(name(class)).is_ok();
-        ensure!(room, "the base holds {GALLERY_CLASSES} classes, which is all that a board holds");
-        // The card has a row and a column more: nobody has tested this class.
-        base.card.confusion.push(Vec::new());
-        let columns = gallery.names.len() + 1;
-        for row in &mut base.card.confusion {
-            let none = row.pop().unwrap_or(0);
-            row.resize(columns - 1, 0);
-            row.push(none);
-        }
-    }
-    let added = centres(points, most.max(1));
-    let left = GALLERY_PROTOTYPES - gallery.prototypes.len();
-    let count = added.len();
-    ensure!(
-        count <= left,
-        "{count} prototypes do not fit, there is room for {left}: prune the base, or add fewer"
-    );
-    for at in added {
-        let _ = gallery.prototypes.push(Exemplar { class: index as u8, at });
-    }
-    Ok(count)
+    let mut hold = Hold::new(&base.gallery.space, wanted);
+    let watched = LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board.clone()) };
+    live::watch(&watched, source, &mut hold)?;
+    let points = hold.held;
+    ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
+    let fingerprint = match &args.board.source {
+        SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Fingerprint::of(path)?.to_string(),
+        _ => String::new(),
+    };
+    let images = points.len();
+    Ok((points, Source { file: label, fingerprint, sets: Vec::new(), images }))
 }

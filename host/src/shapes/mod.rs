@@ -14,12 +14,15 @@ pub mod cross;
 pub mod data;
 pub mod discriminant;
 mod eval;
+mod extend;
+mod hold;
 pub mod install;
 pub mod labels;
 mod learn;
 mod list;
 mod prune;
 pub mod select;
+pub mod teach;
 pub mod train;
 mod train_command;
 mod trained;
@@ -41,7 +44,7 @@ enum Command {
     Train(train_command::TrainArgs),
     /// How often a base is right on labelled images
     Eval(eval::EvalArgs),
-    /// Teach a base one more class, or more of a class, by images of it
+    /// Teach a base one more class, or more of a class, by touches of a board or by images
     Learn(learn::LearnArgs),
     /// Teach a board a base
     Install(install::InstallArgs),

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::client::Client;
-use crate::shapes::{base::Base, install};
+use crate::shapes::{base::Base, teach::teach};
 use anyhow::{Context, Result};
 use std::path::Path;
 use taxel_core::acquire::Depth;
@@ -97,7 +97,7 @@ impl Variant {
         let mut client = Client::new();
         client.request(&Request::SetShapes(&[]))?;
         if self == Variant::Taught {
-            install::teach(&mut client, &Base::open(Path::new("drawn"))?)?;
+            teach(&mut client, &Base::open(Path::new("drawn"))?)?;
         }
         // The harness hands over 4,096 bytes at most.
         Ok(client.take_requests().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())

@@ -1,0 +1,36 @@
+//! What a gallery sees of a contact.
+
+use super::descriptor::{Descriptor, descriptor};
+use super::patch::Patch;
+use crate::condition::Image;
+use crate::contact::{Contact, ContactState};
+use crate::garment::{Layout, Place};
+
+/// Taxels of the rectangle around a contact; of a larger one the last rows are left out.
+const PATCH: usize = 2048;
+
+/// Describes a contact, which is number `index` of those that `contacts` holds, by the taxels that are its own. Of one that crosses a
+/// seam, what lies on its home panel is seen. None: there is no such panel.
+#[inline(never)] // it needs stack only meanwhile
+pub fn seen<const CONTACTS: usize, const RUNS: usize>(
+    contacts: &ContactState<CONTACTS, RUNS>,
+    layout: &Layout,
+    image: &Image<'_>,
+    (index, contact): (usize, &Contact),
+) -> Option<Descriptor> {
+    let bounds = &contact.bounds;
+    let area = layout.areas().get(usize::from(bounds.panel))?;
+    let width = usize::from(bounds.right.saturating_sub(bounds.left)) + 1;
+    let (mut values, mut length) = ([0; PATCH], 0);
+    for (row, to) in (bounds.top..=bounds.bottom).zip(values.chunks_exact_mut(width)) {
+        let from = image.row(area, row).iter().skip(bounds.left.into());
+        for ((column, value), to) in (bounds.left..).zip(from).zip(to) {
+            let place = Place { panel: bounds.panel, row, column };
+            if *value > 0 && contacts.contact_at(layout, place) == Some(index) {
+                *to = *value;
+            }
+        }
+        length += width;
+    }
+    Some(descriptor(&Patch::new(values.get(..length).unwrap_or(&[]), width)))
+}

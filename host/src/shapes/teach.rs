@@ -1,0 +1,25 @@
+//! A base on its way to a board.
+
+use super::base::Base;
+use crate::client::Client;
+use anyhow::Result;
+use taxel_core::shape::GalleryHead;
+use taxel_core::wire::{Request, SHAPES_ADDED};
+
+/// Queues the requests that teach a board a base.
+pub fn teach(client: &mut Client, base: &Base) -> Result<()> {
+    let known = &base.gallery;
+    let head = GalleryHead {
+        names: known.names.clone(),
+        space: known.space.clone(),
+        k: known.k,
+        reject: known.reject,
+        sureness: known.sureness.clone(),
+        prototypes: known.prototypes.len() as u16,
+    };
+    client.request(&Request::SetShapes(&postcard::to_allocvec(&head)?))?;
+    for some in known.prototypes.chunks(SHAPES_ADDED) {
+        client.request(&Request::AddShapes(&postcard::to_allocvec(some)?))?;
+    }
+    Ok(())
+}
