@@ -57,7 +57,7 @@ pub fn run(args: GesturesArgs) -> Result<()> {
         Command::Train(args) => TASK.train(&load(&args.files)?, &args.output),
         Command::Eval { eval, rate } => TASK.eval(&eval, &load(&eval.files)?, &times(rate)?),
         Command::Card => {
-            print!("{}", include_str!("../../docs/models.md"));
+            print!("{}", touches::CARDS);
             Ok(())
         }
     }

@@ -41,6 +41,8 @@ enum Command {
     Train(TrainArgs),
     /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
     Eval(EvalArgs<Cross>),
+    /// The card of the shipped models: data, split, figures, where they fail
+    Card,
 }
 
 /// What to keep apart.
@@ -59,6 +61,10 @@ pub fn run(args: IntentArgs) -> Result<()> {
         Command::Eval(args) => {
             let data = load(&args.files, args.cross.unwrap_or(Cross::Day))?;
             TASK.eval(&args, &data, &times())
+        }
+        Command::Card => {
+            print!("{}", touches::CARDS);
+            Ok(())
         }
     }
 }

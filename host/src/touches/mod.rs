@@ -20,3 +20,6 @@ pub use model::{Provenance, Settings, apply, decide, train};
 pub use report::{Outcome, Report, accuracy};
 pub use ridge::Ridge;
 pub use table::Table;
+
+/// Cards of the models that ship.
+pub const CARDS: &str = include_str!("../../../docs/models.md");

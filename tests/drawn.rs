@@ -1,0 +1,82 @@
+//! Discs, rectangles and fingers, drawn at random.
+#![allow(dead_code)] // each test that uses this takes a part of it
+
+use taxel_core::format::Code;
+use taxel_core::shape::Class;
+
+/// What is drawn.
+pub const CLASSES: [Class; 3] = [Class::RECTANGLE, Class::ROUND, Class::FINGER];
+
+/// A generator of numbers, by its seed.
+pub struct Rng(pub u64);
+
+impl Rng {
+    /// A number between two.
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        low + (high - low) * (self.0 >> 33) as f64 / (1u64 << 31) as f64
+    }
+}
+
+/// One drawn touch; lengths in taxels.
+pub struct Touch {
+    class: Class,
+    /// Centre.
+    pub x: f64,
+    pub y: f64,
+    angle: f64,
+    pub size: f64,
+    /// Of a rectangle: length to width. Of a finger: half width to `size`.
+    ratio: f64,
+    pub gain: f64,
+}
+
+impl Touch {
+    /// One of a class, somewhere in the middle of a panel.
+    pub fn random(class: Class, rows: u16, columns: u16, rng: &mut Rng) -> Touch {
+        let (low, high) = match rows.min(columns) {
+            ..=4 => (1.2, 1.6),
+            5..=16 => (2.2, 3.6),
+            _ => (4.0, 8.0),
+        };
+        Touch {
+            class,
+            x: f64::from(columns - 1) / 2.0 + rng.range(-0.5, 0.5),
+            y: f64::from(rows - 1) / 2.0 + rng.range(-0.5, 0.5),
+            angle: if rows <= 4 { rng.range(-0.15, 0.15) } else { rng.range(0.0, std::f64::consts::PI) },
+            size: rng.range(low, high),
+            ratio: if class == Class::FINGER { rng.range(0.5, 0.68) } else { rng.range(1.0, 1.7) },
+            gain: rng.range(0.2, 0.9),
+        }
+    }
+
+    /// Pressure at a point, of 1.
+    fn at(&self, x: f64, y: f64) -> f64 {
+        let ((s, c), x, y) = (self.angle.sin_cos(), x - self.x, y - self.y);
+        let (u, v) = (x * c + y * s, y * c - x * s);
+        match self.class {
+            Class::ROUND => f64::from(u.hypot(v) <= self.size),
+            Class::RECTANGLE => {
+                let (length, width) =
+                    (self.size * 0.9 * self.ratio.sqrt(), self.size * 0.9 / self.ratio.sqrt());
+                f64::from(u.abs() <= length && v.abs() <= width)
+            }
+            // A capsule, softer towards the rim.
+            _ => {
+                let half = self.size * self.ratio;
+                let along = (u.abs() - (self.size * 1.25 - half).max(0.3)).max(0.0);
+                (1.0 - (along.hypot(v) / half).powi(2)).max(0.0).powf(0.3)
+            }
+        }
+    }
+
+    /// Codes of a converter of 12 bits: each taxel sees the mean of 6 x 6 points.
+    pub fn codes(&self, rows: u16, columns: u16) -> Vec<Code> {
+        let taxel = |row: u16, column: u16| {
+            let point = |i: i32| (f64::from(i) + 0.5) / 6.0 - 0.5;
+            let at = |i: i32| self.at(f64::from(column) + point(i % 6), f64::from(row) + point(i / 6));
+            Code(((0..36).map(at).sum::<f64>() / 36.0 * self.gain * 4095.0).round() as u16)
+        };
+        (0..rows).flat_map(|row| (0..columns).map(move |column| taxel(row, column))).collect()
+    }
+}
