@@ -263,6 +263,14 @@ fn the_reasons_to_calibrate_again_are_named() {
     assert_eq!(why(Seen { rest: vec![], ..well.clone() }), [Reason::Garment(0, 64)]);
     assert_eq!(why(Seen { ill: BTreeSet::from([1, 2]), ..well.clone() }), [Reason::Ill(2)]);
     assert_eq!(why(Seen { press: Some((20.0, 17.0)), ..well.clone() }), [Reason::Press(20.0, 17.0)]);
+    // The simulated board has no thermometer: nothing is said until both temperatures are known.
+    assert_eq!(calibration.celsius, None);
+    assert_eq!(why(Seen { celsius: Some(60.0), ..well.clone() }), []);
+    let warm = Calibration { celsius: Some(24.0), ..calibration.clone() };
+    let warm = Calibration::parse(&warm.text().unwrap(), "warm.toml").unwrap();
+    assert_eq!(judge(&warm, &Seen { celsius: Some(33.0), ..well.clone() }), []);
+    let why_warm = judge(&warm, &Seen { celsius: Some(38.5), ..well.clone() });
+    assert_eq!(why_warm, [Reason::Warmth(24.0, 38.5)]);
     let later = format!("{}{}", calibration.date[..4].parse::<u16>().unwrap() + 1, &calibration.date[4..]);
     assert!(matches!(why(Seen { today: later, ..well })[..], [Reason::Old(days)] if days > 364));
 }

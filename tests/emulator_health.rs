@@ -14,7 +14,7 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::health::TaxelHealth;
 use taxel_core::scene::Scene;
-use taxel_core::selftest::Findings;
+use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::wire::{Report, Request, encode};
 
 /// Frames of the baseline, and of it and what comes until it is asked for.
@@ -61,6 +61,48 @@ fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
     board.fault(&[]);
     assert_eq!(self_test(&mut board), whole);
     println!("{} faults of lines and inputs told as themselves, as on the simulated board", faults.len());
+    board.end();
+}
+
+/// While frames stream and nobody asks: one fault of each kind, after each of which the garment is whole again.
+#[test]
+fn what_breaks_in_use_is_told_by_itself() {
+    let garment = Garment::reference();
+    let script = Script::parse("duration_s = 1\nseed = 8", "rest.toml").unwrap();
+    let codes = frame_codes(&script, &garment, FRAME_PERIOD_US, 61).unwrap();
+    let mut board = Emulated::start(&garment, &codes, 90, &["--loop"]);
+    board.receive();
+    board.play();
+    board.obey(&Request::Tare { frames: TARE });
+    board.obey(&Request::Start);
+    for (pin, fault) in [
+        (3, Fault::StuckHigh),
+        (12, Fault::StuckLow),
+        (7, Fault::Bridged(8)),
+        (26, Fault::Open),
+        (28, Fault::Open),
+        (27, Fault::Grounded),
+        (29, Fault::Supplied),
+    ] {
+        let broken = loop {
+            if let Report::Frame(image) = board.receive().report() {
+                break image.time;
+            }
+        };
+        board.fault(&[PinFault { pin, fault }]);
+        let found = loop {
+            match board.receive().report() {
+                Report::SelfTest(report) if !report.findings.faults.is_empty() => break report,
+                Report::Frame(image) => assert!(image.time.since(broken) < SOON * FRAME_PERIOD_US, "{fault}"),
+                Report::HealthMap(map) => assert!(map.taxels.is_empty(), "{map:?}"),
+                _ => {}
+            }
+        };
+        assert_eq!(found.findings.faults, [PinFault { pin, fault }]);
+        println!("GPIO {pin} {fault}: told after {} us", found.time.since(broken));
+        board.fault(&[]);
+        assert!(self_test(&mut board).faults.is_empty());
+    }
     board.end();
 }
 

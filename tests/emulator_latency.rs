@@ -173,7 +173,9 @@ fn from_voltage_to_message_and_pin() {
     }
     let alone: Vec<f64> = (touches()..touches() + ALONE).map(reflex).collect();
     for (number, times) in (1..).zip(of_number) {
-        Times(times).tell(&format!("onset over USB, {number} contacts"));
+        let times = Times(times);
+        times.tell(&format!("onset over USB, {number} contacts"));
+        assert!(times.percentile(99) <= ONSET_US, "{number} contacts");
     }
     let (all, reflexes, alone) = (Times(all), Times(reflexes), Times(alone));
     all.tell("onset over USB, all");

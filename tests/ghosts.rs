@@ -1,7 +1,8 @@
 //! Ghosts of a passive matrix, whose currents are solved for here: three pressed corners make a fourth, and only that is taken for
 //! a ghost.
 
-use taxel::health::candidates;
+use std::sync::atomic::{AtomicU32, Ordering};
+use taxel::health::{HealthArgs, Told, candidates, look};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::body::Placed;
@@ -103,4 +104,55 @@ fn what_makes_no_rectangle_is_no_candidate() {
         assert_eq!(present.len(), pressed.len());
         assert!(candidates(&garment, &present).is_empty(), "{pressed:?}");
     }
+}
+
+/// Pens on the first and the last row of a block, as `taxel health` sees them on a simulated board whose wiring is passive or
+/// not: three at the corners of a rectangle, or four.
+fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<bool>) -> Told {
+    static FILES: AtomicU32 = AtomicU32::new(0);
+    let pen = |(row, column): &(f64, f64)| {
+        format!(
+            "[[touch]]\npanel = \"mat\"\nshape = \"box\"\nsize_mm = [30, 10]\nat = [{column}, {row}]\nforce_n = 4.5\n\
+             start_s = 0.3\nrise_s = 0.02\nhold_s = 3\n"
+        )
+    };
+    let pens: String = corners.iter().map(pen).collect();
+    let text = format!("duration_s = 2\ngarment = \"{garment}\"\n[wiring]\n{wiring}\n{pens}");
+    let name = format!("ghosts-{}-{}.toml", std::process::id(), FILES.fetch_add(1, Ordering::Relaxed));
+    let file = std::env::temp_dir().join(name);
+    std::fs::write(&file, text).unwrap();
+    let source = format!("sim:{}", file.display()).parse().unwrap();
+    let told = look(&HealthArgs { source, frames: 200, tare: None, self_test: false, passive, json: true });
+    std::fs::remove_file(&file).unwrap();
+    told.unwrap()
+}
+
+const CORNERS: [(f64, f64); 4] = [(0.0, 3.0), (0.0, 11.0), (3.0, 3.0), (3.0, 11.0)];
+
+const UNFILTERED: &str = "\n[scene.condition]\nfilter = \"off\"";
+
+#[test]
+fn the_fourth_corner_of_a_passive_block_is_named_by_the_command() {
+    let told = health("block-4x16", "passive = true", &CORNERS[..3], None);
+    let ghosts = told.json["ghosts"].as_array().unwrap();
+    assert_eq!(ghosts.len(), 1, "{}", told.text);
+    assert_eq!((&ghosts[0]["panel"], &ghosts[0]["row"]), (&"mat".into(), &3.into()));
+    assert!((10..=12).contains(&ghosts[0]["column"].as_u64().unwrap()), "{}", told.text);
+    assert!(ghosts[0]["times"].as_u64().unwrap() > 100);
+    assert!(told.text.contains("ghost?   mat, row 3, column 1"), "{}", told.text);
+    // The same on a block among others, which is said to be passive. Its pens are too narrow for the filter.
+    let told = health("mat-64x32", &format!("passive = true{UNFILTERED}"), &CORNERS[..3], Some(true));
+    assert_eq!(told.json["ghosts"].as_array().unwrap().len(), 1, "{}", told.text);
+}
+
+#[test]
+fn nothing_that_is_pressed_is_called_a_ghost() {
+    // Read by amplifiers, or through a diode at each taxel, three corners make no fourth.
+    let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], Some(true));
+    assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
+    let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], None);
+    assert!(told.json["ghosts"].is_null());
+    // Two make none on a passive one.
+    let told = health("block-4x16", "passive = true", &CORNERS[..2], None);
+    assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
 }

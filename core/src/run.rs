@@ -49,11 +49,16 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
         send(link, platform, board);
         match job {
             Some(Job::Scan(plan)) => {
+                if acquire.is_misled() {
+                    let now = platform.now();
+                    board.step(now, Input::Misled, platform);
+                }
                 platform.begin(Stage::Scan);
                 let scan = acquire.scan(board.circuit(), &plan).await;
                 platform.begin(Stage::Idle);
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
+                acquire.pose(board.circuit());
             }
             Some(Job::Save) => {
                 acquire.rest();

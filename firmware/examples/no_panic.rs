@@ -81,8 +81,9 @@ pub extern "C" fn _start(given: &mut Given) {
             touches.process(touch, image);
             touches.decide(touch)
         })),
+        17 => step(Input::Misled),
         #[cfg(control)]
-        17 => keep(codes[given.count]),
+        18 => keep(codes[given.count]),
         _ => {}
     }
 }

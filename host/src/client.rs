@@ -34,6 +34,7 @@ use std::collections::BTreeMap;
 use syncs::Syncs;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
+use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
@@ -67,6 +68,7 @@ pub struct Client {
     intention: Option<IntentReport>,
     health: Option<Health>,
     budget: Option<Budget>,
+    celsius: Option<Celsius>,
     ill: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
     /// Names of the classes that the board was taught; none: the built-in base is in force.
@@ -102,6 +104,7 @@ impl Client {
             intention: None,
             health: None,
             budget: None,
+            celsius: None,
             ill: BTreeMap::new(),
             self_test: None,
             shapes: Vec::new(),
@@ -202,7 +205,10 @@ impl Client {
                 Event::Budget(budget)
             }
             Report::HealthMap(map) => self.take_map(&map),
-            Report::Temperature(temperature) => Event::Temperature(temperature),
+            Report::Temperature(temperature) => {
+                self.celsius = Some(temperature.celsius);
+                Event::Temperature(temperature)
+            }
             Report::SelfTest(report) => {
                 self.self_test = Some(report.clone());
                 Event::SelfTest(report)

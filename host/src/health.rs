@@ -43,11 +43,36 @@ pub struct HealthArgs {
     pub json: bool,
 }
 
+/// What a board knows of its health, in both forms that the command prints.
+#[derive(Debug)]
+pub struct Told {
+    /// `{"self_test", "taxels", "ghosts"}`; ghosts are null where the blocks are no passive matrices.
+    pub json: Value,
+    /// A line for each finding.
+    pub text: String,
+    /// Lines and inputs at fault.
+    pub faults: usize,
+}
+
 /// Runs the command; fails where a line or an input is at fault.
 pub fn run(args: HealthArgs) -> Result<()> {
+    let told = look(&args)?;
+    if args.json {
+        println!("{}", told.json);
+    } else {
+        print!("{}", told.text);
+    }
+    match told.faults {
+        0 => Ok(()),
+        count => bail!("faults of lines and inputs: {count}"),
+    }
+}
+
+/// Watches a board for as long as the arguments say.
+pub fn look(args: &HealthArgs) -> Result<Told> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
-    let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source) };
+    let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source.clone()) };
     let live = LiveArgs { frames: Some(args.frames), ..LiveArgs::on(asked) };
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     live::watch(&live, source, &mut found)?;
@@ -58,20 +83,12 @@ pub fn run(args: HealthArgs) -> Result<()> {
     let garment = found.garment.context("the board has not said what it wears")?;
     let places = places(&garment, &found.ill)?;
     let pins = found.pins.as_ref();
-    if args.json {
-        let ghosts = passive.then(|| found.ghosts.report(&garment));
-        let taxels = report(&places);
-        println!(
-            "{}",
-            json!({ "self_test": pins::report(&garment, pins), "taxels": taxels, "ghosts": ghosts })
-        );
-    } else {
-        print!("{}{}{}", pins::table(&garment, pins), table(&garment, &places), found.ghosts.table(&garment));
-    }
-    match pins.map_or(0, |findings| findings.faults.len()) {
-        0 => Ok(()),
-        count => bail!("faults of lines and inputs: {count}"),
-    }
+    let ghosts = passive.then(|| found.ghosts.report(&garment));
+    Ok(Told {
+        json: json!({ "self_test": pins::report(&garment, pins), "taxels": report(&places), "ghosts": ghosts }),
+        text: pins::table(&garment, pins) + &table(&garment, &places) + &found.ghosts.table(&garment),
+        faults: pins.map_or(0, |findings| findings.faults.len()),
+    })
 }
 
 /// Keeps what was told last.

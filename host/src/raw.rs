@@ -113,6 +113,11 @@ impl RawBoard {
         self.client.ill()
     }
 
+    /// The temperature of its converter as told last, degrees Celsius; none: it has no thermometer.
+    pub fn celsius(&self) -> Option<f64> {
+        self.client.celsius().map(|celsius| celsius.to_f64())
+    }
+
     /// The next frame.
     pub fn frame(&mut self) -> Result<Codes> {
         let mut time_us = 0;

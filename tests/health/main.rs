@@ -1,10 +1,12 @@
 //! Ill taxels, lines and inputs on the simulated board: each is found, and told as what it is; no other is.
 
+mod broken;
 mod classes;
 #[path = "../faults.rs"]
 mod faults;
 mod healthy;
 mod lines;
+mod rings;
 mod scripts;
 mod worn;
 

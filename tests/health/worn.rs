@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 use taxel::sim::{PINS, Script, SimBoard};
-use taxel_core::acquire::{Acquire, Depth, MuxScan, Scan};
+use taxel_core::acquire::{Acquire, Depth, MuxScan, Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
-use taxel_core::format::Micros;
+use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::health::TaxelHealth;
 use taxel_core::run::block_on;
@@ -53,9 +53,7 @@ impl Worn {
         let SimBoard { mut lines, delay, adc, clock } =
             SimBoard::new(&self.garment, script, script.seed).unwrap();
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
-        let mut wire = [0; 64];
-        let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
-        self.board.step(Micros(0), Input::Received(frame), &mut ());
+        self.tare();
         let mut found = BTreeMap::new();
         let (mut rng, mut rest) = (fastrand::Rng::with_seed(script.seed), Vec::new());
         for frame in 0..u32::from(TARE) + frames {
@@ -74,15 +72,46 @@ impl Worn {
                     code.0 = (f64::from(code.0) + part * signal * normal()).round().clamp(0.0, 4095.0) as u16;
                 }
             }
-            let now = Micros(report.start.0 + 5_000);
-            self.board.step(now, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
-            for taxel in 0..TAXELS {
-                let health = self.board.health_of(taxel);
-                if health != TaxelHealth::Good {
-                    found.entry(taxel).or_insert((frame, health));
-                }
-            }
+            self.take(Scan { codes: &codes, report });
+            self.note(frame, &mut found);
         }
         found
+    }
+
+    /// Asks for a tare, which begins with the next frame.
+    pub fn tare(&mut self) {
+        let mut wire = [0; 64];
+        let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
+        self.board.step(Micros(0), Input::Received(frame), &mut ());
+    }
+
+    /// Shows it so many frames of codes, some time after what it was shown before; the frame in which each ill taxel was found.
+    pub fn show(
+        &mut self,
+        frames: u32,
+        mut codes: impl FnMut(u32) -> Vec<Code>,
+    ) -> BTreeMap<usize, (u32, TaxelHealth)> {
+        let (mut found, before) = (BTreeMap::new(), self.board.health().scans);
+        for frame in 0..frames {
+            let start = Micros(u64::from(before + frame) * 5_120);
+            let report = ScanReport { start, duration_us: 5_120, ..ScanReport::default() };
+            self.take(Scan { codes: &codes(frame), report });
+            self.note(frame, &mut found);
+        }
+        found
+    }
+
+    fn take(&mut self, scan: Scan<'_>) {
+        let now = Micros(scan.report.start.0 + 5_000);
+        self.board.step(now, Input::Scanned(Ok(scan)), &mut ());
+    }
+
+    fn note(&self, frame: u32, found: &mut BTreeMap<usize, (u32, TaxelHealth)>) {
+        for taxel in 0..TAXELS {
+            let health = self.board.health_of(taxel);
+            if health != TaxelHealth::Good {
+                found.entry(taxel).or_insert((frame, health));
+            }
+        }
     }
 }

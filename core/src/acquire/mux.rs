@@ -1,6 +1,6 @@
 //! Progressive scan through multiplexers, over any HAL.
 
-use super::{Acquire, Depth, Lines, Plan, Scan, ScanError, ScanReport};
+use super::{Acquire, Depth, Lines, Pad, Plan, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
 use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -48,6 +48,7 @@ pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     slots: heapless::Vec<u8, 32>,
     wired: heapless::Vec<u8, 32>,
     driven: Option<u32>,
+    posed: u32,
 }
 
 impl<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'l, P, D, A, C, PINS, TAXELS>
@@ -68,6 +69,7 @@ where
             slots: heapless::Vec::new(),
             wired: heapless::Vec::new(),
             driven: None,
+            posed: 0,
         }
     }
 
@@ -157,6 +159,43 @@ where
             cursor.taxel += cursor.column_step;
         }
         Ok(())
+    }
+}
+
+impl<P: Pad, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'_, P, D, A, C, PINS, TAXELS>
+where
+    D: DelayNs,
+    A: Adc,
+    C: Clock,
+{
+    /// Selects a taxel of any block, another one each time, once the lines are known.
+    pub(crate) fn pose_next(&mut self, circuit: &Circuit) {
+        if self.wired.as_slice() != circuit.lines() {
+            return;
+        }
+        self.posed = self.posed.wrapping_add(1);
+        // Multiples of the golden ratio are spread evenly, and so are their digits.
+        let [_, block, row, column] = self.posed.wrapping_mul(0x9e37_79b9).to_le_bytes();
+        let sites = circuit.sites();
+        let index = usize::from(block).checked_rem(sites.len()).unwrap_or(0);
+        let Some(site) = sites.get(index) else { return };
+        let word = circuit.word(
+            site.select,
+            row.checked_rem(site.rows).unwrap_or(0),
+            column.checked_rem(site.columns).unwrap_or(0),
+        );
+        // A line that fails shows in the next scan.
+        let _ = self.apply(word);
+    }
+
+    /// Whether a line is not at the level to which it was driven last; what was not driven is not looked at.
+    pub(crate) fn shows_another(&mut self) -> bool {
+        let Some(driven) = self.driven else { return false };
+        self.slots.iter().enumerate().any(|(bit, slot)| {
+            let pin = self.lines.pins.get_mut(usize::from(*slot));
+            let level = pin.and_then(|(_, pin)| pin.level().ok());
+            level.is_some_and(|level| level != (driven >> (bit & 31) & 1 == 1))
+        })
     }
 }
 

@@ -14,11 +14,14 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.outbox.log(format_args!("scan: {error}"));
     }
 
-    /// The first scan after some that failed began then: what was lost beside those is counted.
+    /// The first scan after some that failed, or after an interruption, began then: what was lost beside those is counted, to the
+    /// nearest scan.
     #[cold]
     pub(super) fn go_on(&mut self, start: Micros) {
         let failed = u64::from(core::mem::take(&mut self.stumbles)) * u64::from(self.health.scan_us);
-        self.not_scanned(start.since(self.ledger.scanned()).saturating_sub(failed));
+        self.interrupted = false;
+        let half = u64::from(self.health.scan_us) / 2;
+        self.not_scanned((start.since(self.ledger.scanned()) + half).saturating_sub(failed));
     }
 
     /// Nothing was scanned for so long: counts as many scans as there would have been.

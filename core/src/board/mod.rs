@@ -2,6 +2,7 @@
 //! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
 
 mod budget;
+mod doubt;
 mod examining;
 mod lost;
 mod outbox;
@@ -29,6 +30,7 @@ use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use budget::{Doing, Ledger};
+use doubt::Doubt;
 use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox};
 use outputs::Outputs;
@@ -47,6 +49,8 @@ pub enum Input<'a> {
     Saved(Result<Saved, &'static str>),
     /// Lines and inputs were examined, or why not; at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
+    /// A select line showed another level than it was driven to.
+    Misled,
     /// Nothing in particular: what is there to do?
     Tick,
 }
@@ -60,7 +64,8 @@ pub enum Job {
     Drive(u8, bool),
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
-    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, or somebody asks for it.
+    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, somebody asks for it,
+    /// or something speaks against one of them.
     /// Answered by [`Input::Examined`].
     Examine,
 }
@@ -86,10 +91,13 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     saving: Saving,
     /// The last self-test of the lines and inputs of the garment that is worn.
     examined: Option<SelfTestReport>,
+    doubt: Doubt,
     scans: Pace,
     scanning: bool,
     /// Scans that have failed since one went well.
     stumbles: u16,
+    /// The scan was interrupted since: nobody has counted yet what was lost.
+    interrupted: bool,
     /// The circuit has changed since the last scan.
     rewired: bool,
     health: Health,
@@ -128,8 +136,10 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             saving: Saving::new(),
             examined: None,
             scans: Pace::new(0),
+            doubt: Doubt::new(),
             scanning: false,
             stumbles: 0,
+            interrupted: false,
             rewired: false,
             health: Health::default(),
             ledger: Ledger::new(),
@@ -171,7 +181,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
-        self.examined = None;
+        (self.examined, self.doubt) = (None, Doubt::new());
         self.certificate = None;
         self.used();
     }
@@ -204,6 +214,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
             Input::Examined(result) => self.examined(now, result),
+            Input::Misled => self.doubt.raise(now),
             Input::Tick => return self.next_job(now),
         }
         None
@@ -224,6 +235,9 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         if core::mem::take(&mut self.rewired) {
             return Some(Job::Examine);
         }
+        if self.doubt.follow() {
+            return Some(Job::Examine);
+        }
         if !self.scans.due(now) {
             return None;
         }
@@ -238,7 +252,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
 
     fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
         self.scanning = false;
-        if self.stumbles > 0 {
+        if self.stumbles > 0 || self.interrupted {
             self.go_on(scan.report.start);
         }
         self.frame = self.frame.wrapping_add(1);
@@ -268,7 +282,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
             self.outbox.answer(request::TARE, None);
         }
         self.outbox.raw(scan.codes, layout.taxels());
-        self.watch(scan.codes, touched);
+        self.watch(now, scan.codes, touched);
         probe.begin(Stage::Idle);
     }
 

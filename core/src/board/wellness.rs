@@ -1,17 +1,25 @@
 //! Taxels that are ill are silenced, bridged by the filter from their neighbours, and told of.
 
 use super::Board;
-use crate::format::Code;
+use crate::format::{Code, Micros};
 use crate::health::{Codes, IllTaxel, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     /// Watches the codes of a frame, in which something touches the garment or not.
-    pub(super) fn watch(&mut self, codes: &[Code], touched: bool) {
+    pub(super) fn watch(&mut self, now: Micros, codes: &[Code], touched: bool) {
         let super::Setup { layout, circuit, scene, .. } = &self.setup;
         let condition = &mut self.state.condition;
         let rest = condition.baseline().filter(|_| self.tared);
         let shown = Codes { now: codes, rest, full: self.info.full_scale, touched };
+        if self.monitor.doubts(circuit, &scene.plan, &shown) {
+            self.doubt.raise(now);
+        }
+        let well = self.monitor.acquit(circuit, &shown);
         let found = self.monitor.watch(layout, circuit, &scene.plan, shown);
+        if let Some(well) = well {
+            condition.set_gain(usize::from(well.taxel), well.gain);
+            self.outbox.map_changed();
+        }
         for (taxel, health) in &found {
             let gain = condition.gain().get(usize::from(*taxel)).copied().unwrap_or(0);
             if self.monitor.add(IllTaxel { taxel: *taxel, health: *health, gain }) {

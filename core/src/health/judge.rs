@@ -18,6 +18,12 @@ const LOUD: u16 = 52;
 /// Nor is one that goes to the next step and back in every frame.
 const STEPS: u16 = 12;
 
+/// Whether a code shows pressure beyond that at rest.
+pub(super) const fn is_pressed(code: u16, rest: u16, falling: bool) -> bool {
+    let (more, less) = if falling { (rest, code) } else { (code, rest) };
+    more as i32 - less as i32 >= PRESSED
+}
+
 /// What tells some taxels from others.
 pub(super) struct Limits {
     /// So many codes move that one which does not tells something.
@@ -82,18 +88,27 @@ impl Shown<'_> {
     }
 
     fn is_pressed(&self, taxel: usize) -> bool {
-        let now = self.codes.get(taxel).map(|code| self.pressure(code.0));
-        let more = now.zip(self.at_rest(taxel)).map(|(now, rest)| now - rest);
-        more.is_some_and(|more| more >= PRESSED)
+        let rest = self.rest.and_then(|rest| rest.get(taxel));
+        self.codes.get(taxel).zip(rest).is_some_and(|(code, rest)| is_pressed(code.0, *rest, self.falling))
     }
 
-    /// How many of the neighbours of a taxel there are that are well, and how many of them are pressed; counts no further than to
-    /// the second that is not.
-    fn surroundings(&self, area: &Area, row: u16, column: u16, is_ill: impl Fn(usize) -> bool) -> (u32, u32) {
+    /// Counts those taxels that are well at a distance from a taxel, in rows or columns, whichever is larger: how many there are,
+    /// and how many of them are pressed. Counts no further than past so many that are not.
+    fn around(
+        &self,
+        area: &Area,
+        (row, column): (u16, u16),
+        distance: u16,
+        missing: u32,
+        is_ill: impl Fn(usize) -> bool,
+    ) -> (u32, u32) {
         let (mut there, mut pressed) = (0, 0);
-        for y in row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1)) {
-            for x in column.saturating_sub(1)..=column.saturating_add(1).min(area.columns.saturating_sub(1)) {
-                if (y, x) == (row, column) {
+        for y in row.saturating_sub(distance)..=row.saturating_add(distance).min(area.rows.saturating_sub(1))
+        {
+            for x in column.saturating_sub(distance)
+                ..=column.saturating_add(distance).min(area.columns.saturating_sub(1))
+            {
+                if y.abs_diff(row).max(x.abs_diff(column)) != distance {
                     continue;
                 }
                 let taxel =
@@ -103,12 +118,23 @@ impl Shown<'_> {
                 }
                 there += 1;
                 pressed += u32::from(self.is_pressed(taxel));
-                if there > pressed + 1 {
+                if there > pressed + missing {
                     return (there, pressed);
                 }
             }
         }
         (there, pressed)
+    }
+
+    /// Whether what presses all around a taxel should press it, too: all neighbours but one, and four fifths of those around
+    /// them. A ring with a hole of one taxel and a wall of one or two reaches less far.
+    fn is_covered(&self, area: &Area, place: (u16, u16), is_ill: impl Fn(usize) -> bool) -> bool {
+        let (there, pressed) = self.around(area, place, 1, 1, &is_ill);
+        if pressed < 3 || there > pressed + 1 {
+            return false;
+        }
+        let (there, pressed) = self.around(area, place, 2, 3, &is_ill);
+        pressed >= 3 && (there - pressed) * 5 <= there
     }
 
     /// Whether anything beside a taxel is pressed.
@@ -175,11 +201,10 @@ impl Shown<'_> {
         if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
         }
-        match self.surroundings(area, row, column, is_ill) {
-            (there, pressed) if there < 3 || pressed < 3 || there > pressed + 1 => TaxelHealth::Good,
-            _ if high <= RAIL => TaxelHealth::Open,
-            _ => TaxelHealth::Dead,
+        if !self.is_covered(area, (row, column), is_ill) {
+            return TaxelHealth::Good;
         }
+        if high <= RAIL { TaxelHealth::Open } else { TaxelHealth::Dead }
     }
 
     /// Whether a code got to both sides of that at rest, as what touches or shakes a taxel does not take it.

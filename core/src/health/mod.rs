@@ -8,11 +8,14 @@
 //!
 //! | class | what shows it |
 //! |---|---|
-//! | dead | it rests while what surrounds it is pressed |
+//! | dead | it rests while what surrounds it is pressed, to a distance of two taxels |
 //! | stuck | its code does not even show noise, while its neighbours' do |
 //! | open | no signal: below what it showed at rest, or dead there |
 //! | shorted | full scale, and nothing beside it is pressed |
 //! | noisy | its code goes to and fro, further than a touch of that size takes it, and those beside it do not |
+//!
+//! What is pressed around one taxel alone may be a ring: a cup, a hollow finger. A ring whose hole is one taxel and whose wall is
+//! three or more cannot be told from what covers a dead taxel. So a dead taxel that answers to pressure later is taken back.
 //!
 //! Where the codes are too quiet to tell (noise under 1.8 counts rms, or codes of 8 bits), nothing is called stuck. A pressed taxel
 //! is called noisy only where its noise is over a fifth of its signal: how a cloth lies changes under what moves.
@@ -23,6 +26,7 @@
 //! | output | at most [`ILL`] ill taxels |
 //! | RAM | 2.9 KB |
 
+mod inputs;
 mod judge;
 mod monitor;
 mod seen;

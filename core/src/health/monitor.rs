@@ -1,6 +1,7 @@
 //! Watches the taxels, some at a time.
 
-use super::judge::{Limits, Shown};
+use super::inputs::Inputs;
+use super::judge::{Limits, Shown, is_pressed};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
 use super::watch::{FRAMES, Watch};
@@ -54,12 +55,22 @@ pub struct Monitor {
     usual: u16,
     /// Too many neighbours seemed to be ill, up to the last one that was judged.
     crowd: bool,
+    /// Which of the ill taxels is looked at next: does it answer?
+    asked: u8,
+    inputs: Inputs,
 }
 
 impl Monitor {
     /// Nothing is known against any taxel.
     pub const fn new() -> Self {
-        Monitor { ill: Vec::new(), watch: Watch::new(), usual: 0, crowd: false }
+        Monitor {
+            ill: Vec::new(),
+            watch: Watch::new(),
+            usual: 0,
+            crowd: false,
+            asked: 0,
+            inputs: Inputs::new(),
+        }
     }
 
     /// Forgets everything.
@@ -104,6 +115,25 @@ impl Monitor {
             }
         }
         true
+    }
+
+    /// Looks at one of the ill taxels: if it was called dead and answers to pressure, it is not, and is given back.
+    pub fn acquit(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<IllTaxel> {
+        let ill = self.ill.get(usize::from(self.asked)).copied();
+        self.asked = ill.map_or(0, |_| self.asked + 1);
+        let ill = ill.filter(|ill| ill.health == TaxelHealth::Dead)?;
+        let taxel = usize::from(ill.taxel);
+        let (code, rest) = shown.now.get(taxel).zip(shown.rest?.get(taxel))?;
+        if !is_pressed(code.0, *rest, circuit.falling()) {
+            return None;
+        }
+        self.ill.retain(|other| other.taxel != ill.taxel);
+        Some(ill)
+    }
+
+    /// Whether something speaks against a converter input in this frame.
+    pub fn doubts(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>) -> bool {
+        self.inputs.is_one_odd(circuit, plan, shown, self.usual / 8)
     }
 
     /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].

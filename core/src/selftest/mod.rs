@@ -10,6 +10,9 @@
 //! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of each of its blocks,
 //! pulled up and pulled down. The reference garment takes 2.6 ms (simulated): one frame is not scanned.
 //!
+//! While the board runs, the levels of the lines are looked at, and so are the codes of the inputs: what speaks against one of them
+//! makes the board examine them all again ([`Examine::is_misled`], `board/doubt.rs`, `health/inputs.rs`).
+//!
 //! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its pin; a source
 //! of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What reacts to the select lines sees
 //! levels that nobody asked for; outputs of reactions are not touched.
@@ -28,11 +31,26 @@ use embedded_hal::delay::DelayNs;
 pub trait Examine {
     /// Examines all lines and inputs of a circuit; an error says what failed before the end.
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError>;
+
+    /// Between two scans: drives the select lines to some address, another one each time, at which [`Examine::is_misled`] looks at
+    /// them. What looks at them while it scans need not.
+    fn pose(&mut self, _circuit: &Circuit) {}
+
+    /// Whether a select line showed another level than it was driven to, since this was asked last.
+    fn is_misled(&mut self) -> bool;
 }
 
 impl<E: Examine> Examine for &mut E {
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
         (**self).examine(circuit)
+    }
+
+    fn pose(&mut self, circuit: &Circuit) {
+        (**self).pose(circuit);
+    }
+
+    fn is_misled(&mut self) -> bool {
+        (**self).is_misled()
     }
 }
 
@@ -51,5 +69,13 @@ where
         lines::examine(lines, delay, circuit, &mut findings)?;
         inputs::examine(lines, delay, adc, circuit, &mut findings)?;
         Ok(findings)
+    }
+
+    fn pose(&mut self, circuit: &Circuit) {
+        self.pose_next(circuit);
+    }
+
+    fn is_misled(&mut self) -> bool {
+        self.shows_another()
     }
 }

@@ -51,6 +51,8 @@ const ANSWER: usize = WORD + 2;
 const LIST: usize = WORD + 3;
 const TARGET: usize = WORD + 4;
 const VALUE: usize = WORD + 5;
+/// Clocks in which a select line comes to its level: 1 us.
+const SETTLES: u32 = 125;
 const CHANNELS: u16 = (1 << (VALUE + 1)) - 1;
 
 /// The chain of DMA channels.
@@ -140,6 +142,20 @@ impl Chain {
         let mut value = Step::new(SIZE_WORD, 0, 0, PERMANENT, TARGET);
         value.control.set_incr_read(true);
         value.set_up(VALUE);
+    }
+
+    /// Whether a select line shows another level than it has been driven to.
+    pub fn misleads(&self) -> bool {
+        let Some(select) = self.select else { return false };
+        let read = || DMA.ch(WORD).read_addr().read();
+        let at = read();
+        let is_other = || tables::word_before(at).is_some_and(|word| !select.shows(word)) && read() == at;
+        // The levels may have changed just now.
+        let settles = || cortex_m::asm::delay(SETTLES);
+        is_other() && {
+            settles();
+            is_other()
+        }
     }
 
     /// Stands still; the select lines and the converter are the processor's.

@@ -28,6 +28,9 @@ pub use chain::Chain;
 pub use frames::Begun;
 
 use crate::{adc, board, pins, platform};
+use core::pin::pin;
+use embassy_futures::select::{Either, select};
+use embassy_time::Timer;
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
 use taxel_core::garment::Circuit;
@@ -60,6 +63,9 @@ pub struct Scanner {
     /// What is being scanned.
     circuit: Option<Circuit>,
     plan: Plan,
+    /// A select line showed another level than it was driven to.
+    misled: bool,
+    looks: u32,
 }
 
 impl Scanner {
@@ -72,6 +78,8 @@ impl Scanner {
             by: By::Nobody,
             circuit: None,
             plan: Plan::default(),
+            misled: false,
+            looks: 0,
         }
     }
 
@@ -90,11 +98,22 @@ impl Scanner {
         self.plan = *plan;
     }
 
-    /// The latest frame of the chain that was not read yet.
+    /// The latest frame of the chain that was not read yet. Once meanwhile, at another time of each frame, the select lines are
+    /// looked at.
     async fn next(&mut self) -> Result<Scan<'_>, ScanError> {
         let depth = self.plan.depth;
-        let frame = self.frames.next(depth.scans()).await.inspect_err(|_| self.by = By::Nobody)?;
-        let (codes, lent) = frame;
+        self.looks = self.looks.wrapping_add(1);
+        // Multiples of the golden ratio are spread evenly: over 4 of a frame's 5 ms.
+        let look = Timer::after_micros(u64::from(self.looks.wrapping_mul(0x9e37_79b9) >> 20));
+        let mut next = pin!(self.frames.next(depth.scans()));
+        let frame = match select(next.as_mut(), look).await {
+            Either::First(frame) => frame,
+            Either::Second(()) => {
+                self.misled |= self.chain.misleads();
+                next.await
+            }
+        };
+        let (codes, lent) = frame.inspect_err(|_| self.by = By::Nobody)?;
         if depth != Depth::Twelve {
             codes.iter_mut().for_each(|code| code.0 = depth.mean(code.0));
         }
@@ -136,5 +155,15 @@ impl Examine for Scanner {
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
         self.rest();
         self.processor.examine(circuit)
+    }
+
+    fn pose(&mut self, circuit: &Circuit) {
+        if matches!(self.by, By::Processor) {
+            self.processor.pose(circuit);
+        }
+    }
+
+    fn is_misled(&mut self) -> bool {
+        core::mem::take(&mut self.misled) || matches!(self.by, By::Processor) && self.processor.is_misled()
     }
 }

@@ -2,7 +2,7 @@
 //! flag says that a stretch begins.
 
 use embassy_rp::pio::program::{InstructionOperands, JmpCondition, OutDestination};
-use rp_pac::{IO_BANK0, PIO0, io::vals::Oeover};
+use rp_pac::{IO_BANK0, PIO0, SIO, io::vals::Oeover};
 
 /// The state machine.
 const MACHINE: usize = 0;
@@ -109,6 +109,12 @@ impl Select {
         let flags = PIO0.irq().read().irq();
         PIO0.irq().write(|w| w.set_irq(flags));
         flags
+    }
+
+    /// Whether the lines are at the levels of one of the program's words.
+    pub fn shows(self, word: u32) -> bool {
+        let levels = SIO.gpio_in(0).read();
+        (levels ^ word << self.first()) & self.lines == 0
     }
 
     /// The program's word for these levels (bit `n` for GPIO `n`); `begins`: a stretch begins.

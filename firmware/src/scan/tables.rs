@@ -48,6 +48,12 @@ pub fn words() -> u32 {
     address(&WORDS)
 }
 
+/// The levels before an address: those that went out last where they are read from there next.
+pub fn word_before(at: u32) -> Option<u32> {
+    let index = (at.wrapping_sub(words()) / size_of::<AtomicU32>() as u32).wrapping_sub(1);
+    WORDS.get(index as usize).map(|word| word.load(Relaxed))
+}
+
 /// Where the list of registers is, in a ring of [`TARGETS`] words.
 pub fn targets() -> u32 {
     address(&TARGET)

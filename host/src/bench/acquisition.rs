@@ -119,7 +119,11 @@ fn noise() -> f64 {
 fn acquire(setting: &Setting, real: bool) -> Outcome {
     let signals = texture(setting.addresses * setting.inputs);
     let chain = Chain {
-        wiring: WiringEffects { source_kohm: setting.source_kohm, line_pf: LINE_PF, crosstalk: 0.0 },
+        wiring: WiringEffects {
+            source_kohm: setting.source_kohm,
+            line_pf: LINE_PF,
+            ..WiringEffects::default()
+        },
         converter: Converter { dnl: real, noise_counts: if real { noise() } else { 0.0 } },
         settle_ns: setting.settle_ns,
         conversion_ns: Timing::REFERENCE.conversion_ns,

@@ -87,9 +87,10 @@ fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
         let reading = readings.first().context("nothing was felt")?;
         press = Some((newtons, felt(calibration, &plates[0], reading)?));
     }
+    let celsius = board.celsius();
     let ill = board.ill().keys().copied().collect();
     board.give_back()?;
-    let seen = Seen { told, rest: rest.codes, ill, today: date::today(), days: args.days, press };
+    let seen = Seen { told, rest: rest.codes, ill, today: date::today(), days: args.days, press, celsius };
     Ok(judge(calibration, &seen))
 }
 

@@ -12,6 +12,9 @@ const ILL: f64 = 0.01;
 /// Least error of a known press that counts, part of it, and times the calibration's own error.
 const PRESS: (f64, f64) = (0.05, 3.0);
 
+/// Degrees by which the board may have become warmer or colder. Cloths differ in what that does to them: a known press tells more.
+const WARMTH: f64 = 10.0;
+
 /// What is found on the garment now.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Seen {
@@ -27,6 +30,8 @@ pub struct Seen {
     pub days: u64,
     /// A known force, and what it is by the calibration, N.
     pub press: Option<(f64, f64)>,
+    /// Temperature of the board's converter, degrees; none: it has no thermometer.
+    pub celsius: Option<f64>,
 }
 
 /// Why to calibrate again.
@@ -46,6 +51,8 @@ pub enum Reason {
     Old(u64),
     /// A known press is felt as another: N, N.
     Press(f64, f64),
+    /// The board's temperature was the first and is the second, degrees.
+    Warmth(f64, f64),
 }
 
 impl fmt::Display for Reason {
@@ -65,6 +72,10 @@ impl fmt::Display for Reason {
             Reason::Press(known, felt) => {
                 write!(f, "{known:.2} N are felt as {felt:.2} N ({:+.1} %)", 100.0 * (felt / known - 1.0))
             }
+            Reason::Warmth(then, now) => write!(
+                f,
+                "the board is at {now:.0} degrees, and was at {then:.0}: let it come to that, or calibrate as warm as it is used"
+            ),
         }
     }
 }
@@ -99,6 +110,11 @@ pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
         && (felt / known - 1.0).abs() > PRESS.0.max(PRESS.1 * calibration.fit.error)
     {
         reasons.push(Reason::Press(known, felt));
+    }
+    if let (Some(then), Some(now)) = (calibration.celsius, seen.celsius)
+        && (now - then).abs() > WARMTH
+    {
+        reasons.push(Reason::Warmth(then, now));
     }
     reasons
 }

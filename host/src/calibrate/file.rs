@@ -27,6 +27,9 @@ pub struct Calibration {
     pub how: String,
     /// Firmware and link of the board.
     pub board: String,
+    /// Temperature of the board's converter when it was made, degrees; none: it has no thermometer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub celsius: Option<f64>,
     /// How well it fits.
     pub fit: Residuals,
     /// How well each weight is given back.
@@ -68,6 +71,7 @@ impl Calibration {
             date: date::today(),
             how,
             board,
+            celsius: None,
             fit: Residuals { rest: rest.noise, ..fitted.residuals },
             weights: fitted.weights,
             silent: fitted.silent,

@@ -45,7 +45,7 @@ pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
         &how(task, plates.len()),
         &format!("{firmware} at {}", board.label()),
     ];
-    Ok(Calibration::of(fitted, &layout, &rest, about))
+    Ok(Calibration { celsius: board.celsius(), ..Calibration::of(fitted, &layout, &rest, about) })
 }
 
 fn how(task: &Task, plates: usize) -> String {

@@ -3,7 +3,7 @@
 use super::{Client, Counts, Worn};
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
-use taxel_core::format::{Name, Q15};
+use taxel_core::format::{Celsius, Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base, Class};
@@ -106,5 +106,10 @@ impl Client {
     /// Where the board's time goes, as told last.
     pub fn budget(&self) -> Option<&Budget> {
         self.budget.as_ref()
+    }
+
+    /// The temperature of the board's converter, as told last; none: it has no thermometer, or has not told yet.
+    pub fn celsius(&self) -> Option<Celsius> {
+        self.celsius
     }
 }

@@ -10,6 +10,7 @@ use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
 use taxel_core::garment::Garment;
+use taxel_core::wire::Request;
 
 /// Frames after a change of settling that may still be of the old one.
 const OLD: u32 = 2;
@@ -29,6 +30,9 @@ pub struct SettleArgs {
     /// Write the garment with its settling there [default: print it]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Have the board store it with its settings, as `taxel save` does
+    #[arg(long)]
+    pub save: bool,
     /// Print JSON instead of sentences
     #[arg(long)]
     pub json: bool,
@@ -76,6 +80,9 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     let before_ns = garment.wiring.settle_ns;
     garment.wiring.settle_ns = settled.settle_ns;
     board.leave(&garment)?;
+    if args.save {
+        board.ask(&Request::Save)?;
+    }
     tell(args, before_ns, &settled);
     if args.json && args.output.is_none() {
         return Ok(());

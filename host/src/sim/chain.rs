@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     const IDEAL: Chain = Chain {
-        wiring: WiringEffects { source_kohm: 0.0, line_pf: 0.0, crosstalk: 0.0 },
+        wiring: WiringEffects { source_kohm: 0.0, line_pf: 0.0, ..WiringEffects::default() },
         converter: Converter { dnl: false, noise_counts: 0.0 },
         settle_ns: 2_000,
         conversion_ns: 2_000,
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_later_input_has_settled_further() {
-        let wiring = WiringEffects { source_kohm: 10.0, line_pf: 100.0, crosstalk: 0.0 };
+        let wiring = WiringEffects { source_kohm: 10.0, line_pf: 100.0, ..WiringEffects::default() };
         let slow = Chain { wiring, ..IDEAL };
         // Both addresses from the first scan on: the steps are from 4000 to 0.
         let have = codes(&slow, &[4000.0, 4000.0, 4000.0, 4000.0, 0.0, 0.0, 0.0, 0.0]);

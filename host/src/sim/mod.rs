@@ -28,6 +28,7 @@ mod rewire;
 mod scenes;
 mod script;
 mod signal;
+mod sneak;
 mod touch;
 mod variants;
 mod wiring;

@@ -128,8 +128,10 @@ pub struct WiringEffects {
     /// Capacitance of that line, pF. The voltage settles with the product since the last change of a select line.
     pub line_pf: f64,
     /// Part of the signal of every taxel on the same wired row or column of the block that is added to a taxel's own:
-    /// the sneak paths of a passive matrix.
+    /// what their common lines couple.
     pub crosstalk: f64,
+    /// The blocks are passive matrices: three pressed corners of a rectangle show at the fourth as well.
+    pub passive: bool,
 }
 
 impl WiringEffects {
@@ -140,7 +142,7 @@ impl WiringEffects {
 
     /// Whether the wiring changes nothing.
     pub fn is_ideal(&self) -> bool {
-        self.settling_ns() == 0.0 && self.crosstalk == 0.0
+        self.settling_ns() == 0.0 && self.crosstalk == 0.0 && !self.passive
     }
 }
 

@@ -4,6 +4,7 @@ use super::decode::Decoder;
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
 use super::pressure::Pressure;
 use super::script::Script;
+use super::sneak::Sneak;
 use super::wiring::{Line, mates, uneven};
 use anyhow::{Result, ensure};
 use fastrand::Rng;
@@ -34,6 +35,8 @@ pub struct World {
     settling_ns: f64,
     crosstalk: f32,
     mates: Vec<Vec<u16>>,
+    /// Of passive matrices.
+    sneak: Option<Sneak>,
     dnl: bool,
     /// Noise by signal, parts per unit of [`unit_noise`].
     live: f32,
@@ -81,12 +84,16 @@ impl World {
             settling_ns: script.wiring.settling_ns(),
             crosstalk,
             mates: Vec::new(),
+            sneak: None,
             dnl: script.converter.dnl,
             live: script.sensor.noise as f32 / UNIT_NOISE_RMS,
             bend: if script.sensor.half_n > 0.0 { (1.0 / script.sensor.half_n) as f32 } else { 0.0 },
         };
         if crosstalk > 0.0 {
             world.mates = mates(garment, &Decoder::build(garment), layout.taxels());
+        }
+        if script.wiring.passive {
+            world.sneak = Some(Sneak::build(garment, &Decoder::build(garment), layout.taxels()));
         }
         world.break_taxels(script)?;
         Ok(world)
@@ -175,6 +182,9 @@ impl World {
         if let Some(mates) = self.mates.get(index) {
             newtons +=
                 self.crosstalk * mates.iter().map(|m| self.newtons(usize::from(*m), t_ns)).sum::<f32>();
+        }
+        if let Some(sneak) = &self.sneak {
+            newtons += sneak.newtons(index, |taxel| self.newtons(taxel, t_ns));
         }
         let felt = t.gain * newtons;
         let bent = felt / (1.0 + self.bend * felt);

@@ -1,0 +1,94 @@
+//! What presses around a taxel and not on it is no fault of that taxel; where it is the taxel's, it is told soon.
+
+use super::worn::{TARE, Worn};
+use taxel_core::format::Code;
+use taxel_core::health::TaxelHealth;
+
+const COLUMNS: usize = 16;
+/// Row and column of the taxel in the middle, on the chest.
+const MIDDLE: (usize, usize) = (16, 8);
+const REST: u16 = 90;
+const FRAMES: u32 = 100;
+
+/// Codes of a frame: what rests has a noise of 3 counts rms, and so has what is pressed, with 900 counts more.
+fn codes(rng: &mut fastrand::Rng, is_pressed: impl Fn(usize) -> bool) -> Vec<Code> {
+    let mut noise = || ((0..4).map(|_| rng.f64() - 0.5).sum::<f64>() * 3f64.sqrt() * 3.0).round() as i16;
+    (0..2048)
+        .map(|t| Code((REST + if is_pressed(t) { 900 } else { 0 }).saturating_add_signed(noise())))
+        .collect()
+}
+
+/// A taxel of the chest by its distance from the middle, in rows and columns.
+fn from_middle(taxel: usize) -> Option<(usize, usize)> {
+    let (row, column) = (taxel / COLUMNS, taxel % COLUMNS);
+    (taxel < 32 * COLUMNS).then(|| (row.abs_diff(MIDDLE.0), column.abs_diff(MIDDLE.1)))
+}
+
+/// What is found, and in which frame after the tare, where these taxels are pressed for a while.
+fn found(worn: &mut Worn, frames: u32, is_pressed: impl Fn(usize) -> bool) -> Vec<(usize, u32, TaxelHealth)> {
+    let mut rng = fastrand::Rng::with_seed(5);
+    worn.tare();
+    let found = worn.show(u32::from(TARE) + frames, |frame| {
+        codes(&mut rng, |taxel| frame >= u32::from(TARE) && is_pressed(taxel))
+    });
+    found.into_iter().map(|(taxel, (frame, health))| (taxel, frame - u32::from(TARE), health)).collect()
+}
+
+/// Eight taxels around one; a round wall of two taxels; a square frame around nine; a slit, open at one end.
+#[test]
+fn a_ring_accuses_no_taxel() {
+    let thin = |(y, x): (usize, usize)| y.max(x) == 1;
+    let round = |(y, x): (usize, usize)| y * y + x * x > 0 && y * y + x * x <= 6;
+    let wide = |(y, x): (usize, usize)| y.max(x) == 2;
+    let cup = |(y, x): (usize, usize)| (9..=16).contains(&(y * y + x * x));
+    for (name, ring) in [
+        ("thin", &thin as &dyn Fn((usize, usize)) -> bool),
+        ("round", &round),
+        ("wide", &wide),
+        ("cup", &cup),
+    ] {
+        let found = found(&mut Worn::new(), 3 * FRAMES, |taxel| from_middle(taxel).is_some_and(ring));
+        assert!(found.is_empty(), "{name}: {found:?}");
+    }
+}
+
+/// Three rows and columns around it, then two: what presses it would press it, too.
+#[test]
+fn a_dead_taxel_under_what_presses_all_around_is_told_within_100_frames() {
+    for (height, width) in [(2, 2), (2, 3), (5, 5)] {
+        let box_around = |(y, x): (usize, usize)| y <= height && x <= width && y + x > 0;
+        let found = found(&mut Worn::new(), FRAMES + 11, |taxel| from_middle(taxel).is_some_and(box_around));
+        let [(taxel, frame, TaxelHealth::Dead)] = found[..] else { panic!("{found:?}") };
+        assert_eq!(taxel, MIDDLE.0 * COLUMNS + MIDDLE.1);
+        assert!(frame < FRAMES, "frame {frame}");
+    }
+}
+
+/// At an edge of the garment, and in its corner.
+#[test]
+fn a_dead_taxel_at_the_edge_is_told_within_100_frames() {
+    for (row, column) in [(0, 8), (16, 0), (0, 0), (31, 15)] {
+        let pressed = |taxel: usize| {
+            let (y, x) = ((taxel / COLUMNS).abs_diff(row), (taxel % COLUMNS).abs_diff(column));
+            taxel < 32 * COLUMNS && y.max(x) <= 3 && y + x > 0
+        };
+        let found = found(&mut Worn::new(), FRAMES + 11, pressed);
+        let [(taxel, frame, TaxelHealth::Dead)] = found[..] else { panic!("{found:?}") };
+        assert_eq!((taxel / COLUMNS, taxel % COLUMNS), (row, column));
+        assert!(frame < FRAMES, "frame {frame}");
+    }
+}
+
+/// A thick ring is taken for a cover with a dead taxel under it, until that taxel is pressed itself.
+#[test]
+fn a_dead_taxel_that_answers_is_taken_back() {
+    let mut worn = Worn::new();
+    let middle = MIDDLE.0 * COLUMNS + MIDDLE.1;
+    let thick = |(y, x): (usize, usize)| y.max(x) <= 3 && y + x > 0;
+    assert_eq!(found(&mut worn, FRAMES + 11, |taxel| from_middle(taxel).is_some_and(thick)).len(), 1);
+    assert_eq!(worn.board.state().condition.gain()[middle], 0);
+    let mut rng = fastrand::Rng::with_seed(6);
+    worn.show(4, |_| codes(&mut rng, |taxel| taxel == middle));
+    assert_eq!(worn.board.health_of(middle), TaxelHealth::Good);
+    assert_eq!(worn.board.state().condition.gain()[middle], 4096);
+}
