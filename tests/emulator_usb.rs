@@ -26,7 +26,7 @@ type Shown = (Pattern, bool);
 
 /// What is shown, and for how many scans each.
 fn shown() -> (Vec<Shown>, usize) {
-    let whole = [Pattern::Empty, Pattern::One, Pattern::Five];
+    let whole = [Pattern::Empty, Pattern::One, Pattern::Five, Pattern::Grid];
     if std::env::var_os("TAXEL_CAMPAIGN").is_some() {
         (Pattern::ALL.into_iter().map(|pattern| (pattern, whole.contains(&pattern))).collect(), 400)
     } else {
