@@ -51,18 +51,25 @@ impl Bench {
         refusal
     }
 
+    /// A frame with as much on each of twenty taxels.
+    fn scan(&mut self, press: u16) {
+        let pressed = |taxel: u16| if (4..9).contains(&(taxel % 16)) { press } else { 0 };
+        let codes: Vec<Code> = (0..TAXELS as u16).map(|taxel| Code(90 + pressed(taxel))).collect();
+        let report = ScanReport { start: self.now(), ..ScanReport::default() };
+        self.frame += 1;
+        self.board.step(report.start, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
+    }
+
+    fn now(&self) -> Micros {
+        Micros(5_000 * self.frame)
+    }
+
     /// What is said of intentions while a touch comes, grows and goes.
     fn touch(&mut self) -> Vec<IntentReport> {
         let mut reports = Vec::new();
         for frame in 0..60u16 {
-            let press = if (10..50).contains(&frame) { 40 * (frame - 9) } else { 0 };
-            let codes: Vec<Code> = (0..TAXELS as u16)
-                .map(|taxel| Code(90 + if (4..9).contains(&(taxel % 16)) { press } else { 0 }))
-                .collect();
-            let report = ScanReport { start: Micros(5_000 * self.frame), ..ScanReport::default() };
-            self.frame += 1;
-            self.board.step(report.start, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
-            self.told(report.start, |report| {
+            self.scan(if (10..50).contains(&frame) { 40 * (frame - 9) } else { 0 });
+            self.told(self.now(), |report| {
                 if let Report::Intent(report) = report {
                     reports.push(report);
                 }
@@ -188,4 +195,26 @@ fn a_bad_map_is_refused_in_one_sentence_and_changes_nothing() {
         bench.ask(&Request::SetScene(&vec![0; LONGEST_REQUEST])).as_deref(),
         Some("the frame is longer than the receiver can hold")
     );
+}
+
+#[test]
+fn what_the_old_map_meant_is_not_told_as_the_new_one_s() {
+    let mut bench = Bench::new();
+    bench.start();
+    bench.touch();
+    // The link takes nothing while a touch is felt, and then the map changes.
+    (0..40).for_each(|frame| bench.scan(90 * frame));
+    let scene = scene(large(EDGES, Rule::Kosko, Transfer::Tanh));
+    let mut wire = vec![0; 2 * LONGEST_REQUEST];
+    let bytes = postcard::to_allocvec(&scene).unwrap();
+    let frame = encode(&Request::SetScene(&bytes), &mut wire).unwrap().to_vec();
+    bench.board.step(bench.now(), Input::Received(&frame), &mut ());
+    (0..9).for_each(|_| bench.scan(3000));
+    let mut concepts = Vec::new();
+    bench.told(bench.now(), |report| {
+        if let Report::Intent(report) = report {
+            concepts.push(report.concepts.len());
+        }
+    });
+    assert!(!concepts.is_empty() && concepts.iter().all(|count| *count == CONCEPTS), "{concepts:?}");
 }

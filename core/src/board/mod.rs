@@ -192,6 +192,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
         self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
+        self.outbox.forget_meaning();
         self.outputs.follow(Outputs::at_rest(self.setup.pipeline.reactions()));
     }
 

@@ -157,12 +157,18 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn drop_waiting(&mut self) {
         self.reactions.clear();
-        self.changes.clear();
         self.gestures.clear();
-        (self.intent, self.image.due, self.raw) = (None, None, None);
+        self.forget_meaning();
+        (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
         self.contacts.contacts.clear();
         (self.symbols_wait, self.contacts_wait) = (false, false);
+    }
+
+    /// Another map: what the old one made of a touch would be read as the new one's concepts.
+    pub fn forget_meaning(&mut self) {
+        self.changes.clear();
+        self.intent = None;
     }
 
     /// The next image stands alone.
