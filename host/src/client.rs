@@ -179,7 +179,7 @@ impl Client {
             }
             Report::Intent(report) => {
                 self.intention = Some(report.clone());
-                Event::Intent(report)
+                Event::Intent(Box::new(report))
             }
             Report::Gesture(report) => Event::Gesture(report),
             Report::Shapes(report) => {

@@ -39,7 +39,7 @@ pub enum Event {
     /// What was said of contacts.
     Symbols(Box<SymbolList>),
     /// What the touch means.
-    Intent(IntentReport),
+    Intent(Box<IntentReport>),
     /// Which gesture goes on.
     Gesture(GestureReport),
     /// What the board was taught; the names are in the client, too.
