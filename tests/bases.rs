@@ -1,7 +1,8 @@
 //! Bases of shapes as files: whatever is in them, they are read or refused with one sentence, and what is read recognises.
 
 use proptest::prelude::*;
-use taxel::shapes::base::{Base, SHIPPED_NAMES};
+use taxel::learn::confusion::Confusion;
+use taxel::shapes::base::{Base, shipped_names};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};
@@ -10,7 +11,7 @@ use taxel_core::shape::{Descriptor, Exemplar, GalleryHead, MEASURES};
 use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 
 fn shipped() -> Vec<Base> {
-    SHIPPED_NAMES.iter().map(|name| Base::open(name.as_ref()).expect("it ships")).collect()
+    shipped_names().map(|name| Base::open(name.as_ref()).expect("it ships")).collect()
 }
 
 #[test]
@@ -27,6 +28,34 @@ fn what_ships_knows_its_own_prototypes() {
         let all: u32 = base.card.confusion.iter().flatten().sum();
         assert!((f64::from(right) / f64::from(all) - base.card.accuracy).abs() < 1e-9);
     }
+}
+
+#[test]
+fn the_cards_are_in_the_docs() {
+    let docs = include_str!("../docs/shapes.md");
+    for (name, base) in shipped_names().zip(shipped()) {
+        let (confusion, names) = (base.card.confusion.clone(), base.names());
+        let confusion = Confusion { counts: confusion, ..Confusion::new(&names, &names) };
+        let table: String = confusion.table().lines().map(|line| format!("  {line}\n")).collect();
+        let card = format!("\n`{name}`:\n\n```text\n{table}```\n");
+        assert!(docs.contains(&card), "docs/shapes.md does not hold:{card}");
+        let accuracy = format!("{:.1} %", 100.0 * base.card.accuracy);
+        let row = docs.lines().find(|line| line.starts_with(&format!("| `{name}` |"))).unwrap();
+        assert!(row.contains(&accuracy), "{row}: {accuracy}");
+    }
+}
+
+#[test]
+fn a_grid_has_a_base_of_its_own() {
+    let best = |classes: &[&str], grid| {
+        let classes: Vec<String> = classes.iter().map(ToString::to_string).collect();
+        Base::shipped_for(&classes, grid).map(|(name, _)| name)
+    };
+    assert_eq!(best(&["disc", "finger"], Some((16, 16))).unwrap(), "drawn-16x16");
+    assert_eq!(best(&["disc", "finger"], Some((28, 50))).unwrap(), "drawn");
+    assert_eq!(best(&["disc", "finger"], None).unwrap(), "drawn");
+    assert_eq!(best(&["finger", "ball"], Some((16, 16))).unwrap(), "objects");
+    assert!(best(&["cloud"], Some((16, 16))).unwrap_err().to_string().contains("classes cloud"));
 }
 
 #[test]

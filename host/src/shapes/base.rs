@@ -12,13 +12,33 @@ const KIND: &str = "taxel shapes 1";
 /// Much more than the largest base takes.
 const LONGEST: u64 = 1 << 20;
 
-/// Names of the bases that come with the program: drawn shapes, and the objects of tactnet.
-pub const SHIPPED_NAMES: [&str; 2] = [SHIPPED[0].0, SHIPPED[1].0];
+/// A base that comes with the program.
+struct Shipped {
+    name: &'static str,
+    /// Rows and columns of the only images that it is for.
+    grid: Option<(u16, u16)>,
+    text: &'static str,
+}
 
-const SHIPPED: [(&str, &str); 2] = [
-    ("drawn", include_str!("../../bases/drawn.json")),
-    ("objects", include_str!("../../bases/objects.json")),
+macro_rules! shipped {
+    ($name:literal, $grid:expr) => {
+        Shipped { name: $name, grid: $grid, text: include_str!(concat!("../../bases/", $name, ".json")) }
+    };
+}
+
+/// Drawn shapes, on all grids and on one, and the objects of tactnet.
+const SHIPPED: [Shipped; 5] = [
+    shipped!("drawn", None),
+    shipped!("drawn-4x16", Some((4, 16))),
+    shipped!("drawn-16x16", Some((16, 16))),
+    shipped!("drawn-32x64", Some((32, 64))),
+    shipped!("objects", None),
 ];
+
+/// Names of the bases that come with the program.
+pub fn shipped_names() -> impl Iterator<Item = &'static str> {
+    SHIPPED.iter().map(|shipped| shipped.name)
+}
 
 /// How a base was tested that was taught from nothing: each of its prototypes by the others.
 pub const LEFT_OUT: &str = "each prototype left out in turn";
@@ -76,7 +96,7 @@ impl Base {
 
     /// One that knows nothing yet, and sees as `drawn` does.
     pub fn empty() -> Result<Base> {
-        let mut base = Base::open(Path::new(SHIPPED[0].0))?;
+        let mut base = Base::open(Path::new(SHIPPED[0].name))?;
         base.gallery.names.clear();
         base.gallery.prototypes.clear();
         // Of a few examples the nearest decides.
@@ -87,8 +107,8 @@ impl Base {
 
     /// The shipped one of that name, else the file.
     pub fn open(name: &Path) -> Result<Base> {
-        if let Some((shipped, text)) = SHIPPED.iter().find(|(shipped, _)| Path::new(shipped) == name) {
-            return Base::parse(text).with_context(|| format!("base {shipped}"));
+        if let Some(shipped) = SHIPPED.iter().find(|shipped| Path::new(shipped.name) == name) {
+            return Base::parse(shipped.text).with_context(|| format!("base {}", shipped.name));
         }
         let read = || {
             let size = std::fs::metadata(name).context("cannot be read")?.len();
@@ -98,25 +118,26 @@ impl Base {
         read().with_context(|| name.display().to_string())
     }
 
-    /// The shipped base that knows the most of these classes.
-    pub fn shipped_for(classes: &[String]) -> Result<(&'static str, Base)> {
+    /// The shipped base that knows the most of these classes; of those that know as many, the one that is made for images of these rows
+    /// and columns.
+    pub fn shipped_for(classes: &[String], grid: Option<(u16, u16)>) -> Result<(&'static str, Base)> {
         let known = |base: &Base| {
-            base.gallery
-                .names
-                .iter()
-                .filter(|name| classes.iter().any(|class| class == name.as_str()))
-                .count()
+            let names = base.gallery.names.iter();
+            names.filter(|name| classes.iter().any(|class| class == name.as_str())).count()
         };
-        let mut best: Option<(&'static str, Base)> = None;
-        for (name, text) in SHIPPED {
+        let mut best: Option<((usize, bool), &'static str, Base)> = None;
+        for Shipped { name, grid: own, text } in &SHIPPED {
             let base = Base::parse(text).with_context(|| format!("base {name}"))?;
-            if known(&base) > best.as_ref().map_or(0, |(_, base)| known(base)) {
-                best = Some((name, base));
+            let worth = (known(&base), own.is_some());
+            let fits = worth.0 > 0 && (own.is_none() || *own == grid);
+            if fits && best.as_ref().is_none_or(|(most, ..)| worth > *most) {
+                best = Some((worth, name, base));
             }
         }
-        best.with_context(|| {
+        let (_, name, base) = best.with_context(|| {
             format!("no shipped base knows any of the classes {}: give --base", classes.join(", "))
-        })
+        })?;
+        Ok((name, base))
     }
 
     /// Of the text of a file. Everything that would not run on a board is refused.

@@ -55,6 +55,8 @@ pub struct Examples {
     pub kinds: Vec<String>,
     /// What of an image was the touch.
     pub view: View,
+    /// Rows and columns of the images, where all have the same.
+    pub grid: Option<(u16, u16)>,
     /// Names of the sets; the only one of a file without sets has none.
     pub sets: Vec<String>,
 }
@@ -115,7 +117,16 @@ impl ImagesArgs {
             set,
         };
         let list = kept.into_iter().map(example).collect();
-        Ok(Examples { list, names, kinds, view, sets: sets.into_iter().map(|set| set.set).collect() })
+        let grid = |set: &Labelled| (set.frames.rows, set.frames.columns);
+        let first = sets.first().map(grid).filter(|first| sets.iter().all(|set| grid(set) == *first));
+        Ok(Examples {
+            list,
+            names,
+            kinds,
+            view,
+            grid: first,
+            sets: sets.into_iter().map(|set| set.set).collect(),
+        })
     }
 
     fn sets(&self) -> Result<Vec<Labelled>> {

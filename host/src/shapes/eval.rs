@@ -18,7 +18,7 @@ pub struct EvalArgs {
     /// What to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
-    /// Base: a file, or `drawn` or `objects`, which are shipped [default: that of them which knows most of the classes]
+    /// Base: a file, or the name of one that is shipped [default: that of them which knows most of the classes, on such a grid]
     #[arg(long, value_name = "BASE", conflicts_with = "cross")]
     pub base: Option<PathBuf>,
     /// Learn from the images themselves, each time without one of so many folds, and recognise that one
@@ -80,7 +80,8 @@ fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
     let (name, base) = match &args.base {
         Some(path) => (path.display().to_string(), Base::open(path)?),
         None => {
-            let (name, base) = Base::shipped_for(&args.images.read(None)?.kinds)?;
+            let examples = args.images.read(None)?;
+            let (name, base) = Base::shipped_for(&examples.kinds, examples.grid)?;
             (name.to_string(), base)
         }
     };

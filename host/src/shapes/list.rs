@@ -1,6 +1,6 @@
 //! `taxel shapes list`: what a base knows.
 
-use super::base::{Base, SHIPPED_NAMES};
+use super::base::{Base, shipped_names};
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub struct ListArgs {
 
 /// Runs the command.
 pub fn run(args: ListArgs) -> Result<()> {
-    let shipped = || SHIPPED_NAMES.iter().map(PathBuf::from).collect();
+    let shipped = || shipped_names().map(PathBuf::from).collect();
     let paths: Vec<PathBuf> = if args.bases.is_empty() { shipped() } else { args.bases };
     let bases =
         paths.iter().map(|path| Ok((path.as_path(), Base::open(path)?))).collect::<Result<Vec<_>>>()?;

@@ -60,11 +60,11 @@ fn distance(a: &Point, b: &Point) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shapes::base::SHIPPED_NAMES;
+    use crate::shapes::base::shipped_names;
 
     #[test]
     fn what_is_kept_decides_the_same_of_all_prototypes() {
-        for name in SHIPPED_NAMES {
+        for name in shipped_names() {
             let whole = Base::open(name.as_ref()).unwrap().gallery;
             let mut pruned = whole.clone();
             prune(&mut pruned);
