@@ -55,7 +55,7 @@ enum Cross {
 pub fn run(args: GesturesArgs) -> Result<()> {
     match args.command {
         Command::Train(args) => TASK.train(&load(&args.files)?, &args.output),
-        Command::Eval { eval, rate } => TASK.eval(&eval, &load(&eval.files)?, &times(rate)?),
+        Command::Eval { eval, rate } => TASK.eval(&eval, load(&eval.files)?, &times(rate)?),
         Command::Card => {
             print!("{}", touches::CARDS);
             Ok(())

@@ -60,7 +60,7 @@ pub fn run(args: IntentArgs) -> Result<()> {
         Command::Train(args) => TASK.train(&load(&args.files, Cross::Day)?, &args.output),
         Command::Eval(args) => {
             let data = load(&args.files, args.cross.unwrap_or(Cross::Day))?;
-            TASK.eval(&args, &data, &times())
+            TASK.eval(&args, data, &times())
         }
         Command::Card => {
             print!("{}", touches::CARDS);

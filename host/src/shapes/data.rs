@@ -138,10 +138,14 @@ impl ImagesArgs {
         let file = self.images.display();
         let known: Vec<String> = arrays::names(&self.images)?;
         let known: Vec<&str> = known.iter().filter_map(|name| name.strip_suffix("_img")).collect();
+        ensure!(
+            !known.is_empty(),
+            "{file}: holds no set of images with their labels: name their file with --labels"
+        );
         let asked = |set: &str| self.set.is_empty() || self.set.iter().any(|pattern| matches(pattern, set));
         let sets: Vec<&str> = known.iter().copied().filter(|set| asked(set)).collect();
         if sets.is_empty() {
-            bail!("{file}: no set NAME_img is asked for; known are {}; or give --labels", known.join(", "));
+            bail!("{file}: no set NAME_img is asked for; known are {}", known.join(", "));
         }
         let classes = arrays::texts(&self.images, "classes")?;
         sets.into_iter().map(|set| self.labelled(set, classes.as_deref())).collect()

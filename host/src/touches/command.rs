@@ -82,14 +82,14 @@ impl Task {
     }
 
     /// Evaluates as asked, and prints the report.
-    pub fn eval<C>(&self, args: &EvalArgs<C>, data: &Data, times: &Times) -> Result<()>
+    pub fn eval<C>(&self, args: &EvalArgs<C>, data: Data, times: &Times) -> Result<()>
     where
         C: ValueEnum + Clone + Send + Sync + 'static,
     {
         let report = match (&args.cross, args.nested) {
             (None, _) => self.apply(data, args.model.as_deref(), times)?,
-            (Some(_), false) => cross(data, &self.settings, times)?,
-            (Some(_), true) => nested(data, &(self.candidates)())?,
+            (Some(_), false) => cross(&data, &self.settings, times)?,
+            (Some(_), true) => nested(&data, &(self.candidates)())?,
         };
         if args.json {
             println!("{}", report.json());
@@ -100,11 +100,12 @@ impl Task {
     }
 
     /// Applies the model of a file, else the shipped one, as it is.
-    fn apply(&self, data: &Data, model: Option<&Path>, times: &Times) -> Result<Report> {
+    fn apply(&self, mut data: Data, model: Option<&Path>, times: &Times) -> Result<Report> {
         let bytes = model.map_or_else(|| Ok(self.shipped.bytes().to_vec()), read)?;
         let model = Model::read(&bytes)?;
+        add_classes(&mut data, &model)?;
         let trained_on = Provenance::of(&model)?.knows(&data.sources);
-        let mut report = as_it_is(&model, data, times)?;
+        let mut report = as_it_is(&model, &data, times)?;
         if trained_on {
             eprintln!(
                 "warning: the model was trained on this file; how well it does on others is what --cross tells"
@@ -114,6 +115,16 @@ impl Task {
         report.add("model_bytes", bytes.len().into());
         Ok(report)
     }
+}
+
+/// Adds the classes that a model knows and the labels do not name; an error where they have none in common.
+fn add_classes(data: &mut Data, model: &Model<'_>) -> Result<()> {
+    let known = (0..model.classes()).filter_map(|class| model.name(class)).map(|name| name.to_string());
+    let (own, more): (Vec<String>, Vec<String>) = known.partition(|name| data.classes.contains(name));
+    let labels = data.classes.join(", ");
+    ensure!(!own.is_empty(), "the model knows {}, the labels {labels}", more.join(", "));
+    data.classes.extend(more);
+    Ok(())
 }
 
 /// Settings that differ from `one` in what is chosen by trial.
@@ -131,4 +142,27 @@ pub fn labels(files: &Files) -> Result<&Path> {
         "{frames}: frames of touches hold no labels of their own, name their file with --labels"
     );
     Ok(files.labels.as_deref().unwrap_or(&files.frames))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_may_name_fewer_classes_than_the_model_knows() {
+        let model = Model::read(Shipped::Intent.bytes()).unwrap();
+        let data = |classes: &[&str]| Data {
+            rows: 8,
+            columns: 8,
+            classes: classes.iter().map(ToString::to_string).collect(),
+            touches: Vec::new(),
+            idle: Vec::new(),
+            sources: Vec::new(),
+        };
+        let mut few = data(&["attack", "tango"]);
+        add_classes(&mut few, &model).unwrap();
+        assert_eq!(few.classes, ["attack", "tango", "kindness", "threat"]);
+        let why = add_classes(&mut data(&["tango"]), &model).unwrap_err().to_string();
+        assert_eq!(why, "the model knows kindness, threat, attack, the labels tango");
+    }
 }
