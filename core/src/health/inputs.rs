@@ -1,7 +1,7 @@
 //! Whether a converter input still shows its taxels. It cannot be told for sure from codes alone: what speaks against an input is
 //! for a self-test to confirm.
 //!
-//! In every second frame one input is looked at, by a quarter of a row of each of its blocks, every time of another row. A line that
+//! In every fourth frame one input is looked at, by a quarter of a row of each of its blocks, every time of another row. A line that
 //! lies open shows what was converted before, or drifts: many taxels show less pressure than at rest, as no touch makes them. One
 //! that is connected to the supply shows the same everywhere. What an input at rest shows anyway is not told apart from that.
 
@@ -21,27 +21,31 @@ const FAR: u16 = 8;
 pub(super) struct Inputs {
     input: u8,
     round: u8,
-    is_due: bool,
+    /// Counts frames.
+    turn: u8,
 }
 
 impl Inputs {
     /// The first one.
     pub const fn new() -> Inputs {
-        Inputs { input: u8::MAX, round: 0, is_due: false }
+        Inputs { input: u8::MAX, round: 0, turn: 0 }
     }
 
-    /// Looks at an input in every second frame. `travel`: how far half of the codes travel while they are watched.
+    /// Looks at an input in every fourth frame. `travel`: how far half of the codes travel while they are watched.
     pub fn is_one_odd(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>, travel: u16) -> bool {
-        self.is_due = !self.is_due;
-        let Some(rest) = shown.rest.filter(|_| self.is_due) else { return false };
+        self.turn = self.turn.wrapping_add(1);
+        let Some(rest) = shown.rest.filter(|_| self.turn & 3 == 0) else { return false };
         self.go_on(circuit);
         // Ten steps of 1.13 times their noise: four times the noise, and more.
         let far = (travel / 8 * 3).max(plan.depth.step().saturating_mul(2)).max(FAR);
         let mut tally = Tally::new(circuit.falling(), far);
         let (first, step) = if circuit.sites().len() < BLOCKS { (0, 1) } else { (self.round >> 2 & 3, 4) };
+        // 0.613 of a turn: near the golden ratio, whose multiples are spread evenly.
+        let part = self.round.wrapping_mul(157);
         let sites = circuit.sites().iter();
         for site in sites.filter(|site| site.input == self.input && plan.reads(site.panel, site.block)) {
-            let row = self.round.checked_rem(site.rows).unwrap_or(0);
+            // Without a division: this core has none.
+            let row = ((u16::from(part) * u16::from(site.rows)) >> 8) as u8;
             let mut column = first;
             while column < site.columns {
                 let taxel = site.taxel(row, column);

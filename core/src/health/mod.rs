@@ -2,7 +2,7 @@
 //!
 //! In every frame 23 taxels begin to be watched, over 11 frames: lowest and highest code of each, and how far its code has
 //! travelled. Then they are judged: each of 2,048 once in 90 frames, and what befalls it within 100. What is found
-//! stays, though the taxel may recover, until the garment is changed or a [`SelfTest`](crate::wire::Request::SelfTest) is asked
+//! stays, though the taxel may recover (but see below for a dead one), until the garment is changed or a [`SelfTest`](crate::wire::Request::SelfTest) is asked
 //! for: then every taxel counts as good again, with the gain of its good days, until it is found anew. `Start` only begins the
 //! watch anew.
 //!
