@@ -369,7 +369,7 @@ hold_s = 999
 fall_s = 0.1
 "#;
     let (things, output) = (file("things.toml", things), file("settled.toml", b""));
-    let said = run(&["settle", "--source", &format!("sim:{things}"), "--json", "--save", "-o", &output]);
+    let said = run(&["settle", "--source", &format!("sim:{things}"), "--json", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
     // 800 ns and 4 of 4,095 counts: 5,545 ns, three slots of the board that is simulated.
