@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     const IDEAL: Chain = Chain {
-        wiring: WiringEffects { source_kohm: 0.0, line_pf: 0.0, ..WiringEffects::default() },
+        wiring: WiringEffects { source_kohm: 0.0, line_pf: 0.0, crosstalk: 0.0, passive: false },
         converter: Converter { dnl: false, noise_counts: 0.0 },
         settle_ns: 2_000,
         conversion_ns: 2_000,
