@@ -128,7 +128,8 @@ impl fmt::Display for Table {
         )?;
         writeln!(
             f,
-            "Errors: against the exact moments of the same touch without noise and filter; largest and rms.\n"
+            "Errors: against the exact moments of the same touch without noise and filter; largest and rms. Of several contacts that move the\n\
+             NMI is up to as many frames old: their forms are looked at in turn.\n"
         )?;
         self.chain(f)?;
         writeln!(f, "\nmeasure: centroid, NMI and azimuth of one contact in a window of 16 x 16 taxels.\n")?;
