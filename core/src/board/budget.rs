@@ -125,7 +125,7 @@ impl Ledger {
     /// The frame under way began to be processed more than half a scan after its own had ended: with any more delay scans will be
     /// lost.
     pub fn is_late(&self) -> bool {
-        self.late % SPARED != 0
+        !self.late.is_multiple_of(SPARED)
     }
 
     /// The frames since the last report, if it is time for one.

@@ -5,7 +5,7 @@
 //! the source's edge i -> j: positive increases, negative decreases. Concepts without an incoming edge (an all-zero
 //! column of W) keep their value while `held` is true.
 //!
-//! [`MapConfig`] is what a message says, in decimal steps; [`Map`] is what inference reads: the causes of each concept one
+//! [`MapConfig`](super::MapConfig) is what a message says, in decimal steps; [`Map`] is what inference reads: the causes of each concept one
 //! after the other, thresholds folded into a bias, the transfer's gain as one multiplication.
 
 use super::config::{CONCEPTS, EDGES, Rule};

@@ -35,7 +35,7 @@ pub struct BoardArgs {
     /// With --gestures: counts of the model's sheet per count of the garment [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
-    /// Value of a concept that the host feeds: -1 to 1, its age, from which age on it no longer counts [never], and what counts then [0]
+    /// Value of a concept that the host feeds: -1 to 1, its age, from which age on it no longer counts [default: never], and what counts then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
     /// The board recognises shapes by a base that it is taught: a file, or the name of one that is shipped

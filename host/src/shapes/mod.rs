@@ -45,7 +45,7 @@ enum Command {
     /// How often a base is right on labelled images
     Eval(eval::EvalArgs),
     /// Teach a base one more class, or more of a class, by touches of a board or by images
-    Learn(learn::LearnArgs),
+    Learn(Box<learn::LearnArgs>),
     /// Teach a board a base
     Install(install::InstallArgs),
     /// Leave out prototypes that decide nothing
@@ -61,7 +61,7 @@ pub fn run(args: ShapesArgs) -> Result<()> {
     match args.command {
         Command::Train(args) => train_command::run(args),
         Command::Eval(args) => eval::run(args),
-        Command::Learn(args) => learn::run(args),
+        Command::Learn(args) => learn::run(*args),
         Command::Install(args) => install::run(args),
         Command::Prune(args) => prune::run(args),
         Command::List(args) => list::run(args),
