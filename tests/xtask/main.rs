@@ -32,7 +32,8 @@ usage: cargo xtask COMMAND
   recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
                         the core beside imageproc, and OpenCV where Python has it: microseconds per panel
-  campaign [--write]    long runs on the emulated board; --write: and write down what they print, docs/bench/campaign.txt
+  campaign [--only NAME] [--write]
+                        long runs on the emulated and the simulated board; --write: and write down what they print, docs/bench/campaign.txt
   test [--only NAME] [--may-miss NAME]
                         every check; a check that cannot run fails the run, unless it is named as one that may be missing
 ";
