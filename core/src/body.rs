@@ -1,6 +1,7 @@
 //! Where on the robot a contact is: the region of the body that its panel covers.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, tenths};
+use crate::format::wide;
 use crate::garment::Layout;
 use crate::shape::Shape;
 use serde::{Deserialize, Serialize};
@@ -19,22 +20,29 @@ pub struct Placed {
 impl Placed {
     /// Places a contact that was found on a garment of this layout.
     pub fn new(layout: &Layout, contact: Contact, shape: Shape) -> Placed {
-        let region = layout.areas().get(usize::from(contact.panel)).map_or(0, |area| area.region);
-        Placed { contact, shape, region }
+        Placed { region: region(layout, &contact), contact, shape }
+    }
+
+    /// As [`Placed::new`], in the place of another.
+    pub(crate) fn renew(&mut self, layout: &Layout, contact: &Contact, shape: Shape) {
+        self.contact = contact.clone();
+        self.shape = shape;
+        self.region = region(layout, contact);
     }
 
     /// Speed over the surface in 0.1 mm/s, saturating; at 10 mm pitch where the panel gives none, and with the pitch cut to
-    /// 0.1 mm. Each axis is held below 2^15 taxels/s and rounded down, and the larger part counts with half of the smaller: at
+    /// 0.1 mm and held within 0.1 and 655.3 mm. Each axis is held below 2^15 taxels/s and rounded down, and the larger part counts with half of the smaller: at
     /// most 11.81 % above the true speed, and 2 steps off.
     pub fn speed(&self, layout: &Layout) -> u32 {
         let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
-        let along = |velocity: i32, pitch: u32| {
-            let pitch = if pitch == 0 { 10_000 } else { pitch };
-            let speed = (u64::from(velocity.unsigned_abs()) * u64::from(pitch / 100)) >> 16;
-            speed.min(u32::MAX.into()) as u32
-        };
+        // 31 and 13 bits.
+        let along = |velocity: i32, pitch: u32| (wide(velocity.unsigned_abs(), tenths(pitch)) >> 16) as u32;
         let x = along(self.contact.vx.0, pitch[0]);
         let y = along(self.contact.vy.0, pitch[1]);
         x.max(y).saturating_add(x.min(y) / 2)
     }
+}
+
+fn region(layout: &Layout, contact: &Contact) -> u8 {
+    layout.areas().get(usize::from(contact.panel)).map_or(0, |area| area.region)
 }

@@ -274,16 +274,22 @@ fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {
 }
 
 fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) {
-    for (index, state) in states.iter_mut().enumerate() {
-        let before = (state.contacts > 0, state.since);
-        *state = RegionState { region: index as u8, ..RegionState::default() };
-        for placed in present.iter().filter(|p| usize::from(p.region) == index) {
-            state.contacts = state.contacts.saturating_add(1);
-            state.total = state.total.saturating_add(placed.contact.total);
-            state.peak = state.peak.max(placed.contact.peak);
-            state.moving |= placed.contact.slip;
+    let mut touched = [false; PANELS];
+    for ((region, state), touched) in (0u8..).zip(&mut *states).zip(&mut touched) {
+        *touched = state.contacts > 0;
+        *state = RegionState { region, since: state.since, ..RegionState::default() };
+    }
+    for placed in present {
+        let Some(state) = states.get_mut(usize::from(placed.region)) else { continue };
+        state.contacts = state.contacts.saturating_add(1);
+        state.total = state.total.saturating_add(placed.contact.total);
+        state.peak = state.peak.max(placed.contact.peak);
+        state.moving |= placed.contact.slip;
+    }
+    for (state, touched) in states.iter_mut().zip(touched) {
+        if touched != (state.contacts > 0) {
+            state.since = now;
         }
-        state.since = if before.0 == (state.contacts > 0) { before.1 } else { now };
     }
 }
 

@@ -106,8 +106,8 @@ impl Normal {
 /// Fraction bits of a strip's square in pixels.
 const FRACTION: i16 = 24;
 
-/// A pitch in 0.1 mm.
-fn tenths(pitch_um: u32) -> u32 {
+/// A pitch in 0.1 mm: cut, held within 0.1 and 655.3 mm, 10 mm where it is 0.
+pub(crate) fn tenths(pitch_um: u32) -> u32 {
     // Beyond 655 mm the squares would not leave room; no garment is that coarse.
     let um = if pitch_um == 0 { ASSUMED_PITCH_UM } else { pitch_um.min(655_399) };
     // A hundredth by multiplication: exact below 2^30.

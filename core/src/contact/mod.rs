@@ -53,6 +53,7 @@ mod stage;
 mod track;
 mod trail;
 
+pub(crate) use axis::tenths;
 pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
 pub use component::Component;
 pub use config::{ContactConfig, NO_SLIP};

@@ -48,9 +48,12 @@ impl Pipeline {
         });
         probe.begin(Stage::Intent);
         let meaning = self.intent.as_ref().and_then(|stage| {
-            let mut felt: Vec<Touch, CONTACTS> = Vec::new();
-            replace(&mut felt, present.iter().map(|placed| self.touch(layout, placed)));
-            stage.process(intent, &felt, &state.fed.values(now), now)
+            let press = |placed: &Placed| placed.contact.peak_total;
+            let strongest =
+                present.iter().reduce(|most, next| if press(next) > press(most) { next } else { most });
+            // The one that the stage would choose.
+            let felt = strongest.map(|placed| self.touch(layout, placed));
+            stage.process(intent, felt.as_slice(), &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
         self.react.process(react, symbol.regions(layout.regions().len()), meaning.as_ref(), now);
@@ -87,11 +90,10 @@ impl Pipeline {
                 Some(_) => shape_in(present.get(index..).unwrap_or(&[]), contact.id),
                 None => Shape::default(),
             };
-            let placed = Placed::new(layout, contact.clone(), shape);
             match present.get_mut(index) {
-                Some(last) => *last = placed,
+                Some(placed) => placed.renew(layout, contact, shape),
                 // As many places as contacts.
-                None => _ = present.push(placed),
+                None => _ = present.push(Placed::new(layout, contact.clone(), shape)),
             }
         }
         present.truncate(touches.present.len());

@@ -76,11 +76,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)
         });
         for placed in percept.present {
-            let mut placed = placed.clone();
-            if untold.contains(&placed.contact.id) {
-                placed.contact.phase = Phase::Onset;
+            let fits = list.push(placed.clone()).is_ok();
+            health.lost += u32::from(!fits);
+            if let Some(told) = list.last_mut().filter(|_| fits && untold.contains(&placed.contact.id)) {
+                told.contact.phase = Phase::Onset;
             }
-            health.lost += u32::from(list.push(placed).is_err());
         }
         for placed in percept.released {
             health.lost += u32::from(list.push(placed.clone()).is_err());
