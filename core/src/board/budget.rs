@@ -36,7 +36,7 @@ pub(super) struct Ledger {
 }
 
 /// Of so many frames in a row that begin late one has its image nevertheless.
-const SPARED: u8 = 32;
+const SPARED: u8 = 16;
 
 /// What a frame took, us.
 #[derive(Debug, Default, Clone, Copy)]
@@ -196,7 +196,7 @@ mod tests {
         };
         assert_eq!([0, 2_560, 2_561, 5_000, 0].map(|by| late(1, by)), [false, false, true, true, false]);
         let told = (0..800).filter(|number| !late(*number, 4_000)).count();
-        assert_eq!(told, 25, "an image now and then");
+        assert_eq!(told, 50, "an image now and then");
     }
 
     #[test]

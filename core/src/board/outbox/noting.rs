@@ -10,7 +10,8 @@ use crate::wire::*;
 use heapless::Vec;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    /// Takes what was perceived in a frame. Of one that is `late` the image is left out: it is dear, and the next one comes soon.
+    /// Takes what was perceived in a frame. Of one that is `late` the image is left out, unless one waits for the link: it is dear, and the
+    /// next one comes soon.
     pub fn note(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, late: bool, health: &mut Health) {
         if !self.streaming {
             return;
@@ -41,8 +42,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         // What waits is encoded from the newest image and codes, so it bears their number.
         let due = self.rates.frames.due(time);
         let waits = self.image.due.is_some();
-        health.thinned_frames += u32::from(due && waits) + u32::from(late && (due || waits));
-        self.image.due = (!late && (due || waits)).then_some((frame, time));
+        health.thinned_frames += u32::from(due && (waits || late));
+        if waits || (due && !late) {
+            self.image.due = Some((frame, time));
+        }
         if self.rates.raw.due(time) || self.raw.is_some() {
             self.raw = Some((frame, time));
         }
