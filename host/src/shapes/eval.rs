@@ -18,8 +18,9 @@ pub struct EvalArgs {
     /// What to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
-    /// Base: a file, or the name of one that is shipped [default: that of them which knows most of the classes, on such a grid]
-    #[arg(long, value_name = "BASE", conflicts_with = "cross")]
+    /// Base: a file, or the name of one that is shipped [default: that of them which knows most of the classes, on such a grid]. With --cross it
+    /// is not asked
+    #[arg(long, value_name = "BASE")]
     pub base: Option<PathBuf>,
     /// Learn from the images themselves, each time without one of so many folds, and recognise that one
     #[arg(long, value_name = "FOLDS", value_parser = clap::value_parser!(u16).range(2..=10_000))]
@@ -44,6 +45,9 @@ struct Outcome {
 
 /// Runs the command.
 pub fn run(args: EvalArgs) -> Result<()> {
+    if let (Some(base), Some(_)) = (&args.base, args.cross) {
+        eprintln!("note: --cross trains anew on the images, {} is not asked", base.display());
+    }
     let (examples, outcome) = match args.cross {
         Some(folds) => crossed(&args, folds)?,
         None => applied(&args)?,

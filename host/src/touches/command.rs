@@ -38,8 +38,8 @@ pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
     /// What to recognise
     #[command(flatten)]
     pub files: Files,
-    /// The model; without it the shipped one
-    #[arg(long, conflicts_with = "cross")]
+    /// The model; without it the shipped one. With --cross it is not asked
+    #[arg(long)]
     pub model: Option<PathBuf>,
     /// Keep each of these apart in turn
     #[arg(long, value_name = "GROUPS")]
@@ -86,6 +86,9 @@ impl Task {
     where
         C: ValueEnum + Clone + Send + Sync + 'static,
     {
+        if let (Some(model), Some(_)) = (&args.model, &args.cross) {
+            eprintln!("note: --cross trains anew on the files, {} is not asked", model.display());
+        }
         let report = match (&args.cross, args.nested) {
             (None, _) => self.apply(data, args.model.as_deref(), times)?,
             (Some(_), false) => cross(&data, &self.settings, times)?,
