@@ -18,6 +18,7 @@
 //! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests and set-up code; no function of the
 //! per-frame path calls them.
 
+mod extremes;
 mod invalid;
 mod inverse;
 mod log;
@@ -26,6 +27,7 @@ mod root;
 mod scaled;
 mod shift;
 
+pub(crate) use extremes::Extremes;
 pub use invalid::Invalid;
 pub use inverse::Inverse;
 pub(crate) use product::{product, signed_wide, wide};

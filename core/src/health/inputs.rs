@@ -7,6 +7,7 @@
 
 use super::monitor::Codes;
 use crate::acquire::Plan;
+use crate::format::Extremes;
 use crate::garment::Circuit;
 
 /// Fewer taxels tell nothing.
@@ -77,13 +78,13 @@ struct Tally {
     /// Those that show less pressure than at rest, and those that show more.
     less: u16,
     more: u16,
-    codes: Span,
-    rests: Span,
+    codes: Extremes,
+    rests: Extremes,
 }
 
 impl Tally {
     fn new(falling: bool, far: u16) -> Tally {
-        Tally { falling, far, count: 0, less: 0, more: 0, codes: Span::NOTHING, rests: Span::NOTHING }
+        Tally { falling, far, count: 0, less: 0, more: 0, codes: Extremes::NONE, rests: Extremes::NONE }
     }
 
     fn take(&mut self, code: u16, rest: u16) {
@@ -98,23 +99,5 @@ impl Tally {
     fn is_odd(&self) -> bool {
         let alike = self.codes.width() < self.far && self.rests.width() > self.far.saturating_mul(2);
         self.count >= FEW && (self.less * 8 >= self.count || alike && self.more == self.count)
-    }
-}
-
-/// Lowest and highest of some codes.
-struct Span {
-    low: u16,
-    high: u16,
-}
-
-impl Span {
-    const NOTHING: Span = Span { low: u16::MAX, high: 0 };
-
-    fn take(&mut self, code: u16) {
-        (self.low, self.high) = (self.low.min(code), self.high.max(code));
-    }
-
-    fn width(&self) -> u16 {
-        self.high.saturating_sub(self.low)
     }
 }

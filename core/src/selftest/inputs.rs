@@ -3,6 +3,7 @@
 use super::lines::PULLED_NS;
 use super::{Fault, Findings};
 use crate::acquire::{Lines, Pad, Pull, PulledAdc, ScanError};
+use crate::format::Extremes;
 use crate::garment::{Circuit, Site};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
@@ -16,26 +17,11 @@ const RAIL: u16 = 32;
 /// So near to it an input has followed its resistor there.
 const FOLLOWED: u16 = FULL / 8;
 
-/// Lowest and highest code of an input.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    low: u16,
-    high: u16,
-}
-
-impl Span {
-    const NOTHING: Span = Span { low: u16::MAX, high: 0 };
-
-    fn take(&mut self, code: u16) {
-        (self.low, self.high) = (self.low.min(code), self.high.max(code));
-    }
-}
-
 /// An input, and what it showed.
 struct Input {
     pin: u8,
-    up: Span,
-    down: Span,
+    up: Extremes,
+    down: Extremes,
 }
 
 /// Examines the inputs. Afterwards none is pulled; the lines stay driven.
@@ -49,7 +35,7 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     let mut inputs = Vec::<Input, INPUTS>::new();
     for site in circuit.sites() {
         if !inputs.iter().any(|input| input.pin == site.input) {
-            let _ = inputs.push(Input { pin: site.input, up: Span::NOTHING, down: Span::NOTHING });
+            let _ = inputs.push(Input { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
         }
     }
     let read = [Pull::Up, Pull::Down].into_iter().try_for_each(|pull| {
