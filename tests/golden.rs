@@ -61,8 +61,11 @@ fn one<T, const N: usize>(item: T) -> Vec<T, N> {
     [item].into_iter().collect()
 }
 
-fn reports() -> [(&'static str, Report<'static>); 17] {
-    let (frame, time) = (300, Micros(5_000_000_000));
+/// Of all messages that have one.
+const FRAME: u32 = 300;
+const TIME: Micros = Micros(5_000_000_000);
+
+fn symbols() -> SymbolList {
     let words = Words {
         strength: Strength::Firm,
         extent: Extent::Wide,
@@ -72,10 +75,13 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
     };
     let event =
         Symbol { contact: 7, phase: Phase::Released, region: 1, words, peak_total: 80_000, duration_ms: 250 };
-    let region = RegionState { region: 1, contacts: 2, total: 70_000, peak: 4095, moving: true, since: time };
-    let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
-    let health = Health {
-        time,
+    let region = RegionState { region: 1, contacts: 2, total: 70_000, peak: 4095, moving: true, since: TIME };
+    SymbolList { frame: FRAME, time: TIME, events: one(event), regions: one(region) }
+}
+
+fn health() -> Health {
+    Health {
+        time: TIME,
         scans: 1,
         failed: 2,
         overruns: 3,
@@ -85,10 +91,13 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
         refused: 7,
         scan_us: 7_628,
         process_us: 3_200,
-    };
-    let budget = Budget {
-        frame,
-        time,
+    }
+}
+
+fn budget() -> Budget {
+    Budget {
+        frame: FRAME,
+        time: TIME,
         frames: 195,
         scan_us: 5_120,
         process_us: 2_010,
@@ -96,8 +105,11 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
         send_us: 700,
         overruns: 3,
         thinned_frames: 4,
-    };
-    let hello = Hello {
+    }
+}
+
+fn hello() -> Hello<'static> {
+    Hello {
         magic: MAGIC,
         protocol: PROTOCOL,
         garment: &[1, 2],
@@ -105,17 +117,21 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
         clock: &[3],
         scene: &[4, 5, 6],
         calibration: &[],
-    };
-    let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
-    let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
-    let faults =
+    }
+}
+
+fn findings() -> Findings {
+    let lines =
         [(2, Fault::StuckHigh), (3, Fault::StuckLow), (6, Fault::Bridged(7)), (26, Fault::Open)].into_iter();
-    let faults = faults.chain([(27, Fault::Grounded), (28, Fault::Supplied)]);
+    let faults = lines.chain([(27, Fault::Grounded), (28, Fault::Supplied)]);
     let faults = faults.map(|(pin, fault)| PinFault { pin, fault }).collect();
-    let findings = Findings { lines: 9, inputs: 4, faults };
-    let gesture = GestureReport {
-        frame,
-        time,
+    Findings { lines: 9, inputs: 4, faults }
+}
+
+fn gesture() -> GestureReport {
+    GestureReport {
+        frame: FRAME,
+        time: TIME,
         touch: 3,
         panel: 1,
         class: 2,
@@ -124,32 +140,42 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
         lead: 65_536,
         observed_ms: 1500,
         ended: true,
-    };
-    let intent = IntentReport {
-        frame,
-        time,
+    }
+}
+
+fn intent() -> IntentReport {
+    IntentReport {
+        frame: FRAME,
+        time: TIME,
         leading: Leading::Attack,
         outcome: Outcome::Cycle(2),
         steps: 6,
         concepts: [Q15(0), Q15(32_768), Q15(-32_768)].into_iter().collect(),
-    };
+    }
+}
+
+fn reports() -> [(&'static str, Report<'static>); 17] {
+    let (frame, time) = (FRAME, TIME);
+    let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
+    let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
+    let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
     [
-        ("Hello", Report::Hello(hello)),
+        ("Hello", Report::Hello(hello())),
         ("Frame", Report::Frame(Frame { frame, time, base: Some(299), sum: 0xdead_beef, data: &[5, 1, 20] })),
         ("Contacts", Report::Contacts(ContactList { frame, time, dropped: 1, contacts: one(placed()) })),
-        ("Symbols", Report::Symbols(SymbolList { frame, time, events: one(event), regions: one(region) })),
-        ("Intent", Report::Intent(intent)),
+        ("Symbols", Report::Symbols(symbols())),
+        ("Intent", Report::Intent(intent())),
         ("Reaction", Report::Reaction(ReactionReport { frame, time, reaction })),
-        ("Health", Report::Health(health)),
+        ("Health", Report::Health(health())),
         ("Log", Report::Log(Log { time, level: Level::Warn, text: "pin 9" })),
         ("Sync", Report::Sync(SyncReport { token: 9, received: time, sent: Micros(5_000_000_100) })),
         ("Answer", Report::Answer(Answer { request: 2, refusal: Some("no") })),
         ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
-        ("Budget", Report::Budget(budget)),
+        ("Budget", Report::Budget(budget())),
         ("HealthMap", Report::HealthMap(map)),
         ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
-        ("SelfTest", Report::SelfTest(SelfTestReport { time, findings })),
-        ("Gesture", Report::Gesture(gesture)),
+        ("SelfTest", Report::SelfTest(SelfTestReport { time, findings: findings() })),
+        ("Gesture", Report::Gesture(gesture())),
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
     ]
 }

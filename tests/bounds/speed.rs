@@ -38,8 +38,11 @@ fn speed_is_within_its_bound() {
 }
 
 #[test]
-fn speed_outside_its_range_saturates() {
-    assert_eq!(told([u32::MAX; 2], i32::MIN, i32::MAX), u32::MAX);
-    assert_eq!(told([99, 99], i32::MAX, 0), 0, "a pitch below 0.1 mm is none");
+fn speed_outside_its_range_is_held() {
+    // A velocity at its end, over a pitch that is held at 655.3 mm.
+    let end = 6553 << 15;
+    assert_eq!(told([u32::MAX; 2], i32::MIN, i32::MIN), end + end / 2);
+    assert_eq!(told([655_300, 655_300], i32::MIN, i32::MIN), end + end / 2);
+    assert_eq!(told([99, 99], 1 << 16, 0), 1, "a pitch below 0.1 mm is 0.1 mm");
     assert_eq!(told([0, 0], 1 << 16, 0), 100, "10 mm are assumed");
 }
