@@ -41,19 +41,6 @@ impl<'a> Neighbourhood<'a> {
         Neighbourhood { values, rows: [above, here, below], columns: area.columns }
     }
 
-    /// Columns `left ..= right` of the row; empty where the slice does not hold them.
-    pub fn piece(&self, left: u16, right: u16) -> &'a [u16] {
-        // One comparison, since 17 bits and a few cannot overflow.
-        let from = usize::from(self.rows[1]) + usize::from(left);
-        self.values.get(from..from + usize::from(right - left) + 1).unwrap_or(&[])
-    }
-
-    /// As [`Neighbourhood::piece`], of the row above and of the row below.
-    pub fn beside(&self, left: u16, right: u16) -> [&'a [u16]; 2] {
-        let [above, _, below] = self.rows;
-        [above, below].map(|first| Neighbourhood { rows: [first; 3], ..*self }.piece(left, right))
-    }
-
     /// At a column that the panel has.
     pub fn gradient(&self, column: u16) -> Gradient {
         let gradient = if column == 0 || column + 1 == self.columns {

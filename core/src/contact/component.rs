@@ -4,7 +4,8 @@ use super::config::ContactConfig;
 use super::join::{Joins, weigh};
 use super::label::Labels;
 use super::moments::Moments;
-use super::run::{NONE, Run};
+use super::part::{NONE, Part};
+use super::piece::Piece;
 use crate::condition::{CARRIED, Feedback, Image, row_of};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Layout, Place, Rect};
@@ -60,20 +61,20 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         self.beyond.clear();
         self.dropped = 0;
         let mut least = None;
-        for (part, run) in labels.parts().filter(|(part, run)| run.group == *part) {
+        for (index, part) in labels.whole_parts().filter(|(index, part)| part.group == *index) {
             let (total, peak, area, held) =
-                if run.joined { weigh(labels, part) } else { (run.mass, run.peak, run.area, run.held) };
+                if part.joined { weigh(labels, index) } else { (part.mass, part.peak, part.area, part.held) };
             if area < config.min_area || (peak < config.high && !held) {
                 continue;
             }
             let found = || Component {
-                part,
-                joined: run.joined,
+                part: index,
+                joined: part.joined,
                 total,
                 peak,
                 peak_at: None,
                 area,
-                bounds: Rect { panel: run.panel, ..NOWHERE },
+                bounds: Rect { panel: part.panel, ..NOWHERE },
                 moments: Moments::default(),
                 inverse: Inverse::of(0),
                 x: Fixed16(0),
@@ -112,19 +113,20 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     /// Tells the parts which contact they belong to.
     pub fn number<const RUNS: usize>(&self, labels: &mut Labels<RUNS>) {
         for (index, component) in (0u16..).zip(&self.list) {
-            if let Some(run) = labels.runs.get_mut(usize::from(component.part)) {
-                run.contact = index;
+            if let Some(part) = labels.parts.get_mut(usize::from(component.part)) {
+                part.contact = index;
             }
         }
-        if self.list.iter().all(|component| !component.joined) {
-            return;
-        }
-        for part in 0..labels.runs.len() {
-            let Some(run) = labels.runs.get(part).filter(|run| run.joined) else { continue };
-            // A smaller part stands for this one, and it has its number already.
-            let contact = labels.runs.get(usize::from(run.group)).map_or(NONE, |run| run.contact);
-            if let Some(run) = labels.runs.get_mut(part) {
-                run.contact = contact;
+        // The one that stands for a part has a smaller index, and its number already.
+        for index in 0..labels.parts.len() {
+            let Some(part) = labels.parts.get(index) else { return };
+            let first = if usize::from(part.parent) == index { part.group } else { part.parent };
+            if usize::from(first) == index {
+                continue;
+            }
+            let contact = labels.parts.get(usize::from(first)).map_or(NONE, |part| part.contact);
+            if let Some(part) = labels.parts.get_mut(index) {
+                part.contact = contact;
             }
         }
     }
@@ -141,7 +143,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
-        self.take_runs(labels, joins, layout, image, low);
+        self.take_pieces(labels, joins, layout, image, low);
         for (contact, moments) in joins.carried_moments() {
             if let Some(component) = self.list.get_mut(usize::from(contact)) {
                 component.moments.add(&moments);
@@ -152,9 +154,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the runs to the components that they belong to, those of one part and row at once.
+    /// Adds the pieces to the components that they belong to.
     #[inline(never)] // the few registers of an M0+ are for its loop
-    fn take_runs<const RUNS: usize>(
+    fn take_pieces<const RUNS: usize>(
         &mut self,
         labels: &Labels<RUNS>,
         joins: &mut Joins,
@@ -162,31 +164,39 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         image: &Image,
         low: u16,
     ) {
-        let mut rest = labels.runs.as_slice();
-        while let Some((first, after)) = rest.split_first() {
-            let more = after.iter().take_while(|run| run.row == first.row && run.parent == first.parent);
-            let (runs, later) = rest.split_at_checked(1 + more.count()).unwrap_or((rest, &[]));
-            rest = later;
-            let Some(index) = labels.contact_of(first) else { continue };
-            let Some(component) = self.list.get_mut(usize::from(index)) else { continue };
-            let Some(area) = layout.areas().get(usize::from(first.panel)) else { continue };
-            let row = first.row - area.first_row;
-            let Some(span) = Span::of(runs, row) else { continue };
-            component.add(&span, row_of(image.values, area, row), joins, low);
-            if span.panel != component.bounds.panel {
-                self.widen_beyond(index, &span);
+        for piece in &labels.pieces {
+            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
+            let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
+            let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
+            let row = piece.row - area.first_row;
+            let mut strip = Strip { piece, part, row, values: row_of(image.values, area, row), floor: 0 };
+            if piece.is_run() {
+                component.add(&strip, joins);
+            } else if piece.is_alone() {
+                // What is between its runs is below the threshold.
+                strip.floor = low;
+                component.add(&strip, joins);
+            } else {
+                for run in piece.runs() {
+                    component.add(&Strip { piece: &run, ..strip }, joins);
+                }
+            }
+            if part.panel != component.bounds.panel {
+                self.widen_beyond(&strip);
             }
         }
     }
 
-    fn widen_beyond(&mut self, index: u16, span: &Span) {
-        match self.beyond.iter_mut().find(|(i, rect)| *i == index && rect.panel == span.panel) {
-            Some((_, rect)) => widen(rect, span),
+    #[inline(never)] // only across seams
+    fn widen_beyond(&mut self, strip: &Strip) {
+        let Part { contact, panel, .. } = *strip.part;
+        match self.beyond.iter_mut().find(|(i, rect)| *i == contact && rect.panel == panel) {
+            Some((_, rect)) => widen(rect, strip),
             None => {
-                let mut rect = Rect { panel: span.panel, ..NOWHERE };
-                widen(&mut rect, span);
+                let mut rect = Rect { panel, ..NOWHERE };
+                widen(&mut rect, strip);
                 // At most one per join, and there are no more joins than places.
-                let _ = self.beyond.push((index, rect));
+                let _ = self.beyond.push((contact, rect));
             }
         }
     }
@@ -205,66 +215,41 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 }
 
-/// The runs of one part in one row, and what is between them.
-struct Span {
-    part: u16,
-    panel: u8,
-    /// in the panel
+/// A piece, or a run of one, in its panel.
+struct Strip<'a> {
+    piece: &'a Piece,
+    part: &'a Part,
     row: u16,
-    left: u16,
-    /// last column
-    right: u16,
-    /// At least the greatest value.
-    peak: u16,
-    /// There is nothing between.
-    whole: bool,
+    /// of all columns of the row
+    values: &'a [u16],
+    /// What is below it does not belong to the piece.
+    floor: u16,
 }
 
-impl Span {
-    /// Of at least one run.
-    fn of(runs: &[Run], row: u16) -> Option<Span> {
-        let (first, last) = (runs.first()?, runs.last()?);
-        let peak = runs.iter().map(|run| run.peak).fold(0, u16::max);
-        let whole = runs.len() == 1;
-        Some(Span {
-            part: first.parent,
-            panel: first.panel,
-            row,
-            left: first.left,
-            right: last.right,
-            peak,
-            whole,
-        })
-    }
-}
-
-fn widen(rect: &mut Rect, span: &Span) {
+fn widen(rect: &mut Rect, strip: &Strip) {
     // The rows come one after the other.
-    if span.row < rect.top {
-        rect.top = span.row;
+    if strip.row < rect.top {
+        rect.top = strip.row;
     }
-    rect.bottom = span.row;
-    rect.left = rect.left.min(span.left);
-    rect.right = rect.right.max(span.right);
+    rect.bottom = strip.row;
+    rect.left = rect.left.min(strip.piece.left);
+    rect.right = rect.right.max(strip.piece.right);
 }
 
 impl Component {
-    /// Its runs; its number is `index`.
-    pub(super) fn runs<'l, const RUNS: usize>(
+    /// Its pieces, with their numbers; its own is `index`.
+    pub(super) fn pieces<'l, const RUNS: usize>(
         &self,
         index: u16,
         labels: &'l Labels<RUNS>,
         layout: &Layout,
-    ) -> impl Iterator<Item = &'l Run> {
-        let (part, joined) = (self.part, self.joined);
-        let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !joined);
-        let runs = match area {
-            Some(area) => {
-                labels.in_rows(area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
-            }
-            None => &labels.runs,
-        };
-        runs.iter().filter(move |run| run.parent == part || (joined && labels.contact_of(run) == Some(index)))
+    ) -> impl Iterator<Item = (usize, &'l Piece)> {
+        // Of one that lies on several panels all are asked.
+        let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !self.joined);
+        let rows = area.map_or((0, u16::MAX), |area| {
+            (area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
+        });
+        labels.in_rows(rows.0, rows.1).filter(move |(_, piece)| labels.contact_of(piece) == Some(index))
     }
 
     /// Finds the centroid, rounded once to the nearest 2^-16 taxel.
@@ -277,23 +262,33 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds runs to the sums, given with the values of their row; those below `low` are between the runs.
+    /// Adds a piece to the sums.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn add(&mut self, span: &Span, row: &[u16], joins: &mut Joins, low: u16) {
-        let values = row.get(span.left.into()..usize::from(span.right) + 1).unwrap_or(&[]);
-        // Of parts that are carried the sums are, once all their runs are in.
-        let carried = if self.joined { joins.moments_of(span.part) } else { None };
-        let (x, y) = (span.left.into(), span.row.into());
-        let floor = if span.whole { 0 } else { low };
-        carried.unwrap_or(&mut self.moments).add_run(x, y, values, floor, self.peak);
-        if self.peak_at.is_none()
-            && span.peak == self.peak
-            && let Some((column, _)) = (span.left..).zip(values).find(|(_, value)| **value == self.peak)
-        {
-            self.peak_at = Some(Place { panel: span.panel, row: span.row, column });
+    fn add(&mut self, strip: &Strip, joins: &mut Joins) {
+        let Strip { piece, part, row, floor, .. } = *strip;
+        let values = strip.values.get(piece.left.into()..usize::from(piece.right) + 1).unwrap_or(&[]);
+        // Of parts that are carried the sums are, once all their pieces are in.
+        let carried = if self.joined { joins.moments_of(part.parent) } else { None };
+        let moments = carried.unwrap_or(&mut self.moments);
+        moments.add_run(piece.left.into(), row.into(), values, floor, self.peak);
+        if piece.peak == self.peak {
+            self.look_for_peak(strip, values);
         }
-        if span.panel == self.bounds.panel {
-            widen(&mut self.bounds, span);
+        if part.panel == self.bounds.panel {
+            widen(&mut self.bounds, strip);
+        }
+    }
+
+    /// Notes where the greatest value is first found, given the values from the first to the last taxel of a piece. The pieces of
+    /// a row may come in any order.
+    #[inline(never)] // rarely called
+    fn look_for_peak(&mut self, strip: &Strip, values: &[u16]) {
+        let (panel, row) = (strip.part.panel, strip.row);
+        let mut columns = (strip.piece.left..).zip(values);
+        let Some((column, _)) = columns.find(|(_, value)| **value == self.peak) else { return };
+        let first = |at: Place| at.panel == panel && at.row == row && column < at.column;
+        if self.peak_at.is_none_or(first) {
+            self.peak_at = Some(Place { panel, row, column });
         }
     }
 }

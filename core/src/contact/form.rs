@@ -13,16 +13,13 @@ pub(super) struct Sight<'a, const RUNS: usize> {
     pub labels: &'a Labels<RUNS>,
     pub layout: &'a Layout,
     pub image: &'a Image<'a>,
-    /// The threshold from which on a taxel belongs to a contact.
-    pub low: u16,
 }
 
 impl<const RUNS: usize> Sight<'_, RUNS> {
     /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`.
     #[inline(never)] // a stack frame of its own is near
     pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
-        let Contour { length, slope } =
-            Contour::of(index, component, self.labels, self.layout, self.image, self.low);
+        let Contour { length, slope } = Contour::of(index, component, self.labels, self.layout, self.image);
         contact.perimeter = length as u16;
         contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
         let area = self.layout.areas().get(usize::from(component.bounds.panel));

@@ -8,7 +8,8 @@
 
 use super::label::Labels;
 use super::moments::Moments;
-use super::run::NONE;
+use super::part::{NONE, Part};
+use super::piece::Piece;
 use crate::condition::CARRIED;
 use crate::garment::{Joint, Layout, PANELS, Transform};
 use heapless::Vec;
@@ -57,7 +58,7 @@ impl Joins {
             }
         }
         for join in &self.joins {
-            unite(labels, join.a, join.b);
+            unite(&mut labels.parts, join.a, join.b);
         }
     }
 
@@ -77,37 +78,28 @@ impl Joins {
         };
         let ((left, top), (right, bottom)) =
             (joint.edge_a.at(0), joint.edge_a.at(i32::from(joint.length) - 1));
-        let first_row = i32::from(area_a.first_row);
-        let mut near = None;
+        let rows = [top, bottom].map(|row| area_a.first_row.wrapping_add_signed(row as i16));
+        let mut beside = labels.beside(area_b);
         // What the same part has beside it already.
         let (mut part, mut seen) = (NONE, -1);
-        let from = labels.runs.partition_point(|run| i32::from(run.row) < first_row + top);
-        for run in labels.runs.iter().skip(from) {
-            let y = i32::from(run.row) - first_row;
-            if y > bottom {
-                return;
+        for (_, piece) in labels.in_rows(rows[0], rows[1]) {
+            let taxels = piece.within(left as u16, right as u16);
+            let Some(here) = labels.part_of(piece).filter(|_| taxels != 0) else { continue };
+            if part != here {
+                (part, seen) = (here, -1);
             }
-            let (from, to) = (i32::from(run.left).max(left), i32::from(run.right).min(right));
-            if from > to {
-                continue;
-            }
-            // Along the seam either the row or the column counts.
-            let beside = joint.beside(y - top + from - left, y - top + to - left);
-            if part != run.parent {
-                (part, seen) = (run.parent, -1);
-            }
-            for j in *beside.start().max(&(seen + 1))..=*beside.end() {
-                let (x, y) = joint.edge_b.at(j);
-                let (row, column) = (y as u16, x as u16);
-                let before = match near {
-                    None => labels.before(area_b, row, column),
-                    Some(near) => labels.before_near(near, area_b, row, column),
-                };
-                near = Some(before);
-                if let Some(beside) = labels.holding(before, area_b, row, column) {
-                    self.note(Join { a: run.parent, b: beside.parent, joint: index });
+            let y = i32::from(piece.row - area_a.first_row);
+            for run in (Piece { taxels, ..*piece }).runs() {
+                // Along the seam either the row or the column counts.
+                let at = |column: u16| y - top + i32::from(column) - left;
+                let near = joint.beside(at(run.left), at(run.right));
+                for j in *near.start().max(&(seen + 1))..=*near.end() {
+                    let (x, y) = joint.edge_b.at(j);
+                    if let Some(there) = beside.part_at(y as u16, x as u16) {
+                        self.note(Join { a: here, b: there, joint: index });
+                    }
+                    seen = j;
                 }
-                seen = j;
             }
         }
     }
@@ -122,11 +114,11 @@ impl Joins {
     pub fn settle<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout, contact: u16) -> u8 {
         // Of each panel: the mass, and the heaviest part with its own.
         let mut sums = [(0u64, 0, 0); PANELS];
-        for (part, run) in labels.parts().filter(|(_, run)| run.contact == contact) {
-            if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(run.panel)) {
-                *sum = sum.wrapping_add(run.mass.into());
-                if run.mass > *most {
-                    (*heaviest, *most) = (part, run.mass);
+        for (index, part) in labels.whole_parts().filter(|(_, part)| part.contact == contact) {
+            if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(part.panel)) {
+                *sum = sum.wrapping_add(part.mass.into());
+                if part.mass > *most {
+                    (*heaviest, *most) = (index, part.mass);
                 }
             }
         }
@@ -181,37 +173,37 @@ impl Joins {
 }
 
 /// The part that stands for all that seams join to `part`.
-fn group<const RUNS: usize>(labels: &Labels<RUNS>, mut part: u16) -> u16 {
-    while let Some(run) = labels.runs.get(usize::from(part)) {
-        if run.group >= part {
+fn group(parts: &[Part], mut part: u16) -> u16 {
+    while let Some(held) = parts.get(usize::from(part)) {
+        if held.group >= part {
             break;
         }
-        part = run.group;
+        part = held.group;
     }
     part
 }
 
-fn unite<const RUNS: usize>(labels: &mut Labels<RUNS>, a: u16, b: u16) {
-    let (first, second) = (group(labels, a).min(group(labels, b)), group(labels, a).max(group(labels, b)));
+fn unite(parts: &mut [Part], a: u16, b: u16) {
+    let (first, second) = (group(parts, a).min(group(parts, b)), group(parts, a).max(group(parts, b)));
     for part in [a, b] {
-        if let Some(run) = labels.runs.get_mut(usize::from(part)) {
-            run.joined = true;
+        if let Some(part) = parts.get_mut(usize::from(part)) {
+            part.joined = true;
         }
     }
-    if let Some(run) = labels.runs.get_mut(usize::from(second)) {
-        run.group = first;
+    if let Some(part) = parts.get_mut(usize::from(second)) {
+        part.group = first;
     }
 }
 
 /// What a contact weighs with everything that seams join to its first part: total, peak, area, held.
-pub(super) fn weigh<const RUNS: usize>(labels: &Labels<RUNS>, part: u16) -> (u32, u16, u16, bool) {
+pub(super) fn weigh<const RUNS: usize>(labels: &Labels<RUNS>, first: u16) -> (u32, u16, u16, bool) {
     let mut sum = (0u32, 0u16, 0u16, false);
-    for (index, run) in labels.parts() {
-        if index == part || (run.joined && group(labels, index) == part) {
-            sum.0 = sum.0.wrapping_add(run.mass);
-            sum.1 = sum.1.max(run.peak);
-            sum.2 = sum.2.saturating_add(run.area);
-            sum.3 |= run.held;
+    for (index, part) in labels.whole_parts() {
+        if index == first || (part.joined && group(&labels.parts, index) == first) {
+            sum.0 = sum.0.wrapping_add(part.mass);
+            sum.1 = sum.1.max(part.peak);
+            sum.2 = sum.2.saturating_add(part.area);
+            sum.3 |= part.held;
         }
     }
     sum

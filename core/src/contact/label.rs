@@ -1,18 +1,21 @@
-//! Connected components: 8-connected runs joined by union-find, row by row.
+//! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
-use super::run::{NONE, Run, Stretch, key};
+use super::part::{NONE, Part, first_of, unite};
+use super::piece::{Piece, Sum, WORD, flood, is_run, key, lowest_run, touched};
 use crate::condition::{Feedback, Image, row_of};
 use crate::garment::{Area, Layout, Rect, Side};
-use core::ops::Range;
 use heapless::Vec;
 
-/// The runs of a frame, in the order of rows and columns.
+/// The parts of a frame, and their pieces.
 #[derive(Debug, Clone)]
 pub(super) struct Labels<const RUNS: usize> {
-    pub runs: Vec<Run, RUNS>,
-    /// Sides of panels that have a run, four bits for each panel.
+    /// In the order of rows and words.
+    pub pieces: Vec<Piece, RUNS>,
+    /// In the order of their first taxels. There are no more of them than pieces.
+    pub parts: Vec<Part, RUNS>,
+    /// Sides of panels that have a piece, four bits for each panel.
     sides: u32,
-    /// Runs that did not fit, in this frame.
+    /// Pieces that did not fit, in this frame.
     pub overflow: u16,
 }
 
@@ -21,17 +24,36 @@ const fn bit(panel: u8, side: Side) -> u32 {
     1 << (panel as u32 % 8 * 4 + side as u32)
 }
 
+/// Where the pieces that are looked for lie.
+#[derive(Clone, Copy)]
+struct Line {
+    panel: u8,
+    /// over all panels
+    row: u16,
+    /// The first piece of the row above, or of this row where that has none.
+    above: usize,
+}
+
+/// Runs of a word that belong to one part, and the part.
+type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
+
 impl<const RUNS: usize> Labels<RUNS> {
     pub const fn new() -> Self {
-        const { assert!(RUNS < NONE as usize, "a run is numbered with 16 bits") };
-        Labels { runs: Vec::new(), sides: 0, overflow: 0 }
+        const { assert!(RUNS < NONE as usize, "a part is numbered with 16 bits") };
+        Labels { pieces: Vec::new(), parts: Vec::new(), sides: 0, overflow: 0 }
     }
 
-    /// Finds the parts of an image: connected runs within one panel.
-    pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
-        self.runs.clear();
+    /// Forgets all of them.
+    pub fn clear(&mut self) {
+        self.pieces.clear();
+        self.parts.clear();
         self.sides = 0;
         self.overflow = 0;
+    }
+
+    /// Finds the parts of an image.
+    pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
+        self.clear();
         if image.rows.is_empty() {
             return;
         }
@@ -43,127 +65,191 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     #[inline(never)] // a stack frame of its own is near
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
-        let start = self.runs.len();
+        let start = self.pieces.len();
         let last = area.first_row.saturating_add(area.rows);
         let (mut above, mut from) = (start, area.first_row);
-        while let Some(number) = image.rows.next(from..last) {
-            let here = self.runs.len();
-            let row = row_of(image.values, area, number - area.first_row);
+        while let Some(row) = image.rows.next(from..last) {
+            let here = self.pieces.len();
+            let values = row_of(image.values, area, row - area.first_row);
             // Only rows that follow each other touch.
-            self.scan_row(row, low, panel, number, if number == from { above } else { here });
-            (above, from) = (here, number + 1);
+            let line = Line { panel, row, above: if row == from { above } else { here } };
+            self.scan_row(values, low, &line);
+            (above, from) = (here, row + 1);
         }
         self.mark_sides(start, panel, area);
     }
 
-    /// Appends the runs of a row, and joins them to those of the row above, the first of which is `above`.
-    #[inline(never)]
-    fn scan_row(&mut self, values: &[u16], low: u16, panel: u8, row: u16, above: usize) {
-        let mut above = above..self.runs.len();
-        let (mut rest, mut column) = (values, 0);
-        while let Some(quiet) = rest.iter().position(|value| *value >= low) {
-            rest = rest.get(quiet..).unwrap_or(&[]);
-            let Stretch { length, mass, peak } = Stretch::of(rest, low.into());
-            let left = column + quiet as u16;
-            column = left + length as u16;
-            rest = rest.get(length..).unwrap_or(&[]);
-            let index = self.runs.len() as u16;
-            let run = Run {
-                mass,
-                row,
-                left,
-                right: column - 1,
-                parent: index,
-                group: index,
-                contact: NONE,
-                area: length as u16,
-                peak: peak as u16,
-                panel,
-                held: false,
-                joined: false,
-                covers: 0,
-            };
-            match self.runs.push(run) {
-                Ok(()) if above.is_empty() => {}
-                Ok(()) => above.start = self.connect(above.clone()),
-                Err(_) => self.overflow = self.overflow.saturating_add(1),
+    fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
+        let mut column = 0;
+        let mut rest = values;
+        while !rest.is_empty() {
+            let (values, after) = rest.split_at_checked(WORD.into()).unwrap_or((rest, &[]));
+            let taxels = touched(values, low);
+            if is_run(taxels) {
+                self.scan_run(taxels, values, column, line);
+            } else if taxels != 0 {
+                self.scan_runs(taxels, values, column, line);
             }
+            (rest, column) = (after, column.saturating_add(WORD));
         }
     }
 
-    /// Marks the sides of a panel that its runs touch, which are those from `start` on.
+    /// Appends the one run of a word to the part that it touches. If it touches several, they belong together.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn scan_run(&mut self, run: u32, values: &[u16], column: u16, line: &Line) {
+        let part = self.meet(run, column, line);
+        let (left, area) = (run.trailing_zeros(), run.count_ones());
+        let Sum { mass, peak } = Sum::of(values.get(left as usize..(left + area) as usize).unwrap_or(&[]));
+        let left = column + left as u16;
+        let right = left + area as u16 - 1;
+        let (row, peak) = (line.row, peak as u16);
+        self.push(
+            Piece { taxels: run, all: run, row, column, part, left, right, peak },
+            mass,
+            area as u16,
+            line,
+        );
+    }
+
+    /// The part that a run touches, of the pieces in the row above and in the word before; or [`NONE`]. If there are several,
+    /// they belong together from now on.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn meet(&mut self, run: u32, column: u16, line: &Line) -> u16 {
+        let mut part = NONE;
+        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
+            if piece.reach(column) & run != 0 {
+                part = match part {
+                    NONE => first_of(&mut self.parts, piece.part),
+                    part => unite(&mut self.parts, piece.part, part),
+                };
+            }
+        }
+        part
+    }
+
+    /// The part that all runs of a word touch, if it is the only one.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn only_part(&mut self, all: u32, column: u16, line: &Line) -> Option<u16> {
+        let (mut part, mut touched) = (NONE, 0);
+        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
+            let taxels = piece.reach(column) & all;
+            if taxels != 0 {
+                let other = first_of(&mut self.parts, piece.part);
+                if part != NONE && part != other {
+                    return None;
+                }
+                (part, touched) = (other, touched | taxels);
+            }
+        }
+        (flood(all, touched) == all).then_some(part)
+    }
+
+    /// Appends the runs of a word, as one piece for each part that they touch or begin.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn scan_runs(&mut self, all: u32, values: &[u16], column: u16, line: &Line) {
+        let mut found = Found::new();
+        match self.only_part(all, column, line) {
+            Some(part) => drop(found.push((all, part))),
+            None => self.find_parts(&mut found, all, column, line),
+        }
+        for &(taxels, part) in &found {
+            let Sum { mass, peak } = Sum::named(values, taxels);
+            let (row, peak) = (line.row, peak as u16);
+            let left = column + taxels.trailing_zeros() as u16;
+            let right = column + (WORD - 1).saturating_sub(taxels.leading_zeros() as u16);
+            let area = taxels.count_ones() as u16;
+            self.push(Piece { taxels, all, row, column, part, left, right, peak }, mass, area, line);
+        }
+    }
+
+    /// Tells apart the runs of a word by their parts: first those that are known already, from the row above or the word before;
+    /// then new ones.
+    #[inline(never)] // rarely called
+    fn find_parts(&mut self, found: &mut Found, all: u32, column: u16, line: &Line) {
+        let mut free = all;
+        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
+            let touched = piece.reach(column) & all;
+            if touched == 0 {
+                continue;
+            }
+            let mut part = first_of(&mut self.parts, piece.part);
+            let runs = flood(all, touched);
+            for (_, other) in found.iter().filter(|(taken, _)| taken & runs != 0) {
+                part = unite(&mut self.parts, *other, part);
+            }
+            let fresh = runs & free;
+            free &= !runs;
+            match found.iter_mut().find(|(_, other)| *other == part) {
+                Some((taken, _)) => *taken |= fresh,
+                // There are no more than runs.
+                None if fresh != 0 => drop(found.push((fresh, part))),
+                None => {}
+            }
+        }
+        while free != 0 {
+            let run = lowest_run(free);
+            free &= !run;
+            let _ = found.push((run, NONE));
+        }
+    }
+
+    /// Appends a piece to its part, with what it sums up to; of a new part, if that is [`NONE`].
+    fn push(&mut self, mut piece: Piece, mass: u32, area: u16, line: &Line) {
+        let (new, peak) = (piece.part == NONE, piece.peak);
+        if new {
+            piece.part = self.parts.len() as u16;
+        }
+        let part = piece.part;
+        if self.pieces.push(piece).is_err() {
+            self.overflow = self.overflow.saturating_add(1);
+            return;
+        }
+        if new {
+            // As many places as pieces.
+            let _ = self.parts.push(Part::new(part, line.panel));
+        }
+        if let Some(part) = self.parts.get_mut(usize::from(part)) {
+            part.add(mass, area, peak);
+        }
+    }
+
+    /// Marks the sides of a panel that its pieces touch, which are those from `start` on.
     fn mark_sides(&mut self, start: usize, panel: u8, area: &Area) {
-        let runs = self.runs.get(start..).unwrap_or(&[]);
-        let (Some(first), Some(last)) = (runs.first(), runs.last()) else { return };
+        let pieces = self.pieces.get(start..).unwrap_or(&[]);
+        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return };
         let mut mark = |touched: bool, side| {
             if touched {
                 self.sides |= bit(panel, side);
             }
         };
+        let right = area.columns.saturating_sub(1);
+        let word = right - right % WORD;
         mark(first.row == area.first_row, Side::Top);
         mark(last.row - area.first_row + 1 >= area.rows, Side::Bottom);
-        mark(runs.iter().any(|run| run.left == 0), Side::Left);
-        mark(runs.iter().any(|run| run.right + 1 >= area.columns), Side::Right);
+        mark(pieces.iter().any(|piece| piece.column == 0 && piece.holds(0)), Side::Left);
+        mark(pieces.iter().any(|piece| piece.column == word && piece.holds(right)), Side::Right);
     }
 
-    /// Whether a run touches that side of a panel.
+    /// Whether a piece touches that side of a panel.
     pub const fn touches(&self, panel: u8, side: Side) -> bool {
         self.sides & bit(panel, side) != 0
     }
 
-    /// Joins the last run to those of the row above that it touches, corners included. The first of these that may touch the
-    /// next run of the row.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn connect(&mut self, above: Range<usize>) -> usize {
-        let mut other = above.start;
-        let Some((last, runs)) = self.runs.split_last_mut() else { return other };
-        let (left, right) = (u32::from(last.left), u32::from(last.right));
-        while other < above.end {
-            let Some(run) = runs.get_mut(other) else { break };
-            let (begin, end) = (u32::from(run.left), u32::from(run.right));
-            if begin > right + 1 {
-                break;
-            }
-            if end + 1 >= left {
-                if left <= begin + 1 && end <= right + 1 {
-                    run.covers += 1;
-                }
-                if begin <= left + 1 && right <= end + 1 {
-                    last.covers += 1;
-                }
-                let part = part(runs, other as u16);
-                // The first to be joined to takes it; another is united with that.
-                let (first, second) = (last.parent.min(part), last.parent.max(part));
-                if let Some(run) = runs.get_mut(usize::from(second)) {
-                    run.parent = first;
-                }
-                last.parent = first;
-                // What ends further right may touch the next run, too.
-                if end > right {
-                    break;
-                }
-            }
-            other += 1;
-        }
-        other
-    }
-
-    /// Makes the first run of its part the parent of each run, and gives it the sums of all.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Makes the first of the parts that belong together the parent of each of them, and gives it the sums of all.
     fn flatten(&mut self) {
-        for index in 0..self.runs.len() {
-            let Some(run) = self.runs.get(index) else { return };
-            let parent = usize::from(run.parent);
+        for index in 0..self.parts.len() {
+            let Some(part) = self.parts.get(index) else { return };
+            let parent = usize::from(part.parent);
             if parent >= index {
                 continue;
             }
-            // Those before it have the first run of theirs already.
-            let (mass, area, peak) = (run.mass, run.area, run.peak);
-            let Some(first) = self.runs.get(parent).map(|run| run.parent) else { return };
-            if let Some(run) = self.runs.get_mut(index) {
-                run.parent = first;
+            // Those before it have the first of theirs already.
+            let (mass, area, peak) = (part.mass, part.area, part.peak);
+            let Some(first) = self.parts.get(parent).map(|part| part.parent) else { return };
+            if let Some(part) = self.parts.get_mut(index) {
+                part.parent = first;
             }
-            if let Some(part) = self.runs.get_mut(usize::from(first)) {
+            if let Some(part) = self.parts.get_mut(usize::from(first)) {
                 part.add(mass, area, peak);
             }
         }
@@ -177,7 +263,7 @@ impl<const RUNS: usize> Labels<RUNS> {
         last: &Feedback<CONTACTS>,
         high: u16,
     ) {
-        if self.parts().all(|(_, run)| run.peak >= high) {
+        if self.whole_parts().all(|(_, part)| part.peak >= high) {
             return;
         }
         for rect in last.home.iter().chain(&last.beyond) {
@@ -190,101 +276,122 @@ impl<const RUNS: usize> Labels<RUNS> {
     fn mark_held_by(&mut self, area: &Area, rect: &Rect) {
         let top = area.first_row.saturating_add(rect.top.saturating_sub(1));
         let bottom = area.first_row.saturating_add(rect.bottom.saturating_add(1));
-        for index in self.runs.partition_point(|run| run.row < top)..self.runs.len() {
-            let Some(run) = self.runs.get(index).filter(|run| run.row <= bottom) else { return };
-            let beside = run.right.saturating_add(1) >= rect.left && run.left <= rect.right.saturating_add(1);
-            if beside && run.panel == rect.panel {
-                let part = run.parent;
-                if let Some(part) = self.runs.get_mut(usize::from(part)) {
-                    part.held = true;
-                }
+        let (left, right) = (rect.left.saturating_sub(1), rect.right.saturating_add(1));
+        let from = self.pieces.partition_point(|piece| piece.row < top);
+        for piece in self.pieces.iter().skip(from).take_while(|piece| piece.row <= bottom) {
+            let part = self.parts.get(usize::from(piece.part)).filter(|part| part.panel == rect.panel);
+            if let Some(first) = part.map(|part| part.parent).filter(|_| piece.within(left, right) != 0)
+                && let Some(part) = self.parts.get_mut(usize::from(first))
+            {
+                part.held = true;
             }
         }
     }
 
-    /// The parts: index and first run.
-    pub fn parts(&self) -> impl Iterator<Item = (u16, &Run)> {
-        let mut rest = 0;
-        core::iter::from_fn(move || {
-            let index = self.next_part(rest)?;
-            rest = index + 1;
-            Some((index, self.runs.get(usize::from(index))?))
-        })
+    /// The parts that are whole, with their indices.
+    pub fn whole_parts(&self) -> impl Iterator<Item = (u16, &Part)> {
+        (0u16..).zip(&self.parts).filter(|(index, part)| part.parent == *index)
     }
 
-    /// The first run from `index` on that is the first of its part.
-    #[inline(never)] // the few registers of an M0+ are for its loop
-    fn next_part(&self, mut index: u16) -> Option<u16> {
-        for run in self.runs.get(usize::from(index)..)? {
-            if run.parent == index {
-                return Some(index);
-            }
-            index += 1;
+    /// The panel of a piece.
+    pub fn panel_of(&self, piece: &Piece) -> Option<u8> {
+        Some(self.parts.get(usize::from(piece.part))?.panel)
+    }
+
+    /// The part that a piece belongs to.
+    pub fn part_of(&self, piece: &Piece) -> Option<u16> {
+        Some(self.parts.get(usize::from(piece.part))?.parent)
+    }
+
+    /// The pieces of the rows `first ..= last`, over all panels, with their numbers.
+    pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Piece)> {
+        let from = self.pieces.partition_point(|piece| piece.row < first);
+        let pieces = self.pieces.iter().enumerate().skip(from);
+        pieces.take_while(move |(_, piece)| piece.row <= last)
+    }
+
+    /// Those of a piece's taxels that have all four neighbours in their panel, which is `area`.
+    pub fn enclosed(&self, number: usize, area: &Area) -> u32 {
+        let Some(Piece { taxels, row, column, .. }) = self.pieces.get(number).copied() else { return 0 };
+        let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
+        if row <= area.first_row || row >= last {
+            return 0;
         }
-        None
-    }
-
-    /// The runs of some rows, over all panels.
-    pub fn in_rows(&self, first: u16, last: u16) -> &[Run] {
-        let from = self.runs.partition_point(|run| run.row < first);
-        let (_, runs) = self.runs.split_at_checked(from).unwrap_or_default();
-        let count = runs.partition_point(|run| run.row <= last);
-        runs.get(..count).unwrap_or(runs)
-    }
-
-    /// How many runs begin before or at a place of a panel.
-    pub fn before(&self, area: &Area, row: u16, column: u16) -> usize {
-        let place = key(area.first_row.saturating_add(row), column);
-        self.runs.partition_point(|run| run.key() <= place)
-    }
-
-    /// As [`Labels::before`], for a place not far from another, of which it was `near`.
-    pub fn before_near(&self, near: usize, area: &Area, row: u16, column: u16) -> usize {
-        let place = key(area.first_row.saturating_add(row), column);
-        let begins = |index: usize| self.runs.get(index).is_some_and(|run| run.key() <= place);
-        let mut count = near.min(self.runs.len());
-        while begins(count) {
-            count += 1;
+        let above = self.all_before(number, key(row - 1, column));
+        let below = self.all_after(number, key(row + 1, column));
+        let mut left = taxels << 1;
+        if column > 0 {
+            left |= self.all_before(number, key(row, column - 1)) >> (WORD - 1);
         }
-        while count > 0 && !begins(count - 1) {
-            count -= 1;
+        let mut right = taxels >> 1;
+        if taxels >> (WORD - 1) != 0 && column < u16::MAX - WORD {
+            right |= self.all_after(number, key(row, column + WORD)) << (WORD - 1);
         }
-        count
+        taxels & above & below & left & right
     }
 
-    /// The run that holds a taxel, where so many begin before or at it.
-    pub fn holding(&self, before: usize, area: &Area, row: u16, column: u16) -> Option<&Run> {
-        let run = self.runs.get(before.checked_sub(1)?)?;
-        run.covers(area.first_row.saturating_add(row), column, column).then_some(run)
+    /// All touched taxels of a word that comes before a piece.
+    fn all_before(&self, number: usize, word: u32) -> u32 {
+        let pieces = self.pieces.get(..number).unwrap_or(&[]);
+        let last = pieces.iter().rev().find(|piece| piece.key() <= word);
+        last.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
+    }
+
+    /// All touched taxels of a word that comes after a piece.
+    fn all_after(&self, number: usize, word: u32) -> u32 {
+        let pieces = self.pieces.get(number..).unwrap_or(&[]);
+        let first = pieces.iter().find(|piece| piece.key() >= word);
+        first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
+    }
+
+    /// What is asked for one taxel of a panel after the other.
+    pub fn beside<'a>(&'a self, area: &'a Area) -> Beside<'a> {
+        Beside { pieces: &self.pieces, parts: &self.parts, area, near: None }
     }
 
     /// The contact that a taxel belongs to, once contacts are numbered.
     pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
-        self.contact_of(self.holding(self.before(area, row, column), area, row, column)?)
+        let word = key(area.first_row.saturating_add(row), column);
+        let first = self.pieces.partition_point(|piece| piece.key() < word);
+        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
+        self.contact_of(pieces.find(|piece| piece.holds(column))?)
     }
 
-    /// The contact that a run belongs to, once contacts are numbered.
-    pub fn contact_of(&self, run: &Run) -> Option<u16> {
-        let part = self.runs.get(usize::from(run.parent))?;
+    /// The contact that a piece belongs to, once contacts are numbered.
+    pub fn contact_of(&self, piece: &Piece) -> Option<u16> {
+        let part = self.parts.get(usize::from(piece.part))?;
         (part.contact != NONE).then_some(part.contact)
     }
 }
 
-/// The first run of the part that a run belongs to. Parents have smaller indices, so this ends; it halves the path.
-fn part(runs: &mut [Run], mut run: u16) -> u16 {
-    let parent = |runs: &[Run], run: u16| runs.get(usize::from(run)).map_or(run, |run| run.parent);
-    loop {
-        let above = parent(runs, run);
-        if above >= run {
-            return run;
+/// Taxels of a panel that are asked for one after the other, each beside the last.
+pub(super) struct Beside<'a> {
+    pieces: &'a [Piece],
+    parts: &'a [Part],
+    area: &'a Area,
+    /// The number of the first piece of the last one's word, or of those after it.
+    near: Option<usize>,
+}
+
+impl Beside<'_> {
+    /// The part that a taxel belongs to.
+    #[inline(never)] // the few registers of an M0+ are for this
+    pub fn part_at(&mut self, row: u16, column: u16) -> Option<u16> {
+        let word = key(self.area.first_row.saturating_add(row), column);
+        let before = |number: usize| self.pieces.get(number).is_some_and(|piece| piece.key() < word);
+        let mut first = match self.near {
+            Some(near) => near,
+            None => self.pieces.partition_point(|piece| piece.key() < word),
+        };
+        while before(first) {
+            first += 1;
         }
-        let first = parent(runs, above);
-        if first >= above {
-            return above;
+        while first > 0 && !before(first - 1) {
+            first -= 1;
         }
-        if let Some(held) = runs.get_mut(usize::from(run)) {
-            held.parent = first;
-        }
-        run = first;
+        self.near = Some(first);
+        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
+        let piece = pieces.find(|piece| piece.holds(column))?;
+        Some(self.parts.get(usize::from(piece.part))?.parent)
     }
 }

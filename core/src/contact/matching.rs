@@ -2,9 +2,9 @@
 
 use super::component::Component;
 use super::config::ContactConfig;
+use super::part::NONE;
 use super::point::{Images, LONGEST, Point};
 use super::record::Contact;
-use super::run::NONE;
 use super::track::Tracks;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::{Layout, PANELS};

@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
-//! | RAM | 940 + 4 C bytes for each of C contacts, 20 per run, and 4.3 KB |
+//! | RAM | 940 + 4 C bytes for each of C contacts, 40 per run, and 4.3 KB |
 //! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 345 k if all 2,048 taxels are touched, 1.3 M as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
@@ -28,7 +28,7 @@
 //! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 16 k
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
-//! The stage makes four passes: runs of each active row and their union (`run`, `label`); joins across seams (`join`);
+//! The stage makes four passes: each active row as bits, its runs joined to the parts above (`piece`, `part`, `label`); joins across seams (`join`);
 //! the choice of contacts; and the sums of the chosen ones only (`component`). So far goes [`Contacts::segment`]; then they are
 //! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
 //! is costs as much as all the rest of it, and changes slowly.
@@ -44,10 +44,11 @@ mod join;
 mod label;
 mod matching;
 mod moments;
+mod part;
 mod pattern;
+mod piece;
 mod point;
 mod record;
-mod run;
 mod slip;
 mod stage;
 mod track;

@@ -62,7 +62,7 @@ impl<const CONTACTS: usize, const RUNS: usize> ContactState<CONTACTS, RUNS> {
 
     /// Forgets all contacts without a release, as for another garment; ids go on.
     pub fn reset(&mut self) {
-        self.labels.runs.clear();
+        self.labels.clear();
         self.tracks.clear();
         self.feedback = Feedback::new();
     }

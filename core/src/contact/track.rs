@@ -5,8 +5,8 @@ use super::config::ContactConfig;
 use super::form::Sight;
 use super::label::Labels;
 use super::moments::Moments;
+use super::part::NONE;
 use super::record::{Contact, Phase};
-use super::run::NONE;
 use super::trail::{Clock, Scenery, Trail};
 use crate::condition::Image;
 use crate::format::{Fixed16, Micros, Q15};
@@ -148,7 +148,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 self.begin(index, component, now);
             }
         }
-        self.look(held, components, &Sight { labels, layout, image, low: config.low });
+        self.look(held, components, &Sight { labels, layout, image });
         self.moments.clear();
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {

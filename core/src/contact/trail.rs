@@ -13,7 +13,7 @@ use crate::garment::{Layout, Transform};
 /// What is remembered of a contact.
 #[derive(Debug, Clone)]
 pub(super) struct Trail {
-    /// Index of its component in this frame, or [`NONE`](super::run::NONE).
+    /// Index of its component in this frame, or [`NONE`](super::part::NONE).
     pub component: u16,
     /// It has merged or come apart in this frame: its centroid leaps, and that is no motion.
     pub leaps: bool,
