@@ -1,7 +1,7 @@
 //! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
 use super::part::{NONE, Part, first_of, unite};
-use super::piece::{Piece, Sum, WORD, flood, is_run, key, lowest_run, touched};
+use super::piece::{Piece, Sum, WORD, flood, is_run, lowest_run, touched};
 use crate::condition::{Feedback, Image, row_of};
 use crate::garment::{Area, Layout, Rect, Side};
 use heapless::Vec;
@@ -291,107 +291,5 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// The parts that are whole, with their indices.
     pub fn whole_parts(&self) -> impl Iterator<Item = (u16, &Part)> {
         (0u16..).zip(&self.parts).filter(|(index, part)| part.parent == *index)
-    }
-
-    /// The panel of a piece.
-    pub fn panel_of(&self, piece: &Piece) -> Option<u8> {
-        Some(self.parts.get(usize::from(piece.part))?.panel)
-    }
-
-    /// The part that a piece belongs to.
-    pub fn part_of(&self, piece: &Piece) -> Option<u16> {
-        Some(self.parts.get(usize::from(piece.part))?.parent)
-    }
-
-    /// The pieces of the rows `first ..= last`, over all panels, with their numbers.
-    pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Piece)> {
-        let from = self.pieces.partition_point(|piece| piece.row < first);
-        let pieces = self.pieces.iter().enumerate().skip(from);
-        pieces.take_while(move |(_, piece)| piece.row <= last)
-    }
-
-    /// Those of a piece's taxels that have all four neighbours in their panel, which is `area`.
-    pub fn enclosed(&self, number: usize, area: &Area) -> u32 {
-        let Some(Piece { taxels, row, column, .. }) = self.pieces.get(number).copied() else { return 0 };
-        let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
-        if row <= area.first_row || row >= last {
-            return 0;
-        }
-        let above = self.all_before(number, key(row - 1, column));
-        let below = self.all_after(number, key(row + 1, column));
-        let mut left = taxels << 1;
-        if column > 0 {
-            left |= self.all_before(number, key(row, column - 1)) >> (WORD - 1);
-        }
-        let mut right = taxels >> 1;
-        if taxels >> (WORD - 1) != 0 && column < u16::MAX - WORD {
-            right |= self.all_after(number, key(row, column + WORD)) << (WORD - 1);
-        }
-        taxels & above & below & left & right
-    }
-
-    /// All touched taxels of a word that comes before a piece.
-    fn all_before(&self, number: usize, word: u32) -> u32 {
-        let pieces = self.pieces.get(..number).unwrap_or(&[]);
-        let last = pieces.iter().rev().find(|piece| piece.key() <= word);
-        last.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
-    }
-
-    /// All touched taxels of a word that comes after a piece.
-    fn all_after(&self, number: usize, word: u32) -> u32 {
-        let pieces = self.pieces.get(number..).unwrap_or(&[]);
-        let first = pieces.iter().find(|piece| piece.key() >= word);
-        first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
-    }
-
-    /// What is asked for one taxel of a panel after the other.
-    pub fn beside<'a>(&'a self, area: &'a Area) -> Beside<'a> {
-        Beside { pieces: &self.pieces, parts: &self.parts, area, near: None }
-    }
-
-    /// The contact that a taxel belongs to, once contacts are numbered.
-    pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
-        let word = key(area.first_row.saturating_add(row), column);
-        let first = self.pieces.partition_point(|piece| piece.key() < word);
-        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
-        self.contact_of(pieces.find(|piece| piece.holds(column))?)
-    }
-
-    /// The contact that a piece belongs to, once contacts are numbered.
-    pub fn contact_of(&self, piece: &Piece) -> Option<u16> {
-        let part = self.parts.get(usize::from(piece.part))?;
-        (part.contact != NONE).then_some(part.contact)
-    }
-}
-
-/// Taxels of a panel that are asked for one after the other, each beside the last.
-pub(super) struct Beside<'a> {
-    pieces: &'a [Piece],
-    parts: &'a [Part],
-    area: &'a Area,
-    /// The number of the first piece of the last one's word, or of those after it.
-    near: Option<usize>,
-}
-
-impl Beside<'_> {
-    /// The part that a taxel belongs to.
-    #[inline(never)] // the few registers of an M0+ are for this
-    pub fn part_at(&mut self, row: u16, column: u16) -> Option<u16> {
-        let word = key(self.area.first_row.saturating_add(row), column);
-        let before = |number: usize| self.pieces.get(number).is_some_and(|piece| piece.key() < word);
-        let mut first = match self.near {
-            Some(near) => near,
-            None => self.pieces.partition_point(|piece| piece.key() < word),
-        };
-        while before(first) {
-            first += 1;
-        }
-        while first > 0 && !before(first - 1) {
-            first -= 1;
-        }
-        self.near = Some(first);
-        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
-        let piece = pieces.find(|piece| piece.holds(column))?;
-        Some(self.parts.get(usize::from(piece.part))?.parent)
     }
 }

@@ -7,7 +7,7 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
 //! | RAM | 940 + 4 C bytes for each of C contacts, 40 per run, and 4.3 KB |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 345 k if all 2,048 taxels are touched, 1.3 M as a checkerboard of 1,024 runs |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 340 k if all 2,048 taxels are touched, 410 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
@@ -47,6 +47,7 @@ mod moments;
 mod part;
 mod pattern;
 mod piece;
+mod place;
 mod point;
 mod record;
 mod slip;
