@@ -1,18 +1,22 @@
 //! Codes to pressure: the taxels beyond their limit, and only those.
 
-use super::rows::{Rows, grain};
+use super::marks::Marks;
+use super::sixteen::SIXTEEN;
 use super::slices::{panel_mut, panel_of};
 use super::state::ConditionState;
 use crate::format::Code;
 use crate::garment::Area;
 
 /// Taxels that are looked at together.
-const CHUNK: usize = 16;
+const CHUNK: usize = SIXTEEN;
 /// Those of them that are calibrated together.
 const PART: usize = 8;
+/// Chunks whose marks are kept until they are taken down.
+const KEPT: usize = 8;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Calibrates a panel whose calibrated image is empty; whether anything is left.
+    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows; whether anything is left. Where nothing is
+    /// marked the image stays as it is.
     pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], falling: bool) -> bool {
         let limit = panel_of(&self.limit, area);
         let codes = panel_of(codes, area);
@@ -24,13 +28,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             gain: panel_of(&self.gain, area),
             out: panel_mut(&mut self.calibrated, area),
         };
-        let marks = Marks {
-            rows: &mut self.rows,
-            row: area.first_row,
-            start: 0,
-            columns: usize::from(area.columns),
-            grain: grain(area),
-        };
+        let marks = Marks::of(&mut self.rows, area);
         match (falling, self.plain) {
             (false, false) => panel.calibrate::<false, false>(marks),
             (false, true) => panel.calibrate::<false, true>(marks),
@@ -80,7 +78,21 @@ impl Panel<'_> {
             if codes.is_empty() {
                 break;
             }
-            at += loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, first + at * N, marks);
+            let mut kept = [0; KEPT];
+            let rows = if N == CHUNK { marks.rows(at) } else { None };
+            let direct = rows.is_some();
+            let found = rows.unwrap_or(&mut kept);
+            let there = found.len();
+            let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, found);
+            if direct {
+                marks.hold(at..at + held);
+            } else {
+                for (chunk, bits) in (at..at + held).zip(kept) {
+                    marks.mark(first + chunk * N, N, bits.into());
+                }
+            }
+            // The one after those is known to be quiet.
+            at += (held + 1).min(there);
             any = true;
         }
         any
@@ -103,7 +115,7 @@ fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16
     codes.iter().zip(limit).position(loud).unwrap_or(codes.len())
 }
 
-/// Calibrates until a chunk is quiet; how many there were.
+/// Calibrates until a chunk is quiet, or no marks can be kept; how many hold something, and `found`: which of their taxels.
 #[inline(never)]
 fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: bool>(
     codes: &[[Code; N]],
@@ -111,27 +123,34 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: boo
     rest: &[[u16; N]],
     gain: &[[u16; N]],
     out: &mut [[u16; N]],
-    mut at: usize,
-    marks: &mut Marks<'_>,
+    found: &mut [u16],
 ) -> usize {
-    let mut done = 0;
-    for ((((codes, limit), rest), gain), out) in codes.iter().zip(limit).zip(rest).zip(gain).zip(out) {
+    let mut held = 0;
+    let chunks = codes.iter().zip(limit).zip(rest).zip(gain).zip(out).zip(found);
+    for (((((codes, limit), rest), gain), out), found) in chunks {
         let ((codes, _), (limit, _)) = (codes.as_chunks(), limit.as_chunks());
-        let ((rest, _), (gain, _), (out, _)) = (rest.as_chunks(), gain.as_chunks(), out.as_chunks_mut());
+        let ((rest, _), (gain, _), (parts, _)) = (rest.as_chunks(), gain.as_chunks(), out.as_chunks_mut());
         let mut bits = 0;
         for (part, ((((codes, limit), rest), gain), out)) in
-            codes.iter().zip(limit).zip(rest).zip(gain).zip(out).enumerate()
+            codes.iter().zip(limit).zip(rest).zip(gain).zip(parts).enumerate()
         {
             bits |= scale::<PART, FALLING, PLAIN>(codes, limit, rest, gain, out) << (part * PART);
         }
-        done += 1;
+        // What was there in the last image, if it was not emptied.
+        let mut gone = u32::from(*found) & !bits;
+        while gone != 0 {
+            if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
+                *out = 0;
+            }
+            gone &= gone - 1;
+        }
+        *found = bits as u16;
         if bits == 0 {
             break;
         }
-        marks.mark(at, N, bits);
-        at += N;
+        held += 1;
     }
-    done
+    held
 }
 
 /// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them. If PLAIN, their gain
@@ -165,48 +184,4 @@ fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
         }
     }
     bits
-}
-
-/// Takes down where something is; goes through a panel once, row by row.
-struct Marks<'a> {
-    rows: &'a mut Rows,
-    /// Over all panels.
-    row: u16,
-    /// Its first taxel in the panel.
-    start: usize,
-    columns: usize,
-    grain: u32,
-}
-
-impl Marks<'_> {
-    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something.
-    fn mark(&mut self, at: usize, count: usize, bits: u32) {
-        let mut column = at - self.start;
-        while column >= self.columns {
-            self.next_row();
-            column -= self.columns;
-        }
-        if column + count <= self.columns && self.grain == 0 {
-            return self.rows.add(self.row, (bits << column) as u16);
-        }
-        let mut rest = bits;
-        while rest != 0 {
-            let skipped = rest.trailing_zeros();
-            column += skipped as usize;
-            while column >= self.columns {
-                self.next_row();
-                column -= self.columns;
-            }
-            self.rows.add(self.row, 1 << (column >> self.grain));
-            // What else is of the same group and row.
-            let group = (((column >> self.grain) + 1) << self.grain).min(self.columns) - column;
-            rest = (rest >> skipped).unbounded_shr(group as u32);
-            column += group;
-        }
-    }
-
-    fn next_row(&mut self) {
-        self.row = self.row.saturating_add(1);
-        self.start += self.columns;
-    }
 }

@@ -3,12 +3,8 @@
 /// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
 pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
-/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or half the inside of a
-/// row of 16.
+/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or fewer.
 pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
-/// The same, where a row is done as a whole.
-pub(super) const LONG: usize = if VECTORS { SHORT } else { 16 };
-
 /// Clamps all of `here` but its ends, each to the range of its eight neighbours.
 #[inline(always)]
 pub(super) fn clamp_run<const N: usize>(
@@ -50,12 +46,6 @@ fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16
     step::<6, N>(above, here, below, out);
     step::<7, N>(above, here, below, out);
     step::<8, N>(above, here, below, out);
-    step::<9, N>(above, here, below, out);
-    step::<10, N>(above, here, below, out);
-    step::<11, N>(above, here, below, out);
-    step::<12, N>(above, here, below, out);
-    step::<13, N>(above, here, below, out);
-    step::<14, N>(above, here, below, out);
 }
 
 /// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a
@@ -135,7 +125,7 @@ mod tests {
     fn to_compare_one_after_another_makes_no_difference() {
         for case in 0..1u32 << 18 {
             let rows = [0, 6, 12].map(|shift| {
-                let mut row = [0; 16];
+                let mut row = [0; SHORT];
                 for (at, value) in row.iter_mut().enumerate() {
                     // Other columns hold the same in another order.
                     let size = case >> (shift + 2 * (at % 3)) & 3;
@@ -143,7 +133,7 @@ mod tests {
                 }
                 row
             });
-            let mut out = [[0; 16]; 2];
+            let mut out = [[0; SHORT]; 2];
             let [above, here, below] = &rows;
             by_comparison(above, here, below, &mut out[0]);
             by_range(above, here, below, &mut out[1]);

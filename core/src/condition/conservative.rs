@@ -3,9 +3,10 @@
 //! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own neighbour and an
 //! impulse would survive.
 
-use super::clamp::{LONG, SHORT, clamp, clamp_run};
+use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::row::Row;
 use super::rows::{Pieces, Rows};
+use super::sixteen::{SIXTEEN, clamp_sixteen};
 use crate::garment::Area;
 use core::ops::Range;
 
@@ -23,18 +24,43 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
     while let Some(number) = marks.next(next..end) {
         next = number + 1;
         let groups = bridged(marks.groups(number), there);
-        marks.add(number, groups);
-        let here = usize::from(number - first) * columns;
+        marks.widen(number, groups);
+        let row = number - first;
+        if columns == SIXTEEN && !VECTORS {
+            smooth_sixteen(values, out, row.into());
+            continue;
+        }
+        let here = usize::from(row) * columns;
         // The other side lends what is missing: a neighbour that counts twice changes neither end of the range.
-        let above = if number == first { columns } else { here - columns };
+        let above = if row == 0 { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
-        if groups == there {
-            smooth::<LONG>(&row, values, out, 0..columns);
+        if columns == SIXTEEN || groups == there {
+            smooth(&row, values, out, 0..columns);
             continue;
         }
         for (_, piece) in Pieces::of(area, grain, groups.into()) {
-            smooth::<SHORT>(&row, values, out, piece);
+            smooth(&row, values, out, piece);
+        }
+    }
+}
+
+/// Smooths a row of sixteen columns.
+fn smooth_sixteen(values: &[u16], out: &mut [u16], row: usize) {
+    let (rows, _) = values.as_chunks();
+    let (out, _) = out.as_chunks_mut();
+    let Some(out) = out.get_mut(row) else { return };
+    let first = row.saturating_sub(1);
+    // The other side lends what is missing.
+    let below = rows.get(row + 1).or(rows.get(first));
+    let two = values.get(first * SIXTEEN..).and_then(<[u16]>::first_chunk);
+    if let (Some(two), Some(below)) = (two, below) {
+        if row == 0 {
+            let mut two: [u16; 2 * SIXTEEN] = *two;
+            two.rotate_left(SIXTEEN);
+            clamp_sixteen(&two, below, out);
+        } else {
+            clamp_sixteen(two, below, out);
         }
     }
 }
@@ -63,16 +89,13 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// Smooths some columns of a row, N - 2 at a time.
+/// Smooths some columns of a row, a run at a time.
 #[inline(never)]
-fn smooth<const N: usize>(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
     if row.columns < SHORT {
         return smooth_each(row, values, out);
     }
-    if row.columns < N {
-        return smooth::<SHORT>(row, values, out, columns);
-    }
-    row.filter(values, out, columns, clamp_run::<N>, |[above, here, below]| {
+    row.filter(values, out, columns, clamp_run::<SHORT>, |[above, here, below]| {
         border(here[0], [here[1], above[0], below[0], above[1], below[1]])
     });
 }

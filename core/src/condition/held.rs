@@ -22,6 +22,13 @@ impl Held {
         all
     }
 
+    /// Those that the other does not hold.
+    pub(super) fn without(&self, other: &Held) -> Held {
+        let mut rest = *self;
+        rest.0.iter_mut().zip(other.0).for_each(|(rest, other)| *rest &= !other);
+        rest
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         *self == Held::NONE
@@ -52,6 +59,18 @@ impl Held {
     /// Adds an entry.
     pub(super) const fn add(&mut self, entry: usize) {
         self.0[entry / 32] |= 1 << (entry % 32);
+    }
+
+    /// Adds entries that follow each other.
+    pub(super) fn add_run(&mut self, entries: Range<usize>) {
+        let mut from = entries.start;
+        while from < entries.end {
+            let end = ((from | 31) + 1).min(entries.end);
+            if let Some(held) = self.0.get_mut(from / 32) {
+                *held |= u32::MAX << (from % 32) & u32::MAX >> (31 - (end - 1) % 32);
+            }
+            from = end;
+        }
     }
 
     /// Takes an entry away.

@@ -73,6 +73,26 @@ impl Rows {
         }
     }
 
+    /// The groups of some rows, if none of them shares its entry. Those that get some are to be [held](Rows::hold).
+    pub(super) fn places(&mut self, rows: Range<u16>) -> Option<&mut [u16]> {
+        self.groups.get_mut(..SHARED)?.get_mut(usize::from(rows.start)..usize::from(rows.end))
+    }
+
+    /// Holds some rows, none of which shares its entry.
+    pub(super) fn hold(&mut self, rows: Range<usize>) {
+        self.held.add_run(rows);
+    }
+
+    /// Lets go of all rows, whose groups stay; which they were.
+    pub(super) fn release(&mut self) -> Held {
+        core::mem::replace(&mut self.held, Held::NONE)
+    }
+
+    /// Adds groups to those of a row that has some.
+    pub(super) const fn widen(&mut self, row: u16, groups: u16) {
+        self.groups[entry(row)] |= groups;
+    }
+
     /// Leaves only these groups of a row, unless others share its entry.
     pub(super) const fn set(&mut self, row: u16, groups: u16) {
         if entry(row) != SHARED {

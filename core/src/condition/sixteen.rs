@@ -1,0 +1,122 @@
+//! Rows of sixteen taxels, each within the range of its eight neighbours: one comparison after another.
+//!
+//! Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a taxel.
+//! Few comparisons settle most: those beside it first.
+
+/// Taxels of a row.
+pub(super) const SIXTEEN: usize = 16;
+/// A row and the one before it: two places in memory, that of the row below and that of the result are all that the registers
+/// of a Cortex-M0+ can tell beside what is compared.
+pub(super) type Two = [u16; 2 * SIXTEEN];
+/// A row.
+pub(super) type Sixteen = [u16; SIXTEEN];
+
+/// Clamps the latter of two rows, given the one below. Not inlined, so that it has the registers to itself.
+#[inline(never)]
+pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, out: &mut Sixteen) {
+    // A compiler keeps a loop of that length, and with it an index and sums for each taxel.
+    end::<0, 1>(two, below, out);
+    inside::<1>(two, below, out);
+    inside::<2>(two, below, out);
+    inside::<3>(two, below, out);
+    inside::<4>(two, below, out);
+    inside::<5>(two, below, out);
+    inside::<6>(two, below, out);
+    inside::<7>(two, below, out);
+    inside::<8>(two, below, out);
+    inside::<9>(two, below, out);
+    inside::<10>(two, below, out);
+    inside::<11>(two, below, out);
+    inside::<12>(two, below, out);
+    inside::<13>(two, below, out);
+    inside::<14>(two, below, out);
+    end::<15, 14>(two, below, out);
+}
+
+/// A taxel with neighbours on both sides.
+#[inline(always)]
+fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
+    let here = |column: usize| two[SIXTEEN + column];
+    let (left, value, right) = (here(AT - 1), here(AT), here(AT + 1));
+    // Kept at once: nothing is to be remembered while it is compared.
+    out[AT] = value;
+    let around = || [two[AT], below[AT], two[AT - 1], two[AT + 1], below[AT - 1], below[AT + 1]].into_iter();
+    if value > right {
+        if value > left && around().all(|other| other < value) {
+            out[AT] = greatest(two, below, AT);
+        }
+    } else if value < right && value < left && around().all(|other| other > value) {
+        out[AT] = least(two, below, AT);
+    }
+}
+
+/// The first taxel, or the last, given the column beside it.
+#[inline(always)]
+fn end<const AT: usize, const BESIDE: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
+    let (value, beside) = (two[SIXTEEN + AT], two[SIXTEEN + BESIDE]);
+    out[AT] = value;
+    let around = || [two[AT], below[AT], two[BESIDE], below[BESIDE]].into_iter();
+    if value > beside {
+        if around().all(|other| other < value) {
+            out[AT] = around().fold(beside, u16::max);
+        }
+    } else if value < beside && around().all(|other| other > value) {
+        out[AT] = around().fold(beside, u16::min);
+    }
+}
+
+/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
+#[inline(never)]
+fn greatest(two: &Two, below: &Sixteen, at: usize) -> u16 {
+    neighbours(two, below, at).into_iter().fold(0, u16::max)
+}
+
+/// The smallest neighbour.
+#[inline(never)]
+fn least(two: &Two, below: &Sixteen, at: usize) -> u16 {
+    neighbours(two, below, at).into_iter().fold(u16::MAX, u16::min)
+}
+
+/// All eight.
+#[inline(always)]
+fn neighbours(two: &Two, below: &Sixteen, at: usize) -> [u16; 8] {
+    let two = two.get(at - 1..).and_then(<[u16]>::first_chunk::<19>);
+    let below = below.get(at - 1..).and_then(<[u16]>::first_chunk::<3>);
+    match (two, below) {
+        (Some(two), Some(below)) => [two[0], two[1], two[2], two[16], two[18], below[0], below[1], below[2]],
+        _ => [0; 8],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Few sizes, so that many are the same, at both ends of the scale.
+    #[test]
+    fn a_taxel_is_within_the_range_of_its_neighbours() {
+        let mut noise = 1u32;
+        for round in 0..20_000 {
+            let mut row = || {
+                [(); SIXTEEN].map(|()| {
+                    noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+                    [0, 1, 700, 701, 0x7fff, 0x8000, 0xffff, round][(noise >> 29) as usize]
+                })
+            };
+            let rows = [row(), row(), row()];
+            let mut out = [0; SIXTEEN];
+            let mut two = [0; 2 * SIXTEEN];
+            two.iter_mut().zip(rows[..2].as_flattened()).for_each(|(two, value)| *two = *value);
+            clamp_sixteen(&two, &rows[2], &mut out);
+            for (column, have) in out.into_iter().enumerate() {
+                let (mut low, mut high) = (u16::MAX, 0);
+                for (row, beside) in (0..3).flat_map(|row| (0..SIXTEEN).map(move |beside| (row, beside))) {
+                    if beside.abs_diff(column) < 2 && (row, beside) != (1, column) {
+                        (low, high) = (low.min(rows[row][beside]), high.max(rows[row][beside]));
+                    }
+                }
+                assert_eq!(have, rows[1][column].clamp(low, high));
+            }
+        }
+    }
+}
