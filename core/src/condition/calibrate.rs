@@ -78,19 +78,21 @@ impl Panel<'_> {
             if codes.is_empty() {
                 break;
             }
-            let mut kept = [0; KEPT];
-            let rows = if N == CHUNK { marks.rows(at) } else { None };
-            let direct = rows.is_some();
-            let found = rows.unwrap_or(&mut kept);
-            let there = found.len();
-            let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, found);
-            if direct {
+            let (held, there) = if N == CHUNK
+                && let Some(found) = marks.rows(at)
+            {
+                let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, found);
+                let there = found.len();
                 marks.hold(at..at + held);
+                (held, there)
             } else {
-                for (chunk, bits) in (at..at + held).zip(kept) {
+                let mut found = [0; KEPT];
+                let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, &mut found);
+                for (chunk, bits) in (at..at + held).zip(found) {
                     marks.mark(first + chunk * N, N, bits.into());
                 }
-            }
+                (held, KEPT)
+            };
             // The one after those is known to be quiet.
             at += (held + 1).min(there);
             any = true;
@@ -134,7 +136,12 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: boo
         for (part, ((((codes, limit), rest), gain), out)) in
             codes.iter().zip(limit).zip(rest).zip(gain).zip(parts).enumerate()
         {
-            bits |= scale::<PART, FALLING, PLAIN>(codes, limit, rest, gain, out) << (part * PART);
+            let found = if PLAIN {
+                scale::<PART, FALLING, true>(codes, limit, rest, gain, out)
+            } else {
+                scale_apart::<PART, FALLING>(codes, limit, rest, gain, out)
+            };
+            bits |= found << (part * PART);
         }
         // What was there in the last image, if it was not emptied.
         let mut gone = u32::from(*found) & !bits;
@@ -156,9 +163,9 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: boo
 /// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them. If PLAIN, their gain
 /// is 1.
 ///
-/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. Not inlined,
-/// and as short as the compiler unrolls it: five places in memory are all that the registers of a Cortex-M0+ can tell.
-#[inline(never)]
+/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. As short as the
+/// compiler unrolls it.
+#[inline(always)]
 fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
@@ -184,4 +191,16 @@ fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
         }
     }
     bits
+}
+
+/// The same with gains. Not inlined: five places in memory are all that the registers of a Cortex-M0+ can tell.
+#[inline(never)]
+fn scale_apart<const PART: usize, const FALLING: bool>(
+    codes: &[Code; PART],
+    limit: &[u16; PART],
+    rest: &[u16; PART],
+    gain: &[u16; PART],
+    out: &mut [u16; PART],
+) -> u32 {
+    scale::<PART, FALLING, false>(codes, limit, rest, gain, out)
 }

@@ -3,8 +3,9 @@
 /// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
 pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
-/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or fewer.
+/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or a few.
 pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
+
 /// Clamps all of `here` but its ends, each to the range of its eight neighbours.
 #[inline(always)]
 pub(super) fn clamp_run<const N: usize>(

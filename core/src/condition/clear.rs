@@ -13,9 +13,12 @@ use crate::garment::{Area, Layout};
 use core::ops::Range;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Empties the images, before and after the filter, but for the rows that it gives back: they may still hold something, and are
-    /// not [held](Rows::held) any more.
-    pub(super) fn clear(&mut self, layout: &Layout, codes: usize, filter: Filter) -> Held {
+    /// Empties the images, before and after the filter, but for the rows that it gives back, if there may be any: they are not
+    /// [held](super::Rows) any more, and may still hold something.
+    pub(super) fn clear(&mut self, layout: &Layout, codes: usize, filter: Filter) -> Option<Held> {
+        if self.active == 0 {
+            return None;
+        }
         // Rows that follow each other are one part: that is sooner done than to look for their columns.
         let mut held = 0..0;
         for (_, area) in areas_of(layout, self.active) {
@@ -39,7 +42,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.clear_taxels(&held);
         self.rows.forget_shared();
         self.active = 0;
-        self.rows.release()
+        Some(self.rows.release())
     }
 
     /// Whether a row of a panel that is worked on is written as a whole, given how many codes there are.

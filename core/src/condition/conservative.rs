@@ -6,7 +6,7 @@
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::row::Row;
 use super::rows::{Pieces, Rows};
-use super::sixteen::{SIXTEEN, clamp_sixteen};
+use super::sixteen::{SIXTEEN, Two, clamp_sixteen};
 use crate::garment::Area;
 use core::ops::Range;
 
@@ -20,19 +20,20 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
     }
     let there = u16::MAX >> (15 - ((area.columns - 1) >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
+    if columns == SIXTEEN
+        && !VECTORS
+        && let Some(groups) = marks.places(first..end)
+    {
+        return smooth_sixteen(values, out, groups);
+    }
     let mut next = first;
     while let Some(number) = marks.next(next..end) {
         next = number + 1;
         let groups = bridged(marks.groups(number), there);
         marks.widen(number, groups);
-        let row = number - first;
-        if columns == SIXTEEN && !VECTORS {
-            smooth_sixteen(values, out, row.into());
-            continue;
-        }
-        let here = usize::from(row) * columns;
+        let here = usize::from(number - first) * columns;
         // The other side lends what is missing: a neighbour that counts twice changes neither end of the range.
-        let above = if row == 0 { columns } else { here - columns };
+        let above = if number == first { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
         if columns == SIXTEEN || groups == there {
@@ -45,22 +46,26 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
     }
 }
 
-/// Smooths a row of sixteen columns.
-fn smooth_sixteen(values: &[u16], out: &mut [u16], row: usize) {
+/// Smooths a panel of sixteen columns.
+fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) {
     let (rows, _) = values.as_chunks();
     let (out, _) = out.as_chunks_mut();
-    let Some(out) = out.get_mut(row) else { return };
-    let first = row.saturating_sub(1);
-    // The other side lends what is missing.
-    let below = rows.get(row + 1).or(rows.get(first));
-    let two = values.get(first * SIXTEEN..).and_then(<[u16]>::first_chunk);
-    if let (Some(two), Some(below)) = (two, below) {
-        if row == 0 {
-            let mut two: [u16; 2 * SIXTEEN] = *two;
+    for (row, (groups, out)) in groups.iter_mut().zip(out).enumerate() {
+        if *groups == 0 {
+            continue;
+        }
+        *groups |= bridged(*groups, u16::MAX);
+        let first = row.saturating_sub(1);
+        // The other side lends what is missing.
+        let below = rows.get(row + 1).or(rows.get(first));
+        let two = values.get(first * SIXTEEN..).and_then(<[u16]>::first_chunk);
+        let (Some(two), Some(below)) = (two, below) else { return };
+        if row > 0 {
+            clamp_sixteen(two, below, out);
+        } else {
+            let mut two: Two = *two;
             two.rotate_left(SIXTEEN);
             clamp_sixteen(&two, below, out);
-        } else {
-            clamp_sixteen(two, below, out);
         }
     }
 }
@@ -124,5 +129,38 @@ fn border(value: u16, others: [u16; 5]) -> u16 {
         others.into_iter().fold(u16::MAX, u16::min)
     } else {
         value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_sixteen_are_as_others() {
+        let mut noise = 1u32;
+        for rows in [2, 3, 9] {
+            let mut values = [0; 9 * SIXTEEN];
+            values.fill_with(|| {
+                noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+                (noise >> 28) as u16
+            });
+            let values = &values[..rows * SIXTEEN];
+            // A row that holds nothing is left out.
+            let mut groups = [3; 9];
+            groups[rows / 2] = 0;
+            let mut out = [[7; 9 * SIXTEEN]; 2];
+            smooth_sixteen(values, &mut out[0], &mut groups[..rows]);
+            for row in (0..rows).filter(|row| *row != rows / 2) {
+                let around = [
+                    if row == 0 { 1 } else { row - 1 },
+                    row,
+                    if row + 1 == rows { row - 1 } else { row + 1 },
+                ];
+                let row = Row { starts: around.map(|row| row * SIXTEEN), columns: SIXTEEN };
+                smooth(&row, values, &mut out[1], 0..SIXTEEN);
+            }
+            assert_eq!(out[0], out[1]);
+        }
     }
 }

@@ -7,14 +7,14 @@
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none |
 //! | RAM | 10 bytes per taxel and 904 bytes |
-//! | M0+ cycles | reference garment, 12 bit, with noise: 17 k where nothing touches (8 per taxel; to read and compare each takes 6); 23 k with one contact of 29 taxels, 51 k with five; with texture on all 2,048 taxels 200 k (conservative), 30 k more where gains are not 1 |
+//! | M0+ cycles | reference garment, 12 bit, with noise: 17 k where nothing touches (8 per taxel; to read and compare each takes 6); 22 k with one contact of 29 taxels, 38 k with five; with texture on all 2,048 taxels 128 k (conservative), 36 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
 //! pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel, across the seams of its blocks.
 //!
 //! Work follows what is touched. A quiet taxel is compared with a limit of its own, which is kept beside its baseline, and left;
-//! what is beyond is calibrated and marked in [`Rows`], and only there the images are filtered and, one frame later, cleared. The
-//! result is that of the plain definition, bit for bit.
+//! what is beyond is calibrated and marked in [`Rows`], and only there the images are filtered and, one frame later, cleared or
+//! overwritten. The result is that of the plain definition, bit for bit.
 //!
 //! One row of the garment follows drift in each frame. Where something touches, the baseline moves as the median of its panel
 //! does, so that a held contact neither is swallowed nor drifts.

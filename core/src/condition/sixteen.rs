@@ -43,10 +43,10 @@ fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
     let around = || [two[AT], below[AT], two[AT - 1], two[AT + 1], below[AT - 1], below[AT + 1]].into_iter();
     if value > right {
         if value > left && around().all(|other| other < value) {
-            out[AT] = greatest(two, below, AT);
+            out[AT] = greatest(two, below, AT - 1);
         }
     } else if value < right && value < left && around().all(|other| other > value) {
-        out[AT] = least(two, below, AT);
+        out[AT] = least(two, below, AT - 1);
     }
 }
 
@@ -65,27 +65,25 @@ fn end<const AT: usize, const BESIDE: usize>(two: &Two, below: &Sixteen, out: &m
     }
 }
 
-/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
+/// The greatest neighbour, given the column before. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
 #[inline(never)]
-fn greatest(two: &Two, below: &Sixteen, at: usize) -> u16 {
-    neighbours(two, below, at).into_iter().fold(0, u16::max)
+fn greatest(two: &Two, below: &Sixteen, first: usize) -> u16 {
+    neighbours(two, below, first).into_iter().fold(0, u16::max)
 }
 
 /// The smallest neighbour.
 #[inline(never)]
-fn least(two: &Two, below: &Sixteen, at: usize) -> u16 {
-    neighbours(two, below, at).into_iter().fold(u16::MAX, u16::min)
+fn least(two: &Two, below: &Sixteen, first: usize) -> u16 {
+    neighbours(two, below, first).into_iter().fold(u16::MAX, u16::min)
 }
 
 /// All eight.
 #[inline(always)]
-fn neighbours(two: &Two, below: &Sixteen, at: usize) -> [u16; 8] {
-    let two = two.get(at - 1..).and_then(<[u16]>::first_chunk::<19>);
-    let below = below.get(at - 1..).and_then(<[u16]>::first_chunk::<3>);
-    match (two, below) {
-        (Some(two), Some(below)) => [two[0], two[1], two[2], two[16], two[18], below[0], below[1], below[2]],
-        _ => [0; 8],
-    }
+fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
+    let two = two.get(first..).and_then(<[u16]>::first_chunk::<19>);
+    let below = below.get(first..).and_then(<[u16]>::first_chunk::<3>);
+    let (Some(a), Some(b)) = (two, below) else { return [0; 8] };
+    [a[0], a[1], a[2], a[16], a[18], b[0], b[1], b[2]]
 }
 
 #[cfg(test)]

@@ -75,7 +75,9 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         for (panel, area) in areas_of(layout, panels) {
             self.active |= u8::from(self.calibrate(area, codes, falling)) << panel;
         }
-        self.clear_left(layout, &before);
+        if let Some(before) = before {
+            self.clear_left(layout, &before);
+        }
         for (_, area) in areas_of(layout, self.active) {
             self.filter(area, filter);
         }
