@@ -43,7 +43,8 @@ fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let Some((first, data)) = bytes.split_first_mut() else { return Ok(()) };
     let mut group = Group(first);
     let (first, words, last) = pod_align_to_mut::<u8, u32>(data);
-    let linked = group.end_in(first).and_then(|()| group.end_in_words(words)).and_then(|()| group.end_in(last));
+    let linked =
+        group.end_in(first).and_then(|()| group.end_in_words(words)).and_then(|()| group.end_in(last));
     linked.map_err(|Long| group.at() - start)
 }
 
@@ -67,15 +68,23 @@ impl<'a> Group<'a> {
     /// As [`Group::end_in`], four bytes at a time: most have no zero.
     #[inline(always)]
     fn end_in_words(&mut self, words: &'a mut [u32]) -> Result<(), Long> {
-        for word in words {
-            if has_zero(*word) {
-                // Read before a code byte is written: the compiler would read them again.
-                let now: [u8; 4] = must_cast(*word);
-                let [a, b, c, d] = must_cast_mut::<u32, [u8; 4]>(word);
-                for (byte, now) in [a, b, c, d].into_iter().zip(now) {
-                    if now == 0 {
-                        self.end(byte)?;
-                    }
+        let (pairs, last) = words.as_chunks_mut::<2>();
+        for [first, second] in pairs {
+            self.end_in_word(first)?;
+            self.end_in_word(second)?;
+        }
+        last.iter_mut().try_for_each(|word| self.end_in_word(word))
+    }
+
+    #[inline(always)]
+    fn end_in_word(&mut self, word: &'a mut u32) -> Result<(), Long> {
+        if has_zero(*word) {
+            // Read before a code byte is written: the compiler would read them again.
+            let now: [u8; 4] = must_cast(*word);
+            let [a, b, c, d] = must_cast_mut::<u32, [u8; 4]>(word);
+            for (byte, now) in [a, b, c, d].into_iter().zip(now) {
+                if now == 0 {
+                    self.end(byte)?;
                 }
             }
         }
