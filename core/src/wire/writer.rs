@@ -118,9 +118,11 @@ impl<'a> ser::Serializer for Writer<'a> {
     fn serialize_i8(self, v: i8) -> Done<'a> {
         self.byte(v as u8)
     }
+    #[inline(always)]
     fn serialize_i16(self, v: i16) -> Done<'a> {
         self.serialize_i32(v.into())
     }
+    #[inline(always)]
     fn serialize_i32(self, v: i32) -> Done<'a> {
         self.number((v << 1 ^ v >> 31) as u32)
     }
@@ -130,9 +132,11 @@ impl<'a> ser::Serializer for Writer<'a> {
     fn serialize_u8(self, v: u8) -> Done<'a> {
         self.byte(v)
     }
+    #[inline(always)]
     fn serialize_u16(self, v: u16) -> Done<'a> {
         self.number(v.into())
     }
+    #[inline(always)]
     fn serialize_u32(self, v: u32) -> Done<'a> {
         self.number(v)
     }
