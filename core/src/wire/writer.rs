@@ -50,25 +50,19 @@ type Done<'a> = Result<Writer<'a>, Fault>;
 
 impl<'a> Writer<'a> {
     #[inline(always)]
-    fn bytes<const N: usize>(self, bytes: [u8; N]) -> Done<'a> {
-        let (to, out) = self.out.split_first_chunk_mut().ok_or(Fault::NoRoom)?;
-        *to = bytes;
-        Ok(Writer { out })
-    }
-
-    #[inline(always)]
     fn byte(self, byte: u8) -> Done<'a> {
-        self.bytes([byte])
+        self.bytes([byte]).ok_or(Fault::NoRoom)
     }
 
     /// A varint: 7 bits a byte, the lowest first.
     #[inline(always)]
     fn number(self, number: u32) -> Done<'a> {
-        if number < 128 { self.byte(number as u8) } else { self.long(number) }
+        if number < 128 { self.byte(number as u8) } else { self.long(number).ok_or(Fault::NoRoom) }
     }
 
+    /// An option is returned in registers, unlike [`Done`].
     #[inline(never)]
-    fn long(self, number: u32) -> Done<'a> {
+    fn long(self, number: u32) -> Option<Self> {
         let more = |from: u32| (number >> from) as u8 | 128;
         let last = |from: u32| (number >> from) as u8;
         if number < 1 << 14 {
@@ -82,15 +76,27 @@ impl<'a> Writer<'a> {
         }
     }
 
+    #[inline(always)]
+    fn bytes<const N: usize>(self, bytes: [u8; N]) -> Option<Self> {
+        let (to, out) = self.out.split_first_chunk_mut()?;
+        *to = bytes;
+        Some(Writer { out })
+    }
+
     /// A varint, word by word: this processor shifts no more at once.
+    #[inline(always)]
+    fn wide(self, number: u64) -> Done<'a> {
+        let (low, high) = (number as u32, (number >> 32) as u32);
+        if high == 0 { self.number(low) } else { self.wider(low, high).ok_or(Fault::NoRoom) }
+    }
+
     #[inline(never)]
-    fn wide(mut self, number: u64) -> Done<'a> {
-        let (mut low, mut high) = (number as u32, (number >> 32) as u32);
+    fn wider(mut self, mut low: u32, mut high: u32) -> Option<Self> {
         while high != 0 {
-            self = self.byte(low as u8 | 128)?;
+            self = self.bytes([low as u8 | 128])?;
             (low, high) = (low >> 7 | high << 25, high >> 7);
         }
-        self.number(low)
+        if low < 128 { self.bytes([low as u8]) } else { self.long(low) }
     }
 
     fn all(self, bytes: &[u8]) -> Done<'a> {
@@ -126,6 +132,7 @@ impl<'a> ser::Serializer for Writer<'a> {
     fn serialize_i32(self, v: i32) -> Done<'a> {
         self.number((v << 1 ^ v >> 31) as u32)
     }
+    #[inline(always)]
     fn serialize_i64(self, v: i64) -> Done<'a> {
         self.wide((v << 1 ^ v >> 63) as u64)
     }
@@ -140,6 +147,7 @@ impl<'a> ser::Serializer for Writer<'a> {
     fn serialize_u32(self, v: u32) -> Done<'a> {
         self.number(v)
     }
+    #[inline(always)]
     fn serialize_u64(self, v: u64) -> Done<'a> {
         self.wide(v)
     }
