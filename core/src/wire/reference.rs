@@ -49,14 +49,17 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         for area in layout.areas() {
             let (columns, end) = (usize::from(area.columns), area.first_row.saturating_add(area.rows));
             let mut next = area.first_row;
-            while let Some(number) = rows.next(next..end) {
-                next = number + 1;
-                let start = usize::from(area.base) + usize::from(number - area.first_row) * columns;
-                if start != part.end {
-                    self.tell(&mut encoder, image, alone, part)?;
-                    part = start..start;
+            while let Some(first) = rows.next(next..end) {
+                next = first + 1;
+                while next < end && rows.next(next..next + 1).is_some() {
+                    next += 1;
                 }
-                part.end = start + columns;
+                let of = |row: u16| usize::from(area.base) + usize::from(row - area.first_row) * columns;
+                if of(first) != part.end {
+                    self.tell(&mut encoder, image, alone, part)?;
+                    part = of(first)..0;
+                }
+                part.end = of(next);
             }
         }
         self.tell(&mut encoder, image, alone, part)?;
