@@ -28,17 +28,10 @@ pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Opt
     Some(room - encoder.room())
 }
 
-/// How many taxels from the first on are unchanged: these are the loops that see all quiet taxels.
-fn quiet(values: &[u16], base: Option<&[u16]>) -> usize {
-    match base {
-        None => {
-            let whole = values.as_chunks::<8>().0.iter().take_while(|block| zero(block)).count() * 8;
-            whole + values.iter().skip(whole).take_while(|value| **value == 0).count()
-        }
-        // Behind a run nearly always.
-        Some(base) if values.first() != base.first() => 0,
-        Some(base) => unchanged(values, base),
-    }
+/// How many taxels from the first on are 0: this is the loop that sees all quiet taxels of an image that stands alone.
+fn zeros(values: &[u16]) -> usize {
+    let whole = values.as_chunks::<8>().0.iter().take_while(|block| zero(block)).count() * 8;
+    whole + values.iter().skip(whole).take_while(|value| **value == 0).count()
 }
 
 /// Written out, because a compiler that optimises for size keeps a loop.
@@ -46,21 +39,33 @@ fn zero([a, b, c, d, e, f, g, h]: &[u16; 8]) -> bool {
     a | b | c | d | e | f | g | h == 0
 }
 
-/// As [`quiet`]: taxel by taxel, for behind a run it is a few at most, and where there are more of them two by two.
-#[inline(never)]
-fn unchanged(values: &[u16], base: &[u16]) -> usize {
+/// How many taxels from the first on are those of the base: these are the loops that see all quiet taxels of a difference.
+#[inline(always)]
+fn same(values: &[u16], base: &[u16]) -> usize {
+    /// Behind a run it is a few nearly always.
     const FEW: usize = 16;
-    let near = values.get(..FEW).unwrap_or(values);
-    let few = near.iter().zip(base).take_while(|(value, base)| value == base).count();
-    let (Some(values), Some(base), FEW) = (values.get(FEW..), base.get(FEW..), few) else { return few };
-    let ((odd, words, _), (base_odd, base_words, _)) = (pod_align_to(values), pod_align_to(base));
-    let mut many = 0;
-    if odd.first() == base_odd.first() {
-        let pairs = words.as_chunks::<4>().0.iter().zip(base_words.as_chunks::<4>().0);
-        many = odd.len() + 8 * pairs.take_while(|(words, base)| equal(words, base)).count();
+    let mut at = 0;
+    while let (Some(values), Some(base)) = (values.get(at..), base.get(at..)) {
+        let near = values.get(..FEW).unwrap_or(values);
+        let few = near.iter().zip(base).take_while(|(value, base)| value == base).count();
+        at += few;
+        if few < FEW {
+            break;
+        }
+        at += same_blocks(values.get(FEW..).unwrap_or(&[]), base.get(FEW..).unwrap_or(&[]));
     }
-    let (values, base) = (values.get(many..).unwrap_or(&[]), base.get(many..).unwrap_or(&[]));
-    few + many + values.iter().zip(base).take_while(|(value, base)| value == base).count()
+    at
+}
+
+/// As [`same`], two by two, and as many as stand in whole blocks.
+#[inline(never)]
+fn same_blocks(values: &[u16], base: &[u16]) -> usize {
+    let ((odd, words, _), (base_odd, base_words, _)) = (pod_align_to(values), pod_align_to(base));
+    if odd.first() != base_odd.first() {
+        return 0;
+    }
+    let blocks = words.as_chunks::<4>().0.iter().zip(base_words.as_chunks::<4>().0);
+    odd.len() + 8 * blocks.take_while(|(block, base)| equal(block, base)).count()
 }
 
 fn equal([a, b, c, d]: &[u32; 4], [e, f, g, h]: &[u32; 4]) -> bool {
@@ -86,71 +91,90 @@ impl<'a> Encoder<'a> {
 
     /// Codes the taxels from number `start` on. `None`: no room.
     pub fn part(&mut self, start: usize, values: &[u16], base: Option<&[u16]>) -> Option<()> {
+        match base {
+            None => self.alone(start, values),
+            Some(base) => self.difference(start, values, base),
+        }
+    }
+
+    #[inline(never)]
+    fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
+        let from = |taxel: usize| values.get(taxel..).unwrap_or(&[]);
+        let quiet = |taxel| zeros(from(taxel));
+        self.runs(start, values.len(), quiet, |taxel| {
+            let mut last = 0;
+            let values = from(taxel);
+            values.get(..RUN).unwrap_or(values).iter().map(move |value| {
+                let value = i32::from(*value);
+                (value != 0, value - replace(&mut last, value))
+            })
+        })
+    }
+
+    #[inline(never)]
+    fn difference(&mut self, start: usize, values: &[u16], base: &[u16]) -> Option<()> {
+        let base = base.get(..values.len())?;
+        let from = |taxel: usize| (values.get(taxel..).unwrap_or(&[]), base.get(taxel..).unwrap_or(&[]));
+        let quiet = |taxel| {
+            let (values, base) = from(taxel);
+            same(values, base)
+        };
+        self.runs(start, values.len(), quiet, |taxel| {
+            let (values, base) = from(taxel);
+            let values = values.get(..RUN).unwrap_or(values);
+            let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
+            values.iter().zip(base).map(difference).map(|number| (number != 0, number))
+        })
+    }
+
+    /// Writes the runs of some taxels: from one of them on so many are `quiet`, and each of the next has one of the `numbers`, if it has
+    /// changed.
+    #[inline(always)]
+    fn runs<Numbers: ExactSizeIterator<Item = (bool, i32)>>(
+        &mut self,
+        start: usize,
+        taxels: usize,
+        quiet: impl Fn(usize) -> usize,
+        numbers: impl Fn(usize) -> Numbers,
+    ) -> Option<()> {
+        // In registers: few of them are left for what is behind a pointer.
+        let (mut out, mut told) = (take(&mut self.out), self.told);
         let mut seen = 0;
         loop {
-            let skip = quiet(values.get(seen..)?, after(base, seen)?);
-            seen += skip;
-            let rest = values.get(seen..)?;
-            if rest.is_empty() {
-                return Some(());
+            seen += quiet(seen);
+            if seen >= taxels {
+                break;
             }
-            self.varint((start + seen - self.told) as u32)?;
+            varint(&mut out, (start + seen - told) as u32)?;
             // Written when it is known: it has one byte.
-            let length = self.out.next()?;
-            let most = rest.get(..RUN).unwrap_or(rest);
-            let (told, unchanged) = match after(base, seen)? {
-                None => self.alone(most)?,
-                Some(base) => self.differences(most, base)?,
+            let length = out.next()?;
+            let mut numbers = numbers(seen);
+            let (all, unchanged) = (numbers.len(), run(&mut out, &mut numbers)?);
+            seen += all - numbers.len();
+            let run = all - numbers.len() - unchanged;
+            *length = run as u8;
+            told = start + seen - unchanged;
+        }
+        (self.out, self.told) = (out, told);
+        Some(())
+    }
+}
+
+/// Writes the numbers of a run, up to two unchanged taxels; how many of these were seen.
+#[inline(always)]
+fn run(out: &mut slice::IterMut<'_, u8>, numbers: &mut impl Iterator<Item = (bool, i32)>) -> Option<usize> {
+    while let Some((changed, mut number)) = numbers.next() {
+        if !changed {
+            let next = numbers.next();
+            let Some((true, later)) = next else {
+                return Some(1 + usize::from(next.is_some()));
             };
-            *length = told as u8;
-            self.told = start + seen + told;
-            seen += told + unchanged;
+            varint(out, zigzag(number))?;
+            number = later;
         }
+        varint(out, zigzag(number))?;
     }
-
-    /// Writes a run that stands alone; how many taxels it has, and how many unchanged ones were seen behind it. Not inlined, as
-    /// [`Encoder::differences`]: the loop within needs the few registers of a Cortex-M0+.
-    #[inline(never)]
-    fn alone(&mut self, values: &[u16]) -> Option<(usize, usize)> {
-        let mut last = 0;
-        self.run(values.iter().map(|value| {
-            let value = i32::from(*value);
-            (value != 0, value - replace(&mut last, value))
-        }))
-    }
-
-    /// Writes a run of differences, as [`Encoder::alone`].
-    #[inline(never)]
-    fn differences(&mut self, values: &[u16], base: &[u16]) -> Option<(usize, usize)> {
-        let difference = |(value, base): (&u16, &u16)| i32::from(*value) - i32::from(*base);
-        self.run(values.iter().zip(base).map(difference).map(|number| (number != 0, number)))
-    }
-
-    /// Writes the numbers of the taxels up to two unchanged ones; how many there are, and how many of these.
-    #[inline(always)]
-    fn run(&mut self, mut taxels: impl ExactSizeIterator<Item = (bool, i32)>) -> Option<(usize, usize)> {
-        // In registers: few of them are left for what is behind a pointer.
-        let mut out = take(&mut self.out);
-        let (all, mut unchanged) = (taxels.len(), 0);
-        while let Some((changed, mut number)) = taxels.next() {
-            if !changed {
-                let next = taxels.next();
-                let Some((true, later)) = next else {
-                    unchanged = 1 + usize::from(next.is_some());
-                    break;
-                };
-                varint(&mut out, zigzag(number))?;
-                number = later;
-            }
-            varint(&mut out, zigzag(number))?;
-        }
-        self.out = out;
-        Some((all - taxels.len() - unchanged, unchanged))
-    }
-
-    fn varint(&mut self, value: u32) -> Option<()> {
-        varint(&mut self.out, value)
-    }
+    Some(0)
 }
 
 const fn zigzag(number: i32) -> u32 {
@@ -165,12 +189,4 @@ fn varint(out: &mut slice::IterMut<'_, u8>, mut value: u32) -> Option<()> {
     }
     *out.next()? = value as u8;
     Some(())
-}
-
-/// The base from a taxel on; `None` if it ends before, which it does not.
-fn after(base: Option<&[u16]>, taxels: usize) -> Option<Option<&[u16]>> {
-    match base {
-        None => Some(None),
-        Some(base) => base.get(taxels..).map(Some),
-    }
 }
