@@ -237,19 +237,17 @@ fn widen(rect: &mut Rect, strip: &Strip) {
 }
 
 impl Component {
-    /// Its pieces, with their numbers; its own is `index`.
+    /// The pieces of its rows, with their numbers; of one that lies on several panels all.
     pub(super) fn pieces<'l, const RUNS: usize>(
         &self,
-        index: u16,
         labels: &'l Labels<RUNS>,
         layout: &Layout,
     ) -> impl Iterator<Item = (usize, &'l Piece)> {
-        // Of one that lies on several panels all are asked.
         let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !self.joined);
         let rows = area.map_or((0, u16::MAX), |area| {
             (area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
         });
-        labels.in_rows(rows.0, rows.1).filter(move |(_, piece)| labels.contact_of(piece) == Some(index))
+        labels.in_rows(rows.0, rows.1)
     }
 
     /// Finds the centroid, rounded once to the nearest 2^-16 taxel.

@@ -24,10 +24,11 @@ impl Contour {
         image: &Image,
     ) -> Contour {
         let mut contour = Contour { length: 0, slope: 0 };
-        for (number, piece) in component.pieces(index, labels, layout) {
-            let area = labels.panel_of(piece).and_then(|panel| layout.areas().get(usize::from(panel)));
-            if let Some(area) = area {
-                let outline = piece.taxels & !labels.enclosed(number, area);
+        for (number, piece) in component.pieces(labels, layout) {
+            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
+            let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
+            if part.contact == index {
+                let outline = piece.taxels & !labels.enclosed(number, piece, area);
                 let around = Neighbourhood::of(image.values, area, piece.row - area.first_row);
                 contour.add(outline, piece.column, &around);
             }

@@ -9,7 +9,7 @@
 use super::label::Labels;
 use super::moments::Moments;
 use super::part::{NONE, Part};
-use super::piece::Piece;
+use super::piece::lowest_run;
 use crate::condition::CARRIED;
 use crate::garment::{Joint, Layout, PANELS, Transform};
 use heapless::Vec;
@@ -89,10 +89,14 @@ impl Joins {
                 (part, seen) = (here, -1);
             }
             let y = i32::from(piece.row - area_a.first_row);
-            for run in (Piece { taxels, ..*piece }).runs() {
-                // Along the seam either the row or the column counts.
-                let at = |column: u16| y - top + i32::from(column) - left;
-                let near = joint.beside(at(run.left), at(run.right));
+            // Along the seam either the row or the column counts.
+            let at = y - top + i32::from(piece.column) - left;
+            let mut rest = taxels;
+            while rest != 0 {
+                let from = at + rest.trailing_zeros() as i32;
+                let run = lowest_run(rest);
+                rest &= !run;
+                let near = joint.beside(from, from + run.count_ones() as i32 - 1);
                 for j in *near.start().max(&(seen + 1))..=*near.end() {
                     let (x, y) = joint.edge_b.at(j);
                     if let Some(there) = beside.part_at(y as u16, x as u16) {

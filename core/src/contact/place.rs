@@ -6,11 +6,6 @@ use super::piece::{Piece, WORD, key};
 use crate::garment::Area;
 
 impl<const RUNS: usize> Labels<RUNS> {
-    /// The panel of a piece.
-    pub fn panel_of(&self, piece: &Piece) -> Option<u8> {
-        Some(self.parts.get(usize::from(piece.part))?.panel)
-    }
-
     /// The part that a piece belongs to.
     pub fn part_of(&self, piece: &Piece) -> Option<u16> {
         Some(self.parts.get(usize::from(piece.part))?.parent)
@@ -23,9 +18,9 @@ impl<const RUNS: usize> Labels<RUNS> {
         pieces.take_while(move |(_, piece)| piece.row <= last)
     }
 
-    /// Those of a piece's taxels that have all four neighbours in their panel, which is `area`.
-    pub fn enclosed(&self, number: usize, area: &Area) -> u32 {
-        let Some(Piece { taxels, row, column, .. }) = self.pieces.get(number).copied() else { return 0 };
+    /// Those of the taxels of a piece, number `number`, that have all four neighbours in their panel, which is `area`.
+    pub fn enclosed(&self, number: usize, piece: &Piece, area: &Area) -> u32 {
+        let Piece { taxels, row, column, .. } = *piece;
         let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
         if row <= area.first_row || row >= last {
             return 0;
@@ -44,6 +39,7 @@ impl<const RUNS: usize> Labels<RUNS> {
     }
 
     /// All touched taxels of a word that comes before a piece.
+    #[inline(never)] // the few registers of an M0+ are for its loop
     fn all_before(&self, number: usize, word: u32) -> u32 {
         let pieces = self.pieces.get(..number).unwrap_or(&[]);
         let last = pieces.iter().rev().find(|piece| piece.key() <= word);
@@ -51,6 +47,7 @@ impl<const RUNS: usize> Labels<RUNS> {
     }
 
     /// All touched taxels of a word that comes after a piece.
+    #[inline(never)] // the few registers of an M0+ are for its loop
     fn all_after(&self, number: usize, word: u32) -> u32 {
         let pieces = self.pieces.get(number..).unwrap_or(&[]);
         let first = pieces.iter().find(|piece| piece.key() >= word);
