@@ -175,8 +175,7 @@ fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
 ) -> u32 {
     let taxels = codes.iter().zip(limit).zip(rest.iter().zip(gain)).zip(out);
     let mut bits = 0;
-    for (((code, limit), (rest, gain)), out) in taxels.rev() {
-        bits <<= 1;
+    for (at, (((code, limit), (rest, gain)), out)) in taxels.enumerate() {
         let (code, limit) = (u32::from(code.0), u32::from(*limit));
         if if FALLING { code < limit } else { code > limit } {
             let rest = u32::from(*rest);
@@ -187,7 +186,7 @@ fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
                 let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
                 value.min(0xffff) as u16
             };
-            bits |= 1;
+            bits |= 1 << at;
         }
     }
     bits

@@ -6,7 +6,7 @@
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::row::Row;
 use super::rows::{Pieces, Rows};
-use super::sixteen::{SIXTEEN, Two, clamp_sixteen};
+use super::sixteen::{SIXTEEN, clamp_sixteen};
 use crate::garment::Area;
 use core::ops::Range;
 
@@ -46,28 +46,37 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
     }
 }
 
-/// Smooths a panel of sixteen columns.
+/// Smooths a panel of sixteen columns and two rows at least. Not inlined, for the registers.
+#[inline(never)]
 fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) {
     let (rows, _) = values.as_chunks();
     let (out, _) = out.as_chunks_mut();
-    for (row, (groups, out)) in groups.iter_mut().zip(out).enumerate() {
-        if *groups == 0 {
-            continue;
-        }
-        *groups |= bridged(*groups, u16::MAX);
-        let first = row.saturating_sub(1);
-        // The other side lends what is missing.
-        let below = rows.get(row + 1).or(rows.get(first));
-        let two = values.get(first * SIXTEEN..).and_then(<[u16]>::first_chunk);
-        let (Some(two), Some(below)) = (two, below) else { return };
-        if row > 0 {
-            clamp_sixteen(two, below, out);
-        } else {
-            let mut two: Two = *two;
-            two.rotate_left(SIXTEEN);
-            clamp_sixteen(&two, below, out);
+    let ([top, second, ..], [.., last, bottom]) = (rows, rows) else { return };
+    let ([top_out, out @ .., bottom_out], [top_groups, groups @ .., bottom_groups]) = (out, groups) else {
+        return;
+    };
+    // At both ends the other side lends what is missing.
+    if widen(top_groups) {
+        clamp_sixteen(&[*second, *top], second, top_out);
+    }
+    for ((three, out), groups) in rows.array_windows::<3>().zip(out).zip(groups) {
+        if let (true, Some(two)) = (widen(groups), three.first_chunk()) {
+            clamp_sixteen(two, &three[2], out);
         }
     }
+    if widen(bottom_groups) {
+        clamp_sixteen(&[*last, *bottom], last, bottom_out);
+    }
+}
+
+/// Adds what the filter may fill to the groups of a row of sixteen columns; whether it has any.
+#[inline(always)]
+fn widen(groups: &mut u16) -> bool {
+    if *groups == 0 {
+        return false;
+    }
+    *groups |= bridged(*groups, u16::MAX);
+    true
 }
 
 /// After a panel whose rows are not told apart.
@@ -150,7 +159,7 @@ mod tests {
             let mut groups = [3; 9];
             groups[rows / 2] = 0;
             let mut out = [[7; 9 * SIXTEEN]; 2];
-            smooth_sixteen(values, &mut out[0], &mut groups[..rows]);
+            smooth_sixteen(values, &mut out[0][..values.len()], &mut groups[..rows]);
             for row in (0..rows).filter(|row| *row != rows / 2) {
                 let around = [
                     if row == 0 { 1 } else { row - 1 },

@@ -7,7 +7,7 @@
 pub(super) const SIXTEEN: usize = 16;
 /// A row and the one before it: two places in memory, that of the row below and that of the result are all that the registers
 /// of a Cortex-M0+ can tell beside what is compared.
-pub(super) type Two = [u16; 2 * SIXTEEN];
+pub(super) type Two = [Sixteen; 2];
 /// A row.
 pub(super) type Sixteen = [u16; SIXTEEN];
 
@@ -36,11 +36,12 @@ pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, out: &mut Sixteen) {
 /// A taxel with neighbours on both sides.
 #[inline(always)]
 fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
-    let here = |column: usize| two[SIXTEEN + column];
-    let (left, value, right) = (here(AT - 1), here(AT), here(AT + 1));
+    let [above, here] = two;
+    let (left, value, right) = (here[AT - 1], here[AT], here[AT + 1]);
     // Kept at once: nothing is to be remembered while it is compared.
     out[AT] = value;
-    let around = || [two[AT], below[AT], two[AT - 1], two[AT + 1], below[AT - 1], below[AT + 1]].into_iter();
+    let around =
+        || [above[AT], below[AT], above[AT - 1], above[AT + 1], below[AT - 1], below[AT + 1]].into_iter();
     if value > right {
         if value > left && around().all(|other| other < value) {
             out[AT] = greatest(two, below, AT - 1);
@@ -53,9 +54,10 @@ fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
 /// The first taxel, or the last, given the column beside it.
 #[inline(always)]
 fn end<const AT: usize, const BESIDE: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen) {
-    let (value, beside) = (two[SIXTEEN + AT], two[SIXTEEN + BESIDE]);
+    let [above, here] = two;
+    let (value, beside) = (here[AT], here[BESIDE]);
     out[AT] = value;
-    let around = || [two[AT], below[AT], two[BESIDE], below[BESIDE]].into_iter();
+    let around = || [above[AT], below[AT], above[BESIDE], below[BESIDE]].into_iter();
     if value > beside {
         if around().all(|other| other < value) {
             out[AT] = around().fold(beside, u16::max);
@@ -80,10 +82,13 @@ fn least(two: &Two, below: &Sixteen, first: usize) -> u16 {
 /// All eight.
 #[inline(always)]
 fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
-    let two = two.get(first..).and_then(<[u16]>::first_chunk::<19>);
-    let below = below.get(first..).and_then(<[u16]>::first_chunk::<3>);
-    let (Some(a), Some(b)) = (two, below) else { return [0; 8] };
-    [a[0], a[1], a[2], a[16], a[18], b[0], b[1], b[2]]
+    let three = |row: &Sixteen| row.get(first..).and_then(|row| row.first_chunk().copied());
+    let [above, here] = two;
+    let (Some([a, b, c]), Some([d, _, e]), Some([f, g, h])) = (three(above), three(here), three(below))
+    else {
+        return [0; 8];
+    };
+    [a, b, c, d, e, f, g, h]
 }
 
 #[cfg(test)]
@@ -103,9 +108,7 @@ mod tests {
             };
             let rows = [row(), row(), row()];
             let mut out = [0; SIXTEEN];
-            let mut two = [0; 2 * SIXTEEN];
-            two.iter_mut().zip(rows[..2].as_flattened()).for_each(|(two, value)| *two = *value);
-            clamp_sixteen(&two, &rows[2], &mut out);
+            clamp_sixteen(&[rows[0], rows[1]], &rows[2], &mut out);
             for (column, have) in out.into_iter().enumerate() {
                 let (mut low, mut high) = (u16::MAX, 0);
                 for (row, beside) in (0..3).flat_map(|row| (0..SIXTEEN).map(move |beside| (row, beside))) {
