@@ -8,7 +8,7 @@
 //! panics in the image unless the optimiser proves every one of them away, and it takes a zero inside a frame for the
 //! frame's end. The test below compares the two.
 
-use bytemuck::{must_cast, must_cast_mut, pod_align_to_mut};
+use bytemuck::{must_cast, must_cast_mut, pod_align_to, pod_align_to_mut};
 use core::cell::Cell;
 use core::mem::replace;
 use core::ops::Range;
@@ -142,7 +142,14 @@ const fn full(head: usize, next: usize, end: usize) -> usize {
 
 /// Where the next zero is, from `at` on.
 fn zero(place: &[u8], at: usize) -> Option<usize> {
-    place.get(at..)?.iter().position(|byte| *byte == 0).map(|behind| at + behind)
+    let bytes = place.get(at..)?;
+    let (first, words, _) = pod_align_to(bytes);
+    let is_zero = |byte: &u8| *byte == 0;
+    let passed = match first.iter().position(is_zero) {
+        Some(behind) => behind,
+        None => first.len() + 4 * words.iter().take_while(|word| !has_zero(**word)).count(),
+    };
+    bytes.get(passed..)?.iter().position(is_zero).map(|behind| at + passed + behind)
 }
 
 /// Moves some bytes to the front.
