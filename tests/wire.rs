@@ -178,6 +178,19 @@ proptest! {
 }
 
 #[test]
+fn an_image_is_coded_alike_wherever_it_stands() {
+    let now: Vec<u16> = (0..200u16).map(|i| i % 5 + u16::from(i % 90 > 60 && i % 7 != 3)).collect();
+    let base: Vec<u16> = (0..200).map(|i| i % 5).collect();
+    let code = coded(&now, Some(&base));
+    let moved = |values: &[u16], by: usize| [vec![9; by], values.to_vec()].concat();
+    for (a, b) in [(0, 1), (1, 0), (1, 1)] {
+        let (now, base) = (moved(&now, a), moved(&base, b));
+        assert_eq!(coded(&now[a..], Some(&base[b..])), code, "{a} {b}");
+    }
+    assert_eq!(decoded(&code, Some(&base), 200), Ok(now));
+}
+
+#[test]
 fn golden_images() {
     let golden = |values: &[u16], base: Option<&[u16]>, code: &[u8]| {
         assert_eq!(coded(values, base), code);
