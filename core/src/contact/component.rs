@@ -169,16 +169,14 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
             let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
             let row = piece.row - area.first_row;
-            let mut strip = Strip { piece, part, row, values: row_of(image.values, area, row), floor: 0 };
-            if piece.is_run() {
-                component.add(&strip, joins);
-            } else if piece.is_alone() {
-                // What is between its runs is below the threshold.
-                strip.floor = low;
+            // What is between the runs of one that is alone is below the threshold.
+            let floor = if piece.is_run() { 0 } else { low };
+            let strip = Strip { piece, part, row, values: row_of(image.values, area, row), floor };
+            if floor == 0 || piece.is_alone() {
                 component.add(&strip, joins);
             } else {
                 for run in piece.runs() {
-                    component.add(&Strip { piece: &run, ..strip }, joins);
+                    component.add(&Strip { piece: &run, floor: 0, ..strip }, joins);
                 }
             }
             if part.panel != component.bounds.panel {

@@ -9,9 +9,11 @@
 use super::label::Labels;
 use super::moments::Moments;
 use super::part::{NONE, Part};
-use super::piece::lowest_run;
+use super::piece::{lowest_run, run_of};
+use super::place::Beside;
 use crate::condition::CARRIED;
 use crate::garment::{Joint, Layout, PANELS, Transform};
+use core::ops::Range;
 use heapless::Vec;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +31,19 @@ struct Carried {
     map: Transform,
     /// What has been collected of it, in its own coordinates.
     moments: Moments,
+}
+
+/// The way along a seam.
+struct Walk<'a> {
+    /// of the joint
+    index: u8,
+    joint: &'a Joint,
+    beside: Beside<'a>,
+    /// The part that was looked at last, and the last that was found beside it, or [`NONE`].
+    part: u16,
+    there: u16,
+    /// The last taxel along the seam that was looked at beside it.
+    seen: i32,
 }
 
 /// The joins of a frame.
@@ -79,33 +94,45 @@ impl Joins {
         let ((left, top), (right, bottom)) =
             (joint.edge_a.at(0), joint.edge_a.at(i32::from(joint.length) - 1));
         let rows = [top, bottom].map(|row| area_a.first_row.wrapping_add_signed(row as i16));
-        let mut beside = labels.beside(area_b);
-        // What the same part has beside it already.
-        let (mut part, mut seen) = (NONE, -1);
+        let (left, right) = (left as u16, right as u16);
+        let mut walk =
+            Walk { index, joint, beside: labels.beside(area_b), part: NONE, there: NONE, seen: -1 };
         for (_, piece) in labels.in_rows(rows[0], rows[1]) {
-            let taxels = piece.within(left as u16, right as u16);
-            let Some(here) = labels.part_of(piece).filter(|_| taxels != 0) else { continue };
-            if part != here {
-                (part, seen) = (here, -1);
-            }
-            let y = i32::from(piece.row - area_a.first_row);
+            let taxels = piece.within(left, right);
+            let Some(part) = labels.part_of(piece).filter(|_| taxels != 0) else { continue };
             // Along the seam either the row or the column counts.
-            let at = y - top + i32::from(piece.column) - left;
+            if left == right {
+                let at = i32::from(piece.row - rows[0]);
+                self.step(&mut walk, part, at, at);
+                continue;
+            }
+            let at = i32::from(piece.column) - i32::from(left);
             let mut rest = taxels;
             while rest != 0 {
-                let from = at + rest.trailing_zeros() as i32;
-                let run = lowest_run(rest);
-                rest &= !run;
-                let near = joint.beside(from, from + run.count_ones() as i32 - 1);
-                for j in *near.start().max(&(seen + 1))..=*near.end() {
-                    let (x, y) = joint.edge_b.at(j);
-                    if let Some(there) = beside.part_at(y as u16, x as u16) {
-                        self.note(Join { a: here, b: there, joint: index });
-                    }
-                    seen = j;
-                }
+                let Range { start, end } = run_of(lowest_run(rest));
+                rest &= !lowest_run(rest);
+                self.step(&mut walk, part, at + start as i32, at + end as i32 - 1);
             }
         }
+    }
+
+    /// Joins a part to those beside it, that has the taxels `first ..= last` along the seam.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn step(&mut self, walk: &mut Walk, part: u16, first: i32, last: i32) {
+        if walk.part != part {
+            (walk.part, walk.there, walk.seen) = (part, NONE, -1);
+        }
+        let near = walk.joint.beside(first, last);
+        for at in *near.start().max(&(walk.seen + 1))..=*near.end() {
+            let (x, y) = walk.joint.edge_b.at(at);
+            if let Some(there) = walk.beside.part_at(y as u16, x as u16)
+                && there != walk.there
+            {
+                walk.there = there;
+                self.note(Join { a: part, b: there, joint: walk.index });
+            }
+        }
+        walk.seen = walk.seen.max(*near.end());
     }
 
     fn note(&mut self, join: Join) {

@@ -1,9 +1,10 @@
 //! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
 use super::part::{NONE, Part, first_of, unite};
-use super::piece::{Piece, Sum, WORD, flood, is_run, lowest_run, touched};
+use super::piece::{Piece, Sum, WORD, flood, is_run, lowest_run, run_of, touched};
 use crate::condition::{Feedback, Image, row_of};
 use crate::garment::{Area, Layout, Rect, Side};
+use core::ops::Range;
 use heapless::Vec;
 
 /// The parts of a frame, and their pieces.
@@ -80,17 +81,23 @@ impl<const RUNS: usize> Labels<RUNS> {
     }
 
     fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
-        let mut column = 0;
-        let mut rest = values;
-        while !rest.is_empty() {
-            let (values, after) = rest.split_at_checked(WORD.into()).unwrap_or((rest, &[]));
-            let taxels = touched(values, low);
-            if is_run(taxels) {
-                self.scan_run(taxels, values, column, line);
-            } else if taxels != 0 {
-                self.scan_runs(taxels, values, column, line);
-            }
+        let (mut rest, mut column) = (values, 0);
+        // Most rows are one word.
+        while let Some((values, after)) =
+            rest.split_at_checked(WORD.into()).filter(|(_, after)| !after.is_empty())
+        {
+            self.scan_word(values, low, column, line);
             (rest, column) = (after, column.saturating_add(WORD));
+        }
+        self.scan_word(rest, low, column, line);
+    }
+
+    fn scan_word(&mut self, values: &[u16], low: u16, column: u16, line: &Line) {
+        let taxels = touched(values, low);
+        if is_run(taxels) {
+            self.scan_run(taxels, values, column, line);
+        } else if taxels != 0 {
+            self.scan_runs(taxels, values, column, line);
         }
     }
 
@@ -98,17 +105,12 @@ impl<const RUNS: usize> Labels<RUNS> {
     #[inline(never)] // the few registers of an M0+ are for this
     fn scan_run(&mut self, run: u32, values: &[u16], column: u16, line: &Line) {
         let part = self.meet(run, column, line);
-        let (left, area) = (run.trailing_zeros(), run.count_ones());
-        let Sum { mass, peak } = Sum::of(values.get(left as usize..(left + area) as usize).unwrap_or(&[]));
-        let left = column + left as u16;
-        let right = left + area as u16 - 1;
+        let Range { start, end } = run_of(run);
+        let Sum { mass, peak } = Sum::of(values.get(start..end).unwrap_or(&[]));
+        let (left, right) = (column + start as u16, column + end as u16 - 1);
+        let area = (end - start) as u16;
         let (row, peak) = (line.row, peak as u16);
-        self.push(
-            Piece { taxels: run, all: run, row, column, part, left, right, peak },
-            mass,
-            area as u16,
-            line,
-        );
+        self.push(Piece { taxels: run, all: run, row, column, part, left, right, peak }, mass, area, line);
     }
 
     /// The part that a run touches, of the pieces in the row above and in the word before; or [`NONE`]. If there are several,

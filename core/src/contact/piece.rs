@@ -1,5 +1,7 @@
 //! Pieces: the taxels of a row that belong to one part.
 
+use core::ops::Range;
+
 /// Columns of a word.
 pub(super) const WORD: u16 = u32::BITS as u16;
 
@@ -106,6 +108,12 @@ pub(super) const fn lowest_run(taxels: u32) -> u32 {
 /// Whether there is one run of ones.
 pub(super) const fn is_run(taxels: u32) -> bool {
     taxels != 0 && lowest_run(taxels) == taxels
+}
+
+/// The places of one run of ones.
+pub(super) const fn run_of(taxels: u32) -> Range<usize> {
+    let first = taxels.trailing_zeros() as usize;
+    first..first + taxels.count_ones() as usize
 }
 
 /// The runs of `taxels` that have one of `touched`, all of which are among them.

@@ -14,7 +14,7 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// The pieces of the rows `first ..= last`, over all panels, with their numbers.
     pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Piece)> {
         let from = self.pieces.partition_point(|piece| piece.row < first);
-        let pieces = self.pieces.iter().enumerate().skip(from);
+        let pieces = (from..).zip(self.pieces.get(from..).unwrap_or(&[]));
         pieces.take_while(move |(_, piece)| piece.row <= last)
     }
 
@@ -49,14 +49,15 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// All touched taxels of a word that comes after a piece.
     #[inline(never)] // the few registers of an M0+ are for its loop
     fn all_after(&self, number: usize, word: u32) -> u32 {
-        let pieces = self.pieces.get(number..).unwrap_or(&[]);
+        let pieces = self.pieces.get(number + 1..).unwrap_or(&[]);
         let first = pieces.iter().find(|piece| piece.key() >= word);
         first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
     }
 
     /// What is asked for one taxel of a panel after the other.
     pub fn beside<'a>(&'a self, area: &'a Area) -> Beside<'a> {
-        Beside { pieces: &self.pieces, parts: &self.parts, area, near: None }
+        let near = self.pieces.partition_point(|piece| piece.row < area.first_row);
+        Beside { pieces: &self.pieces, parts: &self.parts, area, near }
     }
 
     /// The contact that a taxel belongs to, once contacts are numbered.
@@ -80,7 +81,7 @@ pub(super) struct Beside<'a> {
     parts: &'a [Part],
     area: &'a Area,
     /// The number of the first piece of the last one's word, or of those after it.
-    near: Option<usize>,
+    near: usize,
 }
 
 impl Beside<'_> {
@@ -89,17 +90,14 @@ impl Beside<'_> {
     pub fn part_at(&mut self, row: u16, column: u16) -> Option<u16> {
         let word = key(self.area.first_row.saturating_add(row), column);
         let before = |number: usize| self.pieces.get(number).is_some_and(|piece| piece.key() < word);
-        let mut first = match self.near {
-            Some(near) => near,
-            None => self.pieces.partition_point(|piece| piece.key() < word),
-        };
+        let mut first = self.near;
         while before(first) {
             first += 1;
         }
         while first > 0 && !before(first - 1) {
             first -= 1;
         }
-        self.near = Some(first);
+        self.near = first;
         let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
         let piece = pieces.find(|piece| piece.holds(column))?;
         Some(self.parts.get(usize::from(piece.part))?.parent)
