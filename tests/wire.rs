@@ -46,6 +46,36 @@ fn decoded(data: &[u8], base: Option<&[u16]>, taxels: usize) -> Result<Vec<u16>,
     decode_image(data, base, &mut out).map(|()| out).map_err(|error| error.to_string())
 }
 
+/// The code of a difference as its prose says, taxel by taxel.
+fn described(values: &[u16], base: &[u16]) -> Vec<u8> {
+    let numbers: Vec<i32> =
+        values.iter().zip(base).map(|(value, base)| i32::from(*value) - i32::from(*base)).collect();
+    let varint = |mut value: u32| {
+        let mut bytes = Vec::new();
+        while value > 127 {
+            bytes.push(value as u8 | 128);
+            value >>= 7;
+        }
+        bytes.push(value as u8);
+        bytes
+    };
+    let (mut code, mut told, mut at) = (Vec::new(), 0, 0);
+    while at < numbers.len() {
+        let window = &numbers[at..numbers.len().min(at + 127)];
+        let end = window.windows(2).position(|two| two == [0, 0]).unwrap_or(window.len());
+        let run = window[..end].iter().rposition(|number| *number != 0).map_or(0, |last| last + 1);
+        if window[0] == 0 {
+            at += 1;
+            continue;
+        }
+        code.extend([varint((at - told) as u32), varint(run as u32)].concat());
+        code.extend(window[..run].iter().flat_map(|number| varint((number << 1 ^ number >> 31) as u32)));
+        at += run;
+        told = at;
+    }
+    code
+}
+
 #[test]
 fn golden_frames() {
     let mut out = [0xaa; 64];
@@ -170,6 +200,9 @@ proptest! {
                 prop_assert!(code.len() <= image_bound(now.len(), 12));
             }
             prop_assert_eq!(decoded(&code, base, now.len()), Ok(now.clone()));
+            if let Some(base) = base {
+                prop_assert_eq!(&code, &described(&now, base));
+            }
             for room in 0..code.len() {
                 prop_assert_eq!(encode_image(&now, base, &mut vec![0; room]), None);
             }

@@ -29,11 +29,11 @@ pub trait Platform: Clock + Probe {
 }
 
 /// Runs a board for as long as its platform is alive. Lines and inputs are examined first.
-pub async fn run<const TAXELS: usize, const RUNS: usize>(
+pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     acquire: &mut (impl Acquire + Examine),
     link: &mut impl Link,
     platform: &mut impl Platform,
-    board: &mut Board<TAXELS, RUNS>,
+    board: &mut Board<TAXELS, RUNS, PARTS>,
 ) {
     examine(acquire, platform, board);
     while platform.alive() {
@@ -75,10 +75,10 @@ pub async fn run<const TAXELS: usize, const RUNS: usize>(
     }
 }
 
-fn examine<const TAXELS: usize, const RUNS: usize>(
+fn examine<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     acquire: &mut impl Examine,
     platform: &mut impl Platform,
-    board: &mut Board<TAXELS, RUNS>,
+    board: &mut Board<TAXELS, RUNS, PARTS>,
 ) {
     let result = acquire.examine(board.circuit());
     let now = platform.now();
@@ -86,10 +86,10 @@ fn examine<const TAXELS: usize, const RUNS: usize>(
 }
 
 /// Takes all bytes that have come.
-fn receive<const TAXELS: usize, const RUNS: usize>(
+fn receive<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     link: &mut impl Link,
     platform: &mut impl Platform,
-    board: &mut Board<TAXELS, RUNS>,
+    board: &mut Board<TAXELS, RUNS, PARTS>,
 ) {
     let mut buffer = [0; 64];
     loop {
@@ -101,10 +101,10 @@ fn receive<const TAXELS: usize, const RUNS: usize>(
 }
 
 /// Gives as many bytes as the link takes.
-fn send<const TAXELS: usize, const RUNS: usize>(
+fn send<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     link: &mut impl Link,
     platform: &mut impl Platform,
-    board: &mut Board<TAXELS, RUNS>,
+    board: &mut Board<TAXELS, RUNS, PARTS>,
 ) {
     loop {
         let now = platform.now();

@@ -21,9 +21,10 @@ use taxel_core::board::{Board, BoardInfo, SetupError};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
 
-/// Taxels, and runs of touched taxels in a row, that the memory holds.
+/// Taxels, runs of touched taxels in a row, and parts of contacts that the memory holds.
 const TAXELS: usize = 2048;
-const RUNS: usize = 1024;
+const RUNS: usize = TAXELS / 2;
+const PARTS: usize = TAXELS / 4;
 
 /// Largest code of the converter.
 const FULL_SCALE: u16 = 4095;
@@ -38,19 +39,19 @@ static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
 #[inline(never)]
-fn dress(board: &mut Board<TAXELS, RUNS>) -> Result<(), SetupError> {
+fn dress(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
     board.dress(Garment::reference())
 }
 
 #[inline(never)]
-fn employ(board: &mut Board<TAXELS, RUNS>) -> Result<(), SetupError> {
+fn employ(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
     board.employ(Scene::shipped())
 }
 
 /// Gives the board what ships. Functions of their own: the main task's stack would keep room for ever for what is only needed
 /// here.
 #[inline(never)]
-fn ship(board: &mut Board<TAXELS, RUNS>) {
+fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
     if let Err(error) = dress(board).and_then(|()| employ(board)) {
         defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
         // Nothing feeds the watchdog from here on, so the board starts again and says so again.

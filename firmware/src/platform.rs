@@ -2,12 +2,13 @@
 
 use crate::mark::mark;
 use crate::store::{Fed, Flash};
+use crate::{PARTS, RUNS, TAXELS};
 use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
 use taxel_core::{
     acquire::Clock,
-    board::{Saved, Settings},
+    board::{self, Saved, Settings},
     format::Micros,
     pipeline::{Probe, Stage},
     run::Platform,
@@ -94,7 +95,7 @@ impl Board {
 
     /// Gives a board that has not begun yet the settings that were stored. Not inlined: it needs stack only meanwhile.
     #[inline(never)]
-    pub fn recall(&mut self, board: &mut taxel_core::board::Board<{ crate::TAXELS }, { crate::RUNS }>) {
+    pub fn recall(&mut self, board: &mut board::Board<TAXELS, RUNS, PARTS>) {
         let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
         if let Err(error) = flash.store().and_then(|mut store| store.load(board)) {
             defmt::error!("stored settings: {}", error.sentence());

@@ -120,9 +120,9 @@ impl<F: NorFlash> Store<F> {
 
     /// Gives a board that has not begun yet what was stored last. `false`: nothing was. What is wrong with a part is for the
     /// board to say; the others hold.
-    pub fn load<const TAXELS: usize, const RUNS: usize>(
+    pub fn load<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &mut self,
-        board: &mut Board<TAXELS, RUNS>,
+        board: &mut Board<TAXELS, RUNS, PARTS>,
     ) -> Result<bool, StoreError> {
         let Some(index) = self.index()? else { return Ok(false) };
         let mut content = [0; PART_BYTES];

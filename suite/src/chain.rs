@@ -8,10 +8,12 @@ use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::scene::Scene;
 
-/// Taxels, and runs of touched taxels in a row, that a board holds.
+/// Taxels that a board holds.
 pub const TAXELS: usize = 2048;
-/// Runs.
-pub const RUNS: usize = 1024;
+/// Runs of touched taxels in a row.
+const RUNS: usize = TAXELS / 2;
+/// Parts of contacts.
+const PARTS: usize = TAXELS / 4;
 
 /// Time from scan to scan, us: 195 frames a second.
 pub const PERIOD_US: u64 = 5_128;
@@ -24,7 +26,7 @@ static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// A board without pins, whose link takes everything at once.
 pub struct Chain {
-    board: Board<TAXELS, RUNS>,
+    board: Board<TAXELS, RUNS, PARTS>,
     scans: u64,
 }
 

@@ -7,7 +7,7 @@ use crate::format::Micros;
 use crate::selftest::Findings;
 use crate::wire::SelfTestReport;
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Lines and inputs were examined: at the start, because the garment was changed, because it was asked for, or because
     /// something spoke against one of them.
     #[inline(never)]

@@ -4,7 +4,7 @@ use super::Board;
 use crate::acquire::ScanError;
 use crate::format::Micros;
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// A scan has failed.
     #[cold]
     pub(super) fn stumbled(&mut self, error: ScanError) {

@@ -77,13 +77,14 @@ enum Work {
     Save,
 }
 
-/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in a row.
-pub struct Board<const TAXELS: usize, const RUNS: usize> {
+/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in a row, and PARTS
+/// parts of contacts, as [`ContactState`](crate::contact::ContactState) says.
+pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     info: BoardInfo,
     setup: Setup,
     /// The stages remember what they should of a garment that was just put on.
     begun: bool,
-    state: PipelineState<TAXELS, RUNS>,
+    state: PipelineState<TAXELS, RUNS, PARTS>,
     inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
     outbox: Outbox<TAXELS>,
     outputs: Outputs,
@@ -111,7 +112,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize> {
     certificate: Option<Certificate>,
 }
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// A board that wears `garment` and is used for `scene`.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
         let mut board = Board::bare(info);
@@ -318,7 +319,7 @@ impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
     }
 
     /// What the stages remember.
-    pub fn state(&self) -> &PipelineState<TAXELS, RUNS> {
+    pub fn state(&self) -> &PipelineState<TAXELS, RUNS, PARTS> {
         &self.state
     }
 

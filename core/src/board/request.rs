@@ -35,7 +35,7 @@ pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Resul
     })
 }
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     pub(super) fn receive(&mut self, now: Micros, bytes: &[u8]) {
         for byte in bytes {
             // The receiver is taken apart from the rest of the board while its message is read.

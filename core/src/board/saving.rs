@@ -84,7 +84,7 @@ impl Saving {
     }
 }
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// The next work beyond scanning, if it is time for it.
     pub(super) fn next_work(&mut self, now: Micros) -> Option<Job> {
         if self.works.front() == Some(&Work::Save) {

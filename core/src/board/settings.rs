@@ -113,7 +113,7 @@ fn numbers<'b>(
     Ok(buffer)
 }
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// What is to survive a restart.
     pub fn settings(&self) -> Settings<'_> {
         let Setup { garment, scene, layout, .. } = &self.setup;

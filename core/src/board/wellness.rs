@@ -4,7 +4,7 @@ use super::Board;
 use crate::format::{Code, Micros};
 use crate::health::{Codes, IllTaxel, TaxelHealth};
 
-impl<const TAXELS: usize, const RUNS: usize> Board<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Watches the codes of a frame, in which something touches the garment or not.
     pub(super) fn watch(&mut self, now: Micros, codes: &[Code], touched: bool) {
         let super::Setup { layout, circuit, scene, .. } = &self.setup;

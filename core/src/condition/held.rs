@@ -56,6 +56,25 @@ impl Held {
         None
     }
 
+    /// The first of some rows that may hold something, with those behind it up to the first that holds nothing.
+    pub fn run(&self, rows: Range<u16>) -> Option<Range<u16>> {
+        let start = self.next(rows.clone())?;
+        let mut end = start;
+        while end < rows.end {
+            let entry = entry(end);
+            let nothing = !(self.0[entry / 32] >> (entry % 32));
+            if entry == SHARED {
+                return Some(start..if nothing & 1 == 0 { rows.end } else { end });
+            }
+            let held = nothing.trailing_zeros() as u16;
+            end += held;
+            if held == 0 || end % 32 != 0 {
+                break;
+            }
+        }
+        Some(start..end.min(rows.end))
+    }
+
     /// Adds an entry.
     pub(super) const fn add(&mut self, entry: usize) {
         self.0[entry / 32] |= 1 << (entry % 32);
@@ -85,4 +104,27 @@ pub(super) const SHARED: usize = ENTRIES - 1;
 /// Where a row is noted.
 pub(super) const fn entry(row: u16) -> usize {
     if row as usize >= SHARED { SHARED } else { row as usize }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_the_rows_that_follow_each_other() {
+        for (first, last) in
+            [(0, 0), (3, 7), (0, 31), (31, 32), (30, 100), (64, 95), (200, 254), (0, 255), (255, 255)]
+        {
+            let mut held = Held::NONE;
+            held.add_run(first..last + 1);
+            let (first, end) = (first as u16, if last == SHARED { 300 } else { last as u16 + 1 });
+            for rows in [0..300, first..300, 0..end, first..end] {
+                assert_eq!(held.run(rows), Some(first..end), "{first}..{end}");
+            }
+            assert_eq!(held.run(end..300), None);
+            assert_eq!(held.run(first..first + 1), Some(first..first + 1));
+        }
+        assert_eq!(Held::NONE.run(0..300), None);
+        assert_eq!(Held::ALL.run(7..300), Some(7..300));
+    }
 }

@@ -7,7 +7,7 @@
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none |
 //! | RAM | 10 bytes per taxel and 904 bytes |
-//! | M0+ cycles | reference garment, 12 bit, with noise: 17 k where nothing touches (8 per taxel; to read and compare each takes 6); 21 k with one contact of 29 taxels, 35 k with five; with texture on all 2,048 taxels 125 k (conservative), about 34 k more where gains are not 1 |
+//! | M0+ cycles | reference garment, 12 bit, with noise: 14 k where nothing touches (7 per taxel); 18 k with one contact of 29 taxels, 33 k with five; with texture on all 2,048 taxels 125 k (conservative), about 34 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
 //! pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel, across the seams of its blocks.
@@ -55,7 +55,7 @@ pub(crate) use held::Held;
 pub use image::Image;
 pub use progress::Tare;
 pub use rows::Rows;
-pub(crate) use slices::row_of;
+pub(crate) use slices::{panel_of, row_of};
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};
 

@@ -24,7 +24,7 @@ pub(crate) fn row_mut<'a, T>(values: &'a mut [T], area: &Area, row: u16) -> &'a 
 }
 
 /// The part of a slice by taxel number that is one panel; shorter, or empty, where the slice ends.
-pub(super) fn panel_of<'a, T>(values: &'a [T], area: &Area) -> &'a [T] {
+pub(crate) fn panel_of<'a, T>(values: &'a [T], area: &Area) -> &'a [T] {
     let rest = values.get(usize::from(area.base)..).unwrap_or(&[]);
     rest.get(..usize::from(area.rows) * usize::from(area.columns)).unwrap_or(rest)
 }

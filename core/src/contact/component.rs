@@ -3,10 +3,12 @@
 use super::config::ContactConfig;
 use super::join::{Joins, weigh};
 use super::label::Labels;
-use super::moments::Moments;
+use super::moments::{FEW, Moments, is_small};
 use super::part::{NONE, Part};
-use super::piece::Piece;
-use crate::condition::{CARRIED, Feedback, Image, row_of};
+use super::piece::{Piece, strips};
+use super::strip::Strip;
+use super::sums::squares;
+use crate::condition::{CARRIED, Feedback, Image};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Layout, Place, Rect};
 use heapless::Vec;
@@ -56,7 +58,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Picks the components that are contacts; where they do not fit, those with the greatest totals.
-    pub fn select<const RUNS: usize>(&mut self, config: &ContactConfig, labels: &Labels<RUNS>) {
+    pub fn select<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        config: &ContactConfig,
+        labels: &Labels<RUNS, PARTS>,
+    ) {
         self.list.clear();
         self.beyond.clear();
         self.dropped = 0;
@@ -111,7 +117,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Tells the parts which contact they belong to.
-    pub fn number<const RUNS: usize>(&self, labels: &mut Labels<RUNS>) {
+    pub fn number<const RUNS: usize, const PARTS: usize>(&self, labels: &mut Labels<RUNS, PARTS>) {
         for (index, component) in (0u16..).zip(&self.list) {
             if let Some(part) = labels.parts.get_mut(usize::from(component.part)) {
                 part.contact = index;
@@ -132,18 +138,17 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Measures all components.
-    pub fn measure<const RUNS: usize>(
+    pub fn measure<const RUNS: usize, const PARTS: usize>(
         &mut self,
-        labels: &Labels<RUNS>,
+        labels: &Labels<RUNS, PARTS>,
         joins: &mut Joins,
         layout: &Layout,
         image: &Image,
-        low: u16,
     ) {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
-        self.take_pieces(labels, joins, layout, image, low);
+        self.take_pieces(labels, joins, layout, image);
         for (contact, moments) in joins.carried_moments() {
             if let Some(component) = self.list.get_mut(usize::from(contact)) {
                 component.moments.add(&moments);
@@ -156,30 +161,25 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 
     /// Adds the pieces to the components that they belong to.
     #[inline(never)] // the few registers of an M0+ are for its loop
-    fn take_pieces<const RUNS: usize>(
+    fn take_pieces<const RUNS: usize, const PARTS: usize>(
         &mut self,
-        labels: &Labels<RUNS>,
+        labels: &Labels<RUNS, PARTS>,
         joins: &mut Joins,
         layout: &Layout,
         image: &Image,
-        low: u16,
     ) {
-        for piece in &labels.pieces {
-            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
+        for pieces in strips(&labels.pieces) {
+            let Some(part) = pieces.first().and_then(|piece| labels.parts.get(usize::from(piece.part)))
+            else {
+                continue;
+            };
             let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
             let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
-            let row = piece.row - area.first_row;
-            // What is between the runs of one that is alone is below the threshold.
-            let floor = if piece.is_run() { 0 } else { low };
-            let strip = Strip { piece, part, row, values: row_of(image.values, area, row), floor };
-            if floor == 0 || piece.is_alone() {
-                component.add(&strip, joins);
+            let strip = Strip { pieces, part, area, values: image.values };
+            component.add(&strip, joins);
+            if part.panel == component.bounds.panel {
+                strip.widen(&mut component.bounds);
             } else {
-                for run in piece.runs() {
-                    component.add(&Strip { piece: &run, floor: 0, ..strip }, joins);
-                }
-            }
-            if part.panel != component.bounds.panel {
                 self.widen_beyond(&strip);
             }
         }
@@ -189,10 +189,10 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     fn widen_beyond(&mut self, strip: &Strip) {
         let Part { contact, panel, .. } = *strip.part;
         match self.beyond.iter_mut().find(|(i, rect)| *i == contact && rect.panel == panel) {
-            Some((_, rect)) => widen(rect, strip),
+            Some((_, rect)) => strip.widen(rect),
             None => {
                 let mut rect = Rect { panel, ..NOWHERE };
-                widen(&mut rect, strip);
+                strip.widen(&mut rect);
                 // At most one per join, and there are no more joins than places.
                 let _ = self.beyond.push((contact, rect));
             }
@@ -213,32 +213,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 }
 
-/// A piece, or a run of one, in its panel.
-struct Strip<'a> {
-    piece: &'a Piece,
-    part: &'a Part,
-    row: u16,
-    /// of all columns of the row
-    values: &'a [u16],
-    /// What is below it does not belong to the piece.
-    floor: u16,
-}
-
-fn widen(rect: &mut Rect, strip: &Strip) {
-    // The rows come one after the other.
-    if strip.row < rect.top {
-        rect.top = strip.row;
-    }
-    rect.bottom = strip.row;
-    rect.left = rect.left.min(strip.piece.left);
-    rect.right = rect.right.max(strip.piece.right);
-}
-
 impl Component {
     /// The pieces of its rows, with their numbers; of one that lies on several panels all.
-    pub(super) fn pieces<'l, const RUNS: usize>(
+    pub(super) fn pieces<'l, const RUNS: usize, const PARTS: usize>(
         &self,
-        labels: &'l Labels<RUNS>,
+        labels: &'l Labels<RUNS, PARTS>,
         layout: &Layout,
     ) -> impl Iterator<Item = (usize, &'l Piece)> {
         let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !self.joined);
@@ -258,30 +237,38 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds a piece to the sums.
+    /// Adds pieces to the sums.
     #[inline(never)] // the few registers of an M0+ are for this
     fn add(&mut self, strip: &Strip, joins: &mut Joins) {
-        let Strip { piece, part, row, floor, .. } = *strip;
-        let values = strip.values.get(piece.left.into()..usize::from(piece.right) + 1).unwrap_or(&[]);
         // Of parts that are carried the sums are, once all their pieces are in.
-        let carried = if self.joined { joins.moments_of(part.parent) } else { None };
+        let carried = if self.joined { joins.moments_of(strip.part.parent) } else { None };
         let moments = carried.unwrap_or(&mut self.moments);
-        moments.add_run(piece.left.into(), row.into(), values, floor, self.peak);
-        if piece.peak == self.peak {
-            self.look_for_peak(strip, values);
+        let &Strip { pieces, area, .. } = strip;
+        if pieces.len() > 2 && is_small(area.columns, area.rows, self.peak) {
+            // One piece in a row.
+            pieces.chunks(FEW).for_each(|pieces| moments.add_few(pieces, area.first_row));
+        } else {
+            for piece in pieces {
+                let row = piece.row - area.first_row;
+                let squares = || squares(strip.values(piece), piece.rebased());
+                moments.add_piece(piece.left.into(), row.into(), &piece.sums, piece.peak, squares);
+            }
         }
-        if part.panel == self.bounds.panel {
-            widen(&mut self.bounds, strip);
+        let peak = self.peak;
+        if let Some(piece) = strip.pieces.iter().find(|piece| piece.peak == peak) {
+            self.look_for_peak(strip, piece);
         }
     }
 
-    /// Notes where the greatest value is first found, given the values from the first to the last taxel of a piece. The pieces of
-    /// a row may come in any order.
+    /// Notes where the greatest value is first found, in a piece that has it. The pieces of a row may come in any order.
     #[inline(never)] // rarely called
-    fn look_for_peak(&mut self, strip: &Strip, values: &[u16]) {
-        let (panel, row) = (strip.part.panel, strip.row);
-        let mut columns = (strip.piece.left..).zip(values);
-        let Some((column, _)) = columns.find(|(_, value)| **value == self.peak) else { return };
+    fn look_for_peak(&mut self, strip: &Strip, piece: &Piece) {
+        let (panel, row) = (strip.part.panel, piece.row - strip.area.first_row);
+        let mut columns = (piece.left..).zip(strip.values(piece));
+        let mine = |column| piece.holds(column);
+        let Some((column, _)) = columns.find(|(column, value)| **value == self.peak && mine(*column)) else {
+            return;
+        };
         let first = |at: Place| at.panel == panel && at.row == row && column < at.column;
         if self.peak_at.is_none_or(first) {
             self.peak_at = Some(Place { panel, row, column });

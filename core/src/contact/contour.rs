@@ -16,10 +16,10 @@ pub(super) struct Contour {
 
 impl Contour {
     /// Of component `index`.
-    pub fn of<const RUNS: usize>(
+    pub fn of<const RUNS: usize, const PARTS: usize>(
         index: u16,
         component: &Component,
-        labels: &Labels<RUNS>,
+        labels: &Labels<RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
     ) -> Contour {
@@ -30,7 +30,7 @@ impl Contour {
             if part.contact == index {
                 let outline = piece.taxels & !labels.enclosed(number, piece, area);
                 let around = Neighbourhood::of(image.values, area, piece.row - area.first_row);
-                contour.add(outline, piece.column, &around);
+                contour.add(outline, piece.column(), &around);
             }
         }
         contour

@@ -5,10 +5,8 @@
 //! quotient of the two is that of the fourth-order compact difference scheme: for a wave of six taxels 1 % off, where plain
 //! central differences are 17 % off. Both pictures share the slope, so that there and back are the same way.
 
+use super::slopes::{Line, SIDE, Terms, differentiate, products, smooth};
 use crate::format::Inverse;
-
-/// Rows and columns of a picture, at most.
-pub(super) const SIDE: usize = 12;
 
 /// Two pictures of the same size, and which taxels of them count.
 pub(super) struct Pictures<'a> {
@@ -33,19 +31,6 @@ pub(super) enum Flow {
     /// There is one, but what changed is not its place.
     Changed,
 }
-
-/// One column of both pictures, over three rows.
-#[derive(Debug, Default, Clone, Copy)]
-struct Smooth {
-    /// Of both, smoothed.
-    sum: i32,
-    /// Of the sum of both, from the row above to the row below.
-    slope: i32,
-    /// From the earlier to the later, smoothed.
-    change: i32,
-}
-
-type Line = [Smooth; SIDE];
 
 /// Sums over the taxels that count: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t in 18ths (14
 /// bits). None exceeds 31 bits, even if all 100 taxels inside count.
@@ -86,42 +71,31 @@ impl Sums {
         if now.iter().any(|row| row.len() != pictures.columns) || pictures.columns > SIDE {
             return None;
         }
-        let mut sums = Sums::default();
-        let mut line = Line::default();
+        let (mut sums, mut line, mut terms) = (Sums::default(), Line::default(), Terms::default());
         let rows = pictures.before.array_windows().zip(now.array_windows()).zip(&pictures.inner[1..]);
         for ((before, now), marked) in rows.filter(|(_, marked)| **marked != 0) {
             smooth(before, now, &mut line);
-            sums.take(&line, *marked, scale);
+            differentiate(&line, *marked, scale, &mut terms);
+            sums.take(&terms, *marked);
         }
         Some(sums)
     }
 
-    /// Adds the marked taxels of a line, whose first and last column have no neighbour.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn take(&mut self, line: &Line, marked: u16, scale: u32) {
-        let half = 1 << scale >> 1;
-        let mut marked = marked >> 1;
-        for [left, here, right] in line.array_windows() {
-            if marked & 1 == 1 {
-                let x = (right.sum - left.sum + half) >> scale;
-                let y = (left.slope + 4 * here.slope + right.slope + half) >> scale;
-                let t = (left.change + 4 * here.change + right.change + 2 * half) >> scale >> 1;
-                self.count += 1;
-                self.x += x;
-                self.y += y;
-                self.t += t;
-                self.xx = self.xx.wrapping_add(x.wrapping_mul(x));
-                self.xy = self.xy.wrapping_add(x.wrapping_mul(y));
-                self.yy = self.yy.wrapping_add(y.wrapping_mul(y));
-                self.xt = self.xt.wrapping_add(x.wrapping_mul(t));
-                self.yt = self.yt.wrapping_add(y.wrapping_mul(t));
-                self.tt = self.tt.wrapping_add(t.wrapping_mul(t));
-            }
-            marked >>= 1;
-            if marked == 0 {
-                return;
-            }
-        }
+    /// Adds the terms of the marked taxels of a row.
+    fn take(&mut self, terms: &Terms, marked: u16) {
+        self.count += marked.count_ones();
+        let [x, xx, xy] = products::<0, 1>(terms);
+        let [y, yy, yt] = products::<1, 2>(terms);
+        let [t, tt, xt] = products::<2, 0>(terms);
+        self.x += x;
+        self.y += y;
+        self.t += t;
+        self.xx = self.xx.wrapping_add(xx);
+        self.xy = self.xy.wrapping_add(xy);
+        self.yy = self.yy.wrapping_add(yy);
+        self.xt = self.xt.wrapping_add(xt);
+        self.yt = self.yt.wrapping_add(yt);
+        self.tt = self.tt.wrapping_add(tt);
     }
 
     /// A change that is the same everywhere is pressure, not motion: sums about the means.
@@ -192,22 +166,6 @@ const LONGEST: i32 = 3 << 11;
 /// The inverse of the variance of w that is allowed: a standard deviation of 0.135 taxel, 0.101 in w, by the taxels' own
 /// count.
 const CLEAR: i64 = 98;
-
-/// Sums, slopes and changes of the middle one of three rows.
-#[inline(never)] // the few registers of an M0+ are for this
-fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Line) {
-    let [above, here, below] = before;
-    let before = above.iter().zip(here).zip(below);
-    let [above, here, below] = *now;
-    let now = above.iter().zip(here).zip(below);
-    let three = |((above, here), below): ((&u16, &u16), &u16)| [*above, *here, *below].map(i32::from);
-    for (out, (before, now)) in out.iter_mut().zip(before.zip(now)) {
-        let ([a, h, b], [above, here, below]) = (three(before), three(now));
-        // Both together, and how much more the later has.
-        let (was, is) = (a + 4 * h + b, above + 4 * here + below);
-        *out = Smooth { sum: was + is, slope: b - a + below - above, change: is - was };
-    }
-}
 
 #[cfg(test)]
 mod tests {

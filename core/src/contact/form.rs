@@ -9,13 +9,13 @@ use crate::condition::Image;
 use crate::garment::Layout;
 
 /// Where forms are seen.
-pub(super) struct Sight<'a, const RUNS: usize> {
-    pub labels: &'a Labels<RUNS>,
+pub(super) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
+    pub labels: &'a Labels<RUNS, PARTS>,
     pub layout: &'a Layout,
     pub image: &'a Image<'a>,
 }
 
-impl<const RUNS: usize> Sight<'_, RUNS> {
+impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
     /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`.
     #[inline(never)] // a stack frame of its own is near
     pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {

@@ -6,11 +6,11 @@
 //! piece, and a ring that closes over two seams is cut at the later one. Parts of the home panel that are connected only over
 //! another panel are carried like all others.
 
+use super::bits::{lowest_run, run_of};
 use super::label::Labels;
 use super::moments::Moments;
 use super::part::{NONE, Part};
-use super::piece::{lowest_run, run_of};
-use super::place::Beside;
+use super::side::Side;
 use crate::condition::CARRIED;
 use crate::garment::{Joint, Layout, PANELS, Transform};
 use core::ops::Range;
@@ -38,7 +38,7 @@ struct Walk<'a> {
     /// of the joint
     index: u8,
     joint: &'a Joint,
-    beside: Beside<'a>,
+    beside: Side<'a>,
     /// The part that was looked at last, and the last that was found beside it, or [`NONE`].
     part: u16,
     there: u16,
@@ -62,7 +62,11 @@ impl Joins {
     }
 
     /// Joins the parts of a frame across all seams.
-    pub fn find<const RUNS: usize>(&mut self, labels: &mut Labels<RUNS>, layout: &Layout) {
+    pub fn find<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        labels: &mut Labels<RUNS, PARTS>,
+        layout: &Layout,
+    ) {
         self.joins.clear();
         self.carried.clear();
         self.overflow = 0;
@@ -77,13 +81,13 @@ impl Joins {
         }
     }
 
-    /// From run to run of the one panel at the seam, and from taxel to taxel of the other beside it.
+    /// From part to part of the one panel at the seam, and from part to part of the other beside it.
     #[inline(never)] // a stack frame of its own is near
-    fn find_along<const RUNS: usize>(
+    fn find_along<const RUNS: usize, const PARTS: usize>(
         &mut self,
         index: u8,
         joint: &Joint,
-        labels: &Labels<RUNS>,
+        labels: &Labels<RUNS, PARTS>,
         layout: &Layout,
     ) {
         let areas = layout.areas();
@@ -91,23 +95,27 @@ impl Joins {
         else {
             return;
         };
-        let ((left, top), (right, bottom)) =
-            (joint.edge_a.at(0), joint.edge_a.at(i32::from(joint.length) - 1));
-        let rows = [top, bottom].map(|row| area_a.first_row.wrapping_add_signed(row as i16));
-        let (left, right) = (left as u16, right as u16);
-        let mut walk =
-            Walk { index, joint, beside: labels.beside(area_b), part: NONE, there: NONE, seen: -1 };
-        for (_, piece) in labels.in_rows(rows[0], rows[1]) {
-            let taxels = piece.within(left, right);
-            let Some(part) = labels.part_of(piece).filter(|_| taxels != 0) else { continue };
-            // Along the seam either the row or the column counts.
-            if left == right {
-                let at = i32::from(piece.row - rows[0]);
-                self.step(&mut walk, part, at, at);
-                continue;
+        let beside = Side::of(labels, area_b, &joint.edge_b);
+        let mut walk = Walk { index, joint, beside, part: NONE, there: NONE, seen: -1 };
+        let end = i32::from(joint.length);
+        let ((left, top), (right, _)) = (joint.edge_a.at(0), joint.edge_a.at(end - 1));
+        if left == right {
+            let mut side = Side::of(labels, area_a, &joint.edge_a);
+            let mut at = 0;
+            while at < end {
+                let (part, taxels) = side.from(at);
+                if part != NONE && taxels.start < end {
+                    self.step(&mut walk, part, taxels.start, taxels.end.min(end) - 1);
+                }
+                at = taxels.end;
             }
-            let at = i32::from(piece.column) - i32::from(left);
-            let mut rest = taxels;
+            return;
+        }
+        let row = area_a.first_row.wrapping_add_signed(top as i16);
+        for (_, piece) in labels.in_rows(row, row) {
+            let Some(part) = labels.part_of(piece) else { continue };
+            let at = i32::from(piece.column()) - left;
+            let mut rest = piece.within(left as u16, right as u16);
             while rest != 0 {
                 let Range { start, end } = run_of(lowest_run(rest));
                 rest &= !lowest_run(rest);
@@ -123,14 +131,14 @@ impl Joins {
             (walk.part, walk.there, walk.seen) = (part, NONE, -1);
         }
         let near = walk.joint.beside(first, last);
-        for at in *near.start().max(&(walk.seen + 1))..=*near.end() {
-            let (x, y) = walk.joint.edge_b.at(at);
-            if let Some(there) = walk.beside.part_at(y as u16, x as u16)
-                && there != walk.there
-            {
+        let mut at = (walk.seen + 1).max(*near.start());
+        while at <= *near.end() {
+            let (there, taxels) = walk.beside.from(at);
+            if there != NONE && there != walk.there && taxels.start <= *near.end() {
                 walk.there = there;
                 self.note(Join { a: part, b: there, joint: walk.index });
             }
+            at = taxels.end;
         }
         walk.seen = walk.seen.max(*near.end());
     }
@@ -142,7 +150,12 @@ impl Joins {
     }
 
     /// The panel with most of the mass of contact `contact`, whose parts are joined; places all its parts.
-    pub fn settle<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout, contact: u16) -> u8 {
+    pub fn settle<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        labels: &Labels<RUNS, PARTS>,
+        layout: &Layout,
+        contact: u16,
+    ) -> u8 {
         // Of each panel: the mass, and the heaviest part with its own.
         let mut sums = [(0u64, 0, 0); PANELS];
         for (index, part) in labels.whole_parts().filter(|(_, part)| part.contact == contact) {
@@ -227,7 +240,10 @@ fn unite(parts: &mut [Part], a: u16, b: u16) {
 }
 
 /// What a contact weighs with everything that seams join to its first part: total, peak, area, held.
-pub(super) fn weigh<const RUNS: usize>(labels: &Labels<RUNS>, first: u16) -> (u32, u16, u16, bool) {
+pub(super) fn weigh<const RUNS: usize, const PARTS: usize>(
+    labels: &Labels<RUNS, PARTS>,
+    first: u16,
+) -> (u32, u16, u16, bool) {
     let mut sum = (0u32, 0u16, 0u16, false);
     for (index, part) in labels.whole_parts() {
         if index == first || (part.joined && group(&labels.parts, index) == first) {

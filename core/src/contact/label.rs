@@ -1,22 +1,26 @@
 //! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
+use super::bits::{WORD, flood, highest, is_run, lowest_run, run_of};
 use super::part::{NONE, Part, first_of, unite};
-use super::piece::{Piece, Sum, WORD, flood, is_run, lowest_run, run_of, touched};
-use crate::condition::{Feedback, Image, row_of};
+use super::piece::{Piece, strips};
+use super::sums::Sums;
+use super::touched::{Sixteen, sixteens, touched, touched_of_sixteen};
+use crate::condition::{Feedback, Image, panel_of, row_of};
 use crate::garment::{Area, Layout, Rect, Side};
+use bytemuck::must_cast_slice;
 use core::ops::Range;
 use heapless::Vec;
 
 /// The parts of a frame, and their pieces.
 #[derive(Debug, Clone)]
-pub(super) struct Labels<const RUNS: usize> {
+pub(super) struct Labels<const RUNS: usize, const PARTS: usize> {
     /// In the order of rows and words.
     pub pieces: Vec<Piece, RUNS>,
-    /// In the order of their first taxels. There are no more of them than pieces.
-    pub parts: Vec<Part, RUNS>,
+    /// In the order of their first taxels.
+    pub parts: Vec<Part, PARTS>,
     /// Sides of panels that have a piece, four bits for each panel.
     sides: u32,
-    /// Pieces that did not fit, in this frame.
+    /// Pieces that did not fit, or their parts, in this frame.
     pub overflow: u16,
 }
 
@@ -33,14 +37,17 @@ struct Line {
     row: u16,
     /// The first piece of the row above, or of this row where that has none.
     above: usize,
+    /// If the row above is one piece, what it reaches of this one, and its part.
+    reach: u32,
+    part: u16,
 }
 
 /// Runs of a word that belong to one part, and the part.
 type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
 
-impl<const RUNS: usize> Labels<RUNS> {
+impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     pub const fn new() -> Self {
-        const { assert!(RUNS < NONE as usize, "a part is numbered with 16 bits") };
+        const { assert!(PARTS < NONE as usize, "a part is numbered with 16 bits") };
         Labels { pieces: Vec::new(), parts: Vec::new(), sides: 0, overflow: 0 }
     }
 
@@ -61,6 +68,7 @@ impl<const RUNS: usize> Labels<RUNS> {
         for (panel, area) in (0u8..).zip(layout.areas()) {
             self.scan_panel(panel, area, image, low);
         }
+        self.weigh();
         self.flatten();
     }
 
@@ -68,63 +76,86 @@ impl<const RUNS: usize> Labels<RUNS> {
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
         let start = self.pieces.len();
         let last = area.first_row.saturating_add(area.rows);
-        let (mut above, mut from) = (start, area.first_row);
-        while let Some(row) = image.rows.next(from..last) {
-            let here = self.pieces.len();
-            let values = row_of(image.values, area, row - area.first_row);
-            // Only rows that follow each other touch.
-            let line = Line { panel, row, above: if row == from { above } else { here } };
-            self.scan_row(values, low, &line);
-            (above, from) = (here, row + 1);
+        let values = panel_of(image.values, area);
+        let sixteens = sixteens(values, area.columns, low);
+        let mut from = area.first_row;
+        // Only rows that follow each other touch.
+        while let Some(rows) = image.rows.held().run(from..last) {
+            from = rows.end;
+            let mut line = Line { panel, row: 0, above: self.pieces.len(), reach: 0, part: NONE };
+            for row in rows {
+                let here = self.pieces.len();
+                line.row = row;
+                match sixteens.get(usize::from(row - area.first_row)) {
+                    Some(sixteen) => self.scan_sixteen(sixteen, low, &mut line),
+                    None => self.scan_row(row_of(image.values, area, row - area.first_row), low, &line),
+                }
+                line.above = here;
+            }
         }
         self.mark_sides(start, panel, area);
     }
 
-    fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
-        let (mut rest, mut column) = (values, 0);
-        // Most rows are one word.
-        while let Some((values, after)) =
-            rest.split_at_checked(WORD.into()).filter(|(_, after)| !after.is_empty())
-        {
-            self.scan_word(values, low, column, line);
-            (rest, column) = (after, column.saturating_add(WORD));
-        }
-        self.scan_word(rest, low, column, line);
-    }
-
-    fn scan_word(&mut self, values: &[u16], low: u16, column: u16, line: &Line) {
-        let taxels = touched(values, low);
-        if is_run(taxels) {
-            self.scan_run(taxels, values, column, line);
+    fn scan_sixteen(&mut self, sixteen: &Sixteen, low: u16, line: &mut Line) {
+        let (taxels, values) = (touched_of_sixteen(sixteen, low), must_cast_slice(sixteen));
+        line.part = if is_run(taxels) {
+            self.scan_run(taxels, values, 0, line)
+        } else if taxels & !line.reach != 0 {
+            self.scan_runs(taxels, values, 0, line)
         } else if taxels != 0 {
-            self.scan_runs(taxels, values, column, line);
+            self.push_named(taxels, taxels, line.part, values, 0, line)
+        } else {
+            NONE
+        };
+        line.reach = if line.part == NONE { 0 } else { taxels | taxels << 1 | taxels >> 1 };
+    }
+
+    fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
+        for (column, values) in (0..).step_by(WORD.into()).zip(values.chunks(WORD.into())) {
+            let taxels = touched(values, low);
+            if is_run(taxels) {
+                self.scan_run(taxels, values, column, line);
+            } else if taxels != 0 {
+                self.scan_runs(taxels, values, column, line);
+            }
         }
     }
 
-    /// Appends the one run of a word to the part that it touches. If it touches several, they belong together.
+    /// Appends the one run of a word to the part that it touches, and returns that. If it touches several, they belong together.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn scan_run(&mut self, run: u32, values: &[u16], column: u16, line: &Line) {
-        let part = self.meet(run, column, line);
-        let Range { start, end } = run_of(run);
-        let Sum { mass, peak } = Sum::of(values.get(start..end).unwrap_or(&[]));
-        let (left, right) = (column + start as u16, column + end as u16 - 1);
-        let area = (end - start) as u16;
-        let (row, peak) = (line.row, peak as u16);
-        self.push(Piece { taxels: run, all: run, row, column, part, left, right, peak }, mass, area, line);
+    fn scan_run(&mut self, run: u32, values: &[u16], column: u16, line: &Line) -> u16 {
+        let part = if line.reach & run != 0 { line.part } else { self.meet(run, column, line) };
+        self.push_run(run, run, part, values, column, line)
+    }
+
+    /// Appends a run of a word that has `all` taxels.
+    #[inline(always)]
+    fn push_run(
+        &mut self,
+        taxels: u32,
+        all: u32,
+        part: u16,
+        values: &[u16],
+        column: u16,
+        line: &Line,
+    ) -> u16 {
+        let Range { start, end } = run_of(taxels);
+        let (sums, peak) = Sums::of(values.get(start..end).unwrap_or(&[]));
+        let (left, right, area) = (column + start as u16, column + end as u16 - 1, (end - start) as u16);
+        self.push(Piece { taxels, all, row: line.row, part, left, right, area, peak, sums }, line.panel)
     }
 
     /// The part that a run touches, of the pieces in the row above and in the word before; or [`NONE`]. If there are several,
     /// they belong together from now on.
     #[inline(never)] // the few registers of an M0+ are for this
     fn meet(&mut self, run: u32, column: u16, line: &Line) -> u16 {
+        let above = self.pieces.get(line.above..).unwrap_or(&[]);
         let mut part = NONE;
-        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
-            if piece.reach(column) & run != 0 {
-                part = match part {
-                    NONE => first_of(&mut self.parts, piece.part),
-                    part => unite(&mut self.parts, piece.part, part),
-                };
-            }
+        for piece in above.iter().filter(|piece| piece.reach(column) & run != 0) {
+            part = match part {
+                NONE => first_of(&mut self.parts, piece.part),
+                part => unite(&mut self.parts, piece.part, part),
+            };
         }
         part
     }
@@ -132,8 +163,14 @@ impl<const RUNS: usize> Labels<RUNS> {
     /// The part that all runs of a word touch, if it is the only one.
     #[inline(never)] // the few registers of an M0+ are for this
     fn only_part(&mut self, all: u32, column: u16, line: &Line) -> Option<u16> {
+        let above = self.pieces.get(line.above..).unwrap_or(&[]);
+        if let [piece] = above
+            && piece.reach(column) & all == all
+        {
+            return Some(first_of(&mut self.parts, piece.part));
+        }
         let (mut part, mut touched) = (NONE, 0);
-        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
+        for piece in above {
             let taxels = piece.reach(column) & all;
             if taxels != 0 {
                 let other = first_of(&mut self.parts, piece.part);
@@ -146,22 +183,40 @@ impl<const RUNS: usize> Labels<RUNS> {
         (flood(all, touched) == all).then_some(part)
     }
 
-    /// Appends the runs of a word, as one piece for each part that they touch or begin.
+    /// Appends the runs of a word, as one piece for each part that they touch or begin; their part, if there is but one.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn scan_runs(&mut self, all: u32, values: &[u16], column: u16, line: &Line) {
+    fn scan_runs(&mut self, all: u32, values: &[u16], column: u16, line: &Line) -> u16 {
+        if let Some(part) = self.only_part(all, column, line) {
+            return self.push_named(all, all, part, values, column, line);
+        }
         let mut found = Found::new();
-        match self.only_part(all, column, line) {
-            Some(part) => drop(found.push((all, part))),
-            None => self.find_parts(&mut found, all, column, line),
-        }
+        self.find_parts(&mut found, all, column, line);
         for &(taxels, part) in &found {
-            let Sum { mass, peak } = Sum::named(values, taxels);
-            let (row, peak) = (line.row, peak as u16);
-            let left = column + taxels.trailing_zeros() as u16;
-            let right = column + (WORD - 1).saturating_sub(taxels.leading_zeros() as u16);
-            let area = taxels.count_ones() as u16;
-            self.push(Piece { taxels, all, row, column, part, left, right, peak }, mass, area, line);
+            if is_run(taxels) {
+                self.push_run(taxels, all, part, values, column, line);
+            } else {
+                self.push_named(taxels, all, part, values, column, line);
+            }
         }
+        NONE
+    }
+
+    /// Appends runs of a word that has `all` taxels.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn push_named(
+        &mut self,
+        taxels: u32,
+        all: u32,
+        part: u16,
+        values: &[u16],
+        column: u16,
+        line: &Line,
+    ) -> u16 {
+        let (start, area) = (taxels.trailing_zeros(), taxels.count_ones() as u16);
+        let (sums, peak) =
+            Sums::named(values.get(start as usize..).unwrap_or(&[]), taxels.unbounded_shr(start));
+        let (left, right) = (column + start as u16, column + highest(taxels));
+        self.push(Piece { taxels, all, row: line.row, part, left, right, area, peak, sums }, line.panel)
     }
 
     /// Tells apart the runs of a word by their parts: first those that are known already, from the row above or the word before;
@@ -195,24 +250,18 @@ impl<const RUNS: usize> Labels<RUNS> {
         }
     }
 
-    /// Appends a piece to its part, with what it sums up to; of a new part, if that is [`NONE`].
-    fn push(&mut self, mut piece: Piece, mass: u32, area: u16, line: &Line) {
-        let (new, peak) = (piece.part == NONE, piece.peak);
-        if new {
+    /// Appends a piece to its part, and returns that; to a new part, if that is [`NONE`].
+    fn push(&mut self, mut piece: Piece, panel: u8) -> u16 {
+        let mut fits = true;
+        if piece.part == NONE {
             piece.part = self.parts.len() as u16;
+            fits = self.parts.push(Part::new(piece.part, panel)).is_ok();
         }
         let part = piece.part;
-        if self.pieces.push(piece).is_err() {
+        if !fits || self.pieces.push(piece).is_err() {
             self.overflow = self.overflow.saturating_add(1);
-            return;
         }
-        if new {
-            // As many places as pieces.
-            let _ = self.parts.push(Part::new(part, line.panel));
-        }
-        if let Some(part) = self.parts.get_mut(usize::from(part)) {
-            part.add(mass, area, peak);
-        }
+        part
     }
 
     /// Marks the sides of a panel that its pieces touch, which are those from `start` on.
@@ -228,13 +277,32 @@ impl<const RUNS: usize> Labels<RUNS> {
         let word = right - right % WORD;
         mark(first.row == area.first_row, Side::Top);
         mark(last.row - area.first_row + 1 >= area.rows, Side::Bottom);
-        mark(pieces.iter().any(|piece| piece.column == 0 && piece.holds(0)), Side::Left);
-        mark(pieces.iter().any(|piece| piece.column == word && piece.holds(right)), Side::Right);
+        mark(pieces.iter().any(|piece| piece.left < WORD && piece.holds(0)), Side::Left);
+        mark(pieces.iter().any(|piece| piece.column() == word && piece.holds(right)), Side::Right);
     }
 
     /// Whether a piece touches that side of a panel.
     pub const fn touches(&self, panel: u8, side: Side) -> bool {
         self.sides & bit(panel, side) != 0
+    }
+
+    /// Gives the parts the sums of their pieces.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    fn weigh(&mut self) {
+        for pieces in strips(&self.pieces) {
+            let (mut mass, mut area, mut peak) = (0u32, 0u32, 0);
+            for piece in pieces {
+                mass = mass.wrapping_add(piece.sums.s0);
+                area = area.wrapping_add(piece.area.into());
+                if piece.peak > peak {
+                    peak = piece.peak;
+                }
+            }
+            let part = pieces.first().and_then(|piece| self.parts.get_mut(usize::from(piece.part)));
+            if let Some(part) = part {
+                part.add(mass, area.min(u16::MAX.into()) as u16, peak);
+            }
+        }
     }
 
     /// Makes the first of the parts that belong together the parent of each of them, and gives it the sums of all.

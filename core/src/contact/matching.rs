@@ -169,7 +169,7 @@ fn nearest(
     images: &Images,
     points: &[Point],
     crowds: &[Crowd; PANELS],
-    reach: u32,
+    mut reach: u32,
     taken: &[bool],
 ) -> (u32, u16) {
     let mut least = (FAR, 0);
@@ -193,6 +193,8 @@ fn nearest(
             let squared = x * x + y * y;
             if squared <= reach * reach {
                 least = least.min((squared, column));
+                // Nothing that is farther along one axis is as near.
+                reach = reach.min(x + y);
             }
         }
     }

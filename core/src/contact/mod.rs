@@ -6,8 +6,8 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
-//! | RAM | 940 + 4 C bytes for each of C contacts, 40 per run, and 4.3 KB |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; about 16 k for each contact of 4 to 9 taxels, 20 k of 29; 340 k if all 2,048 taxels are touched, 410 k as a checkerboard of 1,024 runs |
+//! | RAM | 940 + 4 C bytes for each of C contacts, 36 per run, 20 per part, and 4.3 KB |
+//! | M0+ cycles | reference garment: 3 k where nothing touches; 19 k with one contact of 29 taxels, 70 k with five, 280 k with forty of 4 to 9; 225 k if all 2,048 taxels are touched, 280 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
@@ -28,12 +28,13 @@
 //! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 16 k
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
-//! The stage makes four passes: each active row as bits, its runs joined to the parts above (`piece`, `part`, `label`); joins across seams (`join`);
-//! the choice of contacts; and the sums of the chosen ones only (`component`). So far goes [`Contacts::segment`]; then they are
+//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`); joins
+//! across seams (`side`, `join`); the choice of contacts; and the moments of the chosen ones only (`strip`, `component`). So far goes [`Contacts::segment`]; then they are
 //! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
 //! is costs as much as all the rest of it, and changes slowly.
 
 mod axis;
+mod bits;
 mod component;
 mod config;
 mod contour;
@@ -50,8 +51,13 @@ mod piece;
 mod place;
 mod point;
 mod record;
+mod side;
 mod slip;
+mod slopes;
 mod stage;
+mod strip;
+mod sums;
+mod touched;
 mod track;
 mod trail;
 

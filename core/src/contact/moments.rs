@@ -1,5 +1,8 @@
 //! Exact moments of pressure (eq. 1 to 3 of the source, with coordinates from 0).
 
+use super::bits::WORD;
+use super::piece::Piece;
+use super::sums::{NARROW, Sums, squares};
 use crate::format::product;
 use crate::garment::{Transform, signed};
 
@@ -37,124 +40,130 @@ pub struct Central {
     pub c: i64,
 }
 
-/// Taxels whose running sums fit in 32 bits: 65535 * (1 + 3 + 6 + ... + 2080) < 2^32.
-const PIECE: usize = 64;
-/// Values up to this have squares of which [`PIECE`] fit in 32 bits.
-const NARROW: u16 = 8191;
+/// Rows whose sums fit in 32 bits where they are [`is_small`]; the squares just so: 16^2 * 4095^2 < 2^32.
+pub(super) const FEW: usize = 16;
 
-/// What a piece of a row adds, before its place counts.
-struct Piece {
-    /// sum f
-    s0: u32,
-    /// sum (i + 1) f
-    s1: u32,
-    /// sum (i + 1)(i + 2) / 2 f
+/// Whether a panel has 16 columns and 32 rows at most, and values 12 bits.
+pub(super) const fn is_small(columns: u16, rows: u16, peak: u16) -> bool {
+    columns <= 16 && rows <= 32 && peak < 1 << 12
+}
+
+/// Moments in 32 bits, where a multiplication takes one cycle instead of 55: of a piece near the first column and row, everything is
+/// below 128^2 * 2^17 = 2^31.
+#[derive(Default)]
+struct Near {
+    m: u32,
+    sx: u32,
+    sy: u32,
+    sxx: u32,
+    syy: u32,
+    sxy: u32,
     s2: u32,
-    /// sum f^2
-    squares: u64,
 }
 
-impl Piece {
-    /// At most [`PIECE`] values. From the last to the first, three running sums: no multiplication by a coordinate per
-    /// taxel.
-    fn of(values: impl DoubleEndedIterator<Item = u32>) -> Piece {
-        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u64);
-        for value in values.rev() {
-            s0 = s0.wrapping_add(value);
-            s1 = s1.wrapping_add(s0);
-            s2 = s2.wrapping_add(s1);
-            squares += u64::from(value * value);
-        }
-        Piece { s0, s1, s2, squares }
-    }
-
-    /// The same of values up to [`NARROW`].
-    fn of_narrow(values: impl DoubleEndedIterator<Item = u32>) -> Piece {
-        let (mut s0, mut s1, mut s2, mut squares) = (0u32, 0u32, 0u32, 0u32);
-        for value in values.rev() {
-            s0 = s0.wrapping_add(value);
-            s1 = s1.wrapping_add(s0);
-            s2 = s2.wrapping_add(s1);
-            squares = squares.wrapping_add(value.wrapping_mul(value));
-        }
-        Piece { s0, s1, s2, squares: squares.into() }
-    }
-}
-
-/// Values with 0 in the place of those below `floor`.
-fn above(floor: u16, values: &[u16]) -> impl DoubleEndedIterator<Item = u32> {
-    values.iter().map(move |value| if *value < floor { 0 } else { u32::from(*value) })
-}
-
-/// All of them.
-fn whole(values: &[u16]) -> impl DoubleEndedIterator<Item = u32> {
-    values.iter().map(|value| u32::from(*value))
-}
-
-impl Moments {
-    /// Of a piece of a row whose first taxel is (x, y).
-    pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
-        let mut sum = Moments::default();
-        sum.add_run(x, y, values, 0, values.iter().copied().max().unwrap_or(0));
-        sum
-    }
-
-    /// Adds a piece of a row whose first taxel is (x, y): its values from `floor` on, of which none is above `peak`.
-    #[inline(never)] // the few registers of an M0+ are for its loop
-    pub(super) fn add_run(&mut self, x: u32, y: u32, values: &[u16], floor: u16, peak: u16) {
-        if x < 64 && y < 128 && values.len() <= PIECE && peak <= NARROW {
-            let piece = match floor {
-                0 => Piece::of_narrow(whole(values)),
-                _ => Piece::of_narrow(above(floor, values)),
-            };
-            if piece.s0 < 1 << 17 {
-                return self.add_near(x, y, &piece);
-            }
-        }
-        self.add_far(x, y, values, floor);
-    }
-
-    /// Small coordinates and sums, as nearly always: everything below 128^2 * 2^17 = 2^31 fits in 32 bits, where a
-    /// multiplication takes one cycle instead of 55.
-    fn add_near(&mut self, x: u32, y: u32, piece: &Piece) {
-        let Piece { s0, s1, s2, squares } = *piece;
+impl Near {
+    #[inline(always)]
+    fn of(x: u32, y: u32, sums: &Sums) -> Near {
+        let Sums { s0, s1, s2, squares } = *sums;
         let first = s1.wrapping_sub(s0);
         // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
         let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
         let (sx, sy) = (x * s0 + first, y * s0);
         // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
         let sxx = x * (sx + first) + second;
-        // One after the other, for want of registers.
-        self.m = self.m.wrapping_add(s0.into());
-        self.sx = self.sx.wrapping_add(sx.into());
-        self.sy = self.sy.wrapping_add(sy.into());
-        self.sxx = self.sxx.wrapping_add(sxx.into());
-        self.syy = self.syy.wrapping_add((y * sy).into());
-        self.sxy = self.sxy.wrapping_add((y * sx).into());
-        self.s2 = self.s2.wrapping_add(squares);
+        Near { m: s0, sx, sy, sxx, syy: y * sy, sxy: y * sx, s2: squares }
     }
 
-    /// Any coordinates, values and length.
-    #[cold]
-    fn add_far(&mut self, x: u32, y: u32, values: &[u16], floor: u16) {
-        let (mut x, y) = (u64::from(x), u64::from(y));
-        for values in values.chunks(PIECE) {
-            let Piece { s0, s1, s2, squares } = Piece::of(above(floor, values));
-            let [s0, s1, s2] = [s0, s1, s2].map(u64::from);
-            let first = s1.wrapping_sub(s0);
-            let second = (s2 * 2).wrapping_add(s0).wrapping_sub(s1 * 3);
-            let (sx, sy) = (x.wrapping_mul(s0).wrapping_add(first), y.wrapping_mul(s0));
-            self.add(&Moments {
-                m: s0,
-                sx: sx as i64,
-                sy: sy as i64,
-                sxx: x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second),
-                syy: y.wrapping_mul(sy),
-                sxy: y.wrapping_mul(sx) as i64,
-                s2: squares,
-            });
-            x += PIECE as u64;
+    #[inline(always)]
+    fn add(&mut self, other: &Near) {
+        self.m = self.m.wrapping_add(other.m);
+        self.sx = self.sx.wrapping_add(other.sx);
+        self.sy = self.sy.wrapping_add(other.sy);
+        self.sxx = self.sxx.wrapping_add(other.sxx);
+        self.syy = self.syy.wrapping_add(other.syy);
+        self.sxy = self.sxy.wrapping_add(other.sxy);
+        self.s2 = self.s2.wrapping_add(other.s2);
+    }
+
+    #[inline(always)]
+    fn wide(&self) -> Moments {
+        let Near { m, sx, sy, sxx, syy, sxy, s2 } = *self;
+        Moments {
+            m: m.into(),
+            sx: sx.into(),
+            sy: sy.into(),
+            sxx: sxx.into(),
+            syy: syy.into(),
+            sxy: sxy.into(),
+            s2: s2.into(),
         }
+    }
+}
+
+impl Moments {
+    /// Of a run of a row whose first taxel is (x, y).
+    pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
+        let mut sum = Moments::default();
+        let mut x = x;
+        for values in values.chunks(WORD.into()) {
+            let (sums, peak) = Sums::of(values);
+            sum.add_piece(x, y, &sums, peak, || squares(values, u32::MAX));
+            x = x.wrapping_add(WORD.into());
+        }
+        sum
+    }
+
+    /// Adds a piece of a row whose first taxel is (x, y), given what its taxels add up to. Its squares are asked for where they
+    /// did not fit.
+    pub(super) fn add_piece(
+        &mut self,
+        x: u32,
+        y: u32,
+        sums: &Sums,
+        peak: u16,
+        squares: impl FnOnce() -> u64,
+    ) {
+        if x < 64 && y < 128 && sums.s0 < 1 << 17 && peak <= NARROW {
+            self.add_near(x, y, sums);
+        } else {
+            self.add_far(x, y, sums, squares());
+        }
+    }
+
+    /// Small coordinates and sums, as nearly always.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn add_near(&mut self, x: u32, y: u32, sums: &Sums) {
+        self.add(&Near::of(x, y, sums).wide());
+    }
+
+    /// Adds pieces of [`FEW`] rows at most, where the first row of their panel counts as 0, and all columns, rows and values are [`is_small`].
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    pub(super) fn add_few(&mut self, pieces: &[Piece], first_row: u16) {
+        let mut sum = Near::default();
+        for piece in pieces {
+            sum.add(&Near::of(piece.left.into(), (piece.row - first_row).into(), &piece.sums));
+        }
+        self.add(&sum.wide());
+    }
+
+    /// Any coordinates and values.
+    #[cold]
+    #[inline(never)]
+    fn add_far(&mut self, x: u32, y: u32, sums: &Sums, squares: u64) {
+        let (x, y) = (u64::from(x), u64::from(y));
+        let [s0, s1, s2] = [sums.s0, sums.s1, sums.s2].map(u64::from);
+        let first = s1.wrapping_sub(s0);
+        let second = (s2 * 2).wrapping_add(s0).wrapping_sub(s1 * 3);
+        let (sx, sy) = (x.wrapping_mul(s0).wrapping_add(first), y.wrapping_mul(s0));
+        self.add(&Moments {
+            m: s0,
+            sx: sx as i64,
+            sy: sy as i64,
+            sxx: x.wrapping_mul(sx.wrapping_add(first)).wrapping_add(second),
+            syy: y.wrapping_mul(sy),
+            sxy: y.wrapping_mul(sx) as i64,
+            s2: squares,
+        });
     }
 
     /// Of a whole image as it stands, row by row.
@@ -236,25 +245,49 @@ mod tests {
         };
         for round in 0..4000 {
             let peak = [1, 4095, NARROW, NARROW + 1, u16::MAX][round % 5];
-            let length = [1, 2, 15, 16, 31, 63, 64, 65, 130][round % 9];
+            let length = [1, 2, 15, 16, 31, 32, 63, 64, 65, 130][round % 10];
             let (x, y) = ([0, 15, 63, 64, 1000][round % 7 % 5], [0, 31, 127, 128, 3000][round % 11 % 5]);
             let least = if round % 2 == 0 { peak } else { 0 };
             let values: Vec<u16> = (0..length).map(|_| least.max(next(u32::from(peak) + 1) as u16)).collect();
-            let floor = if round % 3 == 0 { peak / 2 } else { 0 };
-            let counted: Vec<u16> = values.iter().map(|f| if *f < floor { 0 } else { *f }).collect();
             let sum = |weight: &dyn Fn(u128) -> u128| -> u128 {
-                (u128::from(x)..).zip(&counted).map(|(x, f)| weight(x) * u128::from(*f)).sum()
+                (u128::from(x)..).zip(&values).map(|(x, f)| weight(x) * u128::from(*f)).sum()
             };
-            let mut have = Moments::default();
-            have.add_run(x, y, &values, floor, peak);
+            let have = Moments::of_run(x, y, &values);
             let wide_y = u128::from(y);
             assert_eq!(u128::from(have.m), sum(&|_| 1));
             assert_eq!((have.sx as u128, have.sy as u128), (sum(&|x| x), sum(&|_| wide_y)));
             assert_eq!(u128::from(have.sxx), sum(&|x| x * x));
             assert_eq!(u128::from(have.syy), sum(&|_| wide_y * wide_y));
             assert_eq!(have.sxy as u128, sum(&|x| x * wide_y));
-            assert_eq!(u128::from(have.s2), counted.iter().map(|f| u128::from(*f).pow(2)).sum());
-            assert_eq!(have, Moments::of_run(x, y, &counted));
+            assert_eq!(u128::from(have.s2), values.iter().map(|f| u128::from(*f).pow(2)).sum());
+        }
+    }
+
+    /// The largest sums that there may be, and others.
+    #[test]
+    fn sums_of_few_rows_are_those_of_each() {
+        for (first, least) in [(16, 4095), (0, 4095), (7, 0)] {
+            let values: [u16; 16] = core::array::from_fn(|i| least.max(i as u16 * 250));
+            let (sums, peak) = Sums::of(&values);
+            let piece = |row| Piece {
+                taxels: 0xffff,
+                all: 0xffff,
+                row: 100 + row,
+                part: 0,
+                left: 0,
+                right: 15,
+                area: 16,
+                peak,
+                sums,
+            };
+            let pieces: Vec<_> = (first..first + FEW as u16).map(piece).collect();
+            assert!(is_small(16, 32, peak) && pieces.iter().all(|piece| piece.row < 132));
+            let (mut few, mut each) = (Moments::default(), Moments::default());
+            few.add_few(&pieces, 100);
+            for piece in &pieces {
+                each.add(&Moments::of_run(0, (piece.row - 100).into(), &values));
+            }
+            assert_eq!(few, each);
         }
     }
 }

@@ -5,7 +5,8 @@
 //! creeps is seen. Where it has moved by half a taxel, the picture is taken anew.
 
 use super::component::Component;
-use super::flow::{Flow, Pictures, SIDE};
+use super::flow::{Flow, Pictures};
+use super::slopes::SIDE;
 use crate::condition::Image;
 use crate::garment::{Area, Rect};
 
@@ -118,17 +119,18 @@ impl Pattern {
         let x = within(start[0], window.left, window.right, area.columns);
         let y = within(start[1], window.top, window.bottom, area.rows);
         let columns = usize::from(window.right.saturating_sub(window.left)) + 1;
+        let rows = window.bottom.saturating_sub(window.top) + 1;
+        let (left, top) =
+            (window.left.wrapping_add_signed(x as i16), window.top.wrapping_add_signed(y as i16));
+        let cut = Cut { image, area, left: left.into(), columns };
         let mut now: [&[u16]; SIDE] = [&[]; SIDE];
-        for (now, row) in now.iter_mut().zip(window.top..=window.bottom) {
-            let row = image.row(area, row.wrapping_add_signed(y as i16));
-            let left = usize::from(window.left.wrapping_add_signed(x as i16));
-            // A row in which nothing touches is not in the image.
-            *now = row.get(left..).unwrap_or(&NOTHING).get(..columns).unwrap_or(&[]);
+        for (now, row) in now.iter_mut().zip(0..rows) {
+            *now = cut.row(top.wrapping_add(row));
         }
         let pictures = Pictures {
             before: &self.anchor,
             now,
-            rows: usize::from(window.bottom.saturating_sub(window.top)) + 1,
+            rows: rows.into(),
             columns,
             inner: &self.inner,
             peak: peak.max(component.peak),
@@ -184,6 +186,24 @@ impl Pattern {
         } else {
             self.pause = PAUSE;
         }
+    }
+}
+
+/// Some columns of an image.
+struct Cut<'a> {
+    image: &'a Image<'a>,
+    area: &'a Area,
+    left: usize,
+    columns: usize,
+}
+
+impl<'a> Cut<'a> {
+    /// Those of a row; none where the panel has none.
+    #[inline(never)] // the few registers of an M0+ are for this
+    fn row(&self, row: u16) -> &'a [u16] {
+        // A row in which nothing touches is not in the image.
+        let row = self.image.row(self.area, row).get(self.left..).unwrap_or(&NOTHING);
+        row.get(..self.columns).unwrap_or(&[])
     }
 }
 

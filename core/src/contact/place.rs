@@ -1,11 +1,12 @@
 //! What is asked of a frame's pieces by their places.
 
+use super::bits::WORD;
 use super::label::Labels;
-use super::part::{NONE, Part};
-use super::piece::{Piece, WORD, key};
+use super::part::NONE;
+use super::piece::{Piece, key};
 use crate::garment::Area;
 
-impl<const RUNS: usize> Labels<RUNS> {
+impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     /// The part that a piece belongs to.
     pub fn part_of(&self, piece: &Piece) -> Option<u16> {
         Some(self.parts.get(usize::from(piece.part))?.parent)
@@ -20,7 +21,7 @@ impl<const RUNS: usize> Labels<RUNS> {
 
     /// Those of the taxels of a piece, number `number`, that have all four neighbours in their panel, which is `area`.
     pub fn enclosed(&self, number: usize, piece: &Piece, area: &Area) -> u32 {
-        let Piece { taxels, row, column, .. } = *piece;
+        let (Piece { taxels, row, .. }, column) = (*piece, piece.column());
         let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
         if row <= area.first_row || row >= last {
             return 0;
@@ -54,12 +55,6 @@ impl<const RUNS: usize> Labels<RUNS> {
         first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
     }
 
-    /// What is asked for one taxel of a panel after the other.
-    pub fn beside<'a>(&'a self, area: &'a Area) -> Beside<'a> {
-        let near = self.pieces.partition_point(|piece| piece.row < area.first_row);
-        Beside { pieces: &self.pieces, parts: &self.parts, area, near }
-    }
-
     /// The contact that a taxel belongs to, once contacts are numbered.
     pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
         let word = key(area.first_row.saturating_add(row), column);
@@ -72,34 +67,5 @@ impl<const RUNS: usize> Labels<RUNS> {
     pub fn contact_of(&self, piece: &Piece) -> Option<u16> {
         let part = self.parts.get(usize::from(piece.part))?;
         (part.contact != NONE).then_some(part.contact)
-    }
-}
-
-/// Taxels of a panel that are asked for one after the other, each beside the last.
-pub(super) struct Beside<'a> {
-    pieces: &'a [Piece],
-    parts: &'a [Part],
-    area: &'a Area,
-    /// The number of the first piece of the last one's word, or of those after it.
-    near: usize,
-}
-
-impl Beside<'_> {
-    /// The part that a taxel belongs to.
-    #[inline(never)] // the few registers of an M0+ are for this
-    pub fn part_at(&mut self, row: u16, column: u16) -> Option<u16> {
-        let word = key(self.area.first_row.saturating_add(row), column);
-        let before = |number: usize| self.pieces.get(number).is_some_and(|piece| piece.key() < word);
-        let mut first = self.near;
-        while before(first) {
-            first += 1;
-        }
-        while first > 0 && !before(first - 1) {
-            first -= 1;
-        }
-        self.near = first;
-        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
-        let piece = pieces.find(|piece| piece.holds(column))?;
-        Some(self.parts.get(usize::from(piece.part))?.parent)
     }
 }

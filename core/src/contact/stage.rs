@@ -18,11 +18,12 @@ pub struct Contacts {
     config: ContactConfig,
 }
 
-/// What the stage remembers, and its work space, for at most CONTACTS contacts and RUNS runs of a row (65534). Half as many runs
-/// as taxels always suffice.
+/// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts, which are
+/// touched taxels of one panel that are connected (65534). Half as many runs as taxels always suffice, and of parts one for each square of
+/// two by two taxels, or as many as runs.
 #[derive(Debug, Clone)]
-pub struct ContactState<const CONTACTS: usize, const RUNS: usize> {
-    labels: Labels<RUNS>,
+pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
+    labels: Labels<RUNS, PARTS>,
     joins: Joins,
     components: Components<CONTACTS>,
     matching: Matching<CONTACTS>,
@@ -47,7 +48,7 @@ pub struct Touches<'a> {
     pub overflow: u16,
 }
 
-impl<const CONTACTS: usize, const RUNS: usize> ContactState<CONTACTS, RUNS> {
+impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<CONTACTS, RUNS, PARTS> {
     /// Nothing touches; the next id is 1.
     pub const fn new() -> Self {
         ContactState {
@@ -79,7 +80,9 @@ impl<const CONTACTS: usize, const RUNS: usize> ContactState<CONTACTS, RUNS> {
     }
 }
 
-impl<const CONTACTS: usize, const RUNS: usize> Default for ContactState<CONTACTS, RUNS> {
+impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> Default
+    for ContactState<CONTACTS, RUNS, PARTS>
+{
     fn default() -> Self {
         ContactState::new()
     }
@@ -112,9 +115,9 @@ impl Contacts {
     }
 
     /// Takes in one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
-    pub fn process<'a, const CONTACTS: usize, const RUNS: usize>(
+    pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
         now: Micros,
@@ -125,9 +128,9 @@ impl Contacts {
 
     /// The components of a frame that are contacts, measured, in the order of their first taxels. For whoever needs no ids
     /// and no velocities, this is all; of contacts it follows only where they were, which keeps faint ones.
-    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize>(
+    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
     ) -> &'a [Component] {
@@ -137,15 +140,15 @@ impl Contacts {
         joins.find(labels, layout);
         components.select(&self.config, labels);
         components.number(labels);
-        components.measure(labels, joins, layout, image, self.config.low);
+        components.measure(labels, joins, layout, image);
         components.feed_back(feedback);
         &components.list
     }
 
     /// Follows contacts from the last frame to the components that [`Contacts::segment`] found in this image.
-    pub fn track<'a, const CONTACTS: usize, const RUNS: usize>(
+    pub fn track<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
         now: Micros,

@@ -73,7 +73,11 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     /// Contacts that found no component, but whose last peak lies in one or beside it: they go on as it if nobody else does, and
     /// where it is another's, whichever had the greater total; of equals the one that is nearer.
-    pub fn merge<const RUNS: usize>(&mut self, labels: &Labels<RUNS>, layout: &Layout) {
+    pub fn merge<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        labels: &Labels<RUNS, PARTS>,
+        layout: &Layout,
+    ) {
         for index in 0..self.contacts.len() {
             let lost = self.trails.get(index).is_some_and(|trail| trail.component == NONE);
             let Some(contact) = self.contacts.get(index).filter(|_| lost) else { continue };
@@ -106,11 +110,11 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Brings all contacts up to date.
-    pub fn update<const RUNS: usize>(
+    pub fn update<const RUNS: usize, const PARTS: usize>(
         &mut self,
         config: &ContactConfig,
         components: &[Component],
-        labels: &Labels<RUNS>,
+        labels: &Labels<RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
         now: Micros,
@@ -158,7 +162,12 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Looks at the form of those that are new, and of one of those that were `held` before them.
-    fn look<const RUNS: usize>(&mut self, held: usize, components: &[Component], sight: &Sight<'_, RUNS>) {
+    fn look<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        held: usize,
+        components: &[Component],
+        sight: &Sight<'_, RUNS, PARTS>,
+    ) {
         self.turn = if self.turn + 1 < held { self.turn + 1 } else { 0 };
         self.looked.clear();
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
@@ -241,7 +250,11 @@ fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Compon
 }
 
 /// The contact that a place belongs to, or one of its eight neighbours in the panel.
-fn beside<const RUNS: usize>(labels: &Labels<RUNS>, layout: &Layout, place: Place) -> Option<u16> {
+fn beside<const RUNS: usize, const PARTS: usize>(
+    labels: &Labels<RUNS, PARTS>,
+    layout: &Layout,
+    place: Place,
+) -> Option<u16> {
     let area = layout.areas().get(usize::from(place.panel))?;
     let around = |at: u16| [at, at.wrapping_sub(1), at.saturating_add(1)];
     let places =

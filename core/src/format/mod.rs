@@ -35,6 +35,7 @@ pub use root::root;
 pub use scaled::Scaled;
 pub(crate) use shift::{left, right};
 
+use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
 /// A short UTF-8 name: of a panel, a link, a region, a concept, a reaction.
@@ -52,7 +53,9 @@ pub fn name(text: &str) -> Name {
 }
 
 /// A raw code of the analog-to-digital converter, as read: 12 bits on the reference board.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, Pod, Zeroable,
+)]
 #[serde(transparent)]
 #[repr(transparent)] // DMA writes it
 pub struct Code(pub u16);

@@ -16,9 +16,9 @@ use heapless::Vec;
 
 impl Pipeline {
     /// Takes one frame of codes, scanned at `now`.
-    pub fn process<'s, const TAXELS: usize, const RUNS: usize>(
+    pub fn process<'s, const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
-        state: &'s mut PipelineState<TAXELS, RUNS>,
+        state: &'s mut PipelineState<TAXELS, RUNS, PARTS>,
         layout: &Layout,
         codes: &[Code],
         falling: bool,
@@ -125,10 +125,10 @@ impl Pipeline {
 }
 
 /// Looks at one of the contacts with the base that was taught, and tells of each what it was found to be.
-fn look<const RUNS: usize>(
+fn look<const RUNS: usize, const PARTS: usize>(
     taught: &mut Taught<CONTACTS>,
     present: &mut [Placed],
-    contact: &ContactState<CONTACTS, RUNS>,
+    contact: &ContactState<CONTACTS, RUNS, PARTS>,
     layout: &Layout,
     image: &Image<'_>,
 ) {

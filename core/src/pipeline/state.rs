@@ -19,10 +19,10 @@ pub const CONTACTS: usize = 32;
 
 /// All that the stages remember.
 #[derive(Debug, Clone)]
-pub struct PipelineState<const TAXELS: usize, const RUNS: usize> {
+pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     /// Baseline, gains, images.
     pub condition: ConditionState<TAXELS>,
-    pub(super) contact: ContactState<CONTACTS, RUNS>,
+    pub(super) contact: ContactState<CONTACTS, RUNS, PARTS>,
     pub(super) present: Vec<Placed, CONTACTS>,
     pub(super) released: Vec<Placed, CONTACTS>,
     pub(super) symbol: SymbolState<CONTACTS>,
@@ -37,7 +37,9 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize> {
     pub taught: Taught<CONTACTS>,
 }
 
-impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
+    for PipelineState<TAXELS, RUNS, PARTS>
+{
     #[inline(never)] // its caller would make it on the stack, and move it
     fn default() -> Self {
         PipelineState {
@@ -57,7 +59,7 @@ impl<const TAXELS: usize, const RUNS: usize> Default for PipelineState<TAXELS, R
     }
 }
 
-impl<const TAXELS: usize, const RUNS: usize> PipelineState<TAXELS, RUNS> {
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<TAXELS, RUNS, PARTS> {
     /// Starts afresh on a garment; pressure lowers its codes from `full_scale` if `falling`.
     pub fn reset(&mut self, layout: &Layout, falling: bool, full_scale: u16) {
         self.condition.reset(layout, Code(if falling { full_scale } else { 0 }));

@@ -125,9 +125,9 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
     }
 
     /// Looks at a contact, which is number `index` of those that `contacts` holds; see [`seen`].
-    pub fn look<const RUNS: usize>(
+    pub fn look<const RUNS: usize, const PARTS: usize>(
         &mut self,
-        contacts: &ContactState<CONTACTS, RUNS>,
+        contacts: &ContactState<CONTACTS, RUNS, PARTS>,
         layout: &Layout,
         image: &Image<'_>,
         (index, contact): (usize, &Contact),

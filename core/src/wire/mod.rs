@@ -44,6 +44,7 @@ mod image;
 mod message;
 mod receiver;
 mod reference;
+mod stretch;
 mod writer;
 
 pub use codec::{WireError, decode, encode, frame_bound, open};

@@ -3,6 +3,7 @@
 use super::encoder::Encoder;
 use crate::condition::{Held, Image};
 use crate::garment::Layout;
+use bytemuck::{pod_align_to, pod_align_to_mut};
 use core::ops::Range;
 
 /// The image that was sent last, which the next one is told by its difference to. Only rows in which one of them may hold
@@ -45,24 +46,23 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         let mut encoder = Encoder::new(out);
         self.sum = 0;
         let rows = image.rows.held().with(&self.rows);
+        // One taxel that keeps the reference does not end a run: there it must not be seen what follows a part.
+        let narrow = layout.areas().iter().any(|area| area.columns == 1);
         let mut part = 0..0;
         for area in layout.areas() {
             let (columns, end) = (usize::from(area.columns), area.first_row.saturating_add(area.rows));
+            let of = |row: u16| usize::from(area.base) + usize::from(row - area.first_row) * columns;
             let mut next = area.first_row;
-            while let Some(first) = rows.next(next..end) {
-                next = first + 1;
-                while next < end && rows.next(next..next + 1).is_some() {
-                    next += 1;
+            while let Some(run) = rows.run(next..end) {
+                next = run.end;
+                if of(run.start) != part.end {
+                    self.tell(&mut encoder, image, alone, part, narrow)?;
+                    part = of(run.start)..0;
                 }
-                let of = |row: u16| usize::from(area.base) + usize::from(row - area.first_row) * columns;
-                if of(first) != part.end {
-                    self.tell(&mut encoder, image, alone, part)?;
-                    part = of(first)..0;
-                }
-                part.end = of(next);
+                part.end = of(run.end);
             }
         }
-        self.tell(&mut encoder, image, alone, part)?;
+        self.tell(&mut encoder, image, alone, part, narrow)?;
         self.rows = *image.rows.held();
         Some(room - encoder.room())
     }
@@ -74,17 +74,46 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         image: &Image<'_>,
         alone: bool,
         part: Range<usize>,
+        narrow: bool,
     ) -> Option<()> {
         let now = image.values.get(part.clone()).unwrap_or(&[]);
+        let end = if narrow { part.end } else { TAXELS }.min(image.values.len()).min(TAXELS);
+        let base = if alone { None } else { self.values.get(..end) };
+        encoder.part(part.clone(), image.values.get(..end)?, base)?;
         let last = self.values.get_mut(part.clone()).unwrap_or(&mut []);
-        encoder.part(part.start, now, if alone { None } else { Some(last) })?;
-        let taxels = now.len();
-        if let (Some(last), Some(now)) = (last.get_mut(..taxels), now.get(..taxels)) {
-            last.copy_from_slice(now);
-        }
+        keep(last, now);
         self.sum = self.sum.wrapping_add(sum_of(part.start, now));
         Some(())
     }
+}
+
+/// Copies taxels: many of them in blocks, where both stand on words.
+fn keep(kept: &mut [u16], values: &[u16]) {
+    /// From here on it pays.
+    const MANY: usize = 256;
+    let mut done = 0;
+    if values.len() >= MANY
+        && let (([], words, _), ([], kept_words, _)) = (pod_align_to(values), pod_align_to_mut(kept))
+    {
+        let blocks = words.as_chunks().0.iter().zip(kept_words.as_chunks_mut().0);
+        blocks.for_each(|(block, kept)| {
+            keep_block(kept, block);
+            done += 2 * BLOCK;
+        });
+    }
+    if let (Some(kept), Some(values)) = (kept.get_mut(done..values.len()), values.get(done..)) {
+        kept.copy_from_slice(values);
+    }
+}
+
+/// Words of a block.
+const BLOCK: usize = 16;
+
+/// By itself it is a few instructions that move many words each; of all blocks together a compiler would make a call of `memcpy`, which
+/// takes twice as long.
+#[inline(never)]
+fn keep_block(kept: &mut [u32; BLOCK], block: &[u32; BLOCK]) {
+    *kept = *block;
 }
 
 /// What taxels from number `start` on have in the [`image_sum`](super::image_sum).

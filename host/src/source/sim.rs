@@ -16,7 +16,8 @@ use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_store::{Store, StoreError};
 
 const TAXELS: usize = 2048;
-const RUNS: usize = 1024;
+const RUNS: usize = TAXELS / 2;
+const PARTS: usize = TAXELS / 4;
 /// The board lies in boxes, but is made on the stack.
 const STACK: usize = 8 << 20;
 /// What a USB link carries, bytes per second.
@@ -58,7 +59,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     let (host, board_end) = pipe();
     let (told, ready) = mpsc::channel();
     thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
-        let made = Board::<TAXELS, RUNS>::new(info(&play.garment), play.garment.clone(), board_scene);
+        let made = Board::<TAXELS, RUNS, PARTS>::new(info(&play.garment), play.garment.clone(), board_scene);
         let made = made.map_err(anyhow::Error::from).map(Box::new);
         // What is built here for the check is built again for each round.
         let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
@@ -97,7 +98,7 @@ fn info(garment: &Garment) -> BoardInfo {
 
 impl Play {
     /// One round of the script, or round after round, each on the board's time after the last.
-    fn all(&self, board: &mut Board<TAXELS, RUNS>, link: BoardEnd) {
+    fn all(&self, board: &mut Board<TAXELS, RUNS, PARTS>, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
         let mut flash = SimFlash::default();

@@ -1,0 +1,89 @@
+//! How steep two small pictures are, and what has changed between them: row by row.
+//!
+//! Each of its loops is one function, and reads what the one before left: none has more to keep than the registers of a Cortex-M0+.
+
+/// Rows and columns of a picture, at most.
+pub(super) const SIDE: usize = 12;
+
+/// One column of both pictures, over three rows.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Smooth {
+    /// Of both, smoothed.
+    sum: i32,
+    /// Of the sum of both, from the row above to the row below.
+    slope: i32,
+    /// From the earlier to the later, smoothed.
+    change: i32,
+}
+
+/// A row of them.
+pub(super) type Line = [Smooth; SIDE];
+
+/// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, of the taxels of a line but the first and the last.
+pub(super) type Terms = [[i32; 3]; SIDE - 2];
+
+/// Sums, slopes and changes of the middle one of three rows.
+#[inline(never)]
+pub(super) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Line) {
+    let [above, here, below] = before;
+    let before = above.iter().zip(here).zip(below);
+    let [above, here, below] = *now;
+    let now = above.iter().zip(here).zip(below);
+    let three = |((above, here), below): ((&u16, &u16), &u16)| [*above, *here, *below].map(i32::from);
+    for (out, (before, now)) in out.iter_mut().zip(before.zip(now)) {
+        let ([a, h, b], [above, here, below]) = (three(before), three(now));
+        // Both together, and how much more the later has.
+        let (was, is) = (a + 4 * h + b, above + 4 * here + below);
+        *out = Smooth { sum: was + is, slope: b - a + below - above, change: is - was };
+    }
+}
+
+/// The terms of the marked taxels of a line, which are neither the first nor the last; 0 for all others.
+pub(super) fn differentiate(line: &Line, marked: u16, scale: u32, out: &mut Terms) {
+    let half = 1 << scale >> 1;
+    across(line, scale, half, out);
+    along(line, scale, half, out);
+    change(line, scale + 1, 2 * half, out);
+    for (terms, at) in out.iter_mut().zip(1..) {
+        if marked >> at & 1 == 0 {
+            *terms = [0; 3];
+        }
+    }
+}
+
+/// Slopes x.
+#[inline(never)]
+fn across(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+    for ([left, _, right], out) in line.array_windows().zip(out) {
+        out[0] = (right.sum - left.sum + half) >> scale;
+    }
+}
+
+/// Slopes y.
+#[inline(never)]
+fn along(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+    for ([left, here, right], out) in line.array_windows().zip(out) {
+        out[1] = (4 * here.slope + left.slope + right.slope + half) >> scale;
+    }
+}
+
+/// Changes.
+#[inline(never)]
+fn change(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+    for ([left, here, right], out) in line.array_windows().zip(out) {
+        out[2] = (4 * here.change + left.change + right.change + half) >> scale;
+    }
+}
+
+/// Sums of the terms number A, of their squares, and of their products with those number B.
+#[inline(never)]
+pub(super) fn products<const A: usize, const B: usize>(terms: &Terms) -> [i32; 3] {
+    let (mut sum, mut square, mut mixed) = (0, 0, 0i32);
+    for term in terms {
+        let (a, b) = (term[A], term[B]);
+        sum += a;
+        square = a.wrapping_mul(a).wrapping_add(square);
+        mixed = a.wrapping_mul(b).wrapping_add(mixed);
+    }
+    [sum, square, mixed]
+}

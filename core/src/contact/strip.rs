@@ -1,0 +1,41 @@
+//! Pieces of a part that follow each other.
+
+use super::part::Part;
+use super::piece::Piece;
+use crate::condition::row_of;
+use crate::garment::{Area, Rect};
+
+/// Pieces of a part that follow each other, from row to row.
+pub(super) struct Strip<'a> {
+    pub pieces: &'a [Piece],
+    pub part: &'a Part,
+    pub area: &'a Area,
+    /// of all taxels
+    pub values: &'a [u16],
+}
+
+impl Strip<'_> {
+    /// The values from the first to the last taxel of a piece.
+    pub fn values(&self, piece: &Piece) -> &[u16] {
+        let row = row_of(self.values, self.area, piece.row - self.area.first_row);
+        row.get(piece.left.into()..=piece.right.into()).unwrap_or(&[])
+    }
+
+    /// Lets a rectangle of the panel hold them.
+    pub fn widen(&self, rect: &mut Rect) {
+        // The rows come one after the other.
+        if let [first, ..] = self.pieces {
+            rect.top = rect.top.min(first.row - self.area.first_row);
+        }
+        if let [.., last] = self.pieces {
+            rect.bottom = last.row - self.area.first_row;
+        }
+        // Unrolled, a loop over them would begin with a division, which an M0+ does not have.
+        let mut rest = self.pieces;
+        while let [piece, after @ ..] = rest {
+            rect.left = rect.left.min(piece.left);
+            rect.right = rect.right.max(piece.right);
+            rest = after;
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What the taxels of a piece add up to, before its place counts.
+
+use super::bits::WORD;
+
+/// Values up to this have squares of which a word's fit in 32 bits: 32 * 11585^2 < 2^32.
+pub(super) const NARROW: u16 = 11585;
+
+/// Sums over taxels of a row, number `i` of which has the pressure f: of those of a word all but the squares fit in 32 bits, as
+/// 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Sums {
+    /// sum f
+    pub s0: u32,
+    /// sum (i + 1) f
+    pub s1: u32,
+    /// sum (i + 1)(i + 2) / 2 f
+    pub s2: u32,
+    /// sum f^2, where no f is above [`NARROW`]; else modulo 2^32
+    pub squares: u32,
+}
+
+impl Sums {
+    /// Of at most [`WORD`] values; and the greatest.
+    pub fn of(values: &[u16]) -> (Sums, u16) {
+        (whole(values), greatest(values))
+    }
+
+    /// Of those of at most [`WORD`] values that some bits name: bit `i` for number `i`; and the greatest.
+    pub fn named(values: &[u16], taxels: u32) -> (Sums, u16) {
+        // The bit of the value that comes next is the highest.
+        named(values, taxels << u32::from(WORD).saturating_sub(values.len() as u32))
+    }
+    /// Of no value.
+    const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
+
+    /// Takes in the value before those that it has: three running sums, no multiplication by a coordinate for each taxel.
+    #[inline(always)]
+    fn take(&mut self, value: u16) {
+        let value = u32::from(value);
+        self.s0 = self.s0.wrapping_add(value);
+        self.s1 = self.s1.wrapping_add(self.s0);
+        self.s2 = self.s2.wrapping_add(self.s1);
+        self.squares = self.squares.wrapping_add(value.wrapping_mul(value));
+    }
+}
+
+/// The sums of all values.
+#[inline(never)] // the few registers of an M0+ are for its loop
+fn whole(values: &[u16]) -> Sums {
+    let mut sums = Sums::NONE;
+    values.iter().rev().for_each(|value| sums.take(*value));
+    sums
+}
+
+/// The greatest of all values.
+#[inline(never)] // the few registers of an M0+ are for its loop
+fn greatest(values: &[u16]) -> u16 {
+    values.iter().fold(0, |greatest, value| if *value > greatest { *value } else { greatest })
+}
+
+/// The sums of those values that bits name, the highest the last of them; and the greatest.
+#[inline(never)] // the few registers of an M0+ are for its loop
+fn named(values: &[u16], mut taxels: u32) -> (Sums, u16) {
+    let (mut sums, mut greatest) = (Sums::NONE, 0);
+    for value in values.iter().rev() {
+        if taxels >> 31 == 1 {
+            let value = u32::from(*value);
+            sums.s0 = sums.s0.wrapping_add(value);
+            sums.squares = sums.squares.wrapping_add(value.wrapping_mul(value));
+            if value > greatest {
+                greatest = value;
+            }
+        }
+        taxels <<= 1;
+        sums.s1 = sums.s1.wrapping_add(sums.s0);
+        sums.s2 = sums.s2.wrapping_add(sums.s1);
+    }
+    (sums, greatest as u16)
+}
+
+/// `sum f^2` of the values that bits name, where it may not fit in 32 bits.
+#[cold]
+pub(super) fn squares(values: &[u16], taxels: u32) -> u64 {
+    let squares = values.iter().map(|value| u64::from(*value).pow(2));
+    squares.enumerate().filter(|(i, _)| taxels >> i & 1 == 1).map(|(_, square)| square).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the definition, and those that are not named are as if they were 0.
+    #[test]
+    fn named_taxels_add_up_as_if_the_others_were_0() {
+        let mut state = 5u32;
+        let mut next = || {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            state
+        };
+        for round in 0..3000 {
+            let length = 1 + round % usize::from(WORD);
+            let peak = [1, 4095, NARROW][round % 3];
+            let values: [u16; WORD as usize] =
+                core::array::from_fn(|_| if next() >> 31 == 1 { peak } else { (next() >> 16) as u16 % peak });
+            let values = &values[..length];
+            let taxels = (next() & next() >> 7) & u32::MAX >> (WORD as usize - length);
+            let mut counted = [0; WORD as usize];
+            for (i, value) in values.iter().enumerate().filter(|(i, _)| taxels >> i & 1 == 1) {
+                counted[i] = *value;
+            }
+            let sum = |weight: &dyn Fn(u32) -> u32| -> u32 {
+                (0..).zip(&counted).map(|(i, f)| weight(i) * u32::from(*f)).sum()
+            };
+            let want = Sums {
+                s0: sum(&|_| 1),
+                s1: sum(&|i| i + 1),
+                s2: sum(&|i| (i + 1) * (i + 2) / 2),
+                squares: counted.iter().map(|f| u32::from(*f).pow(2)).sum(),
+            };
+            let want = (want, counted.iter().copied().max().unwrap());
+            assert_eq!(Sums::named(values, taxels), want);
+            assert_eq!(Sums::of(&counted[..length]), want);
+            assert_eq!(squares(values, taxels), want.0.squares.into());
+        }
+    }
+}

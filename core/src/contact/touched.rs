@@ -1,0 +1,100 @@
+//! Which taxels of a row are touched, as bits.
+
+use bytemuck::pod_align_to;
+
+/// Which of at most 32 values are not below a threshold, which is at least 1.
+#[inline(never)] // the few registers of an M0+ are for its loop
+pub(super) fn touched(values: &[u16], low: u16) -> u32 {
+    if usize::BITS >= 64 {
+        return touched_by_eights(values, low);
+    }
+    touched_by_sums(values, low)
+}
+
+/// One after the other.
+fn touched_by_sums(values: &[u16], low: u16) -> u32 {
+    // A sum carries into bit 16 from the threshold on, which costs less than a comparison.
+    let rest = (1 << 16) - u32::from(low);
+    values.iter().rev().fold(0, |taxels, value| taxels << 1 | (rest + u32::from(*value)) >> 16)
+}
+
+/// The same for a machine with vectors.
+fn touched_by_eights(values: &[u16], low: u16) -> u32 {
+    let (eights, rest) = values.as_chunks::<8>();
+    let last = rest.iter().rev().fold(0, |taxels, value| taxels << 1 | u32::from(*value >= low));
+    eights.iter().rev().fold(last, |taxels, eight| {
+        let marks = u64::from_le_bytes(eight.map(|value| u8::from(value >= low)));
+        // Brings bit 0 of byte k to bit 56 + k; nothing carries.
+        taxels << 8 | (marks.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
+    })
+}
+
+/// A row of sixteen taxels as it stands in memory: pairs of values.
+pub(super) type Sixteen = [u32; 8];
+
+/// The rows of a panel of sixteen columns; none if its values do not stand in pairs, or if the threshold has 16 bits.
+pub(super) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
+    match pod_align_to(values) {
+        ([], pairs, []) if columns == 16 && low < 1 << 15 => pairs.as_chunks().0,
+        _ => &[],
+    }
+}
+
+/// Which values of a row are not below a threshold of 15 bits.
+#[inline(never)] // the few registers of an M0+ are for this
+pub(super) fn touched_of_sixteen([a, b, c, d, e, f, g, h]: &Sixteen, low: u16) -> u32 {
+    // Written out: a compiler would keep a loop.
+    let low = u32::from(low) << 16 | u32::from(low);
+    let four = two(two(two(two(0, *a, low), *b, low), *c, low), *d, low);
+    two(two(two(two(four, *e, low), *f, low), *g, low), *h, low) >> 16
+}
+
+/// Puts two bits, which say whether the values of a pair are not below `low`, above those of the pairs before, which move down. Of eight
+/// pairs they fill the upper half; below them are others.
+#[inline(always)]
+fn two(taxels: u32, pair: u32, low: u32) -> u32 {
+    const HIGHEST: u32 = 1 << 31 | 1 << 15;
+    let pair = u32::from_le(pair);
+    // The highest bit of a half stays where the others are not below; if a value has it, no threshold is above.
+    let high = ((pair | HIGHEST).wrapping_sub(low) | pair) & HIGHEST;
+    taxels >> 2 | high | high << 15
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bits::WORD;
+    use super::*;
+
+    #[test]
+    fn touched_taxels_are_those_from_the_threshold_on() {
+        let mut state = 3u32;
+        let mut next = || {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            state >> 16
+        };
+        for round in 0..2000 {
+            let length = round % (usize::from(WORD) + 1);
+            let low = [1, 60, 4095, 0x7fff, u16::MAX][round % 5];
+            let mut row = [0u32; WORD as usize / 2];
+            row.fill_with(|| {
+                let mut value = || [0, low - 1, low, u16::MAX, next() as u16][next() as usize % 5];
+                u32::from(value()) << 16 | u32::from(value())
+            });
+            let values: &[u16] = bytemuck::must_cast_slice(&row);
+            let want = |values: &[u16]| {
+                (0..).zip(values).fold(0, |all, (i, value)| all | u32::from(*value >= low) << i)
+            };
+            let short = &values[..length];
+            assert_eq!(
+                (touched_by_sums(short, low), touched_by_eights(short, low)),
+                (want(short), want(short))
+            );
+            let rows = sixteens(values, 16, low);
+            assert_eq!(rows.len(), if low == u16::MAX { 0 } else { 2 });
+            for (row, values) in rows.iter().zip(values.chunks(16)) {
+                assert_eq!(touched_of_sixteen(row, low), want(values));
+            }
+            assert!(sixteens(&values[1..], 16, low).is_empty() && sixteens(values, 8, low).is_empty());
+        }
+    }
+}
