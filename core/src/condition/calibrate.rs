@@ -30,12 +30,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             out: panel_mut(&mut self.calibrated, area),
         };
         let marks = Marks::of(&mut self.rows, area);
-        match (falling, self.plain) {
-            (false, false) => panel.calibrate::<false, false>(marks),
-            (false, true) => panel.calibrate::<false, true>(marks),
-            (true, false) => panel.calibrate::<true, false>(marks),
-            (true, true) => panel.calibrate::<true, true>(marks),
-        }
+        let plain = self.limits_for.filter(|_| self.plain).map(|terms| terms.margin_of_unity());
+        if falling { panel.calibrate::<true>(marks, plain) } else { panel.calibrate::<false>(marks, plain) }
     }
 }
 
@@ -49,17 +45,19 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    fn calibrate<const FALLING: bool, const PLAIN: bool>(mut self, mut marks: Marks<'_>) -> bool {
+    /// `plain`: what a code may differ from that at rest before it counts, if every gain is 1.
+    fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>, plain: Option<u16>) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
-        let any = self.chunks::<CHUNK, PART, FALLING, PLAIN>(0, &mut marks);
-        self.chunks::<1, 1, FALLING, PLAIN>(whole, &mut marks) | any
+        let any = self.chunks::<CHUNK, PART, FALLING>(0, &mut marks, plain);
+        self.chunks::<1, 1, FALLING>(whole, &mut marks, plain) | any
     }
 
     /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.
-    fn chunks<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: bool>(
+    fn chunks<const N: usize, const PART: usize, const FALLING: bool>(
         &mut self,
         first: usize,
         marks: &mut Marks<'_>,
+        plain: Option<u16>,
     ) -> bool {
         let (codes, _) = self.codes.get(first..).unwrap_or(&[]).as_chunks::<N>();
         let (limit, _) = self.limit.get(first..).unwrap_or(&[]).as_chunks::<N>();
@@ -79,16 +77,20 @@ impl Panel<'_> {
             if codes.is_empty() {
                 break;
             }
+            let mut loud = |found: &mut [u16]| match plain {
+                Some(margin) => loud_plain::<N, PART, FALLING>(codes, limit, out, found, margin),
+                None => loud::<N, PART, FALLING>(codes, limit, rest, gain, out, found),
+            };
             let (held, there) = if N == CHUNK
                 && let Some(found) = marks.rows(at)
             {
-                let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, found);
+                let held = loud(found);
                 let there = found.len();
                 marks.hold(at..at + held);
                 (held, there)
             } else {
                 let mut found = [0; KEPT];
-                let held = loud::<N, PART, FALLING, PLAIN>(codes, limit, rest, gain, out, &mut found);
+                let held = loud(&mut found);
                 for (chunk, bits) in (at..at + held).zip(found) {
                     marks.mark(first + chunk * N, N, bits.into());
                 }
@@ -162,7 +164,7 @@ fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit:
 
 /// Calibrates until a chunk is quiet, or no marks can be kept; how many hold something, and `found`: which of their taxels.
 #[inline(never)]
-fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: bool>(
+fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
     limit: &[[u16; N]],
     rest: &[[u16; N]],
@@ -179,21 +181,9 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: boo
         for (part, ((((codes, limit), rest), gain), out)) in
             codes.iter().zip(limit).zip(rest).zip(gain).zip(parts).enumerate()
         {
-            let found = if PLAIN {
-                scale::<PART, FALLING, true>(codes, limit, rest, gain, out)
-            } else {
-                scale_apart::<PART, FALLING>(codes, limit, rest, gain, out)
-            };
-            bits |= found << (part * PART);
+            bits |= scale::<PART, FALLING>(codes, limit, rest, gain, out) << (part * PART);
         }
-        // What was there in the last image, if it was not emptied.
-        let mut gone = u32::from(*found) & !bits;
-        while gone != 0 {
-            if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
-                *out = 0;
-            }
-            gone &= gone - 1;
-        }
+        silence(out, u32::from(*found) & !bits);
         *found = bits as u16;
         if bits == 0 {
             break;
@@ -203,13 +193,50 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool, const PLAIN: boo
     held
 }
 
-/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them. If PLAIN, their gain
-/// is 1.
+/// The same where every gain is 1: a code differs from that at rest by `margin` more than from its limit.
+#[inline(never)]
+fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
+    codes: &[[Code; N]],
+    limit: &[[u16; N]],
+    out: &mut [[u16; N]],
+    found: &mut [u16],
+    margin: u16,
+) -> usize {
+    let mut held = 0;
+    for (((codes, limit), out), found) in codes.iter().zip(limit).zip(out).zip(found) {
+        let ((codes, _), (limit, _), (parts, _)) =
+            (codes.as_chunks(), limit.as_chunks(), out.as_chunks_mut());
+        let mut bits = 0;
+        for (part, ((codes, limit), out)) in codes.iter().zip(limit).zip(parts).enumerate() {
+            bits |= exceed::<PART, FALLING>(codes, limit, out, margin) << (part * PART);
+        }
+        silence(out, u32::from(*found) & !bits);
+        *found = bits as u16;
+        if bits == 0 {
+            break;
+        }
+        held += 1;
+    }
+    held
+}
+
+/// Empties those taxels that were there in the last image, if it was not emptied, and are no more.
+#[inline(always)]
+fn silence(out: &mut [u16], mut gone: u32) {
+    while gone != 0 {
+        if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
+            *out = 0;
+        }
+        gone &= gone - 1;
+    }
+}
+
+/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them.
 ///
 /// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. As short as the
-/// compiler unrolls it.
-#[inline(always)]
-fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
+/// compiler unrolls it. Not inlined: five places in memory are all that the registers of a Cortex-M0+ can tell.
+#[inline(never)]
+fn scale<const PART: usize, const FALLING: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
     rest: &[u16; PART],
@@ -223,28 +250,32 @@ fn scale<const PART: usize, const FALLING: bool, const PLAIN: bool>(
         if if FALLING { code < limit } else { code > limit } {
             let rest = u32::from(*rest);
             let difference = if FALLING { rest.wrapping_sub(code) } else { code.wrapping_sub(rest) };
-            *out = if PLAIN {
-                difference as u16
-            } else {
-                let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
-                value.min(0xffff) as u16
-            };
+            let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
+            *out = value.min(0xffff) as u16;
             bits |= 1 << at;
         }
     }
     bits
 }
 
-/// The same with gains. Not inlined: five places in memory are all that the registers of a Cortex-M0+ can tell.
-#[inline(never)]
-fn scale_apart<const PART: usize, const FALLING: bool>(
+/// The same of a gain of 1, given how much farther than from its limit a code is from that at rest.
+#[inline(never)] // the few registers of an M0+ are for this
+fn exceed<const PART: usize, const FALLING: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
-    rest: &[u16; PART],
-    gain: &[u16; PART],
     out: &mut [u16; PART],
+    margin: u16,
 ) -> u32 {
-    scale::<PART, FALLING, false>(codes, limit, rest, gain, out)
+    let mut bits = 0;
+    for (at, ((code, limit), out)) in codes.iter().zip(limit).zip(out).enumerate() {
+        let (code, limit) = (i32::from(code.0), i32::from(*limit));
+        let beyond = if FALLING { limit - code } else { code - limit };
+        if beyond > 0 {
+            *out = (beyond + i32::from(margin)) as u16;
+            bits |= 1 << at;
+        }
+    }
+    bits
 }
 
 #[cfg(test)]

@@ -14,6 +14,11 @@ impl Terms {
         below.checked_div(gain.into()).map_or(u16::MAX, |margin| margin.min(0xffff) as u16)
     }
 
+    /// The same of a gain of 1, which needs no division.
+    pub fn margin_of_unity(&self) -> u16 {
+        self.floor.saturating_sub(1)
+    }
+
     /// The last code that is quiet. No code is beyond 65535, or 0: where the margin reaches so far, none is loud.
     pub fn limit(&self, rest: u16, margin: u16) -> u16 {
         if self.falling { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }

@@ -1,12 +1,13 @@
 //! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
-use super::bits::{WORD, flood, highest, is_run, lowest_run, run_of};
+use super::bits::{WORD, highest, is_run, run_of};
 use super::part::{NONE, Part, first_of, unite};
-use super::piece::{Piece, strips};
+use super::piece::Piece;
+use super::strip::strips;
 use super::sums::Sums;
 use super::touched::{Sixteen, sixteens, touched, touched_of_sixteen};
-use crate::condition::{Feedback, Image, panel_of, row_of};
-use crate::garment::{Area, Layout, Rect, Side};
+use crate::condition::{Image, panel_of, row_of};
+use crate::garment::{Area, Layout, Side};
 use bytemuck::must_cast_slice;
 use core::ops::Range;
 use heapless::Vec;
@@ -31,19 +32,16 @@ const fn bit(panel: u8, side: Side) -> u32 {
 
 /// Where the pieces that are looked for lie.
 #[derive(Clone, Copy)]
-struct Line {
+pub(super) struct Line {
     panel: u8,
     /// over all panels
     row: u16,
     /// The first piece of the row above, or of this row where that has none.
-    above: usize,
+    pub above: usize,
     /// If the row above is one piece, what it reaches of this one, and its part.
     reach: u32,
     part: u16,
 }
-
-/// Runs of a word that belong to one part, and the part.
-type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     pub const fn new() -> Self {
@@ -111,7 +109,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     }
 
     fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
-        for (column, values) in (0..).step_by(WORD.into()).zip(values.chunks(WORD.into())) {
+        for (word, values) in (0..).zip(values.chunks(WORD.into())) {
+            let column = word * WORD;
             let taxels = touched(values, low);
             if is_run(taxels) {
                 self.scan_run(taxels, values, column, line);
@@ -130,7 +129,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
 
     /// Appends a run of a word that has `all` taxels.
     #[inline(always)]
-    fn push_run(
+    pub(super) fn push_run(
         &mut self,
         taxels: u32,
         all: u32,
@@ -160,50 +159,9 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         part
     }
 
-    /// The part that all runs of a word touch, if it is the only one.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn only_part(&mut self, all: u32, column: u16, line: &Line) -> Option<u16> {
-        let above = self.pieces.get(line.above..).unwrap_or(&[]);
-        if let [piece] = above
-            && piece.reach(column) & all == all
-        {
-            return Some(first_of(&mut self.parts, piece.part));
-        }
-        let (mut part, mut touched) = (NONE, 0);
-        for piece in above {
-            let taxels = piece.reach(column) & all;
-            if taxels != 0 {
-                let other = first_of(&mut self.parts, piece.part);
-                if part != NONE && part != other {
-                    return None;
-                }
-                (part, touched) = (other, touched | taxels);
-            }
-        }
-        (flood(all, touched) == all).then_some(part)
-    }
-
-    /// Appends the runs of a word, as one piece for each part that they touch or begin; their part, if there is but one.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn scan_runs(&mut self, all: u32, values: &[u16], column: u16, line: &Line) -> u16 {
-        if let Some(part) = self.only_part(all, column, line) {
-            return self.push_named(all, all, part, values, column, line);
-        }
-        let mut found = Found::new();
-        self.find_parts(&mut found, all, column, line);
-        for &(taxels, part) in &found {
-            if is_run(taxels) {
-                self.push_run(taxels, all, part, values, column, line);
-            } else {
-                self.push_named(taxels, all, part, values, column, line);
-            }
-        }
-        NONE
-    }
-
     /// Appends runs of a word that has `all` taxels.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn push_named(
+    pub(super) fn push_named(
         &mut self,
         taxels: u32,
         all: u32,
@@ -217,37 +175,6 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             Sums::named(values.get(start as usize..).unwrap_or(&[]), taxels.unbounded_shr(start));
         let (left, right) = (column + start as u16, column + highest(taxels));
         self.push(Piece { taxels, all, row: line.row, part, left, right, area, peak, sums }, line.panel)
-    }
-
-    /// Tells apart the runs of a word by their parts: first those that are known already, from the row above or the word before;
-    /// then new ones.
-    #[inline(never)] // rarely called
-    fn find_parts(&mut self, found: &mut Found, all: u32, column: u16, line: &Line) {
-        let mut free = all;
-        for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
-            let touched = piece.reach(column) & all;
-            if touched == 0 {
-                continue;
-            }
-            let mut part = first_of(&mut self.parts, piece.part);
-            let runs = flood(all, touched);
-            for (_, other) in found.iter().filter(|(taken, _)| taken & runs != 0) {
-                part = unite(&mut self.parts, *other, part);
-            }
-            let fresh = runs & free;
-            free &= !runs;
-            match found.iter_mut().find(|(_, other)| *other == part) {
-                Some((taken, _)) => *taken |= fresh,
-                // There are no more than runs.
-                None if fresh != 0 => drop(found.push((fresh, part))),
-                None => {}
-            }
-        }
-        while free != 0 {
-            let run = lowest_run(free);
-            free &= !run;
-            let _ = found.push((run, NONE));
-        }
     }
 
     /// Appends a piece to its part, and returns that; to a new part, if that is [`NONE`].
@@ -321,39 +248,6 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             }
             if let Some(part) = self.parts.get_mut(usize::from(first)) {
                 part.add(mass, area, peak);
-            }
-        }
-    }
-
-    /// Marks the parts that come within one taxel of a contact of the previous frame. Only of parts with a peak below
-    /// `high` that is asked, and most frames have none.
-    pub fn mark_held<const CONTACTS: usize>(
-        &mut self,
-        layout: &Layout,
-        last: &Feedback<CONTACTS>,
-        high: u16,
-    ) {
-        if self.whole_parts().all(|(_, part)| part.peak >= high) {
-            return;
-        }
-        for rect in last.home.iter().chain(&last.beyond) {
-            if let Some(area) = layout.areas().get(usize::from(rect.panel)) {
-                self.mark_held_by(area, rect);
-            }
-        }
-    }
-
-    fn mark_held_by(&mut self, area: &Area, rect: &Rect) {
-        let top = area.first_row.saturating_add(rect.top.saturating_sub(1));
-        let bottom = area.first_row.saturating_add(rect.bottom.saturating_add(1));
-        let (left, right) = (rect.left.saturating_sub(1), rect.right.saturating_add(1));
-        let from = self.pieces.partition_point(|piece| piece.row < top);
-        for piece in self.pieces.iter().skip(from).take_while(|piece| piece.row <= bottom) {
-            let part = self.parts.get(usize::from(piece.part)).filter(|part| part.panel == rect.panel);
-            if let Some(first) = part.map(|part| part.parent).filter(|_| piece.within(left, right) != 0)
-                && let Some(part) = self.parts.get_mut(usize::from(first))
-            {
-                part.held = true;
             }
         }
     }

@@ -28,8 +28,8 @@
 //! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 16 k
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
-//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`); joins
-//! across seams (`side`, `join`); the choice of contacts; and the moments of the chosen ones only (`strip`, `component`). So far goes [`Contacts::segment`]; then they are
+//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`, `runs`); joins
+//! across seams (`side`, `join`); the choice of contacts (`near`); and the moments of the chosen ones only (`strip`, `component`). So far goes [`Contacts::segment`]; then they are
 //! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
 //! is costs as much as all the rest of it, and changes slowly.
 
@@ -45,12 +45,14 @@ mod join;
 mod label;
 mod matching;
 mod moments;
+mod near;
 mod part;
 mod pattern;
 mod piece;
 mod place;
 mod point;
 mod record;
+mod runs;
 mod side;
 mod slip;
 mod slopes;

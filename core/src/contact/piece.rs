@@ -68,19 +68,6 @@ impl Piece {
     }
 }
 
-/// Pieces that follow each other and were found as one part, as those of most parts are.
-pub(super) fn strips(pieces: &[Piece]) -> impl Iterator<Item = &[Piece]> {
-    let mut rest = pieces;
-    // (`chunk_by` splits where it might panic.)
-    core::iter::from_fn(move || {
-        let part = rest.first()?.part;
-        let length = rest.iter().position(|piece| piece.part != part).unwrap_or(rest.len());
-        let (strip, after) = rest.split_at_checked(length)?;
-        rest = after;
-        Some(strip)
-    })
-}
-
 /// The place of a taxel's word as one number, in the order of the pieces.
 pub(super) const fn key(row: u16, column: u16) -> u32 {
     (row as u32) << 16 | first_column(column) as u32

@@ -39,3 +39,16 @@ impl Strip<'_> {
         }
     }
 }
+
+/// Pieces that follow each other and were found as one part, as those of most parts are.
+pub(super) fn strips(pieces: &[Piece]) -> impl Iterator<Item = &[Piece]> {
+    let mut rest = pieces;
+    // (`chunk_by` splits where it might panic.)
+    core::iter::from_fn(move || {
+        let part = rest.first()?.part;
+        let length = rest.iter().position(|piece| piece.part != part).unwrap_or(rest.len());
+        let (strip, after) = rest.split_at_checked(length)?;
+        rest = after;
+        Some(strip)
+    })
+}
