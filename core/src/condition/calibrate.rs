@@ -204,12 +204,7 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
 ) -> usize {
     let mut held = 0;
     for (((codes, limit), out), found) in codes.iter().zip(limit).zip(out).zip(found) {
-        let ((codes, _), (limit, _), (parts, _)) =
-            (codes.as_chunks(), limit.as_chunks(), out.as_chunks_mut());
-        let mut bits = 0;
-        for (part, ((codes, limit), out)) in codes.iter().zip(limit).zip(parts).enumerate() {
-            bits |= exceed::<PART, FALLING>(codes, limit, out, margin) << (part * PART);
-        }
+        let bits = exceed::<N, PART, FALLING>(codes, limit, out, margin);
         silence(out, u32::from(*found) & !bits);
         *found = bits as u16;
         if bits == 0 {
@@ -222,12 +217,25 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
 
 /// Empties those taxels that were there in the last image, if it was not emptied, and are no more.
 #[inline(always)]
-fn silence(out: &mut [u16], mut gone: u32) {
-    while gone != 0 {
+fn silence(out: &mut [u16], gone: u32) {
+    if gone & gone.wrapping_sub(1) == 0 {
         if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
             *out = 0;
         }
-        gone &= gone - 1;
+        return;
+    }
+    silence_several(out, gone);
+}
+
+/// All of them are asked: it would take longer to find several one by one.
+#[inline(never)]
+fn silence_several(out: &mut [u16], gone: u32) {
+    let mut gone = gone;
+    for out in out {
+        if gone & 1 == 1 {
+            *out = 0;
+        }
+        gone >>= 1;
     }
 }
 
@@ -258,21 +266,25 @@ fn scale<const PART: usize, const FALLING: bool>(
     bits
 }
 
-/// The same of a gain of 1, given how much farther than from its limit a code is from that at rest.
+/// The same of all taxels of a chunk, whose gain is 1, given how much farther than from its limit a code is from that at rest.
 #[inline(never)] // the few registers of an M0+ are for this
-fn exceed<const PART: usize, const FALLING: bool>(
-    codes: &[Code; PART],
-    limit: &[u16; PART],
-    out: &mut [u16; PART],
+fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
+    codes: &[Code; N],
+    limit: &[u16; N],
+    out: &mut [u16; N],
     margin: u16,
 ) -> u32 {
+    let ((codes, _), (limit, _), (parts, _)) = (codes.as_chunks(), limit.as_chunks(), out.as_chunks_mut());
     let mut bits = 0;
-    for (at, ((code, limit), out)) in codes.iter().zip(limit).zip(out).enumerate() {
-        let (code, limit) = (i32::from(code.0), i32::from(*limit));
-        let beyond = if FALLING { limit - code } else { code - limit };
-        if beyond > 0 {
-            *out = (beyond + i32::from(margin)) as u16;
-            bits |= 1 << at;
+    for (part, ((codes, limit), out)) in codes.iter().zip(limit).zip(parts).enumerate() {
+        let (codes, limit, out): (&[Code; PART], &[u16; PART], &mut [u16; PART]) = (codes, limit, out);
+        for (at, ((code, limit), out)) in codes.iter().zip(limit).zip(out).enumerate() {
+            let (code, limit) = (i32::from(code.0), i32::from(*limit));
+            let beyond = if FALLING { limit - code } else { code - limit };
+            if beyond > 0 {
+                *out = (beyond + i32::from(margin)) as u16;
+                bits |= 1 << (part * PART + at);
+            }
         }
     }
     bits

@@ -57,15 +57,15 @@ fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) {
     };
     // At both ends the other side lends what is missing.
     if widen(top_groups) {
-        clamp_sixteen(&[*second, *top], second, top_out);
+        clamp_sixteen(&[*second, *top], second, *top_groups, top_out);
     }
     for ((three, out), groups) in rows.array_windows::<3>().zip(out).zip(groups) {
         if let (true, Some(two)) = (widen(groups), three.first_chunk()) {
-            clamp_sixteen(two, &three[2], out);
+            clamp_sixteen(two, &three[2], *groups, out);
         }
     }
     if widen(bottom_groups) {
-        clamp_sixteen(&[*last, *bottom], last, bottom_out);
+        clamp_sixteen(&[*last, *bottom], last, *bottom_groups, bottom_out);
     }
 }
 
@@ -156,7 +156,7 @@ mod tests {
             });
             let values = &values[..rows * SIXTEEN];
             // A row that holds nothing is left out.
-            let mut groups = [3; 9];
+            let mut groups = [u16::MAX; 9];
             groups[rows / 2] = 0;
             let mut out = [[7; 9 * SIXTEEN]; 2];
             smooth_sixteen(values, &mut out[0][..values.len()], &mut groups[..rows]);

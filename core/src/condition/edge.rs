@@ -1,5 +1,6 @@
 //! The Sobel operator, where it is asked for.
 
+use super::sixteen::{SIXTEEN, Sixteen};
 use crate::garment::Area;
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.
@@ -41,6 +42,11 @@ impl<'a> Neighbourhood<'a> {
         Neighbourhood { values, rows: [above, here, below], columns: area.columns }
     }
 
+    /// The rows, if they have sixteen columns.
+    pub fn sixteens(&self) -> Option<[&'a Sixteen; 3]> {
+        if usize::from(self.columns) == SIXTEEN { self.pieces(0) } else { None }
+    }
+
     /// At a column that the panel has.
     pub fn gradient(&self, column: u16) -> Gradient {
         let gradient = if column == 0 || column + 1 == self.columns {
@@ -78,6 +84,14 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
+/// As [`Neighbourhood::gradient`], of rows of sixteen columns: no place is asked whether it is there.
+pub(crate) fn gradient_of_sixteens(rows: [&Sixteen; 3], column: u16) -> Gradient {
+    let column = usize::from(column) % SIXTEEN;
+    let [left, right] = [column.saturating_sub(1), (column + 1).min(SIXTEEN - 1)];
+    let rows = rows.map(|row| [row[left], row[column], row[right]]);
+    slopes(&rows.each_ref())
+}
+
 /// In the middle of three rows of three.
 fn slopes([above, here, below]: &[&[u16; 3]; 3]) -> Gradient {
     let [[nw, n, ne], [w, _, e], [sw, s, se]] = [above, here, below].map(|row| row.map(i32::from));
@@ -90,6 +104,25 @@ fn slopes([above, here, below]: &[&[u16; 3]; 3]) -> Gradient {
 mod tests {
     use super::*;
     use crate::garment::{Garment, Layout};
+
+    #[test]
+    fn rows_of_sixteen_are_as_others() {
+        let layout = Layout::build(&Garment::recorded(3, SIXTEEN as u16), 48, 65535).unwrap();
+        let mut noise = 1u32;
+        let values: [u16; 48] = core::array::from_fn(|_| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            (noise >> 16) as u16
+        });
+        for row in 0..3 {
+            let around = Neighbourhood::of(&values, &layout.areas()[0], row);
+            let rows = around.sixteens().unwrap();
+            for column in 0..SIXTEEN as u16 {
+                assert_eq!(gradient_of_sixteens(rows, column), around.gradient(column));
+            }
+        }
+        let other = Layout::build(&Garment::recorded(3, 15), 45, 65535).unwrap();
+        assert!(Neighbourhood::of(&values, &other.areas()[0], 1).sixteens().is_none());
+    }
 
     #[test]
     fn a_plane_has_eight_times_its_slope() {

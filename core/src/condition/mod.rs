@@ -48,13 +48,14 @@ mod terms;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
-pub(crate) use edge::Neighbourhood;
 pub use edge::{Gradient, sobel};
+pub(crate) use edge::{Neighbourhood, gradient_of_sixteens};
 pub use feedback::{CARRIED, Feedback};
 pub(crate) use held::Held;
 pub use image::Image;
 pub use progress::Tare;
 pub use rows::Rows;
+pub(crate) use sixteen::Sixteen;
 pub(crate) use slices::{panel_of, row_of};
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};

@@ -2,7 +2,7 @@
 
 use super::component::Component;
 use super::label::Labels;
-use crate::condition::{Image, Neighbourhood};
+use crate::condition::{Image, Neighbourhood, Sixteen, gradient_of_sixteens};
 use crate::garment::Layout;
 
 /// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
@@ -39,14 +39,25 @@ impl Contour {
     /// Adds some taxels of the word that begins at a column.
     #[inline(never)] // the few registers of an M0+ are for this
     fn add(&mut self, taxels: u32, column: u16, around: &Neighbourhood) {
+        let sixteens = around.sixteens();
         let mut rest = taxels;
         while rest != 0 {
-            let taxel = rest.trailing_zeros();
+            let taxel = column + rest.trailing_zeros() as u16;
             rest &= rest - 1;
             self.length = self.length.wrapping_add(1);
-            self.slope = self.slope.wrapping_add(steepness(around, column + taxel as u16) >> 3);
+            let steepness = match sixteens {
+                Some([above, here, below]) => steepness_of_sixteens(above, here, below, taxel),
+                None => steepness(around, taxel),
+            };
+            self.slope = self.slope.wrapping_add(steepness >> 3);
         }
     }
+}
+
+/// Sobel magnitude in rows of sixteen columns.
+#[inline(never)] // the few registers of an M0+ are for this
+fn steepness_of_sixteens(above: &Sixteen, here: &Sixteen, below: &Sixteen, column: u16) -> u32 {
+    gradient_of_sixteens([above, here, below], column).magnitude()
 }
 
 /// Sobel magnitude.

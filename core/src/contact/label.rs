@@ -41,6 +41,8 @@ pub(super) struct Line {
     /// If the row above is one piece, what it reaches of this one, and its part.
     reach: u32,
     part: u16,
+    /// What was touched so far in the first and in the last words of the panel's rows.
+    ends: [u32; 2],
 }
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
@@ -76,42 +78,62 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         let last = area.first_row.saturating_add(area.rows);
         let values = panel_of(image.values, area);
         let sixteens = sixteens(values, area.columns, low);
+        let mut line = Line { panel, row: 0, above: start, reach: 0, part: NONE, ends: [0; 2] };
         let mut from = area.first_row;
         // Only rows that follow each other touch.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
-            let mut line = Line { panel, row: 0, above: self.pieces.len(), reach: 0, part: NONE };
+            line = Line { row: rows.start, above: self.pieces.len(), reach: 0, part: NONE, ..line };
+            let here = |row: u16| usize::from(row - area.first_row);
+            if let Some(sixteens) = sixteens.get(here(rows.start)..here(rows.end)) {
+                self.scan_sixteens(sixteens, low, &mut line);
+                continue;
+            }
             for row in rows {
                 let here = self.pieces.len();
                 line.row = row;
-                match sixteens.get(usize::from(row - area.first_row)) {
-                    Some(sixteen) => self.scan_sixteen(sixteen, low, &mut line),
-                    None => self.scan_row(row_of(image.values, area, row - area.first_row), low, &line),
-                }
+                self.scan_row(row_of(image.values, area, row - area.first_row), low, &mut line);
                 line.above = here;
             }
         }
-        self.mark_sides(start, panel, area);
+        self.mark_sides(start, area, &line);
     }
 
-    fn scan_sixteen(&mut self, sixteen: &Sixteen, low: u16, line: &mut Line) {
-        let (taxels, values) = (touched_of_sixteen(sixteen, low), must_cast_slice(sixteen));
-        line.part = if is_run(taxels) {
-            self.scan_run(taxels, values, 0, line)
-        } else if taxels & !line.reach != 0 {
-            self.scan_runs(taxels, values, 0, line)
-        } else if taxels != 0 {
-            self.push_named(taxels, taxels, line.part, values, 0, line)
-        } else {
-            NONE
-        };
-        line.reach = if line.part == NONE { 0 } else { taxels | taxels << 1 | taxels >> 1 };
+    /// Rows of sixteen columns that follow each other.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    fn scan_sixteens(&mut self, rows: &[Sixteen], low: u16, line: &mut Line) {
+        let mut all = 0;
+        for sixteen in rows {
+            let here = self.pieces.len();
+            let (taxels, values) = (touched_of_sixteen(sixteen, low), must_cast_slice(sixteen));
+            line.part = if is_run(taxels) {
+                self.scan_run(taxels, values, 0, line)
+            } else if taxels & !line.reach != 0 {
+                self.scan_runs(taxels, values, 0, line)
+            } else if taxels != 0 {
+                self.push_named(taxels, taxels, line.part, values, 0, line)
+            } else {
+                NONE
+            };
+            line.reach = if line.part == NONE { 0 } else { taxels | taxels << 1 | taxels >> 1 };
+            line.row += 1;
+            line.above = here;
+            all |= taxels;
+        }
+        line.ends = line.ends.map(|end| end | all);
     }
 
-    fn scan_row(&mut self, values: &[u16], low: u16, line: &Line) {
-        for (word, values) in (0..).zip(values.chunks(WORD.into())) {
+    fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
+        let words = (0..).zip(row.chunks(WORD.into()));
+        for (word, values) in words {
             let column = word * WORD;
             let taxels = touched(values, low);
+            if word == 0 {
+                line.ends[0] |= taxels;
+            }
+            if usize::from(column) + values.len() == row.len() {
+                line.ends[1] |= taxels;
+            }
             if is_run(taxels) {
                 self.scan_run(taxels, values, column, line);
             } else if taxels != 0 {
@@ -139,9 +161,15 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line: &Line,
     ) -> u16 {
         let Range { start, end } = run_of(taxels);
-        let (sums, peak) = Sums::of(values.get(start..end).unwrap_or(&[]));
         let (left, right, area) = (column + start as u16, column + end as u16 - 1, (end - start) as u16);
-        self.push(Piece { taxels, all, row: line.row, part, left, right, area, peak, sums }, line.panel)
+        let (sums, peak) = (Sums::NONE, 0);
+        let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
+        let (part, piece) = self.push(piece, line.panel);
+        if let Some(piece) = piece {
+            // Where it stays: nothing is copied.
+            piece.peak = piece.sums.take(values.get(start..end).unwrap_or(&[]));
+        }
+        part
     }
 
     /// The part that a run touches, of the pieces in the row above and in the word before; or [`NONE`]. If there are several,
@@ -171,14 +199,20 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line: &Line,
     ) -> u16 {
         let (start, area) = (taxels.trailing_zeros(), taxels.count_ones() as u16);
-        let (sums, peak) =
-            Sums::named(values.get(start as usize..).unwrap_or(&[]), taxels.unbounded_shr(start));
         let (left, right) = (column + start as u16, column + highest(taxels));
-        self.push(Piece { taxels, all, row: line.row, part, left, right, area, peak, sums }, line.panel)
+        let (sums, peak) = (Sums::NONE, 0);
+        let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
+        let (part, piece) = self.push(piece, line.panel);
+        if let Some(piece) = piece {
+            let values = values.get(start as usize..).unwrap_or(&[]);
+            piece.peak = piece.sums.take_named(values, taxels.unbounded_shr(start));
+        }
+        part
     }
 
-    /// Appends a piece to its part, and returns that; to a new part, if that is [`NONE`].
-    fn push(&mut self, mut piece: Piece, panel: u8) -> u16 {
+    /// Appends a piece to its part, and returns that, and the piece if there is room; to a new part, if that is [`NONE`].
+    #[inline(always)]
+    fn push(&mut self, mut piece: Piece, panel: u8) -> (u16, Option<&mut Piece>) {
         let mut fits = true;
         if piece.part == NONE {
             piece.part = self.parts.len() as u16;
@@ -187,25 +221,25 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         let part = piece.part;
         if !fits || self.pieces.push(piece).is_err() {
             self.overflow = self.overflow.saturating_add(1);
+            return (part, None);
         }
-        part
+        (part, self.pieces.last_mut())
     }
 
     /// Marks the sides of a panel that its pieces touch, which are those from `start` on.
-    fn mark_sides(&mut self, start: usize, panel: u8, area: &Area) {
+    fn mark_sides(&mut self, start: usize, area: &Area, line: &Line) {
         let pieces = self.pieces.get(start..).unwrap_or(&[]);
         let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return };
+        let [left, right] = line.ends;
         let mut mark = |touched: bool, side| {
             if touched {
-                self.sides |= bit(panel, side);
+                self.sides |= bit(line.panel, side);
             }
         };
-        let right = area.columns.saturating_sub(1);
-        let word = right - right % WORD;
         mark(first.row == area.first_row, Side::Top);
         mark(last.row - area.first_row + 1 >= area.rows, Side::Bottom);
-        mark(pieces.iter().any(|piece| piece.left < WORD && piece.holds(0)), Side::Left);
-        mark(pieces.iter().any(|piece| piece.column() == word && piece.holds(right)), Side::Right);
+        mark(left & 1 == 1, Side::Left);
+        mark(right >> (area.columns.saturating_sub(1) % WORD) & 1 == 1, Side::Right);
     }
 
     /// Whether a piece touches that side of a panel.

@@ -62,27 +62,28 @@ struct Near {
 }
 
 impl Near {
+    /// sum x f
     #[inline(always)]
-    fn of(x: u32, y: u32, sums: &Sums) -> Near {
-        let Sums { s0, s1, s2, squares } = *sums;
+    fn first(x: u32, sums: &Sums) -> u32 {
+        (x * sums.s0).wrapping_add(sums.s1).wrapping_sub(sums.s0)
+    }
+
+    /// sum x f, sum x^2 f
+    #[inline(always)]
+    fn across(x: u32, sums: &Sums) -> (u32, u32) {
+        let Sums { s0, s1, s2, .. } = *sums;
         let first = s1.wrapping_sub(s0);
+        let sx = x * s0 + first;
         // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
         let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
-        let (sx, sy) = (x * s0 + first, y * s0);
         // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
-        let sxx = x * (sx + first) + second;
-        Near { m: s0, sx, sy, sxx, syy: y * sy, sxy: y * sx, s2: squares }
+        (sx, x * (sx + first) + second)
     }
 
     #[inline(always)]
-    fn add(&mut self, other: &Near) {
-        self.m = self.m.wrapping_add(other.m);
-        self.sx = self.sx.wrapping_add(other.sx);
-        self.sy = self.sy.wrapping_add(other.sy);
-        self.sxx = self.sxx.wrapping_add(other.sxx);
-        self.syy = self.syy.wrapping_add(other.syy);
-        self.sxy = self.sxy.wrapping_add(other.sxy);
-        self.s2 = self.s2.wrapping_add(other.s2);
+    fn of(x: u32, y: u32, sums: &Sums) -> Near {
+        let ((sx, sxx), sy) = (Near::across(x, sums), y * sums.s0);
+        Near { m: sums.s0, sx, sy, sxx, syy: y * sy, sxy: y * sx, s2: sums.squares }
     }
 
     #[inline(always)]
@@ -106,7 +107,8 @@ impl Moments {
         let mut sum = Moments::default();
         let mut x = x;
         for values in values.chunks(WORD.into()) {
-            let (sums, peak) = Sums::of(values);
+            let mut sums = Sums::NONE;
+            let peak = sums.take(values);
             sum.add_piece(x, y, &sums, peak, || squares(values, u32::MAX));
             x = x.wrapping_add(WORD.into());
         }
@@ -137,11 +139,25 @@ impl Moments {
     }
 
     /// Adds pieces of [`FEW`] rows at most, where the first row of their panel counts as 0, and all columns, rows and values are [`is_small`].
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    #[inline(never)] // the few registers of an M0+ are for its loops
     pub(super) fn add_few(&mut self, pieces: &[Piece], first_row: u16) {
+        // One loop for all of them would have twice as much to keep as there are registers.
         let mut sum = Near::default();
         for piece in pieces {
-            sum.add(&Near::of(piece.left.into(), (piece.row - first_row).into(), &piece.sums));
+            sum.m = sum.m.wrapping_add(piece.sums.s0);
+            sum.s2 = sum.s2.wrapping_add(piece.sums.squares);
+        }
+        for piece in pieces {
+            let (sx, sxx) = Near::across(piece.left.into(), &piece.sums);
+            sum.sx = sum.sx.wrapping_add(sx);
+            sum.sxx = sum.sxx.wrapping_add(sxx);
+        }
+        for piece in pieces {
+            let (y, s0) = (u32::from(piece.row - first_row), piece.sums.s0);
+            let (sx, sy) = (Near::first(piece.left.into(), &piece.sums), y * s0);
+            sum.sy = sum.sy.wrapping_add(sy);
+            sum.syy = sum.syy.wrapping_add(y * sy);
+            sum.sxy = sum.sxy.wrapping_add(y * sx);
         }
         self.add(&sum.wide());
     }
@@ -268,7 +284,8 @@ mod tests {
     fn sums_of_few_rows_are_those_of_each() {
         for (first, least) in [(16, 4095), (0, 4095), (7, 0)] {
             let values: [u16; 16] = core::array::from_fn(|i| least.max(i as u16 * 250));
-            let (sums, peak) = Sums::of(&values);
+            let mut sums = Sums::NONE;
+            let peak = sums.take(&values);
             let piece = |row| Piece {
                 taxels: 0xffff,
                 all: 0xffff,

@@ -20,62 +20,50 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Of at most [`WORD`] values; and the greatest.
-    pub fn of(values: &[u16]) -> (Sums, u16) {
-        (whole(values), greatest(values))
-    }
-
-    /// Of those of at most [`WORD`] values that some bits name: bit `i` for number `i`; and the greatest.
-    pub fn named(values: &[u16], taxels: u32) -> (Sums, u16) {
-        // The bit of the value that comes next is the highest.
-        named(values, taxels << u32::from(WORD).saturating_sub(values.len() as u32))
-    }
     /// Of no value.
-    const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
+    pub const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
 
-    /// Takes in the value before those that it has: three running sums, no multiplication by a coordinate for each taxel.
-    #[inline(always)]
-    fn take(&mut self, value: u16) {
-        let value = u32::from(value);
-        self.s0 = self.s0.wrapping_add(value);
-        self.s1 = self.s1.wrapping_add(self.s0);
-        self.s2 = self.s2.wrapping_add(self.s1);
-        self.squares = self.squares.wrapping_add(value.wrapping_mul(value));
-    }
-}
-
-/// The sums of all values.
-#[inline(never)] // the few registers of an M0+ are for its loop
-fn whole(values: &[u16]) -> Sums {
-    let mut sums = Sums::NONE;
-    values.iter().rev().for_each(|value| sums.take(*value));
-    sums
-}
-
-/// The greatest of all values.
-#[inline(never)] // the few registers of an M0+ are for its loop
-fn greatest(values: &[u16]) -> u16 {
-    values.iter().fold(0, |greatest, value| if *value > greatest { *value } else { greatest })
-}
-
-/// The sums of those values that bits name, the highest the last of them; and the greatest.
-#[inline(never)] // the few registers of an M0+ are for its loop
-fn named(values: &[u16], mut taxels: u32) -> (Sums, u16) {
-    let (mut sums, mut greatest) = (Sums::NONE, 0);
-    for value in values.iter().rev() {
-        if taxels >> 31 == 1 {
+    /// Becomes those of at most [`WORD`] values; the greatest of them.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    pub fn take(&mut self, values: &[u16]) -> u16 {
+        let (mut sums, mut greatest) = (Sums::NONE, 0);
+        for value in values.iter().rev() {
             let value = u32::from(*value);
-            sums.s0 = sums.s0.wrapping_add(value);
-            sums.squares = sums.squares.wrapping_add(value.wrapping_mul(value));
             if value > greatest {
                 greatest = value;
             }
+            // Three running sums, no multiplication by a coordinate for each taxel.
+            sums.s0 = sums.s0.wrapping_add(value);
+            sums.s1 = sums.s1.wrapping_add(sums.s0);
+            sums.s2 = sums.s2.wrapping_add(sums.s1);
+            sums.squares = sums.squares.wrapping_add(value.wrapping_mul(value));
         }
-        taxels <<= 1;
-        sums.s1 = sums.s1.wrapping_add(sums.s0);
-        sums.s2 = sums.s2.wrapping_add(sums.s1);
+        *self = sums;
+        greatest as u16
     }
-    (sums, greatest as u16)
+
+    /// Becomes those of the values that some bits name, of at most [`WORD`]: bit `i` for number `i`; the greatest of them.
+    #[inline(never)] // the few registers of an M0+ are for its loop
+    pub fn take_named(&mut self, values: &[u16], taxels: u32) -> u16 {
+        // The bit of the value that comes next is the highest.
+        let mut taxels = taxels << u32::from(WORD).saturating_sub(values.len() as u32);
+        let (mut sums, mut greatest) = (Sums::NONE, 0);
+        for value in values.iter().rev() {
+            if taxels >> 31 == 1 {
+                let value = u32::from(*value);
+                sums.s0 = sums.s0.wrapping_add(value);
+                sums.squares = sums.squares.wrapping_add(value.wrapping_mul(value));
+                if value > greatest {
+                    greatest = value;
+                }
+            }
+            taxels <<= 1;
+            sums.s1 = sums.s1.wrapping_add(sums.s0);
+            sums.s2 = sums.s2.wrapping_add(sums.s1);
+        }
+        *self = sums;
+        greatest as u16
+    }
 }
 
 /// `sum f^2` of the values that bits name, where it may not fit in 32 bits.
@@ -117,10 +105,11 @@ mod tests {
                 s2: sum(&|i| (i + 1) * (i + 2) / 2),
                 squares: counted.iter().map(|f| u32::from(*f).pow(2)).sum(),
             };
-            let want = (want, counted.iter().copied().max().unwrap());
-            assert_eq!(Sums::named(values, taxels), want);
-            assert_eq!(Sums::of(&counted[..length]), want);
-            assert_eq!(squares(values, taxels), want.0.squares.into());
+            let want = (counted.iter().copied().max().unwrap(), want);
+            let mut sums = [Sums::NONE; 2];
+            assert_eq!((sums[0].take_named(values, taxels), sums[0]), want);
+            assert_eq!((sums[1].take(&counted[..length]), sums[1]), want);
+            assert_eq!(squares(values, taxels), want.1.squares.into());
         }
     }
 }

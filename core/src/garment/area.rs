@@ -35,8 +35,9 @@ pub struct Place {
     pub column: u16,
 }
 
-/// A rectangle of taxels of one panel, last row and column included.
+/// A rectangle of taxels of one panel, last row and column included. Whole words are copied in place, where five halves would be a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(align(4))]
 pub struct Rect {
     /// Index of the panel.
     pub panel: u8,
