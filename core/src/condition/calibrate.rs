@@ -49,7 +49,7 @@ impl Panel<'_> {
     fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>, plain: Option<u16>) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
         let any = self.chunks::<CHUNK, PART, FALLING>(0, &mut marks, plain);
-        self.chunks::<1, 1, FALLING>(whole, &mut marks, plain) | any
+        whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, &mut marks, plain) || any
     }
 
     /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.

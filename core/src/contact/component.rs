@@ -41,6 +41,16 @@ pub struct Component {
 
 const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX, right: 0 };
 
+/// What is known of a component before it is measured.
+struct Found {
+    part: u16,
+    joined: bool,
+    total: u32,
+    peak: u16,
+    area: u16,
+    panel: u8,
+}
+
 /// The components of a frame.
 #[derive(Debug, Clone)]
 pub(super) struct Components<const CONTACTS: usize> {
@@ -73,45 +83,30 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             if area < config.min_area || (peak < config.high && !held) {
                 continue;
             }
-            let found = || Component {
-                part: index,
-                joined: part.joined,
-                total,
-                peak,
-                peak_at: None,
-                area,
-                bounds: Rect { panel: part.panel, ..NOWHERE },
-                moments: Moments::default(),
-                inverse: Inverse::of(0),
-                x: Fixed16(0),
-                y: Fixed16(0),
-            };
+            let found = Found { part: index, joined: part.joined, total, peak, area, panel: part.panel };
             if self.list.is_full() {
                 self.dropped = self.dropped.saturating_add(1);
-                self.replace_least(&mut least, total, found);
-            } else {
-                let _ = self.list.push(found());
+                self.replace_least(&mut least, &found);
+            } else if self.list.push(Component::BLANK).is_ok()
+                && let Some(component) = self.list.last_mut()
+            {
+                component.begin(&found);
             }
         }
     }
 
     /// Puts a component in the place of the one with the smallest total, which `least` remembers, if it has more.
-    fn replace_least(
-        &mut self,
-        least: &mut Option<(usize, u32)>,
-        total: u32,
-        found: impl FnOnce() -> Component,
-    ) {
+    fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Found) {
         // Of equals the last found gives way.
         let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
         let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
             return;
         };
         *least = Some((index, smallest));
-        if smallest < total
+        if smallest < found.total
             && let Some(kept) = self.list.get_mut(index)
         {
-            *kept = found();
+            kept.begin(found);
             *least = None;
         }
     }
@@ -214,6 +209,29 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 }
 
 impl Component {
+    /// Of nothing.
+    const BLANK: Component = Component {
+        part: NONE,
+        joined: false,
+        total: 0,
+        peak: 0,
+        peak_at: None,
+        area: 0,
+        bounds: NOWHERE,
+        moments: Moments::NONE,
+        inverse: Inverse::of(0),
+        x: Fixed16(0),
+        y: Fixed16(0),
+    };
+
+    /// Becomes what was found, in place of another that was not measured either.
+    fn begin(&mut self, found: &Found) {
+        let Found { part, joined, total, peak, area, panel } = *found;
+        (self.part, self.joined) = (part, joined);
+        (self.total, self.peak, self.area) = (total, peak, area);
+        self.bounds.panel = panel;
+    }
+
     /// The pieces of its rows, with their numbers; of one that lies on several panels all.
     pub(super) fn pieces<'l, const RUNS: usize, const PARTS: usize>(
         &self,

@@ -124,8 +124,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     }
 
     fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
-        let words = (0..).zip(row.chunks(WORD.into()));
-        for (word, values) in words {
+        for (word, values) in (0..).zip(row.chunks(WORD.into())) {
             let column = word * WORD;
             let taxels = touched(values, low);
             if word == 0 {
@@ -161,13 +160,15 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line: &Line,
     ) -> u16 {
         let Range { start, end } = run_of(taxels);
-        let (left, right, area) = (column + start as u16, column + end as u16 - 1, (end - start) as u16);
+        // There are as many.
+        let Some(values) = values.get(start..end) else { return part };
+        let (left, right, area) = (column + start as u16, column + end as u16 - 1, values.len() as u16);
         let (sums, peak) = (Sums::NONE, 0);
         let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
         let (part, piece) = self.push(piece, line.panel);
         if let Some(piece) = piece {
             // Where it stays: nothing is copied.
-            piece.peak = piece.sums.take(values.get(start..end).unwrap_or(&[]));
+            piece.peak = piece.sums.take(values);
         }
         part
     }

@@ -102,6 +102,9 @@ impl Near {
 }
 
 impl Moments {
+    /// Of nothing.
+    pub(super) const NONE: Moments = Moments { m: 0, sx: 0, sy: 0, sxx: 0, syy: 0, sxy: 0, s2: 0 };
+
     /// Of a run of a row whose first taxel is (x, y).
     pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
         let mut sum = Moments::default();
