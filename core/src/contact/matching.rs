@@ -54,7 +54,8 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         for component in components {
             let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
         }
-        let crowds = crowds(&self.points);
+        let mut crowds = [const { Crowd::NONE }; PANELS];
+        gather(&mut crowds, &self.points);
         let Tracks { contacts, trails, .. } = tracks;
         let (points, taken, images) = (&self.points, &mut self.taken, &mut self.expected);
         let mut look = |contact: &Contact, taken: &[bool]| {
@@ -149,9 +150,8 @@ impl Crowd {
     }
 }
 
-/// The points of each panel.
-fn crowds(points: &[Point]) -> [Crowd; PANELS] {
-    let mut crowds = [const { Crowd::NONE }; PANELS];
+/// Gathers the points of each panel.
+fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
     for (index, point) in points.iter().enumerate() {
         if let Some(crowd) = crowds.get_mut(usize::from(point.panel)) {
             crowd.span = if crowd.span.end == 0 { index } else { crowd.span.start }..index + 1;
@@ -159,7 +159,6 @@ fn crowds(points: &[Point]) -> [Crowd; PANELS] {
             (crowd.top, crowd.bottom) = (crowd.top.min(point.y), crowd.bottom.max(point.y));
         }
     }
-    crowds
 }
 
 /// The least squared distance of the points that are not taken from any of the images, and the first point that has it; [`FAR`] if none is
