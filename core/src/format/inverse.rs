@@ -12,6 +12,9 @@ pub struct Inverse {
     inverse: u32,
 }
 
+/// Of a divisor with so many zeros above its highest bit eleven fit a word.
+const SPARE: u32 = 4;
+
 /// About `2^63 / normal` for a `normal` with bit 31 set: not more than 4 too small, and never too large.
 const fn inverse_of(normal: u32) -> u32 {
     let t = normal >> 16;
@@ -53,14 +56,33 @@ impl Inverse {
 
     /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
     pub const fn quotient(&self, value: u64) -> u32 {
-        if (value >> 32) as u32 >= self.normal >> self.shift {
+        let divisor = self.normal >> self.shift;
+        let (high, low) = ((value >> 32) as u32, value as u32);
+        if high >= divisor {
             return u32::MAX;
         }
+        if self.shift < SPARE {
+            return self.large_quotient(value);
+        }
         // The quotient is below 2^32: the shifted value does not lose bits.
+        let top = high << self.shift | low >> (32 - self.shift);
+        let mut quotient = (wide(top, self.inverse) >> 31) as u32;
+        // Too small by a few at most: 8 for the inverse, 2 for the low half of the value. So the rest is below 11 divisors, which
+        // fits a word, and the halves above that need not be known.
+        let mut rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
+        while rest >= divisor {
+            rest -= divisor;
+            quotient += 1;
+        }
+        quotient
+    }
+
+    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor.
+    #[cold]
+    const fn large_quotient(&self, value: u64) -> u32 {
         let value = left(value, self.shift);
         let mut quotient = (wide((value >> 32) as u32, self.inverse) >> 31) as u32;
         let mut rest = value - wide(quotient, self.normal);
-        // Too small by a few at most: 8 for the inverse, 2 for the low half of the value.
         while rest >= self.normal as u64 {
             rest -= self.normal as u64;
             quotient += 1;

@@ -77,6 +77,15 @@ fn bits(answers: impl Iterator<Item = bool>) -> u32 {
     bits
 }
 
+/// Which of some taxels, from the first one in the lowest bit on, are to be judged. Most are not; bits past the last taxel mean
+/// nothing.
+pub(super) struct Doubtful {
+    /// They show other noise than most, or have come to an end of the range.
+    pub odd: u32,
+    /// They are beside a taxel that is pressed, and not pressed themselves: nothing but what covers them can speak against them.
+    pub beside: u32,
+}
+
 /// Which of the first so many taxels are far from their code at rest, the first one in the lowest bit.
 ///
 /// Not inlined: on its own it has registers enough.
@@ -161,24 +170,43 @@ impl Shown<'_> {
         })
     }
 
-    /// Which of some taxels, from the first one in the lowest bit on, are to be judged: those that show other noise than most or
-    /// have come to an end of the range, and those beside a taxel that is pressed which are not pressed themselves. Most are not.
+    /// Which of some taxels are to be judged.
     ///
     /// Not inlined: it is short, and on its own it has registers enough.
     #[inline(never)]
-    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> u32 {
+    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> Doubtful {
         let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
         let plain =
             |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
         let odd = bits(seen.iter().map(|seen| !plain(seen)));
-        let Some(rest) = self.rest.filter(|_| self.touched) else { return odd };
+        let Some(rest) = self.rest.filter(|_| self.touched) else { return Doubtful { odd, beside: 0 } };
         // From the taxel before the first one on, where there is one.
         let before = usize::from(first > 0);
         let from = first - before;
         let (codes, rest) = self.codes.get(from..).zip(rest.get(from..)).unwrap_or((&[], &[]));
         let pressed = pressed(codes, rest, seen.len() + 1 + before);
         let (left, itself) = if before == 1 { (pressed, pressed >> 1) } else { (pressed << 1, pressed) };
-        odd | ((left | itself >> 1) & !itself)
+        Doubtful { odd, beside: (left | itself >> 1) & !itself }
+    }
+
+    /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than the one that may be
+    /// missed, and those that are ill.
+    pub fn is_bare(&self, spot: &Spot<'_>, ill: usize) -> bool {
+        let Spot { area, row, column, .. } = *spot;
+        let columns = usize::from(area.columns);
+        let (top, left) = (row.saturating_sub(1), column.saturating_sub(1));
+        let width = usize::from(column.saturating_add(2).min(area.columns) - left);
+        let mut first = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
+        // Itself among them.
+        let mut idle = 0;
+        for _ in top..row.saturating_add(2).min(area.rows) {
+            idle += (first..first + width).filter(|taxel| !self.is_pressed(*taxel)).count();
+            if idle > 2 + ill {
+                return true;
+            }
+            first += columns;
+        }
+        false
     }
 
     /// Judges a taxel by what was seen of it, and by its neighbours that are not ill.
@@ -285,6 +313,25 @@ mod tests {
     }
 
     #[test]
+    fn what_is_bare_is_not_covered() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let (mut random, mut found) = (Random(3), [0; 4]);
+        for _ in 0..40 {
+            let (codes, rest) = images(&layout, &mut random);
+            let shown = shown(&codes, &rest);
+            let ill: Vec<usize> = (0..2).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let mut walk = Walk::new(&layout);
+            for spot in (0..layout.taxels()).filter_map(|taxel| walk.to(taxel)) {
+                let covered = shown.is_covered(&spot, |taxel| ill.contains(&taxel));
+                let bare = shown.is_bare(&spot, ill.len());
+                assert!(!(bare && covered), "{spot:?}");
+                found[usize::from(bare) * 2 + usize::from(covered)] += 1;
+            }
+        }
+        assert!(found[0] > 100 && found[1] > 100 && found[2] > 100, "{found:?}");
+    }
+
+    #[test]
     fn those_beside_a_pressed_one_are_doubtful() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         let mut random = Random(2);
@@ -300,13 +347,14 @@ mod tests {
             let seen = &seen[..23.min(layout.taxels() - first)];
             let is_far =
                 |at: usize| codes.get(at).is_some_and(|code| code.0.abs_diff(rest[at]) >= PRESSED as u16);
-            let plain = (first..).zip(seen).enumerate().fold(0, |bits, (at, (taxel, seen))| {
-                let beside = (taxel > 0 && is_far(taxel - 1)) || is_far(taxel + 1);
-                bits | u32::from(seen.is_still() || beside && !is_far(taxel)) << at
+            let plain = (first..).zip(seen).enumerate().fold((0, 0), |(odd, beside), (at, (taxel, seen))| {
+                let is_beside = (taxel > 0 && is_far(taxel - 1)) || is_far(taxel + 1);
+                let is_beside = is_beside && !is_far(taxel);
+                (odd | u32::from(seen.is_still()) << at, beside | u32::from(is_beside) << at)
             });
-            // Bits past the last one mean nothing.
-            let have = shown.doubtful(first, seen) & ((1 << seen.len()) - 1);
-            assert_eq!(have, plain, "{first}");
+            let Doubtful { odd, beside } = shown.doubtful(first, seen);
+            let real = (1 << seen.len()) - 1;
+            assert_eq!((odd & real, beside & real), plain, "{first}");
         }
     }
 }

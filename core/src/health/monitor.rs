@@ -1,7 +1,7 @@
 //! Watches the taxels, some at a time.
 
 use super::inputs::Inputs;
-use super::judge::{Limits, Shown, is_pressed};
+use super::judge::{Doubtful, Limits, Shown, is_pressed};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
 use super::walk::{Spot, Walk};
@@ -153,13 +153,18 @@ impl Monitor {
         self.inputs.is_one_odd(circuit, plan, shown, self.usual / 8)
     }
 
-    /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].
-    pub fn watch(&mut self, layout: &Layout, circuit: &Circuit, plan: &Plan, shown: Codes<'_>) -> Found {
-        let mut found = Found::new();
+    /// Takes a frame; what seems to be ill is added to `found`, for the caller to [`Monitor::add`].
+    pub fn watch(
+        &mut self,
+        layout: &Layout,
+        circuit: &Circuit,
+        plan: &Plan,
+        shown: Codes<'_>,
+        found: &mut Found,
+    ) {
         if self.watch.take(shown.now, layout.taxels()) {
-            self.judge(&Worn { layout, circuit, plan }, shown, &mut found);
+            self.judge(&Worn { layout, circuit, plan }, shown, found);
         }
-        found
     }
 
     /// Judges the group that has been seen for long enough.
@@ -207,17 +212,18 @@ impl Monitor {
     /// Finds what is to be said against the taxels of a group that is watched; none where that is too much.
     fn suspect(&self, worn: &Worn<'_>, shown: &Shown<'_>, age: usize, found: &mut Found) -> Option<()> {
         let (first, seen) = self.watch.group(age);
-        let mut doubtful = shown.doubtful(first, seen);
+        let Doubtful { mut odd, mut beside } = shown.doubtful(first, seen);
         let mut walk = Walk::new(worn.layout);
         let mut taxel = first;
-        while doubtful != 0 && taxel < worn.layout.taxels() {
-            if doubtful & 1 == 1
+        while odd | beside != 0 && taxel < worn.layout.taxels() {
+            if (odd | beside) & 1 == 1
                 && let Some((seen, spot)) = seen.get(taxel - first).zip(walk.to(taxel))
+                && (odd & 1 == 1 || !shown.is_bare(&spot, self.ill.len()))
                 && let Some(health) = self.fault(worn, shown, seen, &spot)
             {
                 found.push((taxel as u16, health)).ok()?;
             }
-            doubtful >>= 1;
+            (odd, beside) = (odd >> 1, beside >> 1);
             taxel += 1;
         }
         Some(())
