@@ -95,6 +95,14 @@ fn pressed(codes: &[Code], rest: &[u16], count: usize) -> u32 {
     bits(pairs.map(|(code, rest)| code.0.abs_diff(*rest) >= PRESSED as u16))
 }
 
+/// How many of some taxels are not pressed.
+///
+/// Not inlined: on its own it has registers enough.
+#[inline(never)]
+fn idle(codes: &[Code], rest: &[u16], falling: bool) -> usize {
+    codes.iter().zip(rest).filter(|(code, rest)| !is_pressed(code.0, **rest, falling)).count()
+}
+
 impl Shown<'_> {
     fn pressure(&self, code: u16) -> i32 {
         i32::from(if self.falling { self.full.saturating_sub(code) } else { code })
@@ -191,17 +199,23 @@ impl Shown<'_> {
 
     /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than the one that may be
     /// missed, and those that are ill.
+    ///
+    /// Not inlined: on its own it has registers enough.
+    #[inline(never)]
     pub fn is_bare(&self, spot: &Spot<'_>, ill: usize) -> bool {
         let Spot { area, row, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let (top, left) = (row.saturating_sub(1), column.saturating_sub(1));
         let width = usize::from(column.saturating_add(2).min(area.columns) - left);
         let mut first = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
+        let rest = self.rest.unwrap_or(&[]);
         // Itself among them.
-        let mut idle = 0;
+        let mut count = 0;
         for _ in top..row.saturating_add(2).min(area.rows) {
-            idle += (first..first + width).filter(|taxel| !self.is_pressed(*taxel)).count();
-            if idle > 2 + ill {
+            let range = first..first + width;
+            let (Some(codes), Some(rest)) = (self.codes.get(range.clone()), rest.get(range)) else { break };
+            count += idle(codes, rest, self.falling);
+            if count > 2 + ill {
                 return true;
             }
             first += columns;
