@@ -265,8 +265,8 @@ impl Symbols {
     }
 }
 
-/// What was said of a contact. Those present are in the order in which they came, as what was said of them: it is mostly at `at`, after
-/// what was said of the one before.
+/// What was said of a contact. Those present are in the order in which they came, as what was said of them: it is mostly
+/// at `at`, after what was said of the one before.
 fn said_of<'a>(said: &'a mut [(u32, Words)], at: &mut usize, id: u32) -> Option<&'a mut (u32, Words)> {
     if said.get(*at).is_none_or(|(other, _)| *other != id) {
         *at = said.iter().position(|(other, _)| *other == id)?;

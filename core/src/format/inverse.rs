@@ -52,6 +52,7 @@ impl Inverse {
     }
 
     /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
+    #[inline(never)] // the few registers of an M0+ are for this
     pub const fn quotient(&self, value: u64) -> u32 {
         let divisor = self.normal >> self.shift;
         let (high, low) = ((value >> 32) as u32, value as u32);
@@ -63,23 +64,20 @@ impl Inverse {
         }
         // The quotient is below 2^32: the shifted value does not lose bits.
         let top = high << self.shift | low >> (32 - self.shift);
-        let mut quotient = (wide(top, self.inverse) >> 31) as u32;
-        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So the rest, which is below 7
-        // divisors, fits a word, and what is above that need not be known.
-        let mut rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
-        // Mostly by one: the loop, which wants more registers, comes after that.
-        if rest >= divisor {
-            rest -= divisor;
-            quotient += 1;
-            while rest >= divisor {
-                rest -= divisor;
-                quotient += 1;
-            }
+        let quotient = (wide(top, self.inverse) >> 31) as u32;
+        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So the rest
+        // is below 7 divisors and fits a word: what is above that need not be known.
+        let rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
+        if rest < divisor {
+            quotient
+        } else if rest - divisor < divisor {
+            quotient + 1
+        } else {
+            self.large_quotient(value) // one in twenty
         }
-        quotient
     }
 
-    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor.
+    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor and from any number of units too small.
     #[cold]
     const fn large_quotient(&self, value: u64) -> u32 {
         let value = left(value, self.shift);
@@ -99,13 +97,11 @@ impl Inverse {
         // Of a negative one floor((half - size) / d) = -ceil((size - half) / d).
         let more = if value >= 0 { half } else { divisor.saturating_sub(1) - half };
         let quotient = self.quotient(value.unsigned_abs() + more as u64);
-        if quotient > i32::MAX as u32 {
-            if value >= 0 { i32::MAX } else { i32::MIN }
-        } else if value >= 0 {
-            quotient as i32
-        } else {
-            -(quotient as i32)
-        }
+        // -1 of a negative one, which reaches a unit further.
+        let sign = (value >> 63) as i32;
+        let limit = (i32::MAX as u32).wrapping_sub(sign as u32);
+        let size = if quotient < limit { quotient } else { limit };
+        (size as i32 ^ sign).wrapping_sub(sign)
     }
 }
 
