@@ -37,7 +37,7 @@ fn perceive(script: &Script) -> Course {
         player.frame(start, &mut codes);
         let codes: Vec<Code> = codes.iter().map(|code| Code(*code)).collect();
         let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(start), &mut ());
-        let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) else { continue };
+        let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed).cloned() else { continue };
         course.led.push(meaning.leading);
         if let Some(why) = pipeline.intent().and_then(|intent| intent.why(state.intent())) {
             let names = pipeline.intent().expect("it is on").map().concepts();

@@ -23,10 +23,9 @@ impl Placed {
         Placed { region: region(layout, &contact), contact, shape }
     }
 
-    /// As [`Placed::new`], in the place of another.
-    pub(crate) fn renew(&mut self, layout: &Layout, contact: &Contact, shape: Shape) {
+    /// Places another contact, or the same one in a later frame; the shape stays.
+    pub(crate) fn follow(&mut self, layout: &Layout, contact: &Contact) {
         self.contact = contact.clone();
-        self.shape = shape;
         self.region = region(layout, contact);
     }
 

@@ -203,9 +203,10 @@ impl Symbols {
         now: Micros,
     ) {
         state.events.clear();
+        let mut at = 0;
         for placed in present {
             let id = placed.contact.id;
-            let before = state.said.iter_mut().find(|(said, _)| *said == id);
+            let before = said_of(&mut state.said, &mut at, id);
             let words = self.words(placed, before.as_ref().map(|(_, words)| *words));
             match before {
                 Some((_, said)) if *said == words => continue,
@@ -225,7 +226,9 @@ impl Symbols {
             let _ = state.events.push(symbol(placed, Phase::Released, words));
         }
         // Each contact is released before it is gone.
-        state.said.retain(|(id, _)| released.iter().all(|gone| gone.contact.id != *id));
+        if !released.is_empty() {
+            state.said.retain(|(id, _)| released.iter().all(|gone| gone.contact.id != *id));
+        }
         regions(&mut state.regions, present, now);
     }
 
@@ -262,6 +265,17 @@ impl Symbols {
     }
 }
 
+/// What was said of a contact. Those present are in the order in which they came, as what was said of them: it is mostly
+/// at `at`, after what was said of the one before.
+fn said_of<'a>(said: &'a mut [(u32, Words)], at: &mut usize, id: u32) -> Option<&'a mut (u32, Words)> {
+    if said.get(*at).is_none_or(|(other, _)| *other != id) {
+        *at = said.iter().position(|(other, _)| *other == id)?;
+    }
+    let found = said.get_mut(*at);
+    *at += 1;
+    found
+}
+
 fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {
     Symbol {
         contact: placed.contact.id,
@@ -274,22 +288,28 @@ fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {
 }
 
 fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) {
-    let mut touched = [false; PANELS];
-    for ((region, state), touched) in (0u8..).zip(&mut *states).zip(&mut touched) {
-        *touched = state.contacts > 0;
+    const { assert!(PANELS <= 32) };
+    // A bit for each region that was touched.
+    let mut touched = 0u32;
+    for (region, state) in (0u8..).zip(&mut *states) {
+        touched |= u32::from(state.contacts > 0) << region;
         *state = RegionState { region, since: state.since, ..RegionState::default() };
     }
-    for placed in present {
+    // One by one: a loop over two at a time would divide.
+    let mut left = present;
+    while let [placed, rest @ ..] = left {
+        left = rest;
         let Some(state) = states.get_mut(usize::from(placed.region)) else { continue };
         state.contacts = state.contacts.saturating_add(1);
         state.total = state.total.saturating_add(placed.contact.total);
         state.peak = state.peak.max(placed.contact.peak);
         state.moving |= placed.contact.slip;
     }
-    for (state, touched) in states.iter_mut().zip(touched) {
-        if touched != (state.contacts > 0) {
+    for state in states {
+        if (touched & 1 == 1) != (state.contacts > 0) {
             state.since = now;
         }
+        touched >>= 1;
     }
 }
 
@@ -313,6 +333,18 @@ mod tests {
         assert_eq!(course(&[79, 80, 89, 90, 80, 71, 70, 69]), [0, 0, 0, 1, 1, 1, 1, 0]);
         assert_eq!(course(&[80, 899, 900, 700, 699, 0]), [1, 1, 2, 2, 1, 0]);
         assert_eq!(course(&[5000, 75, 0]), [2, 1, 0]);
+    }
+
+    #[test]
+    fn what_was_said_is_found_in_any_order() {
+        let mut said = [7, 9, 12, 30].map(|id| (id, Words::default()));
+        for ids in [[7, 9, 12, 30], [30, 12, 9, 7], [9, 8, 30, 7], [1, 2, 3, 12]] {
+            let mut at = 0;
+            for id in ids {
+                let plain = said.iter().copied().find(|(other, _)| *other == id);
+                assert_eq!(said_of(&mut said, &mut at, id).copied(), plain, "{ids:?} {id}");
+            }
+        }
     }
 
     #[test]

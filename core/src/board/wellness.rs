@@ -2,7 +2,7 @@
 
 use super::Board;
 use crate::format::{Code, Micros};
-use crate::health::{Codes, IllTaxel, TaxelHealth};
+use crate::health::{Codes, Found, IllTaxel, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Watches the codes of a frame, in which something touches the garment or not.
@@ -15,7 +15,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.doubt.raise(now);
         }
         let well = self.monitor.acquit(circuit, &shown);
-        let found = self.monitor.watch(layout, circuit, &scene.plan, shown);
+        let mut found = Found::new();
+        self.monitor.watch(layout, circuit, &scene.plan, shown, &mut found);
         if let Some(well) = well {
             condition.set_gain(usize::from(well.taxel), well.gain);
             self.outbox.map_changed();

@@ -7,11 +7,11 @@
 
 use super::monitor::Codes;
 use crate::acquire::Plan;
-use crate::format::Extremes;
-use crate::garment::Circuit;
+use crate::format::{Code, Extremes};
+use crate::garment::{Circuit, Site};
 
 /// Fewer taxels tell nothing.
-const FEW: u16 = 8;
+const FEW: u32 = 8;
 /// A garment with fewer blocks is looked at in whole rows.
 const BLOCKS: usize = 8;
 /// A code is so far from that at rest at least where that means something, counts.
@@ -39,24 +39,21 @@ impl Inputs {
         self.go_on(circuit);
         // Ten steps of 1.13 times their noise: four times the noise, and more.
         let far = (travel / 8 * 3).max(plan.depth.step().saturating_mul(2)).max(FAR);
-        let mut tally = Tally::new(circuit.falling(), far);
-        let (first, step) = if circuit.sites().len() < BLOCKS { (0, 1) } else { (self.round >> 2 & 3, 4) };
+        let (first, shift) = if circuit.sites().len() < BLOCKS { (0, 0) } else { (self.round >> 2 & 3, 2) };
         // 0.613 of a turn: near the golden ratio, whose multiples are spread evenly.
         let part = self.round.wrapping_mul(157);
         let sites = circuit.sites().iter();
-        for site in sites.filter(|site| site.input == self.input && plan.reads(site.panel, site.block)) {
-            // Without a division: this core has none.
-            let row = ((u16::from(part) * u16::from(site.rows)) >> 8) as u8;
-            let mut column = first;
-            while column < site.columns {
-                let taxel = site.taxel(row, column);
-                if let Some((code, rest)) = shown.now.get(taxel).zip(rest.get(taxel)) {
-                    tally.take(code.0, *rest);
-                }
-                column = column.saturating_add(step);
-            }
+        let lines = sites
+            .filter(|site| site.input == self.input && plan.reads(site.panel, site.block))
+            .map(|site| Line::of(site, part, first, shift));
+        let mut tally = Tally { far, ..Tally::default() };
+        for line in lines.clone() {
+            tally.take(line, shown.now, rest);
         }
-        tally.is_odd()
+        let (less, more) =
+            if circuit.falling() { (tally.above, tally.below) } else { (tally.below, tally.above) };
+        tally.count >= FEW
+            && (less * 8 >= tally.count || more == tally.count && are_alike(lines, shown.now, rest, far))
     }
 
     /// The next input in order; after the last one the first, in another round.
@@ -70,34 +67,118 @@ impl Inputs {
     }
 }
 
-/// What the taxels of an input show, and showed at rest.
+/// Some taxels of a wired row.
+struct Line {
+    /// The next one.
+    taxel: usize,
+    /// From one to the next.
+    step: usize,
+    /// How many are left.
+    count: u32,
+}
+
+impl Line {
+    /// Of a block: in a row so many 256ths of its way down, every `2^shift`th taxel from the first one on.
+    fn of(site: &Site, part: u8, first: u8, shift: u32) -> Line {
+        // Without a division: this core has none.
+        let row = ((u16::from(part) * u16::from(site.rows)) >> 8) as u8;
+        let count = (u32::from(site.columns.saturating_sub(first)) + (1 << shift) - 1) >> shift;
+        // A step may lead back: all numbers of taxels are taken round the end of a word.
+        Line { taxel: site.taxel(row, first), step: (site.column_step << shift) as usize, count }
+    }
+}
+
+impl Iterator for Line {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        self.count = self.count.checked_sub(1)?;
+        let taxel = self.taxel;
+        self.taxel = taxel.wrapping_add(self.step);
+        Some(taxel)
+    }
+}
+
+/// How many taxels of an input show other codes than at rest.
+#[derive(Default)]
 struct Tally {
-    falling: bool,
+    /// By so much at least, counts.
     far: u16,
-    count: u16,
-    /// Those that show less pressure than at rest, and those that show more.
-    less: u16,
-    more: u16,
-    codes: Extremes,
-    rests: Extremes,
+    count: u32,
+    below: u32,
+    above: u32,
 }
 
 impl Tally {
-    fn new(falling: bool, far: u16) -> Tally {
-        Tally { falling, far, count: 0, less: 0, more: 0, codes: Extremes::NONE, rests: Extremes::NONE }
+    /// Not inlined: on its own it has registers enough.
+    #[inline(never)]
+    fn take(&mut self, line: Line, codes: &[Code], rest: &[u16]) {
+        let (far, mut below, mut above) = (u32::from(self.far), 0, 0);
+        for taxel in line {
+            let Some((code, rest)) = codes.get(taxel).zip(rest.get(taxel)) else { continue };
+            let (code, rest) = (u32::from(code.0), u32::from(*rest));
+            self.count += 1;
+            below += u32::from(code + far < rest);
+            above += u32::from(code > rest + far);
+        }
+        self.below += below;
+        self.above += above;
     }
+}
 
-    fn take(&mut self, code: u16, rest: u16) {
-        let (now, before) = if self.falling { (rest, code) } else { (code, rest) };
-        self.count += 1;
-        self.less += u16::from(now.saturating_add(self.far) < before);
-        self.more += u16::from(now > before.saturating_add(self.far));
-        self.codes.take(code);
-        self.rests.take(rest);
+/// Whether the codes of all these taxels are nearly the same, and were not at rest.
+#[cold]
+fn are_alike(lines: impl Iterator<Item = Line>, codes: &[Code], rest: &[u16], far: u16) -> bool {
+    let (mut now, mut before) = (Extremes::NONE, Extremes::NONE);
+    for (code, rest) in lines.flatten().filter_map(|it| codes.get(it).zip(rest.get(it))) {
+        now.take(code.0);
+        before.take(*rest);
     }
+    now.width() < far && before.width() > far.saturating_mul(2)
+}
 
-    fn is_odd(&self) -> bool {
-        let alike = self.codes.width() < self.far && self.rests.width() > self.far.saturating_mul(2);
-        self.count >= FEW && (self.less * 8 >= self.count || alike && self.more == self.count)
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::garment::{Garment, Layout, Pins};
+    use std::vec::Vec;
+
+    #[test]
+    fn taxels_of_a_line_are_counted_one_by_one() {
+        let garment = Garment::reference();
+        let layout = Layout::build(&garment, 2048, 4095).unwrap();
+        let circuit = Circuit::build(&garment, &layout, Pins::ANY).unwrap();
+        let mut state = 1u32;
+        let mut next = |n: u32| {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            (state >> 8) % n
+        };
+        let codes: Vec<Code> = (0..layout.taxels()).map(|_| Code(next(100) as u16)).collect();
+        let rest: Vec<u16> = (0..layout.taxels()).map(|_| next(100) as u16).collect();
+        for (site, shift) in circuit.sites().iter().flat_map(|site| [(site, 0), (site, 2)]) {
+            let back = Site {
+                origin: site.taxel(0, site.columns - 1) as i32,
+                column_step: -site.column_step,
+                ..*site
+            };
+            for site in [*site, back] {
+                let (part, first, far) = (next(256) as u8, next(1 << shift) as u8, 1 + next(20) as u16);
+                let mut tally = Tally { far, ..Tally::default() };
+                tally.take(Line::of(&site, part, first, shift), &codes, &rest);
+                let row = (u32::from(part) * u32::from(site.rows) / 256) as u8;
+                let columns = (first..site.columns).step_by(1 << shift);
+                let pairs: Vec<_> = columns
+                    .map(|column| site.taxel(row, column))
+                    .map(|taxel| (i32::from(codes[taxel].0), i32::from(rest[taxel])))
+                    .collect();
+                let count = |is: &dyn Fn(i32) -> bool| {
+                    pairs.iter().filter(|(code, rest)| is(code - rest)).count() as u32
+                };
+                let plain =
+                    (count(&|_| true), count(&|it| it < -i32::from(far)), count(&|it| it > far.into()));
+                assert_eq!((tally.count, tally.below, tally.above), plain);
+            }
+        }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
+use super::walk::Spot;
 use crate::format::Code;
-use crate::garment::Area;
 
 /// So near to an end of the converter's range a code is at that end, counts: five times a noise of 3.
 const RAIL: u16 = 16;
@@ -77,6 +77,32 @@ fn bits(answers: impl Iterator<Item = bool>) -> u32 {
     bits
 }
 
+/// Which of some taxels, from the first one in the lowest bit on, are to be judged. Most are not; bits past the last taxel mean
+/// nothing.
+pub(super) struct Doubtful {
+    /// They show other noise than most, or have come to an end of the range.
+    pub odd: u32,
+    /// They are beside a taxel that is pressed, and not pressed themselves: nothing but what covers them can speak against them.
+    pub beside: u32,
+}
+
+/// Which of the first so many taxels are far from their code at rest, the first one in the lowest bit.
+///
+/// Not inlined: on its own it has registers enough.
+#[inline(never)]
+fn pressed(codes: &[Code], rest: &[u16], count: usize) -> u32 {
+    let pairs = codes.iter().zip(rest).take(count);
+    bits(pairs.map(|(code, rest)| code.0.abs_diff(*rest) >= PRESSED as u16))
+}
+
+/// How many of some taxels are not pressed.
+///
+/// Not inlined: on its own it has registers enough.
+#[inline(never)]
+fn idle(codes: &[Code], rest: &[u16], falling: bool) -> usize {
+    codes.iter().zip(rest).filter(|(code, rest)| !is_pressed(code.0, **rest, falling)).count()
+}
+
 impl Shown<'_> {
     fn pressure(&self, code: u16) -> i32 {
         i32::from(if self.falling { self.full.saturating_sub(code) } else { code })
@@ -96,24 +122,25 @@ impl Shown<'_> {
     /// and how many of them are pressed. Counts no further than past so many that are not.
     fn around(
         &self,
-        area: &Area,
-        (row, column): (u16, u16),
+        spot: &Spot<'_>,
         distance: u16,
         missing: u32,
         is_ill: impl Fn(usize) -> bool,
     ) -> (u32, u32) {
         let (mut there, mut pressed) = (0, 0);
-        for y in row.saturating_sub(distance)..=row.saturating_add(distance).min(area.rows.saturating_sub(1))
-        {
-            for x in column.saturating_sub(distance)
-                ..=column.saturating_add(distance).min(area.columns.saturating_sub(1))
-            {
-                if y.abs_diff(row).max(x.abs_diff(column)) != distance {
-                    continue;
-                }
-                let taxel =
-                    usize::from(area.base) + usize::from(y) * usize::from(area.columns) + usize::from(x);
-                if is_ill(taxel) {
+        let Spot { area, row, column, .. } = *spot;
+        let (rows, columns) = (i32::from(area.rows), i32::from(area.columns));
+        let (row, column, distance) = (i32::from(row), i32::from(column), i32::from(distance));
+        for y in (row - distance).max(0)..=(row + distance).min(rows - 1) {
+            // Of the rows between the first and the last one only the ends.
+            let step = if (y - row).abs() == distance { 1 } else { 2 * distance };
+            let begin = i32::from(area.base) + y * columns;
+            let mut x = column - distance;
+            while x <= column + distance {
+                let taxel = (begin + x) as usize;
+                let is_there = x >= 0 && x < columns && !is_ill(taxel);
+                x += step;
+                if !is_there {
                     continue;
                 }
                 there += 1;
@@ -128,62 +155,81 @@ impl Shown<'_> {
 
     /// Whether what presses all around a taxel should press it, too: all neighbours but one, and four fifths of those around
     /// them. A ring with a hole of one taxel and a wall of one or two reaches less far.
-    fn is_covered(&self, area: &Area, place: (u16, u16), is_ill: impl Fn(usize) -> bool) -> bool {
-        let (there, pressed) = self.around(area, place, 1, 1, &is_ill);
+    fn is_covered(&self, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> bool {
+        let (there, pressed) = self.around(spot, 1, 1, &is_ill);
         if pressed < 3 || there > pressed + 1 {
             return false;
         }
-        let (there, pressed) = self.around(area, place, 2, 3, &is_ill);
+        let (there, pressed) = self.around(spot, 2, 3, &is_ill);
         pressed >= 3 && (there - pressed) * 5 <= there
     }
 
     /// Whether anything beside a taxel is pressed.
-    fn is_near_pressure(&self, area: &Area, row: u16, column: u16) -> bool {
+    fn is_near_pressure(&self, spot: &Spot<'_>) -> bool {
+        let Spot { area, row, column, .. } = *spot;
         (row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1))).any(|y| {
             (column.saturating_sub(1)..=column.saturating_add(1).min(area.columns.saturating_sub(1))).any(
                 |x| {
                     let taxel =
                         usize::from(area.base) + usize::from(y) * usize::from(area.columns) + usize::from(x);
-                    (y, x) != (row, column) && self.is_pressed(taxel)
+                    taxel != spot.taxel && self.is_pressed(taxel)
                 },
             )
         })
     }
 
-    /// Which of some taxels, from the first one in the lowest bit on, are to be judged: those that show other noise than most or
-    /// have come to an end of the range, and those beside a taxel that is pressed which are not pressed themselves. Most are not.
+    /// Which of some taxels are to be judged.
     ///
     /// Not inlined: it is short, and on its own it has registers enough.
     #[inline(never)]
-    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> u32 {
+    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> Doubtful {
         let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
         let plain =
             |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
         let odd = bits(seen.iter().map(|seen| !plain(seen)));
-        let Some(rest) = self.rest.filter(|_| self.touched) else { return odd };
+        let Some(rest) = self.rest.filter(|_| self.touched) else { return Doubtful { odd, beside: 0 } };
         // From the taxel before the first one on, where there is one.
         let before = usize::from(first > 0);
         let from = first - before;
-        let pairs = self.codes.iter().zip(rest).skip(from).take(seen.len() + 1 + before);
-        let pressed = bits(pairs.map(|(code, rest)| code.0.abs_diff(*rest) >= PRESSED as u16));
+        let (codes, rest) = self.codes.get(from..).zip(rest.get(from..)).unwrap_or((&[], &[]));
+        let pressed = pressed(codes, rest, seen.len() + 1 + before);
         let (left, itself) = if before == 1 { (pressed, pressed >> 1) } else { (pressed << 1, pressed) };
-        odd | ((left | itself >> 1) & !itself)
+        Doubtful { odd, beside: (left | itself >> 1) & !itself }
     }
 
-    /// Judges a taxel of a panel, at a row and a column, by what was seen of it, and by its neighbours that are not ill.
-    pub fn judge(
-        &self,
-        seen: &Seen,
-        area: &Area,
-        (row, column): (u16, u16),
-        is_ill: impl Fn(usize) -> bool,
-    ) -> TaxelHealth {
-        let taxel =
-            usize::from(area.base) + usize::from(row) * usize::from(area.columns) + usize::from(column);
+    /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than the one that may be
+    /// missed, and those that are ill.
+    ///
+    /// Not inlined: on its own it has registers enough.
+    #[inline(never)]
+    pub fn is_bare(&self, spot: &Spot<'_>, ill: usize) -> bool {
+        let Spot { area, row, column, .. } = *spot;
+        let columns = usize::from(area.columns);
+        let (top, left) = (row.saturating_sub(1), column.saturating_sub(1));
+        let width = usize::from(column.saturating_add(2).min(area.columns) - left);
+        let mut first = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
+        let rest = self.rest.unwrap_or(&[]);
+        // Itself among them.
+        let mut count = 0;
+        for _ in top..row.saturating_add(2).min(area.rows) {
+            let range = first..first + width;
+            let (Some(codes), Some(rest)) = (self.codes.get(range.clone()), rest.get(range)) else { break };
+            count += idle(codes, rest, self.falling);
+            if count > 2 + ill {
+                return true;
+            }
+            first += columns;
+        }
+        false
+    }
+
+    /// Judges a taxel by what was seen of it, and by its neighbours that are not ill.
+    pub fn judge(&self, seen: &Seen, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> TaxelHealth {
+        let taxel = spot.taxel;
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
         if low >= self.full.saturating_sub(RAIL) {
             // What presses one taxel to full scale presses those beside it, too.
-            let alone = self.rest.is_some() && !self.is_near_pressure(area, row, column);
+            let alone = self.rest.is_some() && !self.is_near_pressure(spot);
             return if alone { TaxelHealth::Shorted } else { TaxelHealth::Good };
         }
         if seen.is_still() && high > 0 && self.limits.lively && !is_wide(low) {
@@ -201,7 +247,7 @@ impl Shown<'_> {
         if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
         }
-        if !self.is_covered(area, (row, column), is_ill) {
+        if !self.is_covered(spot, is_ill) {
             return TaxelHealth::Good;
         }
         if high <= RAIL { TaxelHealth::Open } else { TaxelHealth::Dead }
@@ -218,5 +264,111 @@ impl Shown<'_> {
         let reach = seen.reach(self.rest.and_then(|rest| rest.get(taxel)).copied());
         let touch = u32::from(reach) * 9 / 4 + self.limits.usual;
         u32::from(seen.travel()) > touch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::walk::Walk;
+    use super::*;
+    use crate::garment::{Garment, Layout};
+    use std::vec::Vec;
+
+    struct Random(u32);
+
+    impl Random {
+        fn below(&mut self, n: u32) -> u32 {
+            self.0 = self.0.wrapping_mul(1664525).wrapping_add(1013904223);
+            (self.0 >> 8) % n
+        }
+    }
+
+    fn shown<'a>(codes: &'a [Code], rest: &'a [u16]) -> Shown<'a> {
+        let limits = Limits::of(20, 1);
+        Shown { codes, rest: Some(rest), full: 4095, falling: false, limits, touched: true }
+    }
+
+    /// Codes of a garment where three quarters of the taxels are pressed, and those at rest.
+    fn images(layout: &Layout, random: &mut Random) -> (Vec<Code>, Vec<u16>) {
+        let codes = (0..layout.taxels()).map(|_| Code(if random.below(4) > 0 { 900 } else { 310 }));
+        (codes.collect(), (0..layout.taxels()).map(|_| 200 + random.below(200) as u16).collect())
+    }
+
+    #[test]
+    fn those_around_are_those_of_a_ring() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let mut random = Random(1);
+        for _ in 0..20 {
+            let (codes, rest) = images(&layout, &mut random);
+            let shown = shown(&codes, &rest);
+            let ill: Vec<usize> = (0..40).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let is_ill = |taxel| ill.contains(&taxel);
+            let mut walk = Walk::new(&layout);
+            for spot in (0..layout.taxels()).step_by(3).filter_map(|taxel| walk.to(taxel)) {
+                for (distance, missing) in [(1, 1), (2, 3), (2, 100)] {
+                    let ring = (0..layout.taxels()).filter(|other| {
+                        let place = layout.place(*other).unwrap();
+                        let apart = place.row.abs_diff(spot.row).max(place.column.abs_diff(spot.column));
+                        place.panel == spot.panel && apart == distance && !is_ill(*other)
+                    });
+                    let (mut there, mut pressed) = (0, 0);
+                    for other in ring {
+                        if there > pressed + missing {
+                            break;
+                        }
+                        there += 1;
+                        pressed += u32::from(shown.is_pressed(other));
+                    }
+                    assert_eq!(shown.around(&spot, distance, missing, is_ill), (there, pressed), "{spot:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_bare_is_not_covered() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let (mut random, mut found) = (Random(3), [0; 4]);
+        for _ in 0..40 {
+            let (codes, rest) = images(&layout, &mut random);
+            let shown = shown(&codes, &rest);
+            let ill: Vec<usize> = (0..2).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let mut walk = Walk::new(&layout);
+            for spot in (0..layout.taxels()).filter_map(|taxel| walk.to(taxel)) {
+                let covered = shown.is_covered(&spot, |taxel| ill.contains(&taxel));
+                let bare = shown.is_bare(&spot, ill.len());
+                assert!(!(bare && covered), "{spot:?}");
+                found[usize::from(bare) * 2 + usize::from(covered)] += 1;
+            }
+        }
+        assert!(found[0] > 100 && found[1] > 100 && found[2] > 100, "{found:?}");
+    }
+
+    #[test]
+    fn those_beside_a_pressed_one_are_doubtful() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let mut random = Random(2);
+        for round in 0..200 {
+            let (codes, rest) = images(&layout, &mut random);
+            let shown = shown(&codes, &rest);
+            let first = if round % 4 == 0 { 0 } else { random.below(2048) as usize };
+            let mut seen = [Seen::NOTHING; 23];
+            for seen in &mut seen {
+                seen.begin(Code(300));
+                seen.see(Code(if random.below(4) == 0 { 300 } else { 302 }));
+            }
+            let seen = &seen[..23.min(layout.taxels() - first)];
+            let is_far =
+                |at: usize| codes.get(at).is_some_and(|code| code.0.abs_diff(rest[at]) >= PRESSED as u16);
+            let plain = (first..).zip(seen).enumerate().fold((0, 0), |(odd, beside), (at, (taxel, seen))| {
+                let is_beside = (taxel > 0 && is_far(taxel - 1)) || is_far(taxel + 1);
+                let is_beside = is_beside && !is_far(taxel);
+                (odd | u32::from(seen.is_still()) << at, beside | u32::from(is_beside) << at)
+            });
+            let Doubtful { odd, beside } = shown.doubtful(first, seen);
+            let real = (1 << seen.len()) - 1;
+            assert_eq!((odd & real, beside & real), plain, "{first}");
+        }
     }
 }

@@ -31,6 +31,7 @@ mod judge;
 mod monitor;
 mod seen;
 mod taxel;
+mod walk;
 mod watch;
 
 pub use monitor::{Codes, Found, ILL, IllTaxel, Monitor};

@@ -1,13 +1,14 @@
 //! Watches the taxels, some at a time.
 
 use super::inputs::Inputs;
-use super::judge::{Limits, Shown, is_pressed};
+use super::judge::{Doubtful, Limits, Shown, is_pressed};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
+use super::walk::{Spot, Walk};
 use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
 use crate::format::Code;
-use crate::garment::{Area, Circuit, Layout, Place};
+use crate::garment::{Circuit, Layout};
 use heapless::Vec;
 
 /// A code that travels further is touched, and tells as much of the usual noise as one that travels so far.
@@ -44,6 +45,22 @@ pub struct Codes<'a> {
 
 /// Taxels that were found to be ill in a frame.
 pub type Found = Vec<(u16, TaxelHealth), FOUND>;
+
+/// The garment, and what of it is read.
+struct Worn<'a> {
+    layout: &'a Layout,
+    circuit: &'a Circuit,
+    plan: &'a Plan,
+}
+
+impl Worn<'_> {
+    /// Whether the panel of a taxel is read.
+    fn is_read(&self, taxel: usize) -> bool {
+        // The taxels of a panel follow those of the one before.
+        let panel = self.layout.areas().iter().rposition(|area| usize::from(area.base) <= taxel);
+        taxel < self.layout.taxels() && panel.is_some_and(|panel| self.plan.reads_panel(panel as u8))
+    }
+}
 
 /// The health of a garment.
 #[derive(Debug, Clone)]
@@ -136,41 +153,52 @@ impl Monitor {
         self.inputs.is_one_odd(circuit, plan, shown, self.usual / 8)
     }
 
-    /// Takes a frame; what seems to be ill is for the caller to [`Monitor::add`].
-    pub fn watch(&mut self, layout: &Layout, circuit: &Circuit, plan: &Plan, shown: Codes<'_>) -> Found {
-        let mut found = Found::new();
-        if !self.watch.take(shown.now, layout.taxels()) {
-            return found;
+    /// Takes a frame; what seems to be ill is added to `found`, for the caller to [`Monitor::add`].
+    pub fn watch(
+        &mut self,
+        layout: &Layout,
+        circuit: &Circuit,
+        plan: &Plan,
+        shown: Codes<'_>,
+        found: &mut Found,
+    ) {
+        if self.watch.take(shown.now, layout.taxels()) {
+            self.judge(&Worn { layout, circuit, plan }, shown, found);
         }
+    }
+
+    /// Judges the group that has been seen for long enough.
+    fn judge(&mut self, worn: &Worn<'_>, shown: Codes<'_>, found: &mut Found) {
         let Codes { now: codes, rest, full, touched } = shown;
         let (first, seen) = self.watch.group(FRAMES - 1);
-        let seen = seen.get(..layout.taxels().saturating_sub(first)).unwrap_or(seen);
+        let seen = seen.get(..worn.layout.taxels().saturating_sub(first)).unwrap_or(seen);
         // What is not read tells nothing.
-        if layout.place(first).is_some_and(|place| plan.reads_panel(place.panel)) {
+        if worn.is_read(first) {
             self.usual = nearer(self.usual, seen);
         }
         // Codes of 8 bits repeat their upper bits below: they do not show their step.
-        let step = step(seen).max(plan.depth.step());
+        let step = step(seen).max(worn.plan.depth.step());
         let limits = Limits::of(self.usual / 8, step);
-        let shown = Shown { codes, rest, full, falling: circuit.falling(), limits, touched };
-        let bounded = self.suspect(layout, circuit, plan, &shown, FRAMES - 1, &mut found);
+        let falling = worn.circuit.falling();
+        let shown = Shown { codes, rest, full, falling, limits, touched };
+        let bounded = self.suspect(worn, &shown, FRAMES - 1, found);
         if bounded.is_some() && found.is_empty() {
             self.crowd = false;
-            return found;
+            return;
         }
         // What makes many ill at once may begin with the last ones of these, and end with the first ones.
         let mut next = Found::new();
-        let apart = bounded.and_then(|()| self.suspect(layout, circuit, plan, &shown, FRAMES - 2, &mut next));
+        let apart = bounded.and_then(|()| self.suspect(worn, &shown, FRAMES - 2, &mut next));
         self.crowd |= apart.is_none() || found.len() + next.len() > FOUND;
         if self.crowd {
             found.clear();
         }
-        found
     }
 
     /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its own: what touches or
     /// shakes it would move them, too. Another noisy one may be among them where the code goes to both sides of that at rest.
-    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, taxel: usize, area: &Area, column: u16) -> bool {
+    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> bool {
+        let Spot { taxel, area, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let left = (column > 0).then(|| taxel.wrapping_sub(1));
         let right = (column + 1 < area.columns).then_some(taxel + 1);
@@ -182,27 +210,20 @@ impl Monitor {
     }
 
     /// Finds what is to be said against the taxels of a group that is watched; none where that is too much.
-    fn suspect(
-        &self,
-        layout: &Layout,
-        circuit: &Circuit,
-        plan: &Plan,
-        shown: &Shown<'_>,
-        age: usize,
-        found: &mut Found,
-    ) -> Option<()> {
+    fn suspect(&self, worn: &Worn<'_>, shown: &Shown<'_>, age: usize, found: &mut Found) -> Option<()> {
         let (first, seen) = self.watch.group(age);
-        let mut doubtful = shown.doubtful(first, seen);
+        let Doubtful { mut odd, mut beside } = shown.doubtful(first, seen);
+        let mut walk = Walk::new(worn.layout);
         let mut taxel = first;
-        while doubtful != 0 && taxel < layout.taxels() {
-            if doubtful & 1 == 1
-                && let Some(health) = seen
-                    .get(taxel - first)
-                    .and_then(|seen| self.fault(layout, circuit, plan, shown, (taxel, seen)))
+        while odd | beside != 0 && taxel < worn.layout.taxels() {
+            if (odd | beside) & 1 == 1
+                && let Some((seen, spot)) = seen.get(taxel - first).zip(walk.to(taxel))
+                && (odd & 1 == 1 || !shown.is_bare(&spot, self.ill.len()))
+                && let Some(health) = self.fault(worn, shown, seen, &spot)
             {
                 found.push((taxel as u16, health)).ok()?;
             }
-            doubtful >>= 1;
+            (odd, beside) = (odd >> 1, beside >> 1);
             taxel += 1;
         }
         Some(())
@@ -210,21 +231,16 @@ impl Monitor {
 
     /// What is to be said against a taxel that was not known to be ill. Whatever is not there, or not read, shows nothing.
     #[inline(never)]
-    fn fault(
-        &self,
-        layout: &Layout,
-        circuit: &Circuit,
-        plan: &Plan,
-        shown: &Shown<'_>,
-        (taxel, seen): (usize, &Seen),
-    ) -> Option<TaxelHealth> {
-        let Place { panel, row, column } =
-            layout.place(taxel).filter(|place| plan.reads_panel(place.panel))?;
-        let area = layout.areas().get(usize::from(panel))?;
+    fn fault(&self, worn: &Worn<'_>, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> Option<TaxelHealth> {
+        let Worn { layout, circuit, plan } = *worn;
+        let Spot { taxel, panel, row, column, .. } = *spot;
+        if !plan.reads_panel(panel) {
+            return None;
+        }
         let is_ill = |taxel| self.health(taxel) != TaxelHealth::Good;
-        let health = shown.judge(seen, area, (row, column), is_ill);
+        let health = shown.judge(seen, spot, is_ill);
         let ill = health != TaxelHealth::Good
-            && (health != TaxelHealth::Noisy || self.is_alone(shown, seen, taxel, area, column))
+            && (health != TaxelHealth::Noisy || self.is_alone(shown, seen, spot))
             && !is_ill(taxel)
             && !layout.is_absent(panel, row, column)
             && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block));

@@ -5,36 +5,38 @@ use crate::format::Code;
 /// Its last, lowest and highest code, and how far the code went from frame to frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    last: u16,
+    /// The last code, and above its 16 bits how far the code has travelled: one word is read and written where two halves would be.
+    course: u32,
     low: u16,
     high: u16,
-    travel: u16,
 }
 
 impl Seen {
-    pub const NOTHING: Seen = Seen { last: 0, low: u16::MAX, high: 0, travel: 0 };
+    pub const NOTHING: Seen = Seen { course: 0, low: u16::MAX, high: 0 };
 
     /// The first code.
-    pub fn begin(&mut self, code: Code) {
-        *self = Seen { last: code.0, low: code.0, high: code.0, travel: 0 };
+    pub fn begin(&mut self, Code(code): Code) {
+        *self = Seen { course: code.into(), low: code, high: code };
     }
 
     /// The next one. Every frame has some hundred of these: a code that rises is not the lowest one.
     #[inline]
     pub fn see(&mut self, Code(code): Code) {
+        let (code_now, last) = (u32::from(code), self.course & 0xffff);
         // With codes of 16 bits the travel may pass its end: it is told too short then, and the taxel less noisy than it is.
-        if code >= self.last {
-            self.travel = self.travel.wrapping_add(code - self.last);
+        if code_now >= last {
+            let way = code_now - last;
+            self.course = self.course.wrapping_add(way << 16).wrapping_add(way);
             if code > self.high {
                 self.high = code;
             }
         } else {
-            self.travel = self.travel.wrapping_add(self.last - code);
+            let way = last - code_now;
+            self.course = self.course.wrapping_add(way << 16).wrapping_sub(way);
             if code < self.low {
                 self.low = code;
             }
         }
-        self.last = code;
     }
 
     /// Whether the code never changed.
@@ -54,7 +56,7 @@ impl Seen {
 
     /// Sum of the distances from code to code.
     pub fn travel(&self) -> u16 {
-        self.travel
+        (self.course >> 16) as u16
     }
 
     /// How far the code got from that at rest; less where it got to both sides, as a touch does not take it. Without a code at
@@ -75,6 +77,31 @@ impl Seen {
         match falling {
             None => (self.low, self.high),
             Some(full) => (full.saturating_sub(self.high), full.saturating_sub(self.low)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_course_is_followed_code_by_code() {
+        let mut state = 1u32;
+        for round in 0..2000 {
+            let mut next = || {
+                state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+                [(state >> 16) as u16, (state >> 20) as u16, 0, u16::MAX, 2000 + (state >> 29) as u16]
+                    [round % 5]
+            };
+            let codes: [u16; 11] = core::array::from_fn(|_| next());
+            let mut seen = Seen::NOTHING;
+            seen.begin(Code(codes[0]));
+            codes[1..].iter().for_each(|code| seen.see(Code(*code)));
+            let travel = codes.windows(2).fold(0u16, |sum, pair| sum.wrapping_add(pair[0].abs_diff(pair[1])));
+            let (low, high) = (codes.iter().copied().min().unwrap(), codes.iter().copied().max().unwrap());
+            assert_eq!((seen.travel(), seen.low, seen.high), (travel, low, high));
+            assert_eq!(seen.course & 0xffff, u32::from(codes[10]));
         }
     }
 }

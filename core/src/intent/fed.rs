@@ -76,10 +76,14 @@ impl Fed {
 
     /// What counts at `now`, by slot; 0 where nothing was fed.
     pub fn values(&self, now: Micros) -> [Q15; SLOTS] {
-        self.slots.map(|held| match held.until {
-            Some(until) if now >= until => held.otherwise,
-            _ => held.value,
-        })
+        let mut values = [Q15(0); SLOTS];
+        for (value, held) in values.iter_mut().zip(&self.slots) {
+            *value = match held.until {
+                Some(until) if now >= until => held.otherwise,
+                _ => held.value,
+            };
+        }
+        values
     }
 }
 

@@ -66,13 +66,14 @@ impl<const N: usize, const E: usize> Map<N, E> {
         let (mut since, mut reach, mut extent) = (0u16, 1u16, 0i32);
         for taken in 1..=steps {
             self.advance(&run.state, &mut next);
-            let (change, distance) = (distance(&next, &run.state), distance(&next, &mark));
+            let rests = next.iter().zip(&run.state).all(|(to, from)| to == from);
+            let distance = distance(&next, &mark);
             run.state.iter_mut().zip(&next).for_each(|(to, from)| *to = *from);
             since = since.saturating_add(1);
             extent = extent.max(distance);
-            if change == 0 || distance == 0 {
+            if rests || distance == 0 {
                 let rounding = extent <= ROUNDING && !self.transfer.is_threshold();
-                let fixed = change == 0 || rounding;
+                let fixed = rests || rounding;
                 run.outcome = if fixed { Outcome::Fixed } else { Outcome::Cycle(since) };
                 run.steps = taken;
                 return;

@@ -8,7 +8,7 @@
 //! where the second begins as the first ends: fuzzy memberships need no other form.
 
 use super::error::MapError;
-use crate::format::Name;
+use crate::format::{Name, wide};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
@@ -126,7 +126,13 @@ impl Encoder {
 
     /// The ramp at `value`. Total.
     pub(super) fn ramp(&self, value: i32) -> i32 {
-        let value = value.max(self.low).min(self.high);
+        // Most values are at an end of their ramp, and take no division.
+        if value <= self.low {
+            return self.at_low;
+        }
+        if value >= self.high {
+            return self.at_high;
+        }
         // Always from the smaller end upwards, in unsigned numbers: halves round upwards on both slopes.
         let (base, run) = if self.at_high >= self.at_low {
             (self.at_low, value.abs_diff(self.low))
@@ -136,8 +142,7 @@ impl Encoder {
         // `build` has checked that it is not 0.
         let span = NonZeroU32::new(self.high.abs_diff(self.low)).unwrap_or(NonZeroU32::MIN);
         // run <= span < 2^32 and rise <= 2^16: the product fits 49 bits.
-        let product =
-            u64::from(run) * u64::from(self.at_high.abs_diff(self.at_low)) + u64::from(span.get() / 2);
+        let product = wide(run, self.at_high.abs_diff(self.at_low)) + u64::from(span.get() / 2);
         let rise = match u32::try_from(product) {
             Ok(product) => product / span, // the usual case, and four times cheaper on a Cortex-M0+
             Err(_) => (product / core::num::NonZeroU64::from(span)) as u32,

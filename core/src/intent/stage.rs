@@ -52,6 +52,8 @@ pub struct IntentState<const N: usize = CONCEPTS> {
     candidate: Leading,
     since: Micros,
     leading: Leading,
+    /// The last result.
+    meaning: Meaning<N>,
 }
 
 impl<const N: usize> Default for IntentState<N> {
@@ -68,6 +70,13 @@ impl<const N: usize> Default for IntentState<N> {
             candidate: Leading::None,
             since: Micros(0),
             leading: Leading::None,
+            meaning: Meaning {
+                leading: Leading::None,
+                changed: false,
+                activations: Vec::new(),
+                steps: 0,
+                outcome: Outcome::Fixed,
+            },
         }
     }
 }
@@ -160,13 +169,13 @@ impl<const N: usize> Intent<N> {
     ///
     /// The inference starts from the inputs alone, not from its last result: one touch has one meaning, whatever was
     /// before. It runs only when the inputs have changed. Total.
-    pub fn process(
+    pub fn process<'s>(
         &self,
-        state: &mut IntentState<N>,
+        state: &'s mut IntentState<N>,
         touches: &[Touch],
         host: &[Q15],
         now: Micros,
-    ) -> Option<Meaning<N>> {
+    ) -> Option<&'s Meaning<N>> {
         state.first.get_or_insert(now);
         let edge = self.select(state, touches, now);
         state.before = now;
@@ -175,13 +184,15 @@ impl<const N: usize> Intent<N> {
         if !inferred && !changed {
             return None;
         }
-        let mut activations = Vec::new();
+        let meaning = &mut state.meaning;
+        (meaning.leading, meaning.changed) = (state.leading, changed);
+        meaning.activations.clear();
         for value in state.inference.state.iter().take(self.map.len()) {
             // N values of N. (`collect` would check that with a panic.)
-            let _ = activations.push(self.map.q15(*value));
+            let _ = meaning.activations.push(self.map.q15(*value));
         }
-        let Inference { steps, outcome, .. } = state.inference;
-        Some(Meaning { leading: state.leading, changed, activations, steps, outcome })
+        (meaning.steps, meaning.outcome) = (state.inference.steps, state.inference.outcome);
+        Some(meaning)
     }
 
     /// What each cause contributed to the announced intention; none while there is none.

@@ -23,7 +23,7 @@ pub struct Percept<'a> {
     /// What was said of them.
     pub symbols: &'a SymbolState<CONTACTS>,
     /// What the touch means, if that is new.
-    pub meaning: Option<Meaning>,
+    pub meaning: Option<&'a Meaning>,
     /// What goes on and what that is called, if it is new.
     pub gesture: Option<(Gesture, Name)>,
     /// What the garment does by itself.

@@ -56,7 +56,7 @@ impl Pipeline {
             stage.process(intent, felt.as_slice(), &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
-        self.react.process(react, symbol.regions(layout.regions().len()), meaning.as_ref(), now);
+        self.react.process(react, symbol.regions(layout.regions().len()), meaning, now);
         probe.begin(Stage::Idle);
         Percept {
             image: image.values,
@@ -87,11 +87,21 @@ impl Pipeline {
         for (index, (contact, (moments, looked))) in touches.present.iter().zip(forms).enumerate() {
             let shape = match &self.shape {
                 Some(stage) if *looked => stage.process(moments, contact),
-                Some(_) => shape_in(present.get(index..).unwrap_or(&[]), contact.id),
+                Some(_) => match present.get_mut(index) {
+                    // As nearly always: it has its shape already.
+                    Some(placed) if placed.contact.id == contact.id => {
+                        placed.follow(layout, contact);
+                        continue;
+                    }
+                    _ => shape_in(present.get(index..).unwrap_or(&[]), contact.id),
+                },
                 None => Shape::default(),
             };
             match present.get_mut(index) {
-                Some(placed) => placed.renew(layout, contact, shape),
+                Some(placed) => {
+                    placed.shape = shape;
+                    placed.follow(layout, contact);
+                }
                 // As many places as contacts.
                 None => _ = present.push(Placed::new(layout, contact.clone(), shape)),
             }

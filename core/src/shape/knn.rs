@@ -109,28 +109,32 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) 
 /// The nearest prototype, if its squared distance is below a limit; of equals the first in the base.
 #[inline(never)] // the few registers of an M0+ are for its loop
 fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, Class) {
-    prototypes.iter().fold((limit, Class::UNKNOWN), |closest, prototype| {
-        match distance_below(closest.0, prototype, features) {
-            Some(distance) => (distance, prototype.class),
-            None => closest,
+    let mut closest = (limit, Class::UNKNOWN);
+    // One by one: two at a time want more registers.
+    let mut left = prototypes;
+    while let [prototype, rest @ ..] = left {
+        left = rest;
+        if let Some(distance) = distance_below(closest.0, prototype, features) {
+            closest = (distance, prototype.class);
         }
-    })
+    }
+    closest
 }
 
 /// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
 fn distance_below(limit: u32, prototype: &Prototype, features: &Features) -> Option<u32> {
     let [nmi, form, anisotropy, size] = *features;
     let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
-    let mut distance = square(size, other_size);
-    if distance >= limit {
-        return None;
-    }
-    distance = distance.saturating_add(square(anisotropy, other_anisotropy));
-    if distance >= limit {
-        return None;
-    }
-    distance = distance.saturating_add(square(nmi, other_nmi)).saturating_add(square(form, other_form));
-    (distance < limit).then_some(distance)
+    // What is left of the limit: no sum can pass the end of a word.
+    let left = below(limit, square(size, other_size))?;
+    let left = below(left, square(anisotropy, other_anisotropy))?;
+    let left = below(left, square(nmi, other_nmi))?;
+    Some(limit - below(left, square(form, other_form))?)
+}
+
+/// What a part leaves of a limit that it is below.
+fn below(limit: u32, part: u32) -> Option<u32> {
+    (part < limit).then(|| limit - part)
 }
 
 /// How far apart two numbers are, squared: below 2^32.
