@@ -81,6 +81,7 @@ impl<'a> Encoder<'a> {
 
     /// Codes a part of the taxels. `values`, and the base, may go on behind it: two at least keep the reference there, and what begins
     /// behind them is told here or with the next part. `None`: no room.
+    #[inline(always)] // what it hands on needs no place on the stack then
     pub fn part(&mut self, part: Range<usize>, values: &[u16], base: Option<&[u16]>) -> Option<()> {
         match base {
             None => self.alone(part.start, values.get(part)?),
@@ -282,7 +283,7 @@ mod tests {
         let number = |bytes: &mut core::slice::Iter<u8>| {
             let ends = bytes.as_slice().iter().position(|byte| *byte < 128).unwrap();
             let number =
-                (0..=ends).fold(0, |number, i| number | (bytes.as_slice()[i] as usize & 127) << 7 * i);
+                (0..=ends).fold(0, |number, i| number | (bytes.as_slice()[i] as usize & 127) << (7 * i));
             *bytes = bytes.as_slice()[ends + 1..].iter();
             number
         };
