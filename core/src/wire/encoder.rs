@@ -5,9 +5,9 @@
 //! pressed image that does not move.
 //!
 //! Quiet taxels far from a run are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 41 with a base, counted in its
-//! instructions. What is near a run is told by [stretches](super::stretch), with about 120 for each.
+//! instructions. What is near a run is told by [stretches](super::stretch), with about 80 for each.
 
-use super::stretch::{LANES, ROOM, go_on, push, tell, zigzag};
+use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
 use bytemuck::pod_align_to;
 use core::mem::{replace, take};
 use core::ops::Range;
@@ -81,6 +81,7 @@ impl<'a> Encoder<'a> {
 
     /// Codes a part of the taxels. `values`, and the base, may go on behind it: two at least keep the reference there, and what begins
     /// behind them is told here or with the next part. `None`: no room.
+    #[inline(always)] // what it hands on needs no place on the stack then
     pub fn part(&mut self, part: Range<usize>, values: &[u16], base: Option<&[u16]>) -> Option<()> {
         match base {
             None => self.alone(part.start, values.get(part)?),
@@ -136,61 +137,95 @@ impl<'a> Encoder<'a> {
         Some(told)
     }
 
-    /// Not inlined, as [`Encoder::alone`]: what they call needs the few registers of a Cortex-M0+.
-    #[inline(never)]
     fn difference(&mut self, part: Range<usize>, values: &[u16], base: &[u16]) -> Option<()> {
         let base = base.get(..values.len())?;
-        let mut out = take(&mut self.out);
-        let (mut at, mut told) = (part.start.max(self.told), self.told);
-        while at < part.end {
-            let (now, last) = (values.get(at..)?, base.get(at..)?);
-            let skip = at - told;
-            if skip <= 127 - LANES
-                && let (Some(stretch), Some(base)) = (now.first_chunk(), last.first_chunk())
-                && let Some([first, length, room @ ..]) = out.first_chunk_mut::<{ ROOM + 2 }>()
-            {
-                let seen = tell(room, stretch, base, false);
-                let (quiet, next) = (seen.quiet(), seen.next());
-                if quiet < LANES {
-                    *first = (skip + quiet) as u8;
-                    *length = (next - quiet) as u8;
-                    let used = seen.end - out.as_ptr().addr();
-                    if next < LANES && now.get(next) == last.get(next) {
-                        at += next;
-                        told = at;
-                        out = out.get_mut(used..)?;
-                        continue;
-                    }
-                    let (length, begun) = out.get_mut(1..)?.split_first_mut()?;
-                    let begun = begun.get_mut(used - 2..)?;
-                    let count = next - quiet;
-                    let more = rest(begun, now.get(next..)?, last.get(next..)?, RUN - count)?;
-                    *length = (count + more.taxels) as u8;
-                    out = more.out;
-                    at += next + more.taxels;
-                    told = at;
-                    continue;
-                }
-                at += LANES;
-                if at >= part.end {
-                    break;
-                }
+        let mut at = part.start.max(self.told);
+        loop {
+            at = self.stretches(at..part.end, values, base)?;
+            if at >= part.end {
+                return Some(());
             }
-            at += same(values.get(at..part.end)?, base.get(at..part.end)?);
-            if at == part.end {
+            let quiet = same(values.get(at..part.end)?, base.get(at..part.end)?);
+            at += quiet;
+            if quiet == 0 {
+                let length = self.begin(at)?;
+                let run = rest(take(&mut self.out), values.get(at..)?, base.get(at..)?, RUN)?;
+                *length = run.taxels as u8;
+                (self.out, self.told) = (run.out, at + run.taxels);
+                at = self.told;
+            }
+        }
+    }
+
+    /// Codes taxels by stretches, as far as those follow each other closely; the first taxel that was not looked at.
+    #[inline(never)] // with little else in its loop
+    fn stretches(&mut self, taxels: Range<usize>, values: &[u16], base: &[u16]) -> Option<usize> {
+        let base = base.get(..values.len())?;
+        let mut out = take(&mut self.out);
+        let (mut at, mut skip) = (taxels.start, taxels.start - self.told);
+        while at < taxels.end {
+            // One by one: of conditions that are joined a compiler makes numbers first.
+            let (now, last) = (values.get(at..)?, base.get(at..)?);
+            let Some(now) = now.first_chunk() else { break };
+            let Some(last) = last.first_chunk() else { break };
+            let Some(place) = out.first_chunk_mut() else { break };
+            let seen = match skip {
+                0..NEAR => begin_near(place, skip, now, last),
+                128..FAR => begin_far(place, skip, now, last),
+                _ => break,
+            };
+            if seen.quiet() == LANES {
+                (at, skip) = (at + LANES, skip + LANES);
                 break;
             }
-            let (now, last) = (values.get(at..)?, base.get(at..)?);
-            let (length, place) = varint(out, (at - told) as u32)?.split_first_mut()?;
-            let run = rest(place, now, last, RUN)?;
-            *length = run.taxels as u8;
-            out = run.out;
-            at += run.taxels;
-            told = at;
+            let used = seen.end - out.as_ptr().addr();
+            at += seen.next();
+            if seen.ends() {
+                // The two that end it need no second look.
+                (at, skip) = (at + 2, 2);
+                out = out.get_mut(used..)?;
+            } else {
+                let (head, begun) = out.split_at_mut_checked(used)?;
+                let length = head.get_mut(if skip < NEAR { 1 } else { 2 })?;
+                let most = RUN - usize::from(*length);
+                let more = rest(begun, values.get(at..)?, base.get(at..)?, most)?;
+                *length += more.taxels as u8;
+                out = more.out;
+                (at, skip) = (at + more.taxels, 0);
+            }
         }
-        (self.out, self.told) = (out, told);
-        Some(())
+        (self.out, self.told) = (out, at - skip);
+        Some(at)
     }
+}
+
+/// Unchanged taxels before a stretch, if all before its run surely are told by one byte.
+const NEAR: usize = 128 - LANES;
+/// From 128 on up to here they surely are by two.
+const FAR: usize = (1 << 14) - LANES;
+
+/// Where a stretch is written, with the head of its run.
+type Place = [u8; 3 + ROOM];
+
+/// Tells a stretch and writes the head of its run, behind `skip` unchanged taxels; nothing that counts where it has no run.
+#[inline(always)]
+fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+    let [first, length, room @ .., _] = place;
+    let seen = tell(room, now, base, false);
+    *first = (skip + seen.quiet()) as u8;
+    *length = (seen.next() - seen.quiet()) as u8;
+    seen
+}
+
+/// As [`begin_near`], behind more taxels.
+#[inline(never)] // seldom
+fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+    let [first, second, length, room @ ..] = place;
+    let seen = tell_by_call(room, now, base, false);
+    let skip = skip + seen.quiet();
+    (*first, *second) = (skip as u8 | 128, (skip >> 7) as u8);
+    *length = (seen.next() - seen.quiet()) as u8;
+    seen
 }
 
 /// Taxels of a run that are told, and the room behind them.
@@ -213,14 +248,14 @@ fn rest<'a>(mut out: &'a mut [u8], now: &[u16], base: &[u16], most: usize) -> Op
         if taxels == most {
             break;
         }
+        if seen.ends() {
+            break;
+        }
+        // A difference that no stretch tells.
         if seen.next() < LANES {
-            match (now.get(taxels), base.get(taxels)) {
-                (Some(value), Some(base)) if value != base => {
-                    out = varint(out, zigzag(i32::from(*value) - i32::from(*base)))?;
-                    taxels += 1;
-                }
-                _ => break,
-            }
+            let (value, last) = (now.get(taxels)?, base.get(taxels)?);
+            out = varint(out, zigzag(i32::from(*value) - i32::from(*last)))?;
+            taxels += 1;
         }
     }
     Some(More { taxels, out })
@@ -232,4 +267,57 @@ fn varint(mut out: &mut [u8], mut value: u32) -> Option<&mut [u8]> {
         value >>= 7;
     }
     push(out, value as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::decode_image;
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Number of taxels that each run of a code skips, and that it tells.
+    fn runs(code: &[u8]) -> Vec<(usize, usize)> {
+        let mut bytes = code.iter();
+        let number = |bytes: &mut core::slice::Iter<u8>| {
+            let ends = bytes.as_slice().iter().position(|byte| *byte < 128).unwrap();
+            let number =
+                (0..=ends).fold(0, |number, i| number | (bytes.as_slice()[i] as usize & 127) << (7 * i));
+            *bytes = bytes.as_slice()[ends + 1..].iter();
+            number
+        };
+        let mut runs = Vec::new();
+        while !bytes.as_slice().is_empty() {
+            let run = (number(&mut bytes), number(&mut bytes));
+            (0..run.1).for_each(|_| assert_ne!(number(&mut bytes), usize::MAX));
+            runs.push(run);
+        }
+        runs
+    }
+
+    #[test]
+    fn runs_of_any_length_follow_each_other_at_any_distance() {
+        let skips = [
+            2, 3, 23, 24, 25, 101, 103, 104, 105, 126, 127, 128, 129, 151, 152, 16_358, 16_361, 16_383,
+            16_384,
+        ];
+        for skip in skips {
+            for count in [1, 2, 22, 24, 25, 48, 126, 127] {
+                for behind in [0, 1, 30] {
+                    let start = 3 + 5 + skip;
+                    let base: Vec<u16> = (0..start + count + behind).map(|i| i as u16 & 7).collect();
+                    let mut now = base.clone();
+                    let told = (3..8).chain(start..start + count);
+                    told.for_each(|i| now[i] += if i % 3 == 0 { 1000 } else { 1 });
+                    let mut code = vec![0; now.len() * 3 + 9];
+                    let length = encode_image(&now, Some(&base), &mut code).unwrap();
+                    assert_eq!(runs(&code[..length]), [(3, 5), (skip, count)]);
+                    let mut back = vec![0; now.len()];
+                    decode_image(&code[..length], Some(&base), &mut back).unwrap();
+                    assert!(back == now, "{skip} {count} {behind}");
+                }
+            }
+        }
+    }
 }

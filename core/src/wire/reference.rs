@@ -3,7 +3,7 @@
 use super::encoder::Encoder;
 use crate::condition::{Held, Image};
 use crate::garment::Layout;
-use bytemuck::{pod_align_to, pod_align_to_mut};
+use bytemuck::{try_cast_slice, try_cast_slice_mut};
 use core::ops::Range;
 
 /// The image that was sent last, which the next one is told by its difference to. Only rows in which one of them may hold
@@ -43,11 +43,18 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         out: &mut [u8],
     ) -> Option<usize> {
         let room = out.len();
-        let mut encoder = Encoder::new(out);
-        self.sum = 0;
         let rows = image.rows.held().with(&self.rows);
         // One taxel that keeps the reference does not end a run: there it must not be seen what follows a part.
         let narrow = layout.areas().iter().any(|area| area.columns == 1);
+        let taxels = image.values.len().min(TAXELS);
+        let mut step = Step {
+            encoder: Encoder::new(out),
+            now: image.values.get(..taxels)?,
+            kept: self.values.get_mut(..taxels)?,
+            sum: 0,
+            alone,
+            narrow,
+        };
         let mut part = 0..0;
         for area in layout.areas() {
             let (columns, end) = (usize::from(area.columns), area.first_row.saturating_add(area.rows));
@@ -56,63 +63,75 @@ impl<const TAXELS: usize> Reference<TAXELS> {
             while let Some(run) = rows.run(next..end) {
                 next = run.end;
                 if of(run.start) != part.end {
-                    self.tell(&mut encoder, image, alone, part, narrow)?;
+                    step.tell(part)?;
                     part = of(run.start)..0;
                 }
                 part.end = of(run.end);
             }
         }
-        self.tell(&mut encoder, image, alone, part, narrow)?;
-        self.rows = *image.rows.held();
-        Some(room - encoder.room())
+        step.tell(part)?;
+        (self.rows, self.sum) = (*image.rows.held(), step.sum);
+        Some(room - step.encoder.room())
     }
+}
 
+/// One image on the way into the reference.
+struct Step<'a> {
+    encoder: Encoder<'a>,
+    now: &'a [u16],
+    kept: &'a mut [u16],
+    /// Of what is kept by now.
+    sum: u32,
+    alone: bool,
+    /// No part may see what follows it.
+    narrow: bool,
+}
+
+impl Step<'_> {
     /// Rows that follow each other, as one: a run does not end where a row does.
-    fn tell(
-        &mut self,
-        encoder: &mut Encoder<'_>,
-        image: &Image<'_>,
-        alone: bool,
-        part: Range<usize>,
-        narrow: bool,
-    ) -> Option<()> {
-        let now = image.values.get(part.clone()).unwrap_or(&[]);
-        let end = if narrow { part.end } else { TAXELS }.min(image.values.len()).min(TAXELS);
-        let base = if alone { None } else { self.values.get(..end) };
-        encoder.part(part.clone(), image.values.get(..end)?, base)?;
-        let last = self.values.get_mut(part.clone()).unwrap_or(&mut []);
-        keep(last, now);
+    #[inline(never)] // in the loop over the rows its values would have no registers
+    fn tell(&mut self, part: Range<usize>) -> Option<()> {
+        if part.is_empty() {
+            return Some(());
+        }
+        let end = if self.narrow { part.end } else { self.now.len() };
+        let base = if self.alone { None } else { self.kept.get(..end) };
+        self.encoder.part(part.clone(), self.now.get(..end)?, base)?;
+        let now = self.now.get(part.clone())?;
+        keep(self.kept.get_mut(part.clone())?, now);
         self.sum = self.sum.wrapping_add(sum_of(part.start, now));
         Some(())
     }
 }
 
-/// Copies taxels: many of them in blocks, where both stand on words.
+/// Copies taxels, in blocks where both stand on words.
 fn keep(kept: &mut [u16], values: &[u16]) {
-    /// From here on it pays.
-    const MANY: usize = 256;
     let mut done = 0;
-    if values.len() >= MANY
-        && let (([], words, _), ([], kept_words, _)) = (pod_align_to(values), pod_align_to_mut(kept))
-    {
-        let blocks = words.as_chunks().0.iter().zip(kept_words.as_chunks_mut().0);
-        blocks.for_each(|(block, kept)| {
-            keep_block(kept, block);
+    if let (Ok(words), Ok(kept)) = (try_cast_slice(values), try_cast_slice_mut(kept)) {
+        let (large, words) = words.as_chunks::<{ 2 * BLOCK }>();
+        let (kept_large, kept) = kept.as_chunks_mut();
+        large.iter().zip(kept_large).for_each(|(block, kept)| keep_block(kept, block));
+        let (small, kept) = (words.first_chunk::<BLOCK>(), kept.first_chunk_mut());
+        done = 4 * BLOCK * large.len();
+        if let (Some(small), Some(kept)) = (small, kept) {
+            keep_block(kept, small);
             done += 2 * BLOCK;
-        });
+        }
     }
-    if let (Some(kept), Some(values)) = (kept.get_mut(done..values.len()), values.get(done..)) {
+    if done < values.len()
+        && let (Some(kept), Some(values)) = (kept.get_mut(done..values.len()), values.get(done..))
+    {
         kept.copy_from_slice(values);
     }
 }
 
-/// Words of a block.
-const BLOCK: usize = 16;
+/// Words of a small block: a row of sixteen taxels.
+const BLOCK: usize = 8;
 
 /// By itself it is a few instructions that move many words each; of all blocks together a compiler would make a call of `memcpy`, which
 /// takes twice as long.
 #[inline(never)]
-fn keep_block(kept: &mut [u32; BLOCK], block: &[u32; BLOCK]) {
+fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS]) {
     *kept = *block;
 }
 
@@ -130,4 +149,27 @@ fn sum_of(start: usize, values: &[u16]) -> u32 {
     blocks.iter().for_each(|block| block.iter().for_each(&mut add));
     rest.iter().for_each(add);
     plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::image_sum;
+    use super::*;
+
+    #[test]
+    fn taxels_are_kept_and_summed_up_wherever_they_stand() {
+        let values: [u16; 140] = core::array::from_fn(|i| (i * i * 77) as u16 | 1);
+        for start in 0..5 {
+            for end in start..values.len() {
+                let part = &values[start..end];
+                let (mut image, mut kept) = ([0; 141], [0; 141]);
+                image[start..end].copy_from_slice(part);
+                for at in [start, start + 1] {
+                    keep(&mut kept[at..at + part.len()], part);
+                    assert_eq!(&kept[at..at + part.len()], part);
+                }
+                assert_eq!(sum_of(start, part), image_sum(&image), "{start} {end}");
+            }
+        }
+    }
 }

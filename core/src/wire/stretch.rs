@@ -10,11 +10,11 @@ pub(super) const LANES: usize = 24;
 pub(super) const ROOM: usize = 2 * LANES;
 
 /// The taxels of a stretch, and the one behind them: a run is not known to go on before the next taxel is seen.
-type Taxels = [u16; LANES + 1];
+pub(super) type Taxels = [u16; LANES + 1];
 
 /// What was seen and written: two numbers, which are returned in registers.
 pub(super) struct Told {
-    /// Taxels before the run, and 65536 times those before the first that is not told.
+    /// Taxels before the run, 65536 times those before the first that is not told, and [`ENDS`].
     taxels: u32,
     /// Where the bytes that were written end: an address.
     pub end: usize,
@@ -31,15 +31,30 @@ impl Told {
     /// the stretch.
     #[inline(always)]
     pub fn next(&self) -> usize {
-        (self.taxels >> 16) as usize
+        (self.taxels << 1 >> 17) as usize
+    }
+
+    /// Whether the run is known to end there.
+    #[inline(always)]
+    pub fn ends(&self) -> bool {
+        self.taxels & ENDS != 0
     }
 }
 
+/// Two unchanged taxels follow.
+const ENDS: u32 = 1 << 31;
+
 /// Writes the differences of a run, which begins `within` the stretch before it or at the first taxel that has changed.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels, within: bool) -> Told {
     let state = State { out, within, quiet: if within { 0 } else { LANES as u32 } };
     lanes(state, now, base).unwrap_or_else(|told| told)
+}
+
+/// As [`tell`], for all who do it seldom: it is a long piece of code.
+#[inline(never)]
+pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels, within: bool) -> Told {
+    tell(out, now, base, within)
 }
 
 /// As [`tell`] within a run, at most so many taxels. `None`: no room.
@@ -49,7 +64,7 @@ pub(super) fn go_on(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> O
         && let (Some(now), Some(base)) = (now.first_chunk(), base.first_chunk())
         && let Some(out) = out.first_chunk_mut()
     {
-        return Some(tell(out, now, base, true));
+        return Some(tell_by_call(out, now, base, true));
     }
     edge(out, now, base, most)
 }
@@ -63,7 +78,7 @@ fn edge(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> 
         (*place, *base_place) = (*value, *base);
     }
     let mut room = [0; ROOM];
-    let seen = tell(&mut room, &near, &base_near, true);
+    let seen = tell_by_call(&mut room, &near, &base_near, true);
     let used = room.get(..seen.end - room.as_ptr().addr())?;
     let place = out.get_mut(..used.len())?;
     place.copy_from_slice(used);
@@ -125,7 +140,8 @@ fn lane<'a, const LANE: usize>(mut state: State<'a>, now: &Taxels, base: &Taxels
     }
     let difference = i32::from(now[LANE]) - i32::from(base[LANE]);
     if difference == 0 && now[LANE + 1] == base[LANE + 1] {
-        return Err(state.told(LANE));
+        let Told { taxels, end } = state.told(LANE);
+        return Err(Told { taxels: taxels | ENDS, end });
     }
     let told = state.told(LANE);
     match write(state.out, difference) {
