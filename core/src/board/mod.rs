@@ -158,8 +158,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     /// Gives a board that has not begun yet its first scene.
-    pub fn employ(&mut self, scene: Scene) -> Result<(), SetupError> {
-        self.setup.change_scene(&self.info, scene)?;
+    pub fn employ(&mut self, mut scene: Scene) -> Result<(), SetupError> {
+        self.setup.change_scene(&self.info, &mut scene)?;
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
         self.outputs = Outputs::at_rest(self.setup.pipeline.reactions());

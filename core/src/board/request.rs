@@ -124,7 +124,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let mut scene = Scene::empty();
         reading::scene(bytes, &mut scene)?;
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
-        self.setup.change_scene(&self.info, scene).map_err(Refusal::of)?;
+        self.setup.change_scene(&self.info, &mut scene).map_err(Refusal::of)?;
         // What the new scene does not drive must not stay where the old one left it.
         self.outputs.follow(before);
         self.used();

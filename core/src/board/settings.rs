@@ -179,7 +179,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes the scene that ships, where the garment leaves its pins free.
     #[inline(never)]
     fn ship_scene(&mut self) {
-        let _ = self.setup.change_scene(&self.info, Scene::shipped());
+        let _ = self.setup.change_scene(&self.info, &mut Scene::shipped());
         self.used();
     }
 

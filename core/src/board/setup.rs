@@ -87,12 +87,12 @@ impl Setup {
     pub fn build(
         info: &BoardInfo,
         garment: Garment,
-        scene: Scene,
+        mut scene: Scene,
         capacity: usize,
     ) -> Result<Setup, SetupError> {
         let mut setup = Setup::empty();
         setup.change_garment(info, garment, capacity)?;
-        setup.change_scene(info, scene)?;
+        setup.change_scene(info, &mut scene)?;
         Ok(setup)
     }
 
@@ -114,16 +114,17 @@ impl Setup {
         Ok(())
     }
 
-    /// Takes another scene for the same garment; nothing changes if it is refused. What is no part of a scene stays.
+    /// Takes another scene for the same garment, and leaves the one that was there in its place: the stack has no room for a third
+    /// one. Nothing changes if it is refused. What is no part of a scene stays.
     #[inline(never)]
-    pub fn change_scene(&mut self, info: &BoardInfo, scene: Scene) -> Result<(), SetupError> {
-        check(info, &scene, &self.circuit)?;
-        let done = self.pipeline.fill(&scene, &self.layout);
+    pub fn change_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Result<(), SetupError> {
+        check(info, scene, &self.circuit)?;
+        let done = self.pipeline.fill(scene, &self.layout);
         if done.is_err() {
             // It is the scene that was there: nothing is wrong with it.
             let _ = self.pipeline.fill(&self.scene, &self.layout);
         } else {
-            self.scene = scene;
+            core::mem::swap(&mut self.scene, scene);
         }
         done.map_err(SetupError::Scene)
     }
