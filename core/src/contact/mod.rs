@@ -6,8 +6,8 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
-//! | RAM | 940 + 4 C bytes for each of C contacts, 36 per run, 20 per part, and 4.3 KB |
-//! | M0+ cycles | reference garment: 3 k where nothing touches; 19 k with one contact of 29 taxels, 70 k with five, 280 k with forty of 4 to 9; 225 k if all 2,048 taxels are touched, 280 k as a checkerboard of 1,024 runs |
+//! | RAM | 800 bytes per contact, 36 per run, 20 per part, and 3.6 KB |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 61 k with five, 241 k with forty of 4 to 9; 187 k if all 2,048 taxels are touched, 242 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within

@@ -6,7 +6,7 @@
 //! | output | [`Meaning`], when there is a new one |
 //! | saturation | as [`Map::encode`] and [`Map::infer`] |
 //! | latency | `onset_ms` from the first inference in favour of an intention |
-//! | RAM | [`IntentState`]: 4 N bytes twice and about 80 |
+//! | RAM | [`IntentState`]: 4 N bytes three times and about 150 |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
 
 use super::config::{CONCEPTS, IntentConfig};
