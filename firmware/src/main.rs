@@ -5,6 +5,7 @@
 
 mod adc;
 mod board;
+mod copy;
 mod link;
 mod mark;
 mod panic;

@@ -5,6 +5,8 @@
 #![no_main]
 #![deny(unsafe_code)]
 
+#[path = "../copy.rs"]
+mod copy;
 #[path = "../mark.rs"]
 mod mark;
 
