@@ -7,7 +7,7 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
 //! | RAM | 800 bytes per contact, 36 per run, 20 per part, and 3.6 KB |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 61 k with five, 241 k with forty of 4 to 9; 187 k if all 2,048 taxels are touched, 242 k as a checkerboard of 1,024 runs |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 60 k with five, 237 k with forty of 4 to 9; 186 k if all 2,048 taxels are touched, 241 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
