@@ -202,7 +202,7 @@ const CALIBRATE: &str = "Examples:
 
 const SETTLE: &str = "Examples:
   taxel settle --garment garment.toml -o garment.toml
-  taxel settle --source sim:hold --error 2 --json";
+  taxel settle --source serial:/dev/ttyACM0 --error 2 --json";
 
 const HEALTH: &str = "Examples:
   taxel health
