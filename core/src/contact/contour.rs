@@ -2,7 +2,7 @@
 
 use super::component::Component;
 use super::label::Labels;
-use crate::condition::{Image, Neighbourhood, Sixteen, gradient_of_sixteens};
+use crate::condition::{Image, Neighbourhood, steepness_of_sixteens};
 use crate::garment::Layout;
 
 /// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
@@ -39,29 +39,23 @@ impl Contour {
     /// Adds some taxels of the word that begins at a column.
     #[inline(never)] // the few registers of an M0+ are for this
     fn add(&mut self, taxels: u32, column: u16, around: &Neighbourhood) {
-        let sixteens = around.sixteens();
-        let mut rest = taxels;
-        while rest != 0 {
-            let taxel = column + rest.trailing_zeros() as u16;
-            rest &= rest - 1;
-            self.length = self.length.wrapping_add(1);
-            let steepness = match sixteens {
-                Some([above, here, below]) => steepness_of_sixteens(above, here, below, taxel),
-                None => steepness(around, taxel),
-            };
-            self.slope = self.slope.wrapping_add(steepness >> 3);
-        }
+        self.length = self.length.wrapping_add(taxels.count_ones());
+        let slope = match around.sixteens() {
+            Some(rows) => steepness_of_sixteens(rows, taxels),
+            None => steepness(around, taxels, column),
+        };
+        self.slope = self.slope.wrapping_add(slope);
     }
 }
 
-/// Sobel magnitude in rows of sixteen columns.
+/// As [`steepness_of_sixteens`], in a row of any length: of the word that begins at a column.
 #[inline(never)] // the few registers of an M0+ are for this
-fn steepness_of_sixteens(above: &Sixteen, here: &Sixteen, below: &Sixteen, column: u16) -> u32 {
-    gradient_of_sixteens([above, here, below], column).magnitude()
-}
-
-/// Sobel magnitude.
-#[inline(never)] // the few registers of an M0+ are for this
-fn steepness(around: &Neighbourhood, column: u16) -> u32 {
-    around.gradient(column).magnitude()
+fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
+    let mut sum = 0;
+    while taxels != 0 {
+        let taxel = column + taxels.trailing_zeros() as u16;
+        taxels &= taxels - 1;
+        sum += around.gradient(taxel).magnitude() >> 3;
+    }
+    sum
 }

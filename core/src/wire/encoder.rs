@@ -9,7 +9,7 @@
 
 use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
 use bytemuck::pod_align_to;
-use core::mem::{replace, take};
+use core::mem::take;
 use core::ops::Range;
 
 /// Most taxels of a run: its length has one byte, which is left free and written at its end.
@@ -91,22 +91,18 @@ impl<'a> Encoder<'a> {
 
     #[inline(never)]
     fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
-        let mut rest = values;
+        let mut at = 0;
         loop {
-            rest = rest.get(zeros(rest)..)?;
-            if rest.is_empty() {
-                return Some(());
-            }
-            let length = self.begin(start + values.len() - rest.len())?;
-            let mut last = 0;
-            let number = |value: &u16| {
-                let value = i32::from(*value);
-                (value != 0, value - replace(&mut last, value))
-            };
-            let told = self.run(rest.iter().take(RUN).map(number))?;
+            at += zeros(values.get(at..)?);
+            let now = values.get(at..)?;
+            let Some((first, more)) = now.split_first() else { return Some(()) };
+            let length = self.begin(start + at)?;
+            let out = varint(take(&mut self.out), zigzag(i32::from(*first)))?;
+            let run = rest::<true>(out, more, now, RUN - 1)?;
+            let told = 1 + run.taxels;
             *length = told as u8;
-            self.told += told;
-            rest = rest.get(told..)?;
+            (self.out, self.told) = (run.out, start + at + told);
+            at += told;
         }
     }
 
@@ -117,24 +113,6 @@ impl<'a> Encoder<'a> {
         let (length, rest) = out.split_first_mut()?;
         (self.out, self.told) = (rest, start);
         Some(length)
-    }
-
-    /// Writes the numbers of a run, up to two unchanged taxels; how many are told.
-    #[inline(always)]
-    fn run(&mut self, mut numbers: impl ExactSizeIterator<Item = (bool, i32)>) -> Option<usize> {
-        let mut told = 0;
-        let mut out = take(&mut self.out);
-        while let Some((changed, number)) = numbers.next() {
-            let later = if changed { None } else { numbers.next() };
-            out = match later {
-                None if changed => varint(out, zigzag(number))?,
-                Some((true, later)) => varint(varint(out, zigzag(number))?, zigzag(later))?,
-                _ => break,
-            };
-            told += 1 + usize::from(later.is_some());
-        }
-        self.out = out;
-        Some(told)
     }
 
     fn difference(&mut self, part: Range<usize>, values: &[u16], base: &[u16]) -> Option<()> {
@@ -149,7 +127,7 @@ impl<'a> Encoder<'a> {
             at += quiet;
             if quiet == 0 {
                 let length = self.begin(at)?;
-                let run = rest(take(&mut self.out), values.get(at..)?, base.get(at..)?, RUN)?;
+                let run = rest::<false>(take(&mut self.out), values.get(at..)?, base.get(at..)?, RUN)?;
                 *length = run.taxels as u8;
                 (self.out, self.told) = (run.out, at + run.taxels);
                 at = self.told;
@@ -188,7 +166,7 @@ impl<'a> Encoder<'a> {
                 let (head, begun) = out.split_at_mut_checked(used)?;
                 let length = head.get_mut(if skip < NEAR { 1 } else { 2 })?;
                 let most = RUN - usize::from(*length);
-                let more = rest(begun, values.get(at..)?, base.get(at..)?, most)?;
+                let more = rest::<false>(begun, values.get(at..)?, base.get(at..)?, most)?;
                 *length += more.taxels as u8;
                 out = more.out;
                 (at, skip) = (at + more.taxels, 0);
@@ -211,7 +189,7 @@ type Place = [u8; 3 + ROOM];
 #[inline(always)]
 fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, length, room @ .., _] = place;
-    let seen = tell(room, now, base, false);
+    let seen = tell(room, now, base);
     *first = (skip + seen.quiet()) as u8;
     *length = (seen.next() - seen.quiet()) as u8;
     seen
@@ -221,7 +199,7 @@ fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> To
 #[inline(never)] // seldom
 fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, second, length, room @ ..] = place;
-    let seen = tell_by_call(room, now, base, false);
+    let seen = tell_by_call(room, now, base);
     let skip = skip + seen.quiet();
     (*first, *second) = (skip as u8 | 128, (skip >> 7) as u8);
     *length = (seen.next() - seen.quiet()) as u8;
@@ -236,12 +214,17 @@ struct More<'a> {
 
 /// Writes what is left of a run, at most so many taxels.
 #[inline(never)]
-fn rest<'a>(mut out: &'a mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<More<'a>> {
+fn rest<'a, const ALONE: bool>(
+    mut out: &'a mut [u8],
+    now: &[u16],
+    base: &[u16],
+    most: usize,
+) -> Option<More<'a>> {
     let base = base.get(..now.len())?;
     let mut taxels = 0;
     loop {
         let (ahead, base_ahead) = (now.get(taxels..)?, base.get(taxels..)?);
-        let seen = go_on(out, ahead, base_ahead, most - taxels)?;
+        let seen = go_on::<ALONE>(out, ahead, base_ahead, most - taxels)?;
         taxels += seen.next();
         let used = seen.end - out.as_ptr().addr();
         out = out.get_mut(used..)?;

@@ -1,4 +1,5 @@
-//! A stretch of taxels of a difference: what is unchanged first, then a run, as far as both go.
+//! A stretch of taxels of a difference: what is unchanged first, then a run, as far as both go. Within the run of an image that
+//! stands alone each taxel differs from the one before it.
 //!
 //! A taxel that has changed takes a Cortex-M0+ 16 cycles here, an unchanged one before a run 7, within one 19, counted in its
 //! instructions: each place has its own code, and the few registers hold all it needs.
@@ -44,41 +45,53 @@ impl Told {
 /// Two unchanged taxels follow.
 const ENDS: u32 = 1 << 31;
 
-/// Writes the differences of a run, which begins `within` the stretch before it or at the first taxel that has changed.
+/// Writes the differences of a run, which begins at the first taxel that has changed.
 #[inline(always)]
-pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels, within: bool) -> Told {
-    let state = State { out, within, quiet: if within { 0 } else { LANES as u32 } };
-    lanes(state, now, base).unwrap_or_else(|told| told)
+pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
+    let state = State { out, within: false, quiet: LANES as u32 };
+    lanes::<false>(state, now, base).unwrap_or_else(|told| told)
 }
 
 /// As [`tell`], for all who do it seldom: it is a long piece of code.
 #[inline(never)]
-pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels, within: bool) -> Told {
-    tell(out, now, base, within)
+pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
+    tell(out, now, base)
+}
+
+/// As [`tell`] within a run, which goes on with the first taxel.
+#[inline(never)]
+fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
+    let state = State { out, within: true, quiet: 0 };
+    lanes::<ALONE>(state, now, base).unwrap_or_else(|told| told)
 }
 
 /// As [`tell`] within a run, at most so many taxels. `None`: no room.
 #[inline(always)]
-pub(super) fn go_on(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> {
+pub(super) fn go_on<const ALONE: bool>(
+    out: &mut [u8],
+    now: &[u16],
+    base: &[u16],
+    most: usize,
+) -> Option<Told> {
     if most > LANES
         && let (Some(now), Some(base)) = (now.first_chunk(), base.first_chunk())
         && let Some(out) = out.first_chunk_mut()
     {
-        return Some(tell_by_call(out, now, base, true));
+        return Some(tell_within::<ALONE>(out, now, base));
     }
-    edge(out, now, base, most)
+    edge::<ALONE>(out, now, base, most)
 }
 
 /// As [`go_on`], where there are fewer taxels or less room: behind them nothing changes.
 #[inline(never)]
-fn edge(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> {
+fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> {
     let (mut near, mut base_near): (Taxels, Taxels) = ([0; LANES + 1], [0; LANES + 1]);
     let (places, values) = (near.iter_mut().zip(&mut base_near), now.iter().zip(base));
     for ((place, base_place), (value, base)) in places.zip(values).take(most) {
         (*place, *base_place) = (*value, *base);
     }
     let mut room = [0; ROOM];
-    let seen = tell_by_call(&mut room, &near, &base_near, true);
+    let seen = tell_within::<ALONE>(&mut room, &near, &base_near);
     let used = room.get(..seen.end - room.as_ptr().addr())?;
     let place = out.get_mut(..used.len())?;
     place.copy_from_slice(used);
@@ -94,31 +107,31 @@ struct State<'a> {
 
 /// Each lane by itself: a compiler keeps a loop of as many.
 #[inline(always)]
-fn lanes(state: State<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
-    let state = lane::<0>(state, now, base)?;
-    let state = lane::<1>(state, now, base)?;
-    let state = lane::<2>(state, now, base)?;
-    let state = lane::<3>(state, now, base)?;
-    let state = lane::<4>(state, now, base)?;
-    let state = lane::<5>(state, now, base)?;
-    let state = lane::<6>(state, now, base)?;
-    let state = lane::<7>(state, now, base)?;
-    let state = lane::<8>(state, now, base)?;
-    let state = lane::<9>(state, now, base)?;
-    let state = lane::<10>(state, now, base)?;
-    let state = lane::<11>(state, now, base)?;
-    let state = lane::<12>(state, now, base)?;
-    let state = lane::<13>(state, now, base)?;
-    let state = lane::<14>(state, now, base)?;
-    let state = lane::<15>(state, now, base)?;
-    let state = lane::<16>(state, now, base)?;
-    let state = lane::<17>(state, now, base)?;
-    let state = lane::<18>(state, now, base)?;
-    let state = lane::<19>(state, now, base)?;
-    let state = lane::<20>(state, now, base)?;
-    let state = lane::<21>(state, now, base)?;
-    let state = lane::<22>(state, now, base)?;
-    let state = lane::<23>(state, now, base)?;
+fn lanes<const ALONE: bool>(state: State<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
+    let state = lane::<ALONE, 0>(state, now, base)?;
+    let state = lane::<ALONE, 1>(state, now, base)?;
+    let state = lane::<ALONE, 2>(state, now, base)?;
+    let state = lane::<ALONE, 3>(state, now, base)?;
+    let state = lane::<ALONE, 4>(state, now, base)?;
+    let state = lane::<ALONE, 5>(state, now, base)?;
+    let state = lane::<ALONE, 6>(state, now, base)?;
+    let state = lane::<ALONE, 7>(state, now, base)?;
+    let state = lane::<ALONE, 8>(state, now, base)?;
+    let state = lane::<ALONE, 9>(state, now, base)?;
+    let state = lane::<ALONE, 10>(state, now, base)?;
+    let state = lane::<ALONE, 11>(state, now, base)?;
+    let state = lane::<ALONE, 12>(state, now, base)?;
+    let state = lane::<ALONE, 13>(state, now, base)?;
+    let state = lane::<ALONE, 14>(state, now, base)?;
+    let state = lane::<ALONE, 15>(state, now, base)?;
+    let state = lane::<ALONE, 16>(state, now, base)?;
+    let state = lane::<ALONE, 17>(state, now, base)?;
+    let state = lane::<ALONE, 18>(state, now, base)?;
+    let state = lane::<ALONE, 19>(state, now, base)?;
+    let state = lane::<ALONE, 20>(state, now, base)?;
+    let state = lane::<ALONE, 21>(state, now, base)?;
+    let state = lane::<ALONE, 22>(state, now, base)?;
+    let state = lane::<ALONE, 23>(state, now, base)?;
     Ok(state.told(LANES))
 }
 
@@ -127,11 +140,21 @@ impl State<'_> {
     fn told(&self, next: usize) -> Told {
         Told { taxels: self.quiet | (next as u32) << 16, end: self.out.as_ptr().addr() }
     }
+
+    #[inline(always)]
+    fn ended(&self, next: usize) -> Told {
+        let Told { taxels, end } = self.told(next);
+        Told { taxels: taxels | ENDS, end }
+    }
 }
 
 /// Takes a taxel. An error: the run ends before it, or its difference is too long.
 #[inline(always)]
-fn lane<'a, const LANE: usize>(mut state: State<'a>, now: &Taxels, base: &Taxels) -> Result<State<'a>, Told> {
+fn lane<'a, const ALONE: bool, const LANE: usize>(
+    mut state: State<'a>,
+    now: &Taxels,
+    base: &Taxels,
+) -> Result<State<'a>, Told> {
     if !state.within {
         if now[LANE] == base[LANE] {
             return Ok(state);
@@ -139,9 +162,12 @@ fn lane<'a, const LANE: usize>(mut state: State<'a>, now: &Taxels, base: &Taxels
         (state.within, state.quiet) = (true, LANE as u32);
     }
     let difference = i32::from(now[LANE]) - i32::from(base[LANE]);
-    if difference == 0 && now[LANE + 1] == base[LANE + 1] {
-        let Told { taxels, end } = state.told(LANE);
-        return Err(Told { taxels: taxels | ENDS, end });
+    if ALONE {
+        if now[LANE] == 0 && now[LANE + 1] == 0 {
+            return Err(state.ended(LANE));
+        }
+    } else if difference == 0 && now[LANE + 1] == base[LANE + 1] {
+        return Err(state.ended(LANE));
     }
     let told = state.told(LANE);
     match write(state.out, difference) {
