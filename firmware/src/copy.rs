@@ -1,4 +1,5 @@
-//! Copies, four words at a time: 13 cycles of a Cortex-M0+ for them, where the loops of the compiler's library take 32.
+//! Copies, four words at a time: 13 cycles of a Cortex-M0+ for them, or 25 where they stand otherwise, and the loops of the
+//! compiler's library take 32 or 80.
 //!
 //! These are the functions that compiled code calls for copies of some length, in place of that library's own, which give way to others.
 
@@ -8,13 +9,39 @@
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(
+        // Four words a step from a place so many bytes behind a whole word: `r3` holds what was read and not yet written.
+        ".macro taxel_copy_by bytes",
+        "    subs r1, #\\bytes",
+        "    ldmia r1!, {{r3}}",
+        "    lsrs r3, r3, #8 * \\bytes",
+        "16:",
+        "    ldmia r1!, {{r4, r5, r6, r7}}",
+        "    lsls r2, r4, #32 - 8 * \\bytes",
+        "    orrs r2, r3",
+        "    lsrs r3, r4, #8 * \\bytes",
+        "    lsls r4, r5, #32 - 8 * \\bytes",
+        "    orrs r4, r3",
+        "    lsrs r3, r5, #8 * \\bytes",
+        "    lsls r5, r6, #32 - 8 * \\bytes",
+        "    orrs r5, r3",
+        "    lsrs r3, r6, #8 * \\bytes",
+        "    lsls r6, r7, #32 - 8 * \\bytes",
+        "    orrs r6, r3",
+        "    lsrs r3, r7, #8 * \\bytes",
+        "    stmia r0!, {{r2, r4, r5, r6}}",
+        "    cmp r0, ip",
+        "    bne 16b",
+        // Back to the first byte that was not written.
+        "    subs r1, #4 - \\bytes",
+        "    b 13f",
+        ".endm",
         ".section .text.taxel_copy, \"ax\", %progbits",
         ".p2align 2",
         ".global __aeabi_memcpy",
         ".type __aeabi_memcpy, %function",
         ".thumb_func",
         "__aeabi_memcpy:",
-        // Words do not stand alike in both, or there are few: byte by byte, as the library does it.
+        // Words may stand alike in both.
         "    movs r3, r0",
         "    eors r3, r1",
         "    lsls r3, r3, #30",
@@ -70,8 +97,53 @@ mod words {
         "5:",
         "    pop {{r4, r5, r6, pc}}",
         "6:",
+        "    cmp r2, #32",
+        "    bhs 7f",
         "    push {{r4, lr}}",
         "    bl memcpy",
         "    pop {{r4, pc}}",
+        "7:",
+        "    push {{r4, r5, r6, r7, lr}}",
+        // Up to the next whole word of the place to.
+        "    b 9f",
+        "8:",
+        "    ldrb r3, [r1]",
+        "    strb r3, [r0]",
+        "    adds r1, #1",
+        "    adds r0, #1",
+        "    subs r2, #1",
+        "9:",
+        "    lsls r3, r0, #30",
+        "    bne 8b",
+        // `ip`: where the last step ends; `lr`: bytes behind it.
+        "    movs r3, #15",
+        "    movs r4, r2",
+        "    bics r4, r3",
+        "    ands r2, r3",
+        "    mov lr, r2",
+        "    adds r4, r0",
+        "    mov ip, r4",
+        // How the place from stands in its words: carry is its second bit, zero that its first is not set.
+        "    lsls r3, r1, #31",
+        "    bcc 11f",
+        "    beq 12f",
+        "    taxel_copy_by 3",
+        "11:",
+        "    taxel_copy_by 1",
+        "12:",
+        "    taxel_copy_by 2",
+        "13:",
+        "    mov r2, lr",
+        "    subs r2, #1",
+        "    bmi 15f",
+        "14:",
+        "    ldrb r3, [r1]",
+        "    strb r3, [r0]",
+        "    adds r1, #1",
+        "    adds r0, #1",
+        "    subs r2, #1",
+        "    bpl 14b",
+        "15:",
+        "    pop {{r4, r5, r6, r7, pc}}",
     );
 }

@@ -2,6 +2,7 @@
 
 use crate::activation::{Activation, CONCEPTS, Maps, PLAIN};
 use crate::chain::TAXELS;
+use crate::copies;
 use crate::dense::Dense;
 use crate::measure::Measure;
 use crate::windows::{AREA, SIDE, WINDOWS};
@@ -35,6 +36,8 @@ pub enum Kernel {
     Describe,
     /// The nearest of 200 prototypes.
     Nearest,
+    /// Packets of bytes from and to all places in a word.
+    Copy,
 }
 
 /// Taxels of a panel of the reference garment.
@@ -77,6 +80,7 @@ impl Kernel {
             Kernel::Decide,
             Kernel::Describe,
             Kernel::Nearest,
+            Kernel::Copy,
         ])
     }
 
@@ -164,6 +168,17 @@ impl Kernel {
                     [found.distance.into(), found.class.unwrap_or(99).into(), found.share.0 as u32]
                         .into_iter(),
                 )
+            }
+            Kernel::Copy => {
+                let mut from: copies::Space = [0; _];
+                from.iter_mut().zip(codes).for_each(|(byte, code)| *byte = code.0 as u8);
+                let mut to = from;
+                // Filling is no part of it.
+                probe.begin(Stage::Scan);
+                probe.begin(Stage::Idle);
+                copies::packets(&from, &mut to);
+                probe.begin(Stage::Scan);
+                fold(to.into_iter().chain(copies::all(&from)).map(u32::from))
             }
         }
     }

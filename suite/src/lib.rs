@@ -1,11 +1,12 @@
 //! What is measured, once for the emulated board (`cargo xtask cycles`) and for this machine (`taxel bench`): the scenes of
 //! [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading alone, the [`dense`] chain, and
-//! formats of numbers to [`measure`] the contacts of [`windows`] with, or for the [`activation`] of concepts.
+//! formats of numbers to [`measure`] the contacts of [`windows`] with, or for the [`activation`] of concepts, and [`copies`].
 #![no_std]
 #![forbid(unsafe_code)]
 
 pub mod activation;
 pub mod chain;
+pub mod copies;
 pub mod dense;
 pub mod kernel;
 pub mod measure;

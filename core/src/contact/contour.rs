@@ -49,13 +49,16 @@ impl Contour {
 }
 
 /// As [`steepness_of_sixteens`], in a row of any length: of the word that begins at a column.
-#[inline(never)] // the few registers of an M0+ are for this
 fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
     let mut sum = 0;
     while taxels != 0 {
-        let taxel = column + taxels.trailing_zeros() as u16;
+        sum += magnitude(around, column + taxels.trailing_zeros() as u16) >> 3;
         taxels &= taxels - 1;
-        sum += around.gradient(taxel).magnitude() >> 3;
     }
     sum
+}
+
+#[inline(never)] // the few registers of an M0+ are for this
+fn magnitude(around: &Neighbourhood, column: u16) -> u32 {
+    around.gradient(column).magnitude()
 }

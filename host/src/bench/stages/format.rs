@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use taxel_core::format::Code;
 use taxel_suite::activation::{Activation, CONCEPTS, Maps};
 use taxel_suite::chain::TAXELS;
+use taxel_suite::copies::PAIRS;
 use taxel_suite::kernel::Kernel;
 use taxel_suite::measure::Measure;
 use taxel_suite::pattern::Pattern;
@@ -60,11 +61,12 @@ impl Form {
         }));
         all.push(of("gestures, a frame", Pattern::Five, Kernel::Touch));
         all.push(of("gestures, a decision", Pattern::Five, Kernel::Decide));
-        let shapes = [
+        let others = [
             ("shape, description", "16 x 16", Kernel::Describe),
             ("shape, nearest", "of 200", Kernel::Nearest),
+            ("copy, 64 bytes", "to all places", Kernel::Copy),
         ];
-        all.extend(shapes.map(|(what, form, kernel)| Form { what, form, kernel, pattern: None }));
+        all.extend(others.map(|(what, form, kernel)| Form { what, form, kernel, pattern: None }));
         all.push(Form { what: INFERENCE, form: "Q15", kernel: Kernel::Infer, pattern: None });
         all
     }
@@ -82,9 +84,13 @@ impl Form {
         (1..=MEASURED).map(codes).collect()
     }
 
-    /// Costs of the steps, for one frame, contact or step of the map.
+    /// Costs of the steps, for one frame, contact, step of the map or copy.
     pub fn row(self, costs: &[Cost]) -> FormRow {
-        let each = if matches!(self.kernel, Kernel::Measure(_) | Kernel::Describe) { WINDOWS } else { 1 };
+        let each = match self.kernel {
+            Kernel::Measure(_) | Kernel::Describe => WINDOWS,
+            Kernel::Copy => PAIRS,
+            _ => 1,
+        };
         let sum: u64 = costs.iter().flat_map(|cost| cost.stages).sum();
         FormRow {
             form: self,
@@ -104,7 +110,7 @@ impl Form {
 pub struct FormRow {
     /// Which.
     pub form: Form,
-    /// Of one frame, contact or step.
+    /// Of one frame, contact, step or copy.
     pub cost: u64,
     /// Bytes of stack.
     pub stack: Option<u64>,
