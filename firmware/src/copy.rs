@@ -4,8 +4,9 @@
 //! These are the functions that compiled code calls for copies of some length, in place of that library's own, which give way to others.
 
 // SAFETY: they do what the run-time ABI for the Arm architecture (5.3.4) asks of them: `r0`, `r1`, `r2` are the places to and from which
-// so many bytes are copied, which do not overlap; in those of the names with 4 and 8 both are whole words, and the last may be a part of one.
-// What they change besides `r0` to `r3` they put back. `memcpy` is the library's.
+// so many bytes are copied, which overlap in those named `memmove` alone; in those of the names with 4 and 8 both are whole words, and the
+// last may be a part of one. What they change besides `r0` to `r3` they put back. To the front each byte is read before its place is
+// written. `memmove` is the library's.
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(
@@ -37,6 +38,23 @@ mod words {
         ".endm",
         ".section .text.taxel_copy, \"ax\", %progbits",
         ".p2align 2",
+        ".global __aeabi_memmove",
+        ".type __aeabi_memmove, %function",
+        ".thumb_func",
+        "__aeabi_memmove:",
+        ".global __aeabi_memmove4",
+        ".type __aeabi_memmove4, %function",
+        ".thumb_func",
+        "__aeabi_memmove4:",
+        ".global __aeabi_memmove8",
+        ".type __aeabi_memmove8, %function",
+        ".thumb_func",
+        "__aeabi_memmove8:",
+        "    cmp r0, r1",
+        "    blo __aeabi_memcpy",
+        "    push {{r4, lr}}",
+        "    bl memmove",
+        "    pop {{r4, pc}}",
         ".global __aeabi_memcpy",
         ".type __aeabi_memcpy, %function",
         ".thumb_func",
@@ -100,7 +118,7 @@ mod words {
         "    cmp r2, #32",
         "    bhs 7f",
         "    push {{r4, lr}}",
-        "    bl memcpy",
+        "    bl memmove",
         "    pop {{r4, pc}}",
         "7:",
         "    push {{r4, r5, r6, r7, lr}}",

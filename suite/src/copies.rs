@@ -22,13 +22,14 @@ pub fn packets(from: &Space, to: &mut Space) {
     }
 }
 
-/// Copies of all lengths, for each pair of places: every byte of the room after each of them.
+/// Copies and moves of all lengths, for each pair of places: every byte of the room after each of them.
 pub fn all(from: &Space) -> impl Iterator<Item = u8> {
     let pairs = (0..=LONGEST).flat_map(|length| (0..PAIRS).map(move |pair| (length, pair)));
     pairs.flat_map(|(length, pair)| {
-        let mut to = [0xa5; size_of::<Space>()];
+        let (mut to, mut moved) = ([0xa5; size_of::<Space>()], *from);
         copy(from, &mut to, pair, length);
-        to
+        shift(&mut moved, pair, length);
+        to.into_iter().chain(moved)
     })
 }
 
@@ -37,5 +38,14 @@ fn copy(from: &Space, to: &mut Space, pair: usize, length: usize) {
     let (at, source) = (pair / PLACES, pair % PLACES);
     if let (Some(to), Some(from)) = (to.get_mut(at..at + length), from.get(source..source + length)) {
         to.copy_from_slice(from);
+    }
+}
+
+/// Within the room, to the front and to the back.
+#[inline(never)]
+fn shift(space: &mut Space, pair: usize, length: usize) {
+    let (at, source) = (pair / PLACES, pair % PLACES);
+    if source + length <= space.len() && at + length <= space.len() {
+        space.copy_within(source..source + length, at);
     }
 }

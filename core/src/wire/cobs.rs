@@ -9,7 +9,6 @@
 //! frame's end. The test below compares the two.
 
 use bytemuck::pod_align_to;
-use core::cell::Cell;
 use core::mem::replace;
 use core::ops::Range;
 use core::ptr;
@@ -136,10 +135,10 @@ fn zero(place: &[u8], at: usize) -> Option<usize> {
 
 /// Moves some bytes to the front.
 fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
-    if from.start != to {
-        let place = Cell::from_mut(place).as_slice_of_cells();
-        let to = place.get(to..to + from.len())?;
-        place.get(from)?.iter().zip(to).for_each(|(from, to)| to.set(from.get()));
+    let by = from.start.checked_sub(to)?;
+    let place = place.get_mut(to..from.end)?;
+    if by <= place.len() {
+        place.copy_within(by.., 0);
     }
     Some(())
 }
