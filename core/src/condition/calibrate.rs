@@ -183,7 +183,7 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
         {
             bits |= scale::<PART, FALLING>(codes, limit, rest, gain, out) << (part * PART);
         }
-        silence(out, u32::from(*found) & !bits);
+        silence::<N, PART>(out, u32::from(*found) & !bits);
         *found = bits as u16;
         if bits == 0 {
             break;
@@ -205,7 +205,7 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
     let mut held = 0;
     for (((codes, limit), out), found) in codes.iter().zip(limit).zip(out).zip(found) {
         let bits = exceed::<N, PART, FALLING>(codes, limit, out, margin);
-        silence(out, u32::from(*found) & !bits);
+        silence::<N, PART>(out, u32::from(*found) & !bits);
         *found = bits as u16;
         if bits == 0 {
             break;
@@ -217,25 +217,27 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
 
 /// Empties those taxels that were there in the last image, if it was not emptied, and are no more.
 #[inline(always)]
-fn silence(out: &mut [u16], gone: u32) {
+fn silence<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
     if gone & gone.wrapping_sub(1) == 0 {
         if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
             *out = 0;
         }
         return;
     }
-    silence_several(out, gone);
+    silence_several::<N, PART>(out, gone);
 }
 
 /// All of them are asked: it would take longer to find several one by one.
 #[inline(never)]
-fn silence_several(out: &mut [u16], gone: u32) {
+fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
     let mut gone = gone;
-    for out in out {
-        if gone & 1 == 1 {
-            *out = 0;
+    for part in out.as_chunks_mut::<PART>().0 {
+        for (at, out) in part.iter_mut().enumerate() {
+            if gone & 1 << at != 0 {
+                *out = 0;
+            }
         }
-        gone >>= 1;
+        gone >>= PART;
     }
 }
 

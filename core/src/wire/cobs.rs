@@ -80,10 +80,11 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Whether one of the bytes is 0: it borrows and its highest bit is not set.
-fn has_zero(word: u32) -> bool {
+/// Whether one of the bytes of some words is 0: it borrows and its highest bit is not set.
+#[inline(always)]
+fn has_zero<const WORDS: usize>(words: &[u32; WORDS]) -> bool {
     const ONES: u32 = 0x0101_0101;
-    word.wrapping_sub(ONES) & !word & ONES << 7 != 0
+    words.iter().fold(0, |zeros, word| zeros | word.wrapping_sub(ONES) & !word) & ONES << 7 != 0
 }
 
 /// As [`stuff`] from the code byte at `head` on, where a full group may begin; what stands before it moves out of its way.
@@ -128,9 +129,16 @@ fn zero(place: &[u8], at: usize) -> Option<usize> {
     let is_zero = |byte: &u8| *byte == 0;
     let passed = match first.iter().position(is_zero) {
         Some(behind) => behind,
-        None => first.len() + 4 * words.iter().take_while(|word| !has_zero(**word)).count(),
+        None => first.len() + 4 * without_zero(words),
     };
     bytes.get(passed..)?.iter().position(is_zero).map(|behind| at + passed + behind)
+}
+
+/// How many words from the first on hold no zero.
+fn without_zero(words: &[u32]) -> usize {
+    let far = 4 * words.as_chunks::<4>().0.iter().take_while(|words| !has_zero(words)).count();
+    let near = words.get(far..).unwrap_or(&[]).as_chunks::<1>().0;
+    far + near.iter().take_while(|word| !has_zero(word)).count()
 }
 
 /// Moves some bytes to the front.

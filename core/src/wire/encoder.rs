@@ -91,19 +91,19 @@ impl<'a> Encoder<'a> {
 
     #[inline(never)]
     fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
-        let mut at = 0;
+        let (mut out, mut told, mut at) = (take(&mut self.out), self.told, 0);
         loop {
             at += zeros(values.get(at..)?);
             let now = values.get(at..)?;
-            let Some((first, more)) = now.split_first() else { return Some(()) };
-            let length = self.begin(start + at)?;
-            let out = varint(take(&mut self.out), zigzag(i32::from(*first)))?;
-            let run = rest::<true>(out, more, now, RUN - 1)?;
-            let told = 1 + run.taxels;
-            *length = told as u8;
-            (self.out, self.told) = (run.out, start + at + told);
-            at += told;
+            let Some((first, more)) = now.split_first() else { break };
+            let (length, begun) = varint(out, (start + at - told) as u32)?.split_first_mut()?;
+            let run = rest::<true>(varint(begun, zigzag((*first).into()))?, more, now, RUN - 1)?;
+            *length = 1 + run.taxels as u8;
+            at += 1 + run.taxels;
+            (out, told) = (run.out, start + at);
         }
+        (self.out, self.told) = (out, told);
+        Some(())
     }
 
     /// Begins a run; where its length is written when it is known: it has one byte.
