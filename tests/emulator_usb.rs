@@ -18,7 +18,7 @@ const SCAN_US: u64 = 5_120;
 const REST: usize = 100;
 /// Scans of a scene's beginning that are not looked at: contacts begin, and lists are long.
 const BEGIN: usize = 8;
-/// Cycles that chain, link and interrupts may take together of the 640,000 from scan to scan, in the mean.
+/// Cycles that chain, link and interrupts may take together of the 640,000 from any scan to the next.
 const MOST_CYCLES: u64 = 600_000;
 
 /// A scene, and whether all of its images must come.
@@ -102,7 +102,7 @@ impl Came {
         if whole {
             assert_eq!((images, overruns, thinned), (scans, 0, 0));
         }
-        assert!(cycles.0 <= MOST_CYCLES);
+        assert!(cycles.1 <= MOST_CYCLES);
     }
 }
 

@@ -64,7 +64,13 @@ fn measure() -> Result<Table, String> {
     let rows: Vec<Row> = of_cases.map(|(case, (costs, told))| Row::of(case, costs, told)).collect();
     let of_forms = forms.iter().zip(costs.iter().skip(cases.len()));
     let forms: Vec<FormRow> = of_forms.map(|(form, (costs, _))| form.row(costs)).collect();
-    Ok(Table { place: "emulated RP2040 (Cortex-M0+, 125 MHz)", unit: "cycles", rows, forms })
+    let compiler = std::env::var("TAXEL_COMPILER").unwrap_or("an unknown compiler".into());
+    Ok(Table {
+        place: format!("emulated RP2040 (Cortex-M0+, 125 MHz), {compiler}"),
+        unit: "cycles",
+        rows,
+        forms,
+    })
 }
 
 /// What a group of steps costs on the board, and what this machine did.

@@ -105,6 +105,15 @@ pub fn sections(file: &[u8]) -> Option<Vec<Section<'_>>> {
     headers.iter().map(section).collect()
 }
 
+/// The compiler that a file was built by, and its version.
+pub fn compiler(file: &[u8]) -> Option<&str> {
+    let at = sections(file)?.iter().position(|section| section.name == ".comment")?;
+    let notes = content(file, headers(file)?.get(at)?)?;
+    let note = notes.split(|byte| *byte == 0).filter_map(|note| std::str::from_utf8(note).ok());
+    let named = note.into_iter().find(|note| note.starts_with("rustc "))?;
+    Some(named.split(" (").next().unwrap_or(named))
+}
+
 /// The functions and variables of a file.
 pub fn symbols(file: &[u8]) -> Option<Vec<Symbol<'_>>> {
     let headers = headers(file)?;
@@ -158,20 +167,21 @@ mod tests {
 
     #[test]
     fn reads_what_it_is_for() {
-        // Header, names and symbols at 52, then three section headers: names, symbols, memory for zeros.
-        let names = b"\0.text\0.bss\0it\0";
+        // Header, names with notes and symbols at 52, then four section headers: names, symbols, memory for zeros, notes.
+        let names = b"\0.text\0.bss\0it\0.comment\0Linker: x\0rustc version 1.95.0 (5980 2026)\0";
         let mut file = vec![0; 52];
         file[..6].copy_from_slice(b"\x7fELF\x01\x01");
         let symbols = (52 + names.len()) as u32;
         file[SECTIONS_AT..][..4].copy_from_slice(&(symbols + SYMBOL_SIZE as u32).to_le_bytes());
         file[SECTION_SIZE_AT] = 40;
-        file[SECTION_COUNT_AT] = 3;
+        file[SECTION_COUNT_AT] = 4;
         file.extend(names);
         let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<_>>();
         file.extend(words(&[12, 0x2000_0004, 8, 2 << 16]));
         file.extend(words(&[1, 3, ALLOCATED, 0, 52, names.len() as u32, 0, 0, 0, 0]));
         file.extend(words(&[0, SYMBOLS, 0, 0, symbols, SYMBOL_SIZE as u32, 0, 0, 0, 0]));
         file.extend(words(&[7, ZEROS, ALLOCATED, 0, 0, 99, 0, 0, 0, 0]));
+        file.extend(words(&[15, 1, 0, 0, 52 + 24, names.len() as u32 - 24, 0, 0, 0, 0]));
         let sections = sections(&file).unwrap();
         let text = Section { name: ".text", allocated: true, stored: true, size: names.len() as u32 };
         assert_eq!(sections[0], text);
@@ -179,6 +189,7 @@ mod tests {
         assert_eq!(sections[2], Section { name: ".bss", allocated: true, stored: false, size: 99 });
         let it = Symbol { name: "it", section: 2, address: 0x2000_0004, size: 8 };
         assert_eq!(super::symbols(&file), Some(vec![it]));
+        assert_eq!(compiler(&file), Some("rustc version 1.95.0"));
         assert_eq!(super::symbols(&file[..file.len() - 100]), None);
     }
 }

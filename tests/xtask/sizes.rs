@@ -16,6 +16,8 @@ const SYMBOLS: usize = 24;
 const OTHERS: &str = "others";
 /// Tables and texts of the flash that have no symbol.
 const UNNAMED: &str = "constants without a name";
+/// What stands before the name of the compiler.
+const COMPILER: &str = "Built by ";
 /// The heads of the three parts of the table.
 const SECTION: &str = "section";
 const CRATE: &str = "crate";
@@ -56,8 +58,10 @@ fn table(image: &[u8]) -> Option<String> {
     let in_flash = |s: &Symbol| sections.get(s.section).is_some_and(|section| section.stored);
     let mut text = format!(
         "What the firmware takes of flash and RAM, in bytes. `cargo xtask firmware --write` writes this table;\n\
-         `cargo xtask test --only sizes` fails where a section differs by more than {PERCENT} % and {BYTES} bytes.\n\n\
+         `cargo xtask test --only sizes` fails where a section differs by more than {PERCENT} % and {BYTES} bytes.\n\
+         {COMPILER}{}\n\n\
          {SECTION:<60}{:>10}\n",
+        elf::compiler(image)?,
         "bytes"
     );
     for section in sections.iter().filter(|s| s.allocated && s.size > 0) {
@@ -89,6 +93,11 @@ fn table(image: &[u8]) -> Option<String> {
 
 /// Whether the sections of two tables are about as large; each that is not is named.
 fn compare(kept: &str, found: &str) -> Result<(), String> {
+    let compiler = |table: &str| {
+        let named = table.lines().find_map(|line| line.strip_prefix(COMPILER));
+        named.unwrap_or("an unknown compiler").to_owned()
+    };
+    let compilers = [kept, found].map(compiler);
     let (kept, found) = (sections(kept), sections(found));
     if kept.is_empty() {
         return Err(format!("{} has no sections", file().display()));
@@ -103,7 +112,10 @@ fn compare(kept: &str, found: &str) -> Result<(), String> {
     if differ.is_empty() {
         return Ok(());
     }
-    Err(format!("{}; `cargo xtask firmware --write` where that is meant", differ.join("; ")))
+    let [before, now] = compilers;
+    let built =
+        if before == now { String::new() } else { format!("; built by {now}, the table's by {before}") };
+    Err(format!("{}{built}; `cargo xtask firmware --write` where that is meant", differ.join("; ")))
 }
 
 /// The first part of a table.
@@ -135,6 +147,13 @@ mod tests {
         );
         let said = compare("section\n.text 300\n.data 300\n", "section\n.text 300\n").unwrap_err();
         assert!(said.starts_with(".data 0, in the table 300; "), "{said}");
+        let said =
+            compare("Built by rustc 1\n\nsection\n.text 1\n", "Built by rustc 2\n\nsection\n.text 9999\n")
+                .unwrap_err();
+        assert!(
+            said.contains(".text 9999, in the table 1; built by rustc 2, the table's by rustc 1; "),
+            "{said}"
+        );
         assert!(compare("", &table(1, 1)).is_err());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::checks::{cargo, image};
 use crate::cross::Toolchain;
-use crate::{firmware, install, paths, process};
+use crate::{elf, firmware, install, paths, process};
 use std::path::Path;
 use std::process::Command;
 
@@ -116,7 +116,11 @@ pub fn show_cycles(args: &[String]) -> Result<(), String> {
 /// The program that measures, up to its own options.
 fn measuring() -> Command {
     let mut command = test_target("cycles");
-    command.arg("--").env("TAXEL_BENCH_ELF", firmware::bench_elf());
+    let image = firmware::bench_elf();
+    if let Some(compiler) = std::fs::read(&image).ok().as_deref().and_then(elf::compiler) {
+        command.env("TAXEL_COMPILER", compiler);
+    }
+    command.arg("--").env("TAXEL_BENCH_ELF", image);
     command
 }
 

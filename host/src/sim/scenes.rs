@@ -23,7 +23,7 @@ macro_rules! scenes {
 }
 
 /// Names and texts.
-const SCENES: [(&str, &str); 13] = scenes![
+const SCENES: [(&str, &str); 14] = scenes![
     "pat",
     "lash",
     "stroke",
@@ -36,6 +36,7 @@ const SCENES: [(&str, &str); 13] = scenes![
     "press",
     "five",
     "source",
+    "weights",
     "idle",
 ];
 

@@ -33,7 +33,7 @@ pub fn report() -> Result<Report> {
         rows.push(Row::of(case, &costs, &told));
     }
     let forms = Form::all().into_iter().map(|form| form.row(&measure(&form.steps()).0)).collect();
-    let table = Table { place: "this machine", unit: "ns", rows, forms };
+    let table = Table { place: "this machine".into(), unit: "ns", rows, forms };
     Ok(Report { text: table.to_string(), json: table.json(), chart: table.chart() })
 }
 

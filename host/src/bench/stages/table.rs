@@ -12,7 +12,7 @@ use taxel_suite::pattern::Pattern;
 #[derive(Debug, Clone)]
 pub struct Table {
     /// Where.
-    pub place: &'static str,
+    pub place: String,
     /// `cycles` or `ns`.
     pub unit: &'static str,
     /// The whole chain.
