@@ -11,9 +11,10 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 use taxel_core::format::Code;
 
-/// Repetitions that are timed together, and how often; the median counts.
-const ROUNDS: usize = 31;
-const REPEATED: u32 = 200;
+/// Repetitions that are timed together, and how often; the median counts. All take turns within a round: what else the machine does,
+/// and how fast it is just then, meets them alike.
+const ROUNDS: usize = 101;
+const REPEATED: u32 = 50;
 
 /// The table as it was last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench/peers.txt");
@@ -64,26 +65,33 @@ fn row(scene: &Scene) -> Value {
     }
     let codes: Vec<Code> = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
     let (panel, mut chain) = (chains::panel(&scene.values), chains::Ours::new());
-    let taxel = time(|| chain.segment(black_box(&codes)).for_each(|sums| _ = black_box(sums)));
-    let follow = time(|| _ = black_box(chain.follow(black_box(&codes))));
-    let imageproc = time(|| _ = black_box(chains::imageproc(black_box(&panel))));
+    let mut other = chains::Ours::new();
+    let mut segment = || chain.segment(black_box(&codes)).for_each(|sums| _ = black_box(sums));
+    let mut follow = || _ = black_box(other.follow(black_box(&codes)));
+    let mut theirs = || _ = black_box(chains::imageproc(black_box(&panel)));
+    let rounds: Vec<[f64; 3]> =
+        (0..ROUNDS).map(|_| [time(&mut segment), time(&mut follow), time(&mut theirs)]).collect();
+    let median = |of: fn(&[f64; 3]) -> f64| median(rounds.iter().map(of).collect());
+    let (taxel, follow, imageproc) =
+        (median(|[taxel, ..]| *taxel), median(|[_, follow, _]| *follow), median(|[.., theirs]| *theirs));
+    let ratio = median(|[taxel, _, theirs]| theirs / taxel);
     let opencv = opencv(&scene.values);
     json!({
         "scene": scene.name, "contacts": scene.contacts, "taxel": taxel, "imageproc": imageproc,
-        "ratio": imageproc / taxel, "follow": follow, "opencv": opencv, "opencv_ratio": opencv.map(|time| time / taxel),
+        "ratio": ratio, "follow": follow, "opencv": opencv, "opencv_ratio": opencv.map(|time| time / taxel),
     })
 }
 
-/// Median microseconds of a call.
-fn time(mut call: impl FnMut()) -> f64 {
-    let mut times = [0.0; ROUNDS];
-    for time in &mut times {
-        let start = Instant::now();
-        (0..REPEATED).for_each(|_| call());
-        *time = start.elapsed().as_secs_f64() * 1e6 / f64::from(REPEATED);
-    }
-    times.sort_unstable_by(f64::total_cmp);
-    times[ROUNDS / 2]
+/// Microseconds of a call, the mean of some.
+fn time(call: &mut impl FnMut()) -> f64 {
+    let start = Instant::now();
+    (0..REPEATED).for_each(|_| call());
+    start.elapsed().as_secs_f64() * 1e6 / f64::from(REPEATED)
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 /// The same steps by OpenCV's Python module, one thread; none where it is not installed.
