@@ -183,8 +183,7 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
         {
             bits |= scale::<PART, FALLING>(codes, limit, rest, gain, out) << (part * PART);
         }
-        silence::<N, PART>(out, u32::from(*found) & !bits);
-        *found = bits as u16;
+        replace::<N, PART>(out, found, bits);
         if bits == 0 {
             break;
         }
@@ -205,14 +204,20 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
     let mut held = 0;
     for (((codes, limit), out), found) in codes.iter().zip(limit).zip(out).zip(found) {
         let bits = exceed::<N, PART, FALLING>(codes, limit, out, margin);
-        silence::<N, PART>(out, u32::from(*found) & !bits);
-        *found = bits as u16;
+        replace::<N, PART>(out, found, bits);
         if bits == 0 {
             break;
         }
         held += 1;
     }
     held
+}
+
+/// Takes down which taxels of a chunk hold something, and empties the others.
+#[inline(always)]
+fn replace<const N: usize, const PART: usize>(out: &mut [u16; N], found: &mut u16, bits: u32) {
+    silence::<N, PART>(out, u32::from(*found) & !bits);
+    *found = bits as u16;
 }
 
 /// Empties those taxels that were there in the last image, if it was not emptied, and are no more.

@@ -45,34 +45,83 @@ impl<'a> Marks<'a> {
         self.rows.hold(row(rows.start)..row(rows.end));
     }
 
-    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something.
+    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something; 16 at most.
     pub fn mark(&mut self, at: usize, count: usize, bits: u32) {
         let mut column = at - self.start;
         while column >= self.columns {
             self.next_row();
             column -= self.columns;
         }
-        if column + count <= self.columns && self.grain == 0 {
-            return self.rows.add(self.row, (bits << column) as u16);
-        }
-        let mut rest = bits;
+        let (mut rest, mut left) = (bits, count);
         while rest != 0 {
-            let skipped = rest.trailing_zeros();
-            column += skipped as usize;
-            while column >= self.columns {
+            // As far as the row goes, and in groups that are wider than all taxels as far as the group goes.
+            let (before, inside) = (column >> self.grain, column & ((1 << self.grain) - 1));
+            let wide = self.grain > MOST_FOLDED;
+            let row = self.columns - column;
+            let ahead = left.min(if wide { row.min((1 << self.grain) - inside) } else { row });
+            let piece = rest & !u32::MAX.unbounded_shl(ahead as u32);
+            let groups = if wide { u32::from(piece != 0) } else { fold(piece << inside, self.grain) };
+            self.rows.add(self.row, (groups << before) as u16);
+            (rest, left, column) = (rest.unbounded_shr(ahead as u32), left - ahead, column + ahead);
+            if column == self.columns {
                 self.next_row();
-                column -= self.columns;
+                column = 0;
             }
-            self.rows.add(self.row, 1 << (column >> self.grain));
-            // What else is of the same group and row.
-            let group = (((column >> self.grain) + 1) << self.grain).min(self.columns) - column;
-            rest = (rest >> skipped).unbounded_shr(group as u32);
-            column += group;
         }
     }
 
     fn next_row(&mut self) {
         self.row = self.row.saturating_add(1);
         self.start += self.columns;
+    }
+}
+
+/// Largest grain of groups whose bits, with those of 16 taxels, are in one word.
+const MOST_FOLDED: u32 = 4;
+
+/// A bit for each `2^grain` of them: whether one is set.
+fn fold(bits: u32, grain: u32) -> u32 {
+    let mut bits = bits;
+    for _ in 0..grain {
+        // Of two neighbours, then those that are left move together.
+        bits = (bits | bits >> 1) & 0x5555_5555;
+        bits = (bits | bits >> 1) & 0x3333_3333;
+        bits = (bits | bits >> 2) & 0x0f0f_0f0f;
+        bits = (bits | bits >> 4) & 0x00ff_00ff;
+        bits = (bits | bits >> 8) & 0x0000_ffff;
+    }
+    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::garment::{Garment, Layout};
+
+    #[test]
+    fn whatever_the_columns_each_taxel_marks_its_group() {
+        let mut noise = 1u32;
+        for columns in [1, 2, 5, 15, 16, 17, 27, 32, 33, 64, 100, 255, 256, 257, 700] {
+            let rows = 2 + 60 / columns;
+            let layout = Layout::build(&Garment::recorded(rows, columns), 2048, 255).unwrap();
+            let area = &layout.areas()[0];
+            let count = usize::from(rows * columns);
+            for _ in 0..200 {
+                let (mut marked, mut expected) = (Rows::NONE, Rows::NONE);
+                let mut marks = Marks::of(&mut marked, area);
+                for first in (0..count).step_by(SIXTEEN) {
+                    noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+                    let there = SIXTEEN.min(count - first);
+                    let bits = (noise >> 16) & (noise >> 8) & 0xffff >> (SIXTEEN - there);
+                    marks.mark(first, there, bits);
+                    for taxel in (0..there).filter(|taxel| bits & 1 << taxel != 0).map(|taxel| first + taxel)
+                    {
+                        let (row, column) = (taxel / usize::from(columns), taxel % usize::from(columns));
+                        expected.add(row as u16, 1 << (column >> grain(area)));
+                    }
+                }
+                assert!(marked == expected, "{columns}");
+            }
+        }
     }
 }
