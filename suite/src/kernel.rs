@@ -88,100 +88,105 @@ impl Kernel {
     pub fn run(self, bench: &mut Bench, codes: &[Code; TAXELS], probe: &mut impl Probe) -> u32 {
         probe.begin(Stage::Idle);
         match self {
-            Kernel::Read => {
-                let sum = read(codes);
-                probe.begin(Stage::Scan);
-                sum
-            }
-            Kernel::Compare => {
-                let over = compare(codes, black_box(200));
-                probe.begin(Stage::Scan);
-                u32::from(over)
-            }
-            Kernel::Dense => {
-                let contacts = bench.dense.process(codes);
-                probe.begin(Stage::Scan);
-                let words = contacts.iter().flat_map(|c| {
-                    let ([x, y], [xx, yy, xy]) = (c.first, c.second);
-                    [c.m, x, y, xx, yy, xy]
-                });
-                fold(words.map(|word| word as u32))
-            }
+            Kernel::Read => done(probe, read(codes)),
+            Kernel::Compare => done(probe, compare(codes, black_box(200))).into(),
+            Kernel::Dense => bench.dense(codes, probe),
             Kernel::Measure(measure) => {
                 let mut found = [[0; 4]; WINDOWS];
                 for (raw, window) in found.iter_mut().zip(codes.chunks(AREA)) {
                     *raw = measure.of(window);
                 }
-                probe.begin(Stage::Scan);
-                fold(found.into_iter().flatten())
+                fold(done(probe, found).into_iter().flatten())
             }
             Kernel::Activate(activation) => {
                 let state = state(codes, PLAIN);
                 let Some(maps) = &bench.maps else { return 0 };
-                let next = activation.step(maps, &state);
-                probe.begin(Stage::Scan);
-                fold(next.into_iter())
+                fold(done(probe, activation.step(maps, &state)).into_iter())
             }
-            Kernel::Infer => {
-                // Four inputs; the others start at rest.
-                let start: [i32; PLAIN] = state(codes, 4);
-                let Some(maps) = &bench.maps else { return 0 };
-                maps.infer(&start, &mut bench.inferred);
-                probe.begin(Stage::Scan);
-                let Inference { state, steps, .. } = &bench.inferred;
-                fold(state.iter().map(|value| *value as u32).chain([u32::from(*steps)]))
-            }
-            Kernel::Touch => {
-                let Some(gestures) = &bench.gestures else { return 0 };
-                let mut image = [0; PANEL];
-                image.iter_mut().zip(codes).for_each(|(value, code)| *value = code.0);
-                // Setting up is no part of it.
-                probe.begin(Stage::Scan);
-                probe.begin(Stage::Idle);
-                gestures.process(&mut bench.touch, &image);
-                probe.begin(Stage::Scan);
-                fold(gestures.decide(&bench.touch).scores.into_iter().map(|score| score as u32))
-            }
-            Kernel::Decide => {
-                let Some(gestures) = &bench.gestures else { return 0 };
-                let decision = gestures.decide(&bench.touch);
-                probe.begin(Stage::Scan);
-                fold(decision.scores.into_iter().map(|score| score as u32).chain([decision.lead]))
-            }
-            Kernel::Describe => {
-                let mut values = [0; AREA];
-                let mut hash = 0;
-                for window in codes.chunks(AREA) {
-                    values.iter_mut().zip(window).for_each(|(value, code)| *value = code.0);
-                    let measures = descriptor(&Patch::new(&values, SIDE));
-                    hash ^= fold(measures.into_iter().map(|measure| measure as u32));
-                }
-                probe.begin(Stage::Scan);
-                hash
-            }
-            Kernel::Nearest => {
-                let mut measures = [0; MEASURES];
-                measures.iter_mut().zip(codes).for_each(|(measure, code)| *measure = code.0 as i16);
-                let found = bench.gallery.recognise(&measures);
-                probe.begin(Stage::Scan);
-                fold(
-                    [found.distance.into(), found.class.unwrap_or(99).into(), found.share.0 as u32]
-                        .into_iter(),
-                )
-            }
-            Kernel::Copy => {
-                let mut from: copies::Space = [0; _];
-                from.iter_mut().zip(codes).for_each(|(byte, code)| *byte = code.0 as u8);
-                let mut to = from;
-                // Filling is no part of it.
-                probe.begin(Stage::Scan);
-                probe.begin(Stage::Idle);
-                copies::packets(&from, &mut to);
-                probe.begin(Stage::Scan);
-                fold(to.into_iter().chain(copies::all(&from)).map(u32::from))
-            }
+            Kernel::Infer => bench.infer(codes, probe).unwrap_or(0),
+            Kernel::Touch => bench.touch(codes, probe).unwrap_or(0),
+            Kernel::Decide => bench.decide(probe).unwrap_or(0),
+            Kernel::Describe => done(probe, describe(codes)),
+            Kernel::Nearest => bench.nearest(codes, probe),
+            Kernel::Copy => copy(codes, probe),
         }
     }
+}
+
+impl Bench {
+    fn dense(&mut self, codes: &[Code; TAXELS], probe: &mut impl Probe) -> u32 {
+        let contacts = done(probe, self.dense.process(codes));
+        let words = contacts.iter().flat_map(|c| {
+            let ([x, y], [xx, yy, xy]) = (c.first, c.second);
+            [c.m, x, y, xx, yy, xy]
+        });
+        fold(words.map(|word| word as u32))
+    }
+
+    fn infer(&mut self, codes: &[Code], probe: &mut impl Probe) -> Option<u32> {
+        // Four inputs; the others start at rest.
+        let start: [i32; PLAIN] = state(codes, 4);
+        self.maps.as_ref()?.infer(&start, &mut self.inferred);
+        probe.begin(Stage::Scan);
+        let Inference { state, steps, .. } = &self.inferred;
+        Some(fold(state.iter().map(|value| *value as u32).chain([u32::from(*steps)])))
+    }
+
+    fn touch(&mut self, codes: &[Code], probe: &mut impl Probe) -> Option<u32> {
+        let gestures = self.gestures.as_ref()?;
+        let mut image = [0; PANEL];
+        image.iter_mut().zip(codes).for_each(|(value, code)| *value = code.0);
+        begin(probe);
+        gestures.process(&mut self.touch, &image);
+        probe.begin(Stage::Scan);
+        Some(fold(gestures.decide(&self.touch).scores.into_iter().map(|score| score as u32)))
+    }
+
+    fn decide(&self, probe: &mut impl Probe) -> Option<u32> {
+        let decision = done(probe, self.gestures.as_ref()?.decide(&self.touch));
+        Some(fold(decision.scores.into_iter().map(|score| score as u32).chain([decision.lead])))
+    }
+
+    fn nearest(&self, codes: &[Code], probe: &mut impl Probe) -> u32 {
+        let mut measures = [0; MEASURES];
+        measures.iter_mut().zip(codes).for_each(|(measure, code)| *measure = code.0 as i16);
+        let found = done(probe, self.gallery.recognise(&measures));
+        let words = [found.distance.into(), found.class.unwrap_or(99).into(), found.share.0 as u32];
+        fold(words.into_iter())
+    }
+}
+
+fn describe(codes: &[Code]) -> u32 {
+    let mut values = [0; AREA];
+    let mut hash = 0;
+    for window in codes.chunks(AREA) {
+        values.iter_mut().zip(window).for_each(|(value, code)| *value = code.0);
+        let measures = descriptor(&Patch::new(&values, SIDE));
+        hash ^= fold(measures.into_iter().map(|measure| measure as u32));
+    }
+    hash
+}
+
+fn copy(codes: &[Code], probe: &mut impl Probe) -> u32 {
+    let mut from: copies::Space = [0; _];
+    from.iter_mut().zip(codes).for_each(|(byte, code)| *byte = code.0 as u8);
+    let mut to = from;
+    begin(probe);
+    copies::packets(&from, &mut to);
+    probe.begin(Stage::Scan);
+    fold(to.into_iter().chain(copies::all(&from)).map(u32::from))
+}
+
+/// The work begins here: what was before is no part of it.
+fn begin(probe: &mut impl Probe) {
+    probe.begin(Stage::Scan);
+    probe.begin(Stage::Idle);
+}
+
+/// The work is done, and this is what it gave.
+fn done<T>(probe: &mut impl Probe, found: T) -> T {
+    probe.begin(Stage::Scan);
+    found
 }
 
 /// As many prototypes as there may be, anywhere.
