@@ -354,27 +354,14 @@ fn nobody_touches_and_nothing_is_claimed() {
 
 #[test]
 fn settling_is_found_and_written() {
-    let things = br#"
-duration_s = 1000
-wiring = { source_kohm = 10, line_pf = 80 }
-[[touch]]
-panel = "chest"
-shape = "box"
-force_n = 60
-at = [6, 12]
-size_mm = [60, 60]
-start_s = 0
-rise_s = 0.1
-hold_s = 999
-fall_s = 0.1
-"#;
-    let (things, output) = (file("things.toml", things), file("settled.toml", b""));
-    let said = run(&["settle", "--source", &format!("sim:{things}"), "--json", "-o", &output]);
+    let weights = concat!("sim:", env!("CARGO_MANIFEST_DIR"), "/../examples/scenes/weights.toml");
+    let output = file("settled.toml", b"");
+    let said = run(&["settle", "--source", weights, "--json", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
     // 800 ns and 4 of 4,095 counts: 5,545 ns, three slots of the board that is simulated.
     assert_eq!(settled["in_slots_ns"], 6_000);
-    assert_eq!(settled["measured"], serde_json::json!([26]));
+    assert_eq!(settled["measured"], serde_json::json!([26, 27, 28, 29]));
     let garment = taxel::sim::garment(&output).unwrap();
     assert_eq!(settled["settle_ns"], garment.wiring.settle_ns);
 }

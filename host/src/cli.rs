@@ -201,7 +201,6 @@ const CALIBRATE: &str = "Examples:
   taxel calibrate check anna.toml";
 
 const SETTLE: &str = "Examples:
-  taxel settle --source sim:weights
   taxel settle --garment garment.toml -o garment.toml
   taxel settle --source serial:/dev/ttyACM0 --error 2 --json";
 

@@ -23,7 +23,7 @@ macro_rules! scenes {
 }
 
 /// Names and texts.
-const SCENES: [(&str, &str); 14] = scenes![
+const SCENES: [(&str, &str); 13] = scenes![
     "pat",
     "lash",
     "stroke",
@@ -36,7 +36,6 @@ const SCENES: [(&str, &str); 14] = scenes![
     "press",
     "five",
     "source",
-    "weights",
     "idle",
 ];
 
