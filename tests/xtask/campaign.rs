@@ -72,7 +72,11 @@ fn measured(target: &'static str, needs: Needs, log: &Path) -> Result<String, St
         Needs::Python => targets::read_by_python(log, &longer)?,
     };
     let lines = end.map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
-    let said = lines.iter().filter(|line| !line.starts_with("test ") && !line.is_empty());
+    // Nor does it belong into a table which files were written.
+    let file = paths::target().display().to_string();
+    let said = lines.iter().filter(|line| {
+        !line.is_empty() && !["test ", file.as_str()].iter().any(|other| line.starts_with(other))
+    });
     Ok(said.map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n"))
 }
 
