@@ -212,7 +212,7 @@ struct More<'a> {
     out: &'a mut [u8],
 }
 
-/// Writes what is left of a run, at most so many taxels.
+/// Writes what is left of a run, at most so many taxels. `ALONE`: of an image without a base, where `base` begins with the taxel before.
 #[inline(never)]
 fn rest<'a, const ALONE: bool>(
     mut out: &'a mut [u8],

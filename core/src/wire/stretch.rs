@@ -60,7 +60,8 @@ pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) ->
     tell(out, now, base)
 }
 
-/// As [`tell`] within a run, which goes on with the first taxel.
+/// As [`tell`] within a run, which goes on with the first taxel. `ALONE`: each differs from the one before it, `base` begins with that of
+/// the first, and a taxel need not be told if it is 0.
 #[inline(never)]
 fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
     let state = State { out, within: true, quiet: 0 };
