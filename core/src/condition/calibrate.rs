@@ -36,20 +36,32 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 }
 
 /// The taxels of a panel.
-struct Panel<'a> {
-    codes: &'a [Code],
-    limit: &'a [u16],
-    rest: &'a [u16],
-    gain: &'a [u16],
-    out: &'a mut [u16],
+pub(super) struct Panel<'a> {
+    pub codes: &'a [Code],
+    pub limit: &'a [u16],
+    pub rest: &'a [u16],
+    pub gain: &'a [u16],
+    pub out: &'a mut [u16],
 }
 
 impl Panel<'_> {
     /// `plain`: what a code may differ from that at rest before it counts, if every gain is 1.
     fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>, plain: Option<u16>) -> bool {
+        #[cfg(target_pointer_width = "64")]
+        if let Some(margin) = plain.filter(|_| marks.are_sixteens() && self.codes.len() == self.out.len()) {
+            return self.calibrate_rows::<FALLING>(&mut marks, margin);
+        }
+        self.calibrate_chunks::<FALLING>(&mut marks, plain)
+    }
+
+    pub fn calibrate_chunks<const FALLING: bool>(
+        &mut self,
+        marks: &mut Marks<'_>,
+        plain: Option<u16>,
+    ) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
-        let any = self.chunks::<CHUNK, PART, FALLING>(0, &mut marks, plain);
-        whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, &mut marks, plain) || any
+        let any = self.chunks::<CHUNK, PART, FALLING>(0, marks, plain);
+        whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, marks, plain) || any
     }
 
     /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.

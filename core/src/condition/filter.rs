@@ -2,6 +2,8 @@
 
 use super::config::Filter;
 use super::conservative::conservative;
+#[cfg(target_pointer_width = "64")]
+use super::eights::{FEWEST, median_by_eights};
 use super::median::median;
 use super::rows::grain;
 use super::slices::{panel_mut, panel_of};
@@ -18,6 +20,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         match filter {
             Filter::Off => {}
             Filter::Conservative => conservative(values, out, area, grain(area), &mut self.rows),
+            #[cfg(target_pointer_width = "64")]
+            Filter::Median if usize::from(area.columns) >= FEWEST => {
+                median_by_eights(values, out, area, grain(area), &mut self.rows)
+            }
             Filter::Median => median(values, out, area, grain(area), &mut self.rows),
             Filter::Square => square(values, out, area, &self.rows),
         }

@@ -79,6 +79,45 @@ impl<'a> Marks<'a> {
 /// Largest grain of groups whose bits, with those of 16 taxels, are in one word.
 const MOST_FOLDED: u32 = 4;
 
+/// Marks of whole rows of sixteens, by a machine with vectors.
+#[cfg(target_pointer_width = "64")]
+impl Marks<'_> {
+    /// Whether all rows are sixteens of columns, none of which is wider than a group.
+    pub const fn are_sixteens(&self) -> bool {
+        self.columns.is_multiple_of(SIXTEEN) && self.grain <= MOST_FOLDED
+    }
+
+    /// Sixteens of a row.
+    pub const fn sixteens(&self) -> usize {
+        self.columns / SIXTEEN
+    }
+
+    /// The groups of a row that have some of the taxels of a sixteen, given its number in the row and a bit for each of those.
+    #[inline(always)]
+    pub fn groups_of_sixteen(&self, sixteen: u32, bits: u32) -> u16 {
+        let groups = match self.grain {
+            2 => fold_sixteen_by_four(bits),
+            grain => fold(bits, grain),
+        };
+        (groups << ((sixteen * SIXTEEN as u32) >> self.grain)) as u16
+    }
+
+    /// Takes down the groups of a row of the panel, in place of those that it had.
+    #[inline(always)]
+    pub const fn mark_row(&mut self, row: usize, groups: u16) {
+        self.rows.set(self.panel.start.saturating_add(row as u16), groups);
+    }
+}
+
+/// As [`fold`] of 16 bits with a grain of 2, that of panels of 33 to 64 columns.
+#[cfg(target_pointer_width = "64")]
+const fn fold_sixteen_by_four(bits: u32) -> u32 {
+    let two = bits | bits >> 1;
+    let four = (two | two >> 2) & 0x1111;
+    // Brings bit 4 k to bit 12 + k; nothing carries.
+    ((four * 0x1248) >> 12) & 0xf
+}
+
 /// A bit for each `2^grain` of them: whether one is set.
 fn fold(bits: u32, grain: u32) -> u32 {
     let mut bits = bits;
@@ -97,6 +136,33 @@ fn fold(bits: u32, grain: u32) -> u32 {
 mod tests {
     use super::*;
     use crate::garment::{Garment, Layout};
+
+    #[test]
+    fn sixteens_fold_as_others() {
+        for bits in 0..1 << SIXTEEN {
+            assert_eq!(fold_sixteen_by_four(bits), fold(bits, 2));
+        }
+        for columns in (1..=20).map(|sixteens| sixteens * SIXTEEN as u16) {
+            let layout = Layout::build(&Garment::recorded(2, columns), 2048, 255).unwrap();
+            let area = &layout.areas()[0];
+            let (mut marked, mut expected) = (Rows::NONE, Rows::NONE);
+            let mut marks = Marks::of(&mut marked, area);
+            assert_eq!((marks.are_sixteens(), marks.sixteens()), (columns <= 256, usize::from(columns) / 16));
+            if columns > 256 {
+                continue;
+            }
+            let bits = |sixteen: u32| 1u32 << (sixteen * 7 % 16);
+            let groups = (0..u32::from(columns) / 16).map(|at| marks.groups_of_sixteen(at, bits(at)));
+            let groups = groups.fold(0, |all, groups| all | groups);
+            marks.mark_row(0, u16::MAX);
+            marks.mark_row(0, groups);
+            let mut each = Marks::of(&mut expected, area);
+            for at in 0..u32::from(columns) / 16 {
+                each.mark(at as usize * SIXTEEN, SIXTEEN, bits(at));
+            }
+            assert!(marked == expected, "{columns}");
+        }
+    }
 
     #[test]
     fn whatever_the_columns_each_taxel_marks_its_group() {

@@ -28,6 +28,8 @@ mod consensus;
 mod conservative;
 mod drift;
 mod edge;
+#[cfg(target_pointer_width = "64")]
+mod eights;
 mod feedback;
 mod filter;
 mod held;
@@ -35,6 +37,8 @@ mod image;
 mod limit;
 mod marks;
 mod median;
+#[cfg(target_pointer_width = "64")]
+mod plain;
 mod progress;
 mod row;
 mod rows;

@@ -121,6 +121,12 @@ pub(super) fn grain(area: &Area) -> u32 {
     grain
 }
 
+/// The groups of some columns, of which there is one at least.
+pub(super) const fn columns_as_groups(columns: Range<usize>, grain: u32) -> u16 {
+    let (first, last) = (columns.start >> grain, (columns.end - 1) >> grain);
+    u16::MAX << first & u16::MAX >> (GROUPS as usize - 1 - last)
+}
+
 /// The first and the last of some groups, as columns.
 pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
     if groups == 0 {

@@ -36,6 +36,11 @@ pub(super) const fn highest(taxels: u32) -> u16 {
     below.wrapping_add(1).trailing_zeros() as u16
 }
 
+/// Some taxels and those beside them.
+pub(super) const fn widened(taxels: u32) -> u32 {
+    taxels | taxels << 1 | taxels >> 1
+}
+
 /// The runs of `taxels` that have one of `touched`, all of which are among them.
 pub(super) const fn flood(taxels: u32, touched: u32) -> u32 {
     if is_run(taxels) {
@@ -43,7 +48,7 @@ pub(super) const fn flood(taxels: u32, touched: u32) -> u32 {
     }
     let mut runs = touched;
     loop {
-        let wider = (runs | runs << 1 | runs >> 1) & taxels;
+        let wider = widened(runs) & taxels;
         if wider == runs {
             return runs;
         }

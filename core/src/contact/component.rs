@@ -6,11 +6,12 @@ use super::label::Labels;
 use super::moments::{FEW, Moments, is_small};
 use super::part::{NONE, Part};
 use super::piece::Piece;
-use super::strip::{Strip, strips};
-use super::sums::squares;
+use super::strip::{Strip, strips, values_of};
+use super::sums::{NARROW, squares};
 use crate::condition::{CARRIED, Feedback, Image};
 use crate::format::{Fixed16, Inverse};
-use crate::garment::{Layout, Place, Rect};
+use crate::garment::{Area, Layout, Place, Rect};
+use core::slice::from_ref;
 use heapless::Vec;
 
 /// A connected touch of one frame, not yet tracked.
@@ -78,8 +79,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         self.dropped = 0;
         let mut least = None;
         for (index, part) in labels.whole_parts().filter(|(index, part)| part.group == *index) {
-            let (total, peak, area, held) =
-                if part.joined { weigh(labels, index) } else { (part.mass, part.peak, part.area, part.held) };
+            let (total, peak, area, held) = if part.joined {
+                weigh(labels, index)
+            } else {
+                (part.mass, part.peak as u16, part.area, part.held)
+            };
             if area < config.min_area || (peak < config.high && !held) {
                 continue;
             }
@@ -143,7 +147,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = joins.settle(labels, layout, index);
         }
-        self.take_pieces(labels, joins, layout, image);
+        if usize::BITS >= 64 {
+            self.take_pieces(labels, joins, layout, image);
+        } else {
+            self.take_strips(labels, joins, layout, image);
+        }
         for (contact, moments) in joins.carried_moments() {
             if let Some(component) = self.list.get_mut(usize::from(contact)) {
                 component.moments.add(&moments);
@@ -154,9 +162,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the pieces to the components that they belong to.
+    /// Adds the pieces to the components that they belong to, strip by strip: a strip's sums come together in registers.
     #[inline(never)] // the few registers of an M0+ are for its loop
-    fn take_pieces<const RUNS: usize, const PARTS: usize>(
+    fn take_strips<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
         joins: &mut Joins,
@@ -171,11 +179,32 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
             let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
             let strip = Strip { pieces, part, area, values: image.values };
-            component.add(&strip, joins);
-            if part.panel == component.bounds.panel {
-                strip.widen(&mut component.bounds);
-            } else {
+            if component.take(&strip, joins) {
                 self.widen_beyond(&strip);
+            }
+        }
+    }
+
+    /// The same piece by piece, for a machine with many registers: in wide rows most strips are of one piece.
+    fn take_pieces<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        labels: &Labels<RUNS, PARTS>,
+        joins: &mut Joins,
+        layout: &Layout,
+        image: &Image,
+    ) {
+        let areas = layout.areas();
+        for piece in &labels.pieces {
+            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
+            let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
+            let Some(area) = areas.get(usize::from(part.panel)) else { continue };
+            if component.joined {
+                let strip = Strip { pieces: from_ref(piece), part, area, values: image.values };
+                if component.take(&strip, joins) {
+                    self.widen_beyond(&strip);
+                }
+            } else {
+                component.add_piece(piece, area, image.values);
             }
         }
     }
@@ -255,8 +284,36 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
+    /// Adds pieces; whether they lie beyond a seam.
+    #[inline(always)]
+    fn take(&mut self, strip: &Strip, joins: &mut Joins) -> bool {
+        self.add(strip, joins);
+        let beyond = strip.part.panel != self.bounds.panel;
+        if !beyond {
+            strip.widen(&mut self.bounds);
+        }
+        beyond
+    }
+
+    /// Adds a piece of a component that lies on one panel.
+    #[inline(always)]
+    fn add_piece(&mut self, piece: &Piece, area: &Area, values: &[u16]) {
+        let row = piece.row - area.first_row;
+        let squares = match piece.peak {
+            0..=NARROW => piece.sums.squares.into(),
+            _ => squares(values_of(piece, area, values), piece.rebased()),
+        };
+        self.moments.add(&Moments::of_sums(piece.left.into(), row.into(), &piece.sums, squares));
+        let Rect { top, bottom, left, right, .. } = &mut self.bounds;
+        (*top, *bottom) = (row.min(*top), row);
+        (*left, *right) = (piece.left.min(*left), piece.right.max(*right));
+        if piece.peak == self.peak && self.peak_at.is_none_or(|at| at.row == row) {
+            self.look_for_peak(piece, self.bounds.panel, area, values);
+        }
+    }
+
     /// Adds pieces to the sums.
-    #[inline(never)] // the few registers of an M0+ are for this
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for this
     fn add(&mut self, strip: &Strip, joins: &mut Joins) {
         // Of parts that are carried the sums are, once all their pieces are in.
         let carried = if self.joined { joins.moments_of(strip.part.parent) } else { None };
@@ -268,21 +325,21 @@ impl Component {
         } else {
             for piece in pieces {
                 let row = piece.row - area.first_row;
-                let squares = || squares(strip.values(piece), piece.rebased());
+                let squares = || squares(values_of(piece, area, strip.values), piece.rebased());
                 moments.add_piece(piece.left.into(), row.into(), &piece.sums, piece.peak, squares);
             }
         }
         let peak = self.peak;
         if let Some(piece) = strip.pieces.iter().find(|piece| piece.peak == peak) {
-            self.look_for_peak(strip, piece);
+            self.look_for_peak(piece, strip.part.panel, area, strip.values);
         }
     }
 
     /// Notes where the greatest value is first found, in a piece that has it. The pieces of a row may come in any order.
     #[inline(never)] // rarely called
-    fn look_for_peak(&mut self, strip: &Strip, piece: &Piece) {
-        let (panel, row) = (strip.part.panel, piece.row - strip.area.first_row);
-        let mut columns = (piece.left..).zip(strip.values(piece));
+    fn look_for_peak(&mut self, piece: &Piece, panel: u8, area: &Area, values: &[u16]) {
+        let row = piece.row - area.first_row;
+        let mut columns = (piece.left..).zip(values_of(piece, area, values));
         let mine = |column| piece.holds(column);
         let Some((column, _)) = columns.find(|(column, value)| **value == self.peak && mine(*column)) else {
             return;
@@ -290,6 +347,66 @@ impl Component {
         let first = |at: Place| at.panel == panel && at.row == row && column < at.column;
         if self.peak_at.is_none_or(first) {
             self.peak_at = Some(Place { panel, row, column });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::condition::Rows;
+    use crate::garment::{Edge, Garment, Seam, Side};
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Two panels, of one word or of several a row, sewn together or not.
+    #[test]
+    fn strips_add_up_to_what_their_pieces_do() {
+        let mut noise = 1u32;
+        let mut next = |end: u32| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            (noise >> 16) % end
+        };
+        for (round, columns) in (0..60).flat_map(|round| [16, 31, 40, 64].map(|columns| (round, columns))) {
+            let mut garment = Garment::recorded(12, columns);
+            let mut second = garment.panels[0].clone();
+            second.name = crate::format::Name::try_from("second").unwrap();
+            garment.panels.push(second).unwrap();
+            if round % 2 == 0 {
+                let [a, b] =
+                    [(0, Side::Bottom), (1, Side::Top)].map(|(panel, side)| Edge { panel, side, start: 0 });
+                garment.seams.push(Seam { a, b, length: columns, reversed: false }).unwrap();
+            }
+            let layout = Layout::build(&garment, 3072, 4095).unwrap();
+            let (share, peak) = (next(80), [4095, u16::MAX][round / 2 % 2]);
+            let mut values = vec![0; layout.taxels()];
+            values.fill_with(|| if next(100) < share { 1 + next(peak.into()) as u16 } else { 0 });
+            let rows = Rows::of(&layout, &values);
+            let image = Image { values: &values, rows: &rows };
+            let (mut labels, mut joins) = (Labels::<2048, 2048>::new(), Joins::new());
+            labels.scan(&layout, &image, 1);
+            joins.find(&mut labels, &layout);
+            let mut components = Components::<40>::new();
+            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labels);
+            components.number(&mut labels);
+            let mut found = [false, true].map(|strips| {
+                let (mut components, mut joins) = (components.clone(), joins.clone());
+                for (index, component) in (0u16..).zip(&mut components.list).filter(|(_, c)| c.joined) {
+                    component.bounds.panel = joins.settle(&labels, &layout, index);
+                }
+                if strips {
+                    components.take_strips(&labels, &mut joins, &layout, &image);
+                } else {
+                    components.take_pieces(&labels, &mut joins, &layout, &image);
+                }
+                let each = components.list.iter().map(|c| (c.moments, c.bounds, c.peak_at));
+                let carried: Vec<_> = joins.carried_moments().collect();
+                (each.collect::<Vec<_>>(), components.beyond, carried)
+            });
+            found[0].1.sort_unstable_by_key(|(index, _)| *index);
+            found[1].1.sort_unstable_by_key(|(index, _)| *index);
+            assert_eq!(found[0], found[1], "{columns} columns, {share} %");
         }
     }
 }

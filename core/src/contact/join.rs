@@ -248,7 +248,7 @@ pub(super) fn weigh<const RUNS: usize, const PARTS: usize>(
     for (index, part) in labels.whole_parts() {
         if index == first || (part.joined && group(&labels.parts, index) == first) {
             sum.0 = sum.0.wrapping_add(part.mass);
-            sum.1 = sum.1.max(part.peak);
+            sum.1 = sum.1.max(part.peak as u16);
             sum.2 = sum.2.saturating_add(part.area);
             sum.3 |= part.held;
         }

@@ -1,15 +1,12 @@
 //! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
 
-use super::bits::{WORD, highest, is_run, run_of};
-use super::part::{NONE, Part, first_of, unite};
+use super::bits::WORD;
+use super::part::{NONE, Part};
 use super::piece::Piece;
 use super::strip::strips;
-use super::sums::Sums;
-use super::touched::{Sixteen, sixteens, touched, touched_of_sixteen};
+use super::touched::sixteens;
 use crate::condition::{Image, panel_of, row_of};
 use crate::garment::{Area, Layout, Side};
-use bytemuck::must_cast_slice;
-use core::ops::Range;
 use heapless::Vec;
 
 /// The parts of a frame, and their pieces.
@@ -33,16 +30,16 @@ const fn bit(panel: u8, side: Side) -> u32 {
 /// Where the pieces that are looked for lie.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
-    panel: u8,
+    pub panel: u8,
     /// over all panels
-    row: u16,
+    pub row: u16,
     /// The first piece of the row above, or of this row where that has none.
     pub above: usize,
-    /// If the row above is one piece, what it reaches of this one, and its part.
-    reach: u32,
-    part: u16,
+    /// Of rows of one word: if the row above is one piece, what it reaches of this one, and its part.
+    pub reach: u32,
+    pub part: u16,
     /// What was touched so far in the first and in the last words of the panel's rows.
-    ends: [u32; 2],
+    pub ends: [u32; 2],
 }
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
@@ -68,7 +65,6 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         for (panel, area) in (0u8..).zip(layout.areas()) {
             self.scan_panel(panel, area, image, low);
         }
-        self.weigh();
         self.flatten();
     }
 
@@ -76,144 +72,34 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
         let start = self.pieces.len();
         let last = area.first_row.saturating_add(area.rows);
-        let values = panel_of(image.values, area);
-        let sixteens = sixteens(values, area.columns, low);
+        let sixteens = sixteens(panel_of(image.values, area), area.columns, low);
+        let are_sixteens = sixteens.len() == usize::from(area.rows);
         let mut line = Line { panel, row: 0, above: start, reach: 0, part: NONE, ends: [0; 2] };
         let mut from = area.first_row;
         // Only rows that follow each other touch.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
             line = Line { row: rows.start, above: self.pieces.len(), reach: 0, part: NONE, ..line };
-            let here = |row: u16| usize::from(row - area.first_row);
-            if let Some(sixteens) = sixteens.get(here(rows.start)..here(rows.end)) {
-                self.scan_sixteens(sixteens, low, &mut line);
+            if are_sixteens {
+                let here = |row: u16| usize::from(row - area.first_row);
+                let sixteens = sixteens.get(here(rows.start)..here(rows.end));
+                self.scan_sixteens(sixteens.unwrap_or(&[]), low, &mut line);
                 continue;
             }
             for row in rows {
-                let here = self.pieces.len();
                 line.row = row;
                 self.scan_row(row_of(image.values, area, row - area.first_row), low, &mut line);
-                line.above = here;
             }
+        }
+        if are_sixteens {
+            self.weigh(start);
         }
         self.mark_sides(start, area, &line);
     }
 
-    /// Rows of sixteen columns that follow each other.
-    #[inline(never)] // the few registers of an M0+ are for its loop
-    fn scan_sixteens(&mut self, rows: &[Sixteen], low: u16, line: &mut Line) {
-        let mut all = 0;
-        for sixteen in rows {
-            let here = self.pieces.len();
-            let (taxels, values) = (touched_of_sixteen(sixteen, low), must_cast_slice(sixteen));
-            line.part = if is_run(taxels) {
-                self.scan_run(taxels, values, 0, line)
-            } else if taxels & !line.reach != 0 {
-                self.scan_runs(taxels, values, 0, line)
-            } else if taxels != 0 {
-                self.push_named(taxels, taxels, line.part, values, 0, line)
-            } else {
-                NONE
-            };
-            line.reach = if line.part == NONE { 0 } else { taxels | taxels << 1 | taxels >> 1 };
-            line.row += 1;
-            line.above = here;
-            all |= taxels;
-        }
-        line.ends = line.ends.map(|end| end | all);
-    }
-
-    fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
-        for (word, values) in (0..).zip(row.chunks(WORD.into())) {
-            let column = word * WORD;
-            let taxels = touched(values, low);
-            if word == 0 {
-                line.ends[0] |= taxels;
-            }
-            if usize::from(column) + values.len() == row.len() {
-                line.ends[1] |= taxels;
-            }
-            if is_run(taxels) {
-                self.scan_run(taxels, values, column, line);
-            } else if taxels != 0 {
-                self.scan_runs(taxels, values, column, line);
-            }
-        }
-    }
-
-    /// Appends the one run of a word to the part that it touches, and returns that. If it touches several, they belong together.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn scan_run(&mut self, run: u32, values: &[u16], column: u16, line: &Line) -> u16 {
-        let part = if line.reach & run != 0 { line.part } else { self.meet(run, column, line) };
-        self.push_run(run, run, part, values, column, line)
-    }
-
-    /// Appends a run of a word that has `all` taxels.
-    #[inline(always)]
-    pub(super) fn push_run(
-        &mut self,
-        taxels: u32,
-        all: u32,
-        part: u16,
-        values: &[u16],
-        column: u16,
-        line: &Line,
-    ) -> u16 {
-        let Range { start, end } = run_of(taxels);
-        // There are as many.
-        let Some(values) = values.get(start..end) else { return part };
-        let (left, right, area) = (column + start as u16, column + end as u16 - 1, values.len() as u16);
-        let (sums, peak) = (Sums::NONE, 0);
-        let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
-        let (part, piece) = self.push(piece, line.panel);
-        if let Some(piece) = piece {
-            // Where it stays: nothing is copied.
-            piece.peak = piece.sums.take(values);
-        }
-        part
-    }
-
-    /// The part that a run touches, of the pieces in the row above and in the word before; or [`NONE`]. If there are several,
-    /// they belong together from now on.
-    #[inline(never)] // the few registers of an M0+ are for this
-    fn meet(&mut self, run: u32, column: u16, line: &Line) -> u16 {
-        let above = self.pieces.get(line.above..).unwrap_or(&[]);
-        let mut part = NONE;
-        for piece in above.iter().filter(|piece| piece.reach(column) & run != 0) {
-            part = match part {
-                NONE => first_of(&mut self.parts, piece.part),
-                part => unite(&mut self.parts, piece.part, part),
-            };
-        }
-        part
-    }
-
-    /// Appends runs of a word that has `all` taxels.
-    #[inline(never)] // the few registers of an M0+ are for this
-    pub(super) fn push_named(
-        &mut self,
-        taxels: u32,
-        all: u32,
-        part: u16,
-        values: &[u16],
-        column: u16,
-        line: &Line,
-    ) -> u16 {
-        let (start, area) = (taxels.trailing_zeros(), taxels.count_ones() as u16);
-        let (left, right) = (column + start as u16, column + highest(taxels));
-        let (sums, peak) = (Sums::NONE, 0);
-        let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
-        let (part, piece) = self.push(piece, line.panel);
-        if let Some(piece) = piece {
-            let values = values.get(start as usize..).unwrap_or(&[]);
-            piece.peak = piece.sums.take_named(values, taxels.unbounded_shr(start));
-        }
-        part
-    }
-
     /// Appends a piece to its part, and returns that, and the piece if there is room; to a new part, if that is [`NONE`].
     #[inline(always)]
-    fn push(&mut self, mut piece: Piece, panel: u8) -> (u16, Option<&mut Piece>) {
+    pub fn push(&mut self, mut piece: Piece, panel: u8) -> (u16, Option<&mut Piece>) {
         let mut fits = true;
         if piece.part == NONE {
             piece.part = self.parts.len() as u16;
@@ -248,10 +134,10 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.sides & bit(panel, side) != 0
     }
 
-    /// Gives the parts the sums of their pieces.
+    /// Gives the parts the sums of their pieces, which are those from `start` on.
     #[inline(never)] // the few registers of an M0+ are for its loop
-    fn weigh(&mut self) {
-        for pieces in strips(&self.pieces) {
+    fn weigh(&mut self, start: usize) {
+        for pieces in strips(self.pieces.get(start..).unwrap_or(&[])) {
             let (mut mass, mut area, mut peak) = (0u32, 0u32, 0);
             for piece in pieces {
                 mass = mass.wrapping_add(piece.sums.s0);
@@ -276,7 +162,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
                 continue;
             }
             // Those before it have the first of theirs already.
-            let (mass, area, peak) = (part.mass, part.area, part.peak);
+            let (mass, area, peak) = (part.mass, part.area, part.peak as u16);
             let Some(first) = self.parts.get(parent).map(|part| part.parent) else { return };
             if let Some(part) = self.parts.get_mut(index) {
                 part.parent = first;

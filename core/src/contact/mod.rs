@@ -7,7 +7,7 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; slip is told with the third frame of a motion |
 //! | RAM | 800 bytes per contact, 36 per run, 20 per part, and 3.6 KB |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 60 k with five, 237 k with forty of 4 to 9; 186 k if all 2,048 taxels are touched, 241 k as a checkerboard of 1,024 runs |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 59 k with five, 233 k with forty of 4 to 9; 179 k if all 2,048 taxels are touched, 223 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another of it, in its
 //! panel or across a seam. A component is a contact if its peak reaches the high threshold, or if it comes within
@@ -28,7 +28,7 @@
 //! A scene that does not ask for slip sets `slip_speed` to [`NO_SLIP`] and does not pay for it: up to 16 k
 //! M0+ cycles for each contact with a pattern, 400 for any other.
 //!
-//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`, `runs`); joins
+//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`; `sixteens` and `runs` in rows of one word, `words` in others); joins
 //! across seams (`side`, `join`); the choice of contacts (`near`); and the moments of the chosen ones only (`strip`, `component`). So far goes [`Contacts::segment`]; then they are
 //! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
 //! is costs as much as all the rest of it, and changes slowly.
@@ -54,6 +54,7 @@ mod point;
 mod record;
 mod runs;
 mod side;
+mod sixteens;
 mod slip;
 mod slopes;
 mod stage;
@@ -62,6 +63,7 @@ mod sums;
 mod touched;
 mod track;
 mod trail;
+mod words;
 
 pub(crate) use axis::tenths;
 pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};

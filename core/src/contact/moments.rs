@@ -169,12 +169,18 @@ impl Moments {
     #[cold]
     #[inline(never)]
     fn add_far(&mut self, x: u32, y: u32, sums: &Sums, squares: u64) {
+        self.add(&Moments::of_sums(x, y, sums, squares));
+    }
+
+    /// Of a piece of a row whose first taxel is (x, y), given what its taxels add up to.
+    #[inline(always)]
+    pub(super) fn of_sums(x: u32, y: u32, sums: &Sums, squares: u64) -> Moments {
         let (x, y) = (u64::from(x), u64::from(y));
         let [s0, s1, s2] = [sums.s0, sums.s1, sums.s2].map(u64::from);
         let first = s1.wrapping_sub(s0);
         let second = (s2 * 2).wrapping_add(s0).wrapping_sub(s1 * 3);
         let (sx, sy) = (x.wrapping_mul(s0).wrapping_add(first), y.wrapping_mul(s0));
-        self.add(&Moments {
+        Moments {
             m: s0,
             sx: sx as i64,
             sy: sy as i64,
@@ -182,7 +188,7 @@ impl Moments {
             syy: y.wrapping_mul(sy),
             sxy: y.wrapping_mul(sx) as i64,
             s2: squares,
-        });
+        }
     }
 
     /// Of a whole image as it stands, row by row.

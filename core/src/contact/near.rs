@@ -13,7 +13,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         last: &Feedback<CONTACTS>,
         high: u16,
     ) {
-        if self.whole_parts().all(|(_, part)| part.peak >= high) {
+        if self.whole_parts().all(|(_, part)| part.peak >= high.into()) {
             return;
         }
         for rect in last.home.iter().chain(&last.beyond) {

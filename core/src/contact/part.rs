@@ -16,8 +16,8 @@ pub(super) struct Part {
     pub contact: u16,
     /// taxels
     pub area: u16,
-    /// greatest value
-    pub peak: u16,
+    /// greatest value; 16 bits, which are sooner read back as a word
+    pub peak: u32,
     pub panel: u8,
     /// It comes within one taxel of a contact of the previous frame; asked of faint parts only.
     pub held: bool,
@@ -42,14 +42,16 @@ impl Part {
     }
 
     /// Adds the sums of others.
+    #[cfg_attr(target_pointer_width = "64", inline)]
     pub fn add(&mut self, mass: u32, area: u16, peak: u16) {
         self.mass = self.mass.wrapping_add(mass);
         self.area = self.area.saturating_add(area);
-        self.peak = self.peak.max(peak);
+        self.peak = self.peak.max(peak.into());
     }
 }
 
 /// The first of the parts that belong together with `part`. Parents have smaller indices, so this ends; it halves the path.
+#[cfg_attr(target_pointer_width = "64", inline)]
 pub(super) fn first_of(parts: &mut [Part], mut part: u16) -> u16 {
     let parent = |parts: &[Part], part: u16| parts.get(usize::from(part)).map_or(part, |part| part.parent);
     loop {

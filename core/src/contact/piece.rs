@@ -1,6 +1,6 @@
 //! Pieces: the taxels of a row that belong to one part.
 
-use super::bits::WORD;
+use super::bits::{WORD, widened};
 use super::sums::Sums;
 
 /// The taxels of one part in a word: in a row, or in [`WORD`] columns of a longer one. They are whole runs, which have no
@@ -53,18 +53,9 @@ impl Piece {
         self.taxels & columns(self.column(), first, last)
     }
 
-    /// Which taxels of the word at `column` touch it, if they are in the next row (corners included), or in its own.
-    pub const fn reach(&self, column: u16) -> u32 {
-        let (taxels, own) = (self.taxels, self.column());
-        if own == column {
-            taxels | taxels << 1 | taxels >> 1
-        } else if own.wrapping_add(WORD) == column {
-            taxels >> (WORD - 1)
-        } else if own == column.wrapping_add(WORD) {
-            taxels << (WORD - 1)
-        } else {
-            0
-        }
+    /// Which taxels of that word touch it in the next row (corners included), or in its own.
+    pub const fn reach(&self) -> u32 {
+        widened(self.taxels)
     }
 }
 

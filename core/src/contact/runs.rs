@@ -1,26 +1,26 @@
-//! Words with several runs: which of them belong to which part.
+//! Rows of one word with several runs: which of them belong to which part.
 
 use super::bits::{WORD, flood, is_run, lowest_run};
 use super::label::{Labels, Line};
 use super::part::{NONE, first_of, unite};
 use heapless::Vec;
 
-/// Runs of a word that belong to one part, and the part.
+/// Runs of a row that belong to one part, and the part.
 type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// The part that all runs of a word touch, if it is the only one.
+    /// The part that all runs of a row touch, if it is the only one.
     #[inline(never)] // the few registers of an M0+ are for this
-    fn only_part(&mut self, all: u32, column: u16, line: &Line) -> Option<u16> {
+    fn only_part(&mut self, all: u32, line: &Line) -> Option<u16> {
         let above = self.pieces.get(line.above..).unwrap_or(&[]);
         if let [piece] = above
-            && piece.reach(column) & all == all
+            && piece.reach() & all == all
         {
             return Some(first_of(&mut self.parts, piece.part));
         }
         let (mut part, mut touched) = (NONE, 0);
         for piece in above {
-            let taxels = piece.reach(column) & all;
+            let taxels = piece.reach() & all;
             if taxels != 0 {
                 let other = first_of(&mut self.parts, piece.part);
                 if part != NONE && part != other {
@@ -32,31 +32,31 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         (flood(all, touched) == all).then_some(part)
     }
 
-    /// Appends the runs of a word, as one piece for each part that they touch or begin; their part, if there is but one.
+    /// Appends the runs of a row, as one piece for each part that they touch or begin; their part, if there is but one.
     #[inline(never)] // the few registers of an M0+ are for this
-    pub(super) fn scan_runs(&mut self, all: u32, values: &[u16], column: u16, line: &Line) -> u16 {
-        if let Some(part) = self.only_part(all, column, line) {
-            return self.push_named(all, all, part, values, column, line);
+    pub(super) fn scan_runs(&mut self, all: u32, values: &[u16], line: &Line) -> u16 {
+        if let Some(part) = self.only_part(all, line) {
+            return self.push_named(all, all, part, values, line);
         }
         let mut found = Found::new();
-        self.find_parts(&mut found, all, column, line);
+        self.find_parts(&mut found, all, line);
         for &(taxels, part) in &found {
             if is_run(taxels) {
-                self.push_run(taxels, all, part, values, column, line);
+                self.push_run(taxels, all, part, values, line);
             } else {
-                self.push_named(taxels, all, part, values, column, line);
+                self.push_named(taxels, all, part, values, line);
             }
         }
         NONE
     }
 
-    /// Tells apart the runs of a word by their parts: first those that are known already, from the row above or the word before;
+    /// Tells apart the runs of a row by their parts: first those that are known already, from the row above;
     /// then new ones.
     #[inline(never)] // rarely called
-    fn find_parts(&mut self, found: &mut Found, all: u32, column: u16, line: &Line) {
+    fn find_parts(&mut self, found: &mut Found, all: u32, line: &Line) {
         let mut free = all;
         for piece in self.pieces.get(line.above..).unwrap_or(&[]) {
-            let touched = piece.reach(column) & all;
+            let touched = piece.reach() & all;
             if touched == 0 {
                 continue;
             }

@@ -19,7 +19,7 @@ pub struct Contacts {
 }
 
 /// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts, which are
-/// touched taxels of one panel that are connected (65534). Half as many runs as taxels always suffice, and of parts one for each square of
+/// touched taxels of one panel that are connected (65534). Half as many runs as taxels suffice wherever the columns are even in number, and of parts one for each square of
 /// two by two taxels, or as many as runs.
 #[derive(Debug, Clone)]
 pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {

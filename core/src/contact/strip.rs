@@ -15,12 +15,6 @@ pub(super) struct Strip<'a> {
 }
 
 impl Strip<'_> {
-    /// The values from the first to the last taxel of a piece.
-    pub fn values(&self, piece: &Piece) -> &[u16] {
-        let row = row_of(self.values, self.area, piece.row - self.area.first_row);
-        row.get(piece.left.into()..=piece.right.into()).unwrap_or(&[])
-    }
-
     /// Lets a rectangle of the panel hold them.
     pub fn widen(&self, rect: &mut Rect) {
         // The rows come one after the other.
@@ -38,6 +32,12 @@ impl Strip<'_> {
             rest = after;
         }
     }
+}
+
+/// The values from the first to the last taxel of a piece of a panel.
+pub(super) fn values_of<'a>(piece: &Piece, area: &Area, values: &'a [u16]) -> &'a [u16] {
+    let row = row_of(values, area, piece.row - area.first_row);
+    row.get(piece.left.into()..=piece.right.into()).unwrap_or(&[])
 }
 
 /// Pieces that follow each other and were found as one part, as those of most parts are.

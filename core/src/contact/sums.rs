@@ -24,7 +24,8 @@ impl Sums {
     pub const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
 
     /// Becomes those of at most [`WORD`] values; the greatest of them.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    #[cfg_attr(target_pointer_width = "64", inline)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for its loop
     pub fn take(&mut self, values: &[u16]) -> u16 {
         let (mut sums, mut greatest) = (Sums::NONE, 0);
         for value in values.iter().rev() {

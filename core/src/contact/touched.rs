@@ -1,31 +1,36 @@
 //! Which taxels of a row are touched, as bits.
 
 use bytemuck::pod_align_to;
+#[cfg(target_pointer_width = "64")]
+use wide::u16x16;
 
 /// Which of at most 32 values are not below a threshold, which is at least 1.
-#[inline(never)] // the few registers of an M0+ are for its loop
+#[cfg_attr(target_pointer_width = "64", inline(always))]
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for its loop
 pub(super) fn touched(values: &[u16], low: u16) -> u32 {
-    if usize::BITS >= 64 {
-        return touched_by_eights(values, low);
-    }
+    #[cfg(target_pointer_width = "64")]
+    return touched_by_vectors(values, low);
+    #[cfg(not(target_pointer_width = "64"))]
     touched_by_sums(values, low)
 }
 
 /// One after the other.
+#[cfg(any(test, not(target_pointer_width = "64")))]
 fn touched_by_sums(values: &[u16], low: u16) -> u32 {
     // A sum carries into bit 16 from the threshold on, which costs less than a comparison.
     let rest = (1 << 16) - u32::from(low);
     values.iter().rev().fold(0, |taxels, value| taxels << 1 | (rest + u32::from(*value)) >> 16)
 }
 
-/// The same for a machine with vectors.
-fn touched_by_eights(values: &[u16], low: u16) -> u32 {
-    let (eights, rest) = values.as_chunks::<8>();
+/// Sixteen at once.
+#[cfg(target_pointer_width = "64")]
+#[inline(always)]
+fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
+    let (sixteens, rest) = values.as_chunks();
     let last = rest.iter().rev().fold(0, |taxels, value| taxels << 1 | u32::from(*value >= low));
-    eights.iter().rev().fold(last, |taxels, eight| {
-        let marks = u64::from_le_bytes(eight.map(|value| u8::from(value >= low)));
-        // Brings bit 0 of byte k to bit 56 + k; nothing carries.
-        taxels << 8 | (marks.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
+    sixteens.iter().rev().fold(last, |taxels, sixteen| {
+        let missing = u16x16::splat(low).saturating_sub(u16x16::new(*sixteen));
+        taxels << 16 | missing.simd_eq(u16x16::ZERO).to_bitmask()
     })
 }
 
@@ -86,7 +91,7 @@ mod tests {
             };
             let short = &values[..length];
             assert_eq!(
-                (touched_by_sums(short, low), touched_by_eights(short, low)),
+                (touched_by_sums(short, low), touched_by_vectors(short, low)),
                 (want(short), want(short))
             );
             let rows = sixteens(values, 16, low);

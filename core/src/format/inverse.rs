@@ -3,13 +3,17 @@
 use super::product::wide;
 use super::shift::left;
 
+/// Whether the machine divides 64 bits, and multiplies them into 128.
+const WIDE: bool = usize::BITS >= 64;
+
 /// The inverse of a divisor, by Newton's iteration; worth its price (about 100 cycles) from the first quotient on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inverse {
     /// The divisor, shifted so that bit 31 is set; 0 for no divisor.
     pub(super) normal: u32,
     pub(super) shift: u32,
-    inverse: u32,
+    /// `2^63 / normal`, or one less; on a wide machine `2^64 / divisor`, rounded down, or `2^64 / divisor - 1`.
+    inverse: usize,
 }
 
 /// Of a divisor with so many zeros above its highest bit seven fit a word.
@@ -38,33 +42,59 @@ impl Inverse {
             return Inverse { normal: 0, shift: 0, inverse: 0 };
         }
         let shift = divisor.leading_zeros();
+        if WIDE {
+            return Inverse {
+                normal: divisor << shift,
+                shift,
+                inverse: (u64::MAX / divisor as u64) as usize,
+            };
+        }
         Inverse { shift, ..Inverse::of_normal(divisor << shift) }
     }
 
     /// Of the divisor shifted so that bit 31 is set.
     pub(super) const fn unshifted(&self) -> Inverse {
-        Inverse { shift: 0, ..*self }
+        if WIDE { Inverse::of(self.normal) } else { Inverse { shift: 0, ..*self } }
     }
 
     /// Of a divisor with bit 31 set.
     pub(super) const fn of_normal(normal: u32) -> Inverse {
-        Inverse { normal, shift: 0, inverse: inverse_of(normal) }
+        if WIDE {
+            Inverse::of(normal)
+        } else {
+            Inverse { normal, shift: 0, inverse: inverse_of(normal) as usize }
+        }
     }
 
     /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
-    #[inline(never)] // the few registers of an M0+ are for this
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for this
     pub const fn quotient(&self, value: u64) -> u32 {
         let divisor = self.normal >> self.shift;
-        let (high, low) = ((value >> 32) as u32, value as u32);
-        if high >= divisor {
+        if (value >> 32) as u32 >= divisor {
             return u32::MAX;
         }
+        if WIDE { self.wide_quotient(value) } else { self.narrow_quotient(value) }
+    }
+
+    /// The same of a value for which it is below 2^32, with an inverse of 64 bits: at most 1 too small, it takes less than 1 away.
+    const fn wide_quotient(&self, value: u64) -> u32 {
+        let divisor = (self.normal >> self.shift) as u64;
+        let quotient = ((value as u128 * self.inverse as u128) >> 64) as u64;
+        let rest = value - quotient * divisor;
+        (quotient + (rest >= divisor) as u64) as u32
+    }
+
+    /// The same with an inverse of 32 bits.
+    #[inline(always)]
+    const fn narrow_quotient(&self, value: u64) -> u32 {
+        let divisor = self.normal >> self.shift;
+        let (high, low) = ((value >> 32) as u32, value as u32);
         if self.shift < SPARE {
             return self.large_quotient(value);
         }
         // The quotient is below 2^32: the shifted value does not lose bits.
         let top = high << self.shift | low >> (32 - self.shift);
-        let quotient = (wide(top, self.inverse) >> 31) as u32;
+        let quotient = (wide(top, self.inverse as u32) >> 31) as u32;
         // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So the rest
         // is below 7 divisors and fits a word: what is above that need not be known.
         let rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
@@ -81,7 +111,7 @@ impl Inverse {
     #[cold]
     const fn large_quotient(&self, value: u64) -> u32 {
         let value = left(value, self.shift);
-        let mut quotient = (wide((value >> 32) as u32, self.inverse) >> 31) as u32;
+        let mut quotient = (wide((value >> 32) as u32, self.inverse as u32) >> 31) as u32;
         let mut rest = value - wide(quotient, self.normal);
         while rest >= self.normal as u64 {
             rest -= self.normal as u64;
@@ -123,13 +153,16 @@ mod tests {
                 None => ((next() >> 32) as u32 >> (round % 31)).max(1),
             };
             let inverse = Inverse::of(divisor);
+            let narrow = inverse_of(inverse.normal);
             let ideal = (1u128 << 63) / u128::from(inverse.normal);
-            let short = ideal as i128 - i128::from(inverse.inverse);
+            let short = ideal as i128 - i128::from(narrow);
             assert!((0..=1).contains(&short), "{divisor:#x} {short}");
             let quotient = next() as u32 >> (round % 29);
             for rest in [0, divisor - 1, next() as u32 % divisor] {
                 let value = u64::from(divisor) * u64::from(quotient) + u64::from(rest);
                 assert_eq!(inverse.quotient(value), quotient, "{value} / {divisor}");
+                let narrow = Inverse { inverse: narrow as usize, ..inverse };
+                assert_eq!(narrow.narrow_quotient(value), quotient, "{value} / {divisor}");
             }
             let value = next() as i64 >> (round % 63);
             let want = (i128::from(value) + i128::from(divisor / 2)).div_euclid(divisor.into());
