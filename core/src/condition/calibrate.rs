@@ -54,6 +54,7 @@ impl Panel<'_> {
         self.calibrate_chunks::<FALLING>(&mut marks, plain)
     }
 
+    /// The same, whatever the columns and however many codes there are.
     pub fn calibrate_chunks<const FALLING: bool>(
         &mut self,
         marks: &mut Marks<'_>,

@@ -82,7 +82,7 @@ const MOST_FOLDED: u32 = 4;
 /// Marks of whole rows of sixteens, by a machine with vectors.
 #[cfg(target_pointer_width = "64")]
 impl Marks<'_> {
-    /// Whether all rows are sixteens of columns, none of which is wider than a group.
+    /// Whether all rows are whole sixteens of columns, and no group is wider than one.
     pub const fn are_sixteens(&self) -> bool {
         self.columns.is_multiple_of(SIXTEEN) && self.grain <= MOST_FOLDED
     }
