@@ -25,6 +25,7 @@ pub mod intent;
 pub mod json;
 pub mod learn;
 pub mod live;
+pub mod output;
 pub mod ports;
 pub mod process;
 pub mod raw;

@@ -1,0 +1,103 @@
+//! The content of an output, before the output has it.
+
+use super::file::{Output, folder};
+use super::part;
+use super::place::Place;
+use anyhow::{Context, Result};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
+use std::path::PathBuf;
+
+/// Content that is being written. Errors name the output. Dropped without [`Draft::keep`], the output is as it was before.
+#[derive(Debug)]
+pub struct Draft {
+    output: Output,
+    sink: Sink,
+}
+
+/// Where the bytes go meanwhile.
+#[derive(Debug)]
+enum Sink {
+    Standard(Stdout),
+    Device(BufWriter<File>),
+    File(BufWriter<File>, Part),
+}
+
+/// A temporary file, removed when dropped.
+#[derive(Debug)]
+struct Part(PathBuf);
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        // Where it has the output's name by now, there is none.
+        _ = fs::remove_file(&self.0);
+    }
+}
+
+impl Draft {
+    pub(super) fn of(output: Output) -> Result<Draft> {
+        let place = || format!("{} cannot be written", output.name.display());
+        let sink = match &output.place {
+            Place::Standard => Sink::Standard(stdout()),
+            Place::Device(path) => {
+                let file = File::options().write(true).open(path).with_context(place)?;
+                Sink::Device(BufWriter::new(file))
+            }
+            Place::File(path, _) => {
+                let (file, part) =
+                    part::make(folder(path), |part| File::create_new(part)).with_context(place)?;
+                Sink::File(BufWriter::new(file), Part(part))
+            }
+        };
+        Ok(Draft { output, sink })
+    }
+
+    /// Gives the content to the output: it is on the disk when this returns.
+    pub fn keep(mut self) -> Result<()> {
+        self.flush()?;
+        let Sink::File(file, part) = self.sink else { return Ok(()) };
+        let place = || format!("{} cannot be written", self.output.name.display());
+        file.get_ref().sync_all().with_context(place)?;
+        drop(file);
+        self.output.take_name(&part.0)
+    }
+
+    /// The error with the output's name. One of the standard output stays as it is: a reader that is gone is no failure.
+    fn told<T>(&self, done: io::Result<T>) -> io::Result<T> {
+        done.map_err(|error| match self.sink {
+            Sink::Standard(_) => error,
+            _ if error.kind() == ErrorKind::Interrupted => error,
+            _ => {
+                Error::new(error.kind(), format!("{} cannot be written: {error}", self.output.name.display()))
+            }
+        })
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let done = match &mut self.sink {
+            Sink::Standard(out) => out.write(bytes),
+            Sink::Device(file) | Sink::File(file, _) => file.write(bytes),
+        };
+        self.told(done)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let done = match &mut self.sink {
+            Sink::Standard(out) => out.flush(),
+            Sink::Device(file) | Sink::File(file, _) => file.flush(),
+        };
+        self.told(done)
+    }
+}
+
+impl Seek for Draft {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let done = match &mut self.sink {
+            Sink::Standard(_) => Err(ErrorKind::NotSeekable.into()),
+            Sink::Device(file) | Sink::File(file, _) => file.seek(to),
+        };
+        self.told(done)
+    }
+}

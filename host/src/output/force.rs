@@ -1,0 +1,11 @@
+//! The option `--force`.
+
+use clap::Args;
+
+/// Whether an output that exists is replaced.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
+pub struct Force {
+    /// Replace the output if it exists
+    #[arg(long)]
+    pub force: bool,
+}

@@ -1,0 +1,64 @@
+//! The one way in which a command writes what the user names with `-o`, `--save` and the like.
+//!
+//! An output is looked at before a command begins its work: a name that leads to an input of the same command is refused
+//! (by whatever spelling or link it leads there), another file that exists is replaced only with `--force`. The bytes go to
+//! a temporary file beside the output (`taxel-PROCESS-N.part`), reach the disk, and only then get the name: at every moment
+//! the name holds either all of the old content or all of the new.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `force.rs` | the option `--force` |
+//! | `same.rs` | whether two names lead to one file |
+//! | `place.rs` | what a name leads to: a file, a device, the standard output |
+//! | `file.rs` | [`Output`]: a file that is going to be written |
+//! | `draft.rs` | [`Draft`]: its content, before it has the name |
+//! | `folder.rs` | [`Folder`]: a folder that is going to be written |
+//! | `part.rs` | names of temporary files, and what brings a name to the disk |
+//!
+//! A command flattens [`Force`] into its arguments and asks for the output first:
+//!
+//! ```
+//! use std::io::Write;
+//! use taxel::output::{Force, Output};
+//!
+//! # fn main() -> anyhow::Result<()> {
+//! # let folder = std::env::temp_dir().join(format!("taxel-output-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder)?;
+//! # let (recording, table) = (folder.join("touch.mcap"), folder.join("touch.csv"));
+//! # std::fs::write(&recording, "recorded")?;
+//! let force = Force::default(); // In a command: #[command(flatten)] force: Force
+//! // What cannot be written is refused here, before the work. `stream`: `-` is the standard output.
+//! let output = Output::stream(&table, force, [&recording])?;
+//! output.write(b"time,pressure\n")?;
+//!
+//! // Piece by piece. What is dropped before `keep` leaves no trace.
+//! let replaced = Force { force: true };
+//! let mut draft = Output::file(&table, replaced, [&recording])?.draft()?;
+//! writeln!(draft, "time,panel,pressure")?;
+//! draft.keep()?;
+//! assert_eq!(std::fs::read_to_string(&table)?, "time,panel,pressure\n");
+//!
+//! // An input is never an output.
+//! let same = folder.join(".").join("touch.mcap");
+//! assert!(Output::file(&same, replaced, [&recording]).is_err());
+//! # std::fs::remove_dir_all(folder)?;
+//! # Ok(())
+//! # }
+//! ```
+
+mod draft;
+mod file;
+mod folder;
+mod force;
+mod part;
+mod place;
+mod same;
+
+#[cfg(test)]
+mod tests;
+
+pub use draft::Draft;
+pub use file::Output;
+pub use folder::Folder;
+pub use force::Force;
+pub use same::is_same;

@@ -1,0 +1,77 @@
+//! What the name of an output leads to.
+
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// What a name leads to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// `-`: the standard output.
+    Standard,
+    /// A terminal, a pipe, `/dev/null`: what is written there cannot be replaced.
+    Device(PathBuf),
+    /// A file, by its path without links; whether it exists.
+    File(PathBuf, bool),
+}
+
+impl Place {
+    /// Follows a name. An error: no file can be written there.
+    pub fn of(name: &Path) -> Result<Place> {
+        if name == Path::new("-") {
+            return Ok(Place::Standard);
+        }
+        let shown = name.display();
+        let known = match fs::metadata(name) {
+            Ok(known) => known,
+            Err(error) if error.kind() == ErrorKind::NotFound => return new(name),
+            Err(error) => return Err(error).with_context(|| format!("{shown} cannot be written")),
+        };
+        if known.is_dir() {
+            bail!("{shown} is a folder: name a file");
+        }
+        if !known.is_file() {
+            return device(name, known.file_type());
+        }
+        if known.permissions().readonly() {
+            bail!("{shown} is read-only: give another name");
+        }
+        let path = fs::canonicalize(name).with_context(|| format!("{shown} cannot be written"))?;
+        Ok(Place::File(path, true))
+    }
+}
+
+/// A file that is not there yet, in a folder that is.
+fn new(name: &Path) -> Result<Place> {
+    let shown = name.display();
+    if fs::symlink_metadata(name).is_ok() {
+        bail!("{shown} is a link to a file that does not exist: name that file");
+    }
+    let text = name.to_string_lossy();
+    let (Some(last), false) = (name.file_name(), text.ends_with(std::path::is_separator)) else {
+        bail!("\"{shown}\" names no file");
+    };
+    let folder = match name.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let real = fs::canonicalize(folder)
+        .with_context(|| format!("{shown} cannot be written: the folder {}", folder.display()))?;
+    Ok(Place::File(real.join(last), false))
+}
+
+/// A device that takes bytes one after the other.
+#[cfg(unix)]
+fn device(name: &Path, kind: fs::FileType) -> Result<Place> {
+    use std::os::unix::fs::FileTypeExt;
+    if kind.is_block_device() || kind.is_socket() {
+        bail!("{} is a disk or a socket: name a file", name.display());
+    }
+    Ok(Place::Device(name.into()))
+}
+
+#[cfg(not(unix))]
+fn device(name: &Path, _: fs::FileType) -> Result<Place> {
+    Ok(Place::Device(name.into()))
+}

@@ -1,0 +1,29 @@
+//! Whether two names lead to one file.
+
+use std::fs::{self, Metadata};
+use std::path::Path;
+
+/// Whether both names exist and lead to one file or folder: by another spelling (`./a`, upper and lower case where the file
+/// system does not tell them apart), a symbolic link or a hard link.
+///
+/// Where a system does not number its files, hard links are not recognised.
+pub fn is_same(a: &Path, b: &Path) -> bool {
+    let (Ok(of_a), Ok(of_b)) = (fs::metadata(a), fs::metadata(b)) else { return false };
+    let number = number(&of_a);
+    if number.is_some() && number == self::number(&of_b) {
+        return true;
+    }
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// The device and the file's number on it.
+#[cfg(unix)]
+fn number(of: &Metadata) -> Option<[u64; 2]> {
+    use std::os::unix::fs::MetadataExt;
+    Some([of.dev(), of.ino()])
+}
+
+#[cfg(not(unix))]
+fn number(_: &Metadata) -> Option<[u64; 2]> {
+    None
+}
