@@ -2,7 +2,7 @@
 
 use embassy_rp::adc::{Adc, Blocking, Channel};
 use rp_pac::{ADC, PADS_BANK0};
-use taxel_core::acquire::{Pull, PulledAdc, ScanError};
+use taxel_core::acquire::{CONVERSION_CLOCKS, Pull, PulledAdc, Rounds, ScanError};
 use taxel_core::format::Celsius;
 
 /// GPIO number of the converter's first input.
@@ -86,22 +86,16 @@ pub fn celsius(code: u16) -> Celsius {
     Celsius(hundredths.clamp(i16::MIN.into(), i16::MAX.into()) as i16)
 }
 
-/// Clocks of a conversion: 2 us.
-const CONVERSION_CLOCKS: u32 = 96;
-
 /// The converter's channel of an input.
 pub const fn channel(input: u8) -> usize {
     (input.wrapping_sub(FIRST_INPUT) & 3) as usize
 }
 
-/// Converts the thermometer and these inputs in turn until [`halt`], and asks for DMA. The select lines settle while the
-/// thermometer is converted: for 2 us, or for as many whole conversions as the garment's settling time has. Where that
-/// is more than one, all conversions are so much slower.
-pub fn run(inputs: &[u8], settle_ns: u32) {
-    let slots = (settle_ns / 2_000).max(1);
-    // From the end of the last input's conversion to the start of the first one's: two periods but for one conversion.
-    let period = (slots + 1) * CONVERSION_CLOCKS / 2;
-    ADC.div().write(|w| w.set_int(if slots == 1 { 0 } else { (period - 1).min(u32::from(u16::MAX)) as u16 }));
+/// Converts the thermometer and these inputs in turn until [`halt`], at that pace, and asks for DMA.
+pub fn run(inputs: &[u8], rounds: Rounds) {
+    // 0: one conversion after the other.
+    let divider = if rounds.period_clocks > CONVERSION_CLOCKS { rounds.period_clocks - 1 } else { 0 };
+    ADC.div().write(|w| w.set_int(divider.min(u16::MAX.into()) as u16));
     while ADC.fcs().read().level() > 0 {
         ADC.fifo().read();
     }

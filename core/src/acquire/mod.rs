@@ -7,12 +7,14 @@ mod lines;
 mod mux;
 mod plan;
 mod ring;
+mod rounds;
 mod sweep;
 
 pub use lines::{Lines, Pad, Pull, PulledAdc};
 pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring};
+pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
 pub use sweep::{SWEEP_INPUTS, Stretch, Sweep, Unfit};
 
 use crate::format::{Celsius, Code, Micros};

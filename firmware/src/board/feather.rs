@@ -72,7 +72,7 @@ pub fn take() -> Parts {
                 p.PIO0,
                 (
                     p.DMA_CH0, p.DMA_CH1, p.DMA_CH2, p.DMA_CH3, p.DMA_CH4, p.DMA_CH5, p.DMA_CH6, p.DMA_CH7,
-                    p.DMA_CH8, p.DMA_CH9,
+                    p.DMA_CH8, p.DMA_CH9, p.DMA_CH10,
                 ),
             ),
             Interrupts,

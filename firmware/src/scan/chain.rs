@@ -3,14 +3,15 @@
 //! | channel | waits for | does | then |
 //! |---|---|---|---|
 //! | 0 - 3 | a sample | stores the code of the converter's input 0 - 3 | the next input's channel, after the last `Word` |
-//! | `Word` | | gives the next levels to the select lines | `Settle` |
+//! | `Word` | | gives the next levels to the select lines | `Drop`, or `Settle` where nothing is dropped |
+//! | `Drop` | a sample, as often as samples are dropped | throws it away: lines that settle slowly (see [`Rounds`]) | `Settle` |
 //! | `Settle` | a sample | stores the thermometer's | the first input's channel |
 //! | `Answer` | the answer to a word where a stretch begins | takes it away | `List` |
 //! | `List` | | finds the values for that stretch | `Target` |
 //! | `Target` | | tells `Value` the next register, or nothing at the end | |
 //! | `Value` | | writes the next value to that register | `Target` |
 //!
-//! The registers of a stretch are written while the thermometer is converted, when no other channel moves.
+//! The registers of a stretch are written while the thermometer is converted, when no channel stores a code.
 
 use super::frames::{Begun, Frames};
 use super::select::Select;
@@ -19,12 +20,12 @@ use crate::adc;
 use embassy_rp::Peri;
 use embassy_rp::interrupt::typelevel::{Binding, PIO0_IRQ_0};
 use embassy_rp::peripherals::{
-    DMA_CH0, DMA_CH1, DMA_CH2, DMA_CH3, DMA_CH4, DMA_CH5, DMA_CH6, DMA_CH7, DMA_CH8, DMA_CH9, PIO0,
+    DMA_CH0, DMA_CH1, DMA_CH2, DMA_CH3, DMA_CH4, DMA_CH5, DMA_CH6, DMA_CH7, DMA_CH8, DMA_CH9, DMA_CH10, PIO0,
 };
 use rp_pac::dma::regs::CtrlTrig;
 use rp_pac::dma::vals::{DataSize, TreqSel};
 use rp_pac::{ADC, DMA};
-use taxel_core::acquire::{Plan, SWEEP_INPUTS, Sweep, Unfit};
+use taxel_core::acquire::{Plan, Rounds, SWEEP_INPUTS, Sweep, Unfit};
 use taxel_core::garment::Circuit;
 
 /// The chain's own channels, and the PIO block with the select lines' program.
@@ -41,6 +42,7 @@ pub type Parts = (
         Peri<'static, DMA_CH7>,
         Peri<'static, DMA_CH8>,
         Peri<'static, DMA_CH9>,
+        Peri<'static, DMA_CH10>,
     ),
 );
 
@@ -51,9 +53,10 @@ const ANSWER: usize = WORD + 2;
 const LIST: usize = WORD + 3;
 const TARGET: usize = WORD + 4;
 const VALUE: usize = WORD + 5;
+const DROP: usize = WORD + 6;
 /// Clocks in which a select line comes to its level: 1 us.
 const SETTLES: u32 = 125;
-const CHANNELS: u16 = (1 << (VALUE + 1)) - 1;
+const CHANNELS: u16 = (1 << (DROP + 1)) - 1;
 
 /// The chain of DMA channels.
 pub struct Chain {
@@ -62,14 +65,17 @@ pub struct Chain {
     select: Option<Select>,
 }
 
-/// One transfer each time that the channel is triggered.
+/// What a channel does each time that it is triggered.
 struct Step {
     read: u32,
     write: u32,
+    /// Transfers.
+    count: u32,
     control: CtrlTrig,
 }
 
 impl Step {
+    /// One transfer.
     fn new(size: DataSize, read: u32, write: u32, when: TreqSel, then: usize) -> Step {
         let mut control = CtrlTrig::default();
         control.set_en(true);
@@ -77,14 +83,14 @@ impl Step {
         control.set_treq_sel(when);
         control.set_chain_to(then as u8);
         control.set_irq_quiet(true);
-        Step { read, write, control }
+        Step { read, write, count: 1, control }
     }
 
     fn set_up(self, channel: usize) {
         let channel = DMA.ch(channel);
         channel.read_addr().write_value(self.read);
         channel.write_addr().write_value(self.write);
-        channel.trans_count().write_value(1);
+        channel.trans_count().write_value(self.count);
         // Not the register that starts it.
         channel.al1_ctrl().write_value(self.control.0);
     }
@@ -106,15 +112,16 @@ impl Chain {
         let next_word = DMA.ch(WORD).read_addr().as_ptr() as u32;
         let code = |place, taxel| frames.address(place, taxel);
         tables::fill(&self.sweep, select, code, destinations, next_word, Select::flags());
-        self.set_up();
+        let rounds = Rounds::of(self.sweep.inputs().len(), circuit.settle_ns());
+        self.set_up(rounds);
         trigger(1 << ANSWER);
         trigger(1 << WORD);
         frames.begin();
-        adc::run(self.sweep.inputs(), circuit.settle_ns());
+        adc::run(self.sweep.inputs(), rounds);
         Ok(())
     }
 
-    fn set_up(&self) {
+    fn set_up(&self, rounds: Rounds) {
         use DataSize::{SIZE_HALFWORD as CODE, SIZE_WORD};
         use TreqSel::{ADC as SAMPLE, PERMANENT, PIO0_RX0};
         let samples = ADC.fifo().as_ptr() as u32;
@@ -125,9 +132,14 @@ impl Chain {
             step.control.set_incr_write(true);
             step.set_up(channel);
         }
-        let mut word = Step::new(SIZE_WORD, tables::words(), Select::words(), PERMANENT, SETTLE);
+        let dropped = rounds.dropped();
+        let settles = if dropped == 0 { SETTLE } else { DROP };
+        let mut word = Step::new(SIZE_WORD, tables::words(), Select::words(), PERMANENT, settles);
         word.control.set_incr_read(true);
         word.set_up(WORD);
+        let mut drop = Step::new(CODE, samples, tables::nowhere(), SAMPLE, SETTLE);
+        drop.count = dropped;
+        drop.set_up(DROP);
         let first = channels().next().unwrap_or(0);
         Step::new(CODE, samples, tables::warmth(), SAMPLE, first).set_up(SETTLE);
         Step::new(SIZE_WORD, Select::answers(), tables::answer(), PIO0_RX0, LIST).set_up(ANSWER);
@@ -163,7 +175,7 @@ impl Chain {
         let Some(mut select) = self.select.take() else { return };
         adc::halt();
         // Switched off first, so that nothing that still ends triggers anything.
-        (0..=VALUE).for_each(|channel| DMA.ch(channel).al1_ctrl().write_value(0));
+        (0..=DROP).for_each(|channel| DMA.ch(channel).al1_ctrl().write_value(0));
         DMA.chan_abort().write(|w| w.set_chan_abort(CHANNELS));
         while DMA.chan_abort().read().chan_abort() != 0 {}
         select.release();

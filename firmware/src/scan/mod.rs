@@ -11,7 +11,8 @@
 //!
 //! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then the next
 //! levels go out, and while the select lines settle the converter measures its own temperature. The inputs and the
-//! thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12 ms.
+//! thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12 ms. Lines that settle slowly are
+//! converted in vain for some rounds, as [`Rounds`](taxel_core::acquire::Rounds) says.
 //!
 //! Codes of 8 bits come the same way, and are shortened when the frame is lent. To store bytes instead would not give a frame more:
 //! a conversion takes 96 clocks whatever is kept of it (RP2040 datasheet, 4.9.2). It would save 8 KB of the ring, and either

@@ -1,0 +1,188 @@
+//! How long a frame takes by a converter that never waits: the one model that the firmware's chain is set up by, that the
+//! simulated board runs by, and that tells the rate of a garment before it is worn.
+//!
+//! The converter (RP2040 datasheet, 4.9) converts the inputs of the plan and its thermometer in turn and never stops. The select
+//! lines change when the last input has been converted, and the first input that counts afterwards is converted one thermometer later:
+//! 2 us. A line that needs longer is converted in vain for some rounds, all of whose codes are dropped; what is still missing
+//! then, less than a round, is made up by a slower pace of all conversions.
+//!
+//! | inputs | `settle_ns` | rounds | pace | settled for | address |
+//! |---|---|---|---|---|---|
+//! | 4 | 3,000 | 1 | 2 us | 2 us | 10 us |
+//! | 4 | 8,000 | 2 | 2 us | 12 us | 20 us |
+//! | 4 | 34,000 | 4 | 2.125 us | 34.125 us | 42.5 us |
+//! | 1 | 34,000 | 9 | 2 us | 34 us | 36 us |
+
+use super::Plan;
+use crate::garment::Circuit;
+
+/// Clocks of a conversion, of 48 MHz: 2 us.
+pub const CONVERSION_CLOCKS: u32 = 96;
+/// A conversion, ns.
+pub const CONVERSION_NS: u32 = ns(CONVERSION_CLOCKS as u64) as u32;
+
+/// How often, and at which pace, the inputs are converted under one address.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rounds {
+    /// Conversions of a round: the inputs and the thermometer.
+    conversions: u32,
+    /// Rounds under one address, of which the last counts: 1 and more.
+    pub rounds: u32,
+    /// Clocks from the start of a conversion to the start of the next one: 96 to 336.
+    pub period_clocks: u32,
+}
+
+impl Rounds {
+    /// For so many inputs (of more than 255 for 255) and a garment's settling time, of which whole conversions count, one at
+    /// least.
+    pub const fn of(inputs: usize, settle_ns: u32) -> Rounds {
+        let conversions = if inputs < 255 { inputs as u32 + 1 } else { 256 };
+        let slots = settle_ns / CONVERSION_NS;
+        let slots = if slots == 0 { 1 } else { slots };
+        // A round of the converter's own pace more, or a slower pace: whatever is sooner done.
+        let slower = Rounds::paced(conversions, (slots - 1) / conversions + 1, slots);
+        let longer = Rounds::paced(conversions, slower.rounds + 1, slots);
+        if longer.address_clocks() <= slower.address_clocks() { longer } else { slower }
+    }
+
+    /// The quickest pace at which so many rounds give time for that many conversions.
+    const fn paced(conversions: u32, rounds: u32, slots: u32) -> Rounds {
+        let until = (slots as u64 + 1) * CONVERSION_CLOCKS as u64;
+        let starts = conversions as u64 * (rounds as u64 - 1) + 2;
+        let needed = until.div_ceil(starts) as u32;
+        let period_clocks = if needed > CONVERSION_CLOCKS { needed } else { CONVERSION_CLOCKS };
+        Rounds { conversions, rounds, period_clocks }
+    }
+
+    /// Samples of an address that are dropped before the thermometer's and the inputs' that count.
+    pub const fn dropped(&self) -> u32 {
+        self.conversions.saturating_mul(self.rounds - 1)
+    }
+
+    /// From the change of the select lines to the sample of the first input that counts, ns. It begins with the end of the
+    /// last input's conversion.
+    pub const fn settling_ns(&self) -> u64 {
+        let starts = self.dropped() as u64 + 2;
+        ns(starts * self.period_clocks as u64 - CONVERSION_CLOCKS as u64)
+    }
+
+    /// From one sample to the next, ns.
+    pub const fn period_ns(&self) -> u64 {
+        ns(self.period_clocks as u64)
+    }
+
+    /// From one address to the next, ns.
+    pub const fn address_ns(&self) -> u64 {
+        ns(self.address_clocks())
+    }
+
+    const fn address_clocks(&self) -> u64 {
+        self.conversions as u64 * self.rounds as u64 * self.period_clocks as u64
+    }
+}
+
+/// Clocks of 48 MHz in ns, rounded down.
+const fn ns(clocks: u64) -> u64 {
+    clocks * 125 / 6
+}
+
+/// Time of a frame of this plan, us: from the start of one to the start of the next, where the converter reads the garment by
+/// itself. A mean of several scans takes as many. A plan that reads nothing takes none.
+///
+/// A garment whose wiring the chain cannot follow (see [`super::Unfit`]) is read by the processor, which waits for the exact
+/// settling time and takes 2.2 us for a sample and some more for an address: up to a third longer at short settling.
+pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
+    let mut inputs = 0u64;
+    let mut addresses = 0u64;
+    for sites in circuit.selects() {
+        let read = || sites.iter().filter(|site| plan.reads(site.panel, site.block));
+        let most = |of: fn(&crate::garment::Site) -> u8| read().map(of).max().map_or(0, u64::from);
+        addresses += most(|site| site.rows) * most(|site| site.columns);
+        inputs = read().fold(inputs, |inputs, site| inputs | 1 << (site.input & 63));
+    }
+    let rounds = Rounds::of(inputs.count_ones() as usize, circuit.settle_ns());
+    let clocks = rounds.address_clocks() * addresses * u64::from(plan.depth.scans());
+    ns(clocks) / 1000
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Depth, Sweep};
+    use super::*;
+    use crate::garment::{Garment, Layout, Pins};
+
+    #[test]
+    fn an_address_is_read_as_the_table_says() {
+        let row = |inputs, settle_ns| {
+            let r = Rounds::of(inputs, settle_ns);
+            (r.rounds, r.period_ns(), r.settling_ns(), r.address_ns())
+        };
+        assert_eq!(row(4, 3_000), (1, 2_000, 2_000, 10_000));
+        assert_eq!(row(4, 8_000), (2, 2_000, 12_000, 20_000));
+        assert_eq!(row(4, 34_000), (4, 2_125, 34_125, 42_500));
+        assert_eq!(row(1, 34_000), (9, 2_000, 34_000, 36_000));
+        assert_eq!(row(4, 0), row(4, 3_999));
+        assert_eq!(CONVERSION_NS, 2_000);
+    }
+
+    /// Every settling is given, none takes longer than by a slower pace alone (but for the rounding to whole clocks), and what it
+    /// costs above the least is bounded.
+    #[test]
+    fn every_settling_is_given_at_a_bounded_price() {
+        for inputs in 1..=4 {
+            let least = |slots: u64| (slots + inputs as u64) * u64::from(CONVERSION_NS);
+            for settle_ns in (0..400_000).step_by(500) {
+                let rounds = Rounds::of(inputs, settle_ns);
+                let slots = u64::from(settle_ns / CONVERSION_NS).max(1);
+                assert!(rounds.settling_ns() >= slots * u64::from(CONVERSION_NS));
+                assert!((CONVERSION_CLOCKS..=336).contains(&rounds.period_clocks));
+                let paced = Rounds::paced(inputs as u32 + 1, 1, slots as u32);
+                assert!(rounds.address_clocks() <= paced.address_clocks() * 97 / 96);
+                // Three sevenths at most (four inputs that ask for 6 us), and from ten conversions on a tenth.
+                let over = rounds.address_ns() as f64 / least(slots) as f64 - 1.0;
+                let most = if slots < 10 { 0.43 } else { 0.1 };
+                assert!(over <= most, "{inputs} inputs, {settle_ns} ns: {over}");
+            }
+            let longest = Rounds::of(inputs, u32::MAX);
+            assert!(longest.settling_ns() >= u64::from(u32::MAX) - 2 * u64::from(CONVERSION_NS));
+            assert!(longest.address_ns() < u64::from(u32::MAX) + 20_000);
+        }
+        assert_eq!(Rounds::of(usize::MAX, u32::MAX).conversions, 256);
+    }
+
+    #[test]
+    fn a_frame_has_the_addresses_and_inputs_of_its_sweep() {
+        let mut ragged = Garment::reference();
+        ragged.blocks.retain(|block| block.panel != 3 || block.select < 5);
+        ragged.panels[3].rows = 20;
+        for mut garment in [Garment::reference(), Garment::mat(), Garment::block(), ragged] {
+            for (settle_ns, depth) in [(0, Depth::Eight), (34_000, Depth::Twelve), (5_000, Depth::MeanOf4)] {
+                garment.wiring.settle_ns = settle_ns;
+                let layout = Layout::build(&garment, 2048, 4095).unwrap();
+                let circuit = crate::garment::Circuit::build(&garment, &layout, Pins::ANY).unwrap();
+                for panels in [0xff, 0b0101, 0b1000] {
+                    let plan = Plan { panels, depth, ..Plan::default() };
+                    let mut sweep = Sweep::<512, 64>::new();
+                    let filled = sweep.fill(&circuit, &plan);
+                    let rounds = Rounds::of(sweep.inputs().len(), settle_ns);
+                    let addresses = if filled.is_ok() { sweep.levels().len() as u64 } else { 0 };
+                    let scans = u64::from(depth.scans());
+                    assert_eq!(frame_us(&circuit, &plan), rounds.address_ns() * addresses * scans / 1000);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rates_that_the_documents_name() {
+        let rate = |mut garment: Garment, settle_ns| {
+            garment.wiring.settle_ns = settle_ns;
+            let layout = Layout::build(&garment, 2048, 4095).unwrap();
+            let circuit = crate::garment::Circuit::build(&garment, &layout, Pins::ANY).unwrap();
+            1e6 / frame_us(&circuit, &Plan::default()) as f64
+        };
+        assert_eq!((rate(Garment::reference(), 3_000) * 10.0).round(), 1953.0);
+        assert_eq!((rate(Garment::reference(), 34_000) * 10.0).round(), 460.0);
+        assert_eq!((rate(Garment::block(), 8_000) * 10.0).round(), 15625.0);
+    }
+}
