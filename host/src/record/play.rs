@@ -17,7 +17,7 @@ pub struct Play {
 impl Play {
     /// Of a file.
     pub fn open(path: &Path) -> Result<Play> {
-        Ok(Play { messages: Messages::open(path)?, client: Client::new() })
+        Ok(Play { messages: Messages::of_topic(path, WIRE)?, client: Client::new() })
     }
 
     /// What is known after the last event.
@@ -27,11 +27,7 @@ impl Play {
 
     /// The next event, with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there are no more.
     pub fn next_event(&mut self) -> Result<Option<(MessageHeader, Event)>> {
-        while let Some(message) = self.messages.next() {
-            let message = message?;
-            if self.messages.topic(message.header.channel_id) != Some(WIRE) {
-                continue;
-            }
+        while let Some(message) = self.messages.next_message()? {
             // A message of this channel is one frame of the wire: its last byte tells of it.
             let mut bytes = message.data.iter();
             if let Some(event) = bytes.find_map(|byte| self.client.push(*byte)) {

@@ -16,7 +16,7 @@ impl Scan {
         };
         let mut records = Records::open_at(path, index.offset)?;
         let record = records.next_record()?.with_context(place)?;
-        match parse_record(record.op, &record.body).with_context(place)? {
+        match parse_record(record.op, record.body).with_context(place)? {
             Record::Attachment { data, .. } => Ok(Some(data.into_owned())),
             _ => Ok(None),
         }

@@ -1,6 +1,7 @@
 //! Messages of a short time, compressed together, with their index.
 
 use super::append::append;
+use super::lz4;
 use anyhow::{Context, Result, bail, ensure};
 use lz4_flex::frame::{FrameDecoder, FrameEncoder};
 use mcap::records::{ChunkHeader, ChunkIndex, MessageHeader, MessageIndex, MessageIndexEntry, op};
@@ -109,17 +110,28 @@ impl Closed {
     }
 }
 
-/// The plain records of a chunk, its checksum checked.
-pub fn plain(header: &ChunkHeader, data: &[u8]) -> Result<Vec<u8>> {
-    ensure!(header.uncompressed_size <= LARGEST, "a chunk claims to hold {} bytes", header.uncompressed_size);
-    let mut body = Vec::new();
+/// Puts the plain records of a chunk into `body`, their checksum checked.
+pub fn plain(header: &ChunkHeader, data: &[u8], body: &mut Vec<u8>) -> Result<()> {
+    let size = header.uncompressed_size;
+    // LZ4 makes 255 of a byte at most.
+    let possible = size <= LARGEST && size / 256 <= data.len() as u64;
+    ensure!(possible, "a chunk of {} bytes claims to hold {size}", data.len());
+    body.resize(size as usize, 0);
     match header.compression.as_str() {
-        "" => body.extend_from_slice(data),
-        LZ4 => _ = FrameDecoder::new(data).take(LARGEST + 1).read_to_end(&mut body)?,
-        other => bail!("its chunks are compressed with {other}: known are lz4 and none"),
+        "" => {
+            ensure!(data.len() == body.len(), "a chunk holds less or more than it says");
+            body.copy_from_slice(data);
+        }
+        // Without a checksum of its own, a chunk relies on those of LZ4.
+        LZ4 if header.uncompressed_crc != 0 && lz4::decode(data, body) => {}
+        LZ4 => {
+            let mut decoder = FrameDecoder::new(data);
+            decoder.read_exact(body).context("a chunk cannot be decompressed")?;
+            ensure!(decoder.read(&mut [0])? == 0, "a chunk holds more than it says");
+        }
+        other => bail!("a chunk is compressed with {other}: known are lz4 and none"),
     }
-    ensure!(body.len() as u64 == header.uncompressed_size, "a chunk holds less or more than it says");
     let sum = header.uncompressed_crc;
-    ensure!(sum == 0 || sum == crc32fast::hash(&body), "a chunk does not fit its checksum");
-    Ok(body)
+    ensure!(sum == 0 || sum == crc32fast::hash(body), "a chunk does not fit its checksum");
+    Ok(())
 }

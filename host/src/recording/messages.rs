@@ -1,31 +1,39 @@
-//! The messages of a recording in the order in which they were written, also of one that has no end.
+//! The messages of a recording in the order in which they were written, also of one that is damaged or has no end.
 
 use super::chunk;
-use super::records::Records;
+use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
+use super::records::{Head, Inside, Records};
 use anyhow::{Context, Result};
 use mcap::parse_record;
-use mcap::records::{Channel, MessageHeader, Record};
-use std::collections::{BTreeMap, VecDeque};
-use std::fs::File;
-use std::io::BufReader;
+use mcap::records::{Channel, MessageHeader, Record, op};
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+/// Bytes of a message before its data: channel, order, times.
+const MESSAGE: usize = 22;
+
 /// One message.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Message {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Message<'a> {
     /// Channel, order and times (ns).
     pub header: MessageHeader,
     /// Its bytes, as the channel's encoding says.
-    pub data: Vec<u8>,
+    pub data: &'a [u8],
 }
 
-/// Goes through the messages.
+/// Goes through the messages. Damaged chunks are passed over and counted; memory does not grow with the file.
 #[derive(Debug)]
 pub struct Messages {
-    records: Records<BufReader<File>>,
+    records: Records,
     path: PathBuf,
+    /// None: messages of all topics.
+    only: Option<&'static str>,
     channels: BTreeMap<u16, Channel>,
-    waiting: VecDeque<Message>,
+    /// Plain records of the chunk that is gone through, and where its next one begins.
+    plain: Vec<u8>,
+    next: usize,
+    skipped: Skipped,
     over: bool,
 }
 
@@ -35,10 +43,18 @@ impl Messages {
         Ok(Messages {
             records: Records::open(path)?,
             path: path.into(),
+            only: None,
             channels: BTreeMap::new(),
-            waiting: VecDeque::new(),
+            plain: Vec::new(),
+            next: 0,
+            skipped: Skipped::default(),
             over: false,
         })
+    }
+
+    /// Of a file, but only those of one topic.
+    pub fn of_topic(path: &Path, topic: &'static str) -> Result<Messages> {
+        Ok(Messages { only: Some(topic), ..Messages::open(path)? })
     }
 
     /// What a channel is about; none: it has not been told yet.
@@ -46,48 +62,134 @@ impl Messages {
         self.channels.get(&channel).map(|channel| channel.topic.as_str())
     }
 
-    fn fill(&mut self) -> Result<()> {
-        while self.waiting.is_empty() && !self.over {
-            let Some(record) = self.records.next_record()? else {
-                self.over = true;
-                return Ok(());
-            };
-            match parse_record(record.op, &record.body)? {
-                Record::Chunk { header, data } => {
-                    let plain = chunk::plain(&header, &data)?;
-                    let mut inside = Records::of_chunk(&plain);
-                    while let Some(record) = inside.next_record()? {
-                        self.take(parse_record(record.op, &record.body)?);
-                    }
-                }
-                Record::DataEnd(_) => self.over = true,
-                other => self.take(other),
-            }
-        }
-        Ok(())
+    /// What was passed over so far.
+    pub fn skipped(&self) -> Skipped {
+        self.skipped
     }
 
-    fn take(&mut self, record: Record<'_>) {
-        match record {
-            Record::Channel(channel) => _ = self.channels.insert(channel.id, channel),
-            Record::Message { header, data } => {
-                self.waiting.push_back(Message { header, data: data.into_owned() });
+    /// Bytes of the file so far, and of all.
+    pub fn passed(&self) -> [u64; 2] {
+        [self.records.offset(), self.records.length()]
+    }
+
+    /// The next message; none: there are no more. An error: the disk cannot be read.
+    pub fn next_message(&mut self) -> Result<Option<Message<'_>>> {
+        let found = self.find().with_context(|| format!("{} cannot be read", self.path.display()))?;
+        Ok(found.map(|(header, data)| Message { header, data: &self.plain[data] }))
+    }
+
+    fn find(&mut self) -> Result<Option<(MessageHeader, Range<usize>)>> {
+        loop {
+            if let Some(found) = self.inside() {
+                return Ok(Some(found));
             }
-            _ => {}
+            if self.over || !self.fill()? {
+                self.over = true;
+                return Ok(None);
+            }
         }
+    }
+
+    /// The next message of the chunk.
+    fn inside(&mut self) -> Option<(MessageHeader, Range<usize>)> {
+        let mut inside = Inside::of(&self.plain, self.next);
+        while let Some(record) = inside.next() {
+            self.next = inside.offset();
+            match record.op {
+                op::MESSAGE => {
+                    let Some(header) = message(record.body) else { continue };
+                    let topic = self.channels.get(&header.channel_id).map(|channel| channel.topic.as_str());
+                    if self.only.is_none() || self.only == topic {
+                        return Some((header, self.next - record.body.len() + MESSAGE..self.next));
+                    }
+                }
+                op::CHANNEL => channel(record.body, &mut self.channels),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// Goes on to the next chunk, or message outside of chunks; false: there are no more.
+    fn fill(&mut self) -> Result<bool> {
+        loop {
+            match self.step()? {
+                Step::Filled => return Ok(true),
+                Step::Over => return Ok(false),
+                Step::Passed => {}
+                Step::Damaged(damage) => {
+                    match damage.pass(&mut self.records, &self.path, &mut self.skipped)? {
+                        Some(next) => self.records.go_to(next)?,
+                        None => return Ok(false),
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes the next record of the file.
+    fn step(&mut self) -> Result<Step> {
+        let offset = self.records.offset();
+        let Some(head) = self.records.next_head()? else { return Ok(Step::Damaged(Damage::at(offset))) };
+        match head.op {
+            op::CHUNK => return self.chunk(head),
+            op::MESSAGE => {
+                self.plain.clear();
+                self.plain.push(head.op);
+                self.plain.extend(head.length.to_le_bytes());
+                self.plain.extend_from_slice(self.records.body(head)?.body);
+                self.next = 0;
+                return Ok(Step::Filled);
+            }
+            op::CHANNEL => channel(self.records.body(head)?.body, &mut self.channels),
+            op::DATA_END if is_end(&self.path, &head)? => return Ok(Step::Over),
+            op if is_known(op) || !is_chunk_at(&self.path, &head)? => self.records.go_to(head.end())?,
+            _ => return Ok(Step::Damaged(Damage::at(offset))),
+        }
+        Ok(Step::Passed)
+    }
+
+    fn chunk(&mut self, head: Head) -> Result<Step> {
+        let record = self.records.body(head)?;
+        let mut damage = Damage { end: Some(head.end()), ..Damage::at(head.offset) };
+        self.next = 0;
+        if let Ok(Record::Chunk { header, data }) = parse_record(record.op, record.body) {
+            if chunk::plain(&header, &data, &mut self.plain).is_ok() {
+                return Ok(Step::Filled);
+            }
+            damage.ns = header.message_end_time.saturating_sub(header.message_start_time);
+        }
+        self.plain.clear();
+        Ok(Step::Damaged(damage))
     }
 }
 
-impl Iterator for Messages {
-    type Item = Result<Message>;
+/// What came of a record.
+enum Step {
+    /// There are messages.
+    Filled,
+    /// It tells nothing.
+    Passed,
+    Damaged(Damage),
+    Over,
+}
 
-    fn next(&mut self) -> Option<Result<Message>> {
-        match self.fill() {
-            Ok(()) => self.waiting.pop_front().map(Ok),
-            Err(error) => {
-                self.over = true;
-                Some(Err(error).with_context(|| format!("{} is damaged", self.path.display())))
-            }
-        }
+/// A message's header; none: it is too short.
+fn message(body: &[u8]) -> Option<MessageHeader> {
+    let (channel_id, rest) = body.split_first_chunk()?;
+    let (sequence, rest) = rest.split_first_chunk()?;
+    let (log_time, rest) = rest.split_first_chunk()?;
+    Some(MessageHeader {
+        channel_id: u16::from_le_bytes(*channel_id),
+        sequence: u32::from_le_bytes(*sequence),
+        log_time: u64::from_le_bytes(*log_time),
+        publish_time: u64::from_le_bytes(*rest.first_chunk()?),
+    })
+}
+
+/// Takes a channel that can be read.
+fn channel(body: &[u8], channels: &mut BTreeMap<u16, Channel>) {
+    if let Ok(Record::Channel(channel)) = parse_record(op::CHANNEL, body) {
+        channels.insert(channel.id, channel);
     }
 }

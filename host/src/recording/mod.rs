@@ -13,6 +13,9 @@
 //! | `writer.rs` | a file being written |
 //! | `records.rs` | the records of a file, one after the other |
 //! | `messages.rs` | its messages |
+//! | `damage.rs` | what is damaged in the middle of a file, passed over |
+//! | `lz4.rs` | LZ4 frames, decoded without a copy |
+//! | `summary.rs` | the summary, read |
 //! | `attached.rs` | files that are attached to it |
 //! | `repair.rs` | a file without its end, completed |
 
@@ -20,18 +23,23 @@ mod append;
 mod attached;
 mod chunk;
 mod contents;
+mod damage;
+mod lz4;
 mod messages;
 mod records;
 mod repair;
 mod store;
+mod summary;
 mod writer;
 
 #[cfg(test)]
 mod tests;
 
 pub use contents::{ChannelInfo, Contents, Stretch};
+pub use damage::Skipped;
 pub use messages::{Message, Messages};
-pub use records::{RawRecord, Records};
+pub use records::{Head, Inside, RawRecord, Records};
 pub use repair::{Scan, repair, scan};
 pub use store::Store;
+pub use summary::{Summary, chunk_indexes, footer, summary};
 pub use writer::{Format, Writer};

@@ -2,7 +2,7 @@
 
 use super::chunk::{self, Closed, Index};
 use super::contents::Contents;
-use super::records::{RawRecord, Records};
+use super::records::{Inside, RawRecord, Records};
 use super::store::Store;
 use anyhow::{Context, Result};
 use mcap::records::{AttachmentIndex, MessageIndexEntry, MetadataIndex, Record, op};
@@ -42,13 +42,15 @@ pub fn scan(path: &Path) -> Result<Scan> {
         metadata: Vec::new(),
         header: None,
     };
+    // One buffer serves all chunks.
+    let mut plain = Vec::new();
     while let Some(record) = records.next_record()? {
         if record.op == op::DATA_END {
             scan.whole = has_end(&mut records)?;
             break;
         }
         // Zeros of a power cut (no record has that number), or what else is no record: the end is here.
-        if record.op == 0 || scan.take(&record).is_err() {
+        if record.op == 0 || scan.take(&record, &mut plain).is_err() {
             break;
         }
     }
@@ -58,7 +60,7 @@ pub fn scan(path: &Path) -> Result<Scan> {
 }
 
 /// Whether a footer and the last bytes follow.
-fn has_end(records: &mut Records<impl std::io::Read>) -> Result<bool> {
+fn has_end(records: &mut Records) -> Result<bool> {
     while let Some(record) = records.next_record()? {
         if record.op == op::FOOTER {
             return Ok(records.rest(MAGIC.len() as u64)? == MAGIC);
@@ -68,20 +70,21 @@ fn has_end(records: &mut Records<impl std::io::Read>) -> Result<bool> {
 }
 
 impl Scan {
-    fn take(&mut self, record: &RawRecord) -> Result<()> {
+    fn take(&mut self, record: &RawRecord<'_>, plain: &mut Vec<u8>) -> Result<()> {
         if record.op != op::MESSAGE_INDEX && !self.missing.is_empty() {
             self.forget_missing();
         }
         let Scan { contents, missing, .. } = self;
         let (offset, length) = (record.offset, record.end() - record.offset);
-        match parse_record(record.op, &record.body)? {
+        match parse_record(record.op, record.body)? {
             Record::Header(header) => self.header = Some(header),
             Record::Schema { header, data } => {
                 _ = contents.schemas.insert(header.id, (header, data.into_owned()))
             }
             Record::Channel(channel) => _ = contents.channels.insert(channel.id, channel),
             Record::Chunk { header, data } => {
-                let messages = self.look_into(&chunk::plain(&header, &data)?)?;
+                chunk::plain(&header, &data, plain)?;
+                let messages = self.look_into(plain)?;
                 self.missing.clear();
                 let closed = Closed::indexed(&header, &messages, offset, length, &mut self.missing)?;
                 self.contents.chunks.push(closed);
@@ -122,9 +125,9 @@ impl Scan {
 
     /// Where the messages of a chunk lie; schemas and channels in it are taken along.
     fn look_into(&mut self, plain: &[u8]) -> Result<Index> {
-        let (mut messages, mut inside) = (Index::new(), Records::of_chunk(plain));
-        while let Some(record) = inside.next_record()? {
-            match parse_record(record.op, &record.body)? {
+        let mut messages = Index::new();
+        for record in Inside::of(plain, 0) {
+            match parse_record(record.op, record.body)? {
                 Record::Message { header, .. } => {
                     let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };
                     messages.entry(header.channel_id).or_default().push(entry);

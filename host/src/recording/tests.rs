@@ -1,6 +1,7 @@
 //! Files that end anywhere, and disks that are full at any byte.
 
-use super::{Format, Messages, Store, Writer, repair, scan};
+use super::append::append;
+use super::{Format, Messages, Skipped, Store, Writer, chunk_indexes, repair, scan};
 use mcap::Summary;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -76,9 +77,7 @@ fn messages(path: &PathBuf) -> u64 {
     let bytes = std::fs::read(path).unwrap();
     let summary = Summary::read(&bytes).unwrap().expect("a summary");
     let told = summary.stats.as_ref().unwrap().message_count;
-    let all: Vec<_> = Messages::open(path).unwrap().map(Result::unwrap).collect();
-    assert_eq!(told, all.len() as u64);
-    assert!(all.iter().all(|message| message.data == [b'x'; 50]));
+    assert_eq!(told, read(path).0.len() as u64);
     assert_eq!(summary.chunk_indexes.len() as u64 * 4, told);
     for index in &summary.chunk_indexes {
         assert_eq!(index.message_index_offsets.len(), 2);
@@ -90,6 +89,16 @@ fn messages(path: &PathBuf) -> u64 {
     }
     assert!(scan(path).unwrap().whole);
     told
+}
+
+/// Log times of the messages that can be read, and what was passed over.
+fn read(path: &PathBuf) -> (Vec<u64>, Skipped) {
+    let (mut messages, mut times) = (Messages::open(path).unwrap(), Vec::new());
+    while let Some(message) = messages.next_message().unwrap() {
+        assert_eq!(message.data, [b'x'; 50]);
+        times.push(message.header.log_time);
+    }
+    (times, messages.skipped())
 }
 
 #[test]
@@ -123,6 +132,60 @@ fn a_file_that_ends_anywhere_is_completed_with_all_whole_chunks() {
     for path in [cut, path] {
         std::fs::remove_file(path).unwrap();
     }
+}
+
+#[test]
+fn what_is_damaged_is_passed_over_and_counted() {
+    let mut whole = disk(usize::MAX);
+    write(&mut whole).unwrap().1.unwrap();
+    let path = file("places", &whole.bytes);
+    let places = chunk_indexes(&path).unwrap();
+    let [first, second, third] = [0, 1, 2].map(|chunk| places[chunk].chunk_start_offset as usize);
+    let others: Vec<u64> = [0, 1, 2, 3, 200, 201, 202, 203].into();
+    // With the index at the end, and after a kill, which has left none.
+    for bytes in [&whole.bytes[..], &whole.bytes[..third + places[2].chunk_length as usize]] {
+        let mut read_whole = 0;
+        for at in second..second + places[1].chunk_length as usize {
+            let mut damaged = bytes.to_vec();
+            damaged[at] ^= 0x80;
+            let path = file("damaged", &damaged);
+            let (times, skipped) = read(&path);
+            // Times of a chunk, and some bits of LZ4's head, have no checksum: what is read then is right all the same.
+            let is_read = times.len() == 12;
+            let unknown = at == second && bytes.len() < whole.bytes.len();
+            assert!(is_read || times == others, "{at}: {times:?}");
+            assert_eq!(skipped.chunks, u64::from(!is_read && !unknown), "{at}");
+            read_whole += usize::from(is_read);
+            let to_the_next = (third - second) as u64;
+            let gone = [0, places[1].chunk_length, to_the_next];
+            assert!(gone.contains(&skipped.bytes), "{at}: {skipped}");
+        }
+        assert!(read_whole < 40, "{read_whole} bytes of {} do not matter", places[1].chunk_length);
+    }
+    // Whole stretches: from the middle of one chunk to the middle of the next.
+    let mut damaged = whole.bytes.clone();
+    damaged[first + 30..second + 30].fill(0xAA);
+    let path = file("damaged", &damaged);
+    let (times, skipped) = read(&path);
+    assert_eq!(times, [200, 201, 202, 203]);
+    assert_eq!((skipped.chunks, skipped.bytes), (2, (third - first) as u64));
+    assert_eq!(skipped.time.as_nanos(), 6);
+    assert_eq!(skipped.to_string(), format!("skipped 2 damaged chunks, {} bytes, 0.00 s", third - first));
+}
+
+#[test]
+fn records_that_nobody_knows_are_passed_over() {
+    let mut whole = disk(usize::MAX);
+    write(&mut whole).unwrap().1.unwrap();
+    let path = file("unknown", &whole.bytes);
+    let second = chunk_indexes(&path).unwrap()[1].chunk_start_offset as usize;
+    let mut bytes = whole.bytes[..second].to_vec();
+    append(&mut bytes, 0x8F, &4711u64, b"of a later version").unwrap();
+    // Without the end, whose places would be wrong.
+    bytes.extend_from_slice(&whole.bytes[second..whole.bytes.len() - 60]);
+    let path = file("unknown", &bytes);
+    let (times, skipped) = read(&path);
+    assert_eq!((times.len(), skipped), (12, Skipped::default()));
 }
 
 #[test]

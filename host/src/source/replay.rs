@@ -62,7 +62,8 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
     }
     let words = scanned.metadata.iter().find(|metadata| metadata.name == "taxel");
     let scale = words.and_then(|words| words.metadata.get("counts_per_newton")?.parse().ok());
-    let replay = Replay { messages: Messages::open(path)?, speed, began: None, next: Vec::new(), due: None };
+    let replay =
+        Replay { messages: Messages::of_topic(path, WIRE)?, speed, began: None, next: Vec::new(), due: None };
     let label = format!("replay:{}", path.display());
     Ok(Source { counts_per_newton: scale, ..Source::new(label, replay) })
 }
@@ -82,18 +83,14 @@ struct Replay {
 impl Replay {
     /// The bytes of the next message; false: there are no more.
     fn fetch(&mut self) -> Result<bool> {
-        while let Some(message) = self.messages.next() {
-            let message = message?;
-            if self.messages.topic(message.header.channel_id) != Some(WIRE) {
-                continue;
-            }
+        if let Some(message) = self.messages.next_message()? {
             let time = message.header.log_time;
             let (start, first) = *self.began.get_or_insert_with(|| (Instant::now(), time));
             let passed = Duration::from_nanos(time.saturating_sub(first));
             self.due = self.speed.and_then(|speed| {
                 start.checked_add(Duration::try_from_secs_f64(passed.as_secs_f64() / speed).ok()?)
             });
-            self.next = message.data;
+            self.next.extend_from_slice(message.data);
             return Ok(true);
         }
         Ok(false)
