@@ -52,7 +52,7 @@ fn health_names_what_is_ill_and_where() {
     let ill = scene("ill.toml", &format!("duration_s = 2\n[faults]\n{taxels}"));
     let args = ["health", "--source", &ill, "--tare", "16", "--self-test", "--json"];
     let done = run(&args);
-    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
     let told: Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(told["self_test"], json!({ "lines": 9, "inputs": 4, "faults": [] }));
     assert_eq!(told["ghosts"], Value::Null);
@@ -72,7 +72,7 @@ fn health_names_what_is_ill_and_where() {
 fn a_broken_line_is_named_and_the_command_fails() {
     let broken = "duration_s = 2\n[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]";
     let done = run(&["health", "--source", &scene("broken.toml", broken)]);
-    assert_eq!(done.status.code(), Some(2));
+    assert_eq!(done.status.code(), Some(3));
     assert!(text(&done.stdout).starts_with("GPIO 8 ("), "{}", text(&done.stdout));
     assert!(text(&done.stderr).contains("faults of lines and inputs: 1"));
 }

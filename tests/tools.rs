@@ -26,9 +26,9 @@ fn said(args: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn refused(args: &[&str]) -> String {
+fn refused(status: i32, args: &[&str]) -> String {
     let output = run(args);
-    assert_eq!(output.status.code(), Some(2), "{args:?}");
+    assert_eq!(output.status.code(), Some(status), "{args:?}");
     String::from_utf8(output.stderr).unwrap()
 }
 
@@ -53,7 +53,7 @@ fn a_simulated_board_is_examined() {
     assert!(of("images")["what"].as_str().unwrap().starts_with("195."), "{line}");
     assert_eq!(of("calibration")["grade"], "weak");
     assert!(said(&["doctor", "--source", "sim:idle", "--seconds", "1"]).ends_with("marked with !\n"));
-    let nobody = refused(&["doctor", "--source", "serial:/dev/no-such-port"]);
+    let nobody = refused(3, &["doctor", "--source", "serial:/dev/no-such-port"]);
     assert!(nobody.contains("taxel ports"), "{nobody}");
 }
 
@@ -63,8 +63,8 @@ fn ports_are_listed_and_a_wrong_firmware_is_refused() {
     assert!(ports.is_array());
     let text = file("firmware.uf2");
     std::fs::write(&text, "not a firmware").unwrap();
-    assert!(refused(&["flash", text.to_str().unwrap()]).contains("neither an ELF nor a UF2"));
-    assert!(refused(&["flash", "no-such-file.uf2"]).contains("no-such-file.uf2 cannot be read"));
+    assert!(refused(1, &["flash", text.to_str().unwrap()]).contains("neither an ELF nor a UF2"));
+    assert!(refused(1, &["flash", "no-such-file.uf2"]).contains("no-such-file.uf2 cannot be read"));
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn a_garment_file_is_begun_and_checked() {
     let garment = file("mine.toml");
     let name = garment.to_str().unwrap();
     said(&["config", "new", name, "--like", "reference"]);
-    assert!(refused(&["config", "new", name]).contains("is there already"));
+    assert!(refused(1, &["config", "new", name]).contains("is there already"));
     let text = std::fs::read_to_string(&garment).unwrap();
     assert!(text.starts_with("#:schema ./taxel-garment.schema.json\n"), "{text}");
     let schema = std::fs::read_to_string(garment.with_file_name("taxel-garment.schema.json")).unwrap();
@@ -86,7 +86,7 @@ fn a_garment_file_is_begun_and_checked() {
             .contains("scene calm can be played")
     );
     std::fs::write(&garment, text.replacen("rows = 32", "rows = 31", 1)).unwrap();
-    let why = refused(&["config", "check", name]);
+    let why = refused(1, &["config", "check", name]);
     assert!(why.contains("mine.toml, line ") && why.contains("panel chest"), "{why}");
 }
 
@@ -102,14 +102,15 @@ fn a_simulated_garment_is_calibrated_and_checked() {
     assert!(text.contains("by = \"Anna\"") && text.contains("a plate on each panel (1)"), "{text}");
     // Another board, which was never calibrated, and another garment.
     let check = run(&["calibrate", "check", name, "--source", "sim:idle", "--json"]);
-    assert_eq!(check.status.code(), Some(2), "it does not hold");
+    assert_eq!(check.status.code(), Some(1), "it does not hold");
     let check = String::from_utf8(check.stdout).unwrap();
     let check: Value = serde_json::from_str(check.lines().last().unwrap()).unwrap();
     assert_eq!(check["holds"], false);
     let why = check["why"].to_string();
     assert!(why.contains("no calibration") && why.contains("2048 taxels"), "{why}");
     assert!(
-        refused(&["calibrate", "--weights", "1,0", "--simulate", "1"]).contains("--weights must be above 0")
+        refused(2, &["calibrate", "--weights", "1,0", "--simulate", "1"])
+            .contains("--weights must be above 0")
     );
 }
 
@@ -158,7 +159,7 @@ fn after_ctrl_c_the_board_wears_what_it_wore() {
     assert!(asked.contains("\"ask\""), "{asked}");
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "error: ended by Ctrl-C\n");
     let [garments, scenes] = board.join().unwrap();
     let reference = postcard::to_allocvec(&Garment::reference()).unwrap();

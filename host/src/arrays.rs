@@ -12,6 +12,7 @@ mod csv;
 mod npy;
 mod npz;
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, anyhow, bail};
 use std::fs::File;
 use std::io::Read;
@@ -47,7 +48,9 @@ pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
     let read = || match (open(path)?, array) {
         (Source::Archive(mut archive), Some(name)) => archive.named(name),
         (Source::Archive(mut archive), None) => archive.only(),
-        (_, Some(name)) => bail!("holds one array without a name, so array {name} cannot be chosen"),
+        (_, Some(name)) => {
+            bail!(Fault::usage(format!("holds one array without a name, so array {name} cannot be chosen")))
+        }
         (single, None) => single.frames(),
     };
     read().with_context(|| path.display().to_string())

@@ -26,12 +26,13 @@ use crate::settle::{self, SettleArgs};
 use crate::setup::{self, SetupArgs};
 use crate::shapes::{self, ShapesArgs};
 use crate::view::{self, ViewArgs};
+use crate::words;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
 /// See, record and understand the touch on a robot's tactile garment
 #[derive(Debug, Parser)]
-#[command(version, after_help = "Examples:\n  taxel\n  taxel live --source sim:lash\n  taxel scenes")]
+#[command(version, after_help = TAXEL)]
 pub struct Cli {
     /// What to do; without it, `live`
     #[command(subcommand)]
@@ -117,6 +118,17 @@ enum Command {
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
 }
+
+const TAXEL: &str = "Examples:
+  taxel
+  taxel live --source sim:lash
+  taxel scenes
+
+Exit status:
+  0  done
+  1  failed: a file, the disk, a result that is not good enough
+  2  wrong use: another command line is needed
+  3  the board is at fault: no answer, a refusal, faulty lines or taxels";
 
 const LIVE: &str = "Examples:
   taxel live
@@ -244,6 +256,11 @@ const SCENES: &str = "Examples:
   taxel scenes --json";
 
 impl Cli {
+    /// Reads the command line; the program ends here where it is wrong, or asks for help.
+    pub fn read() -> Cli {
+        Cli::try_parse().unwrap_or_else(|error| in_words(error).exit())
+    }
+
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
         let live = || Cli::parse_from(["taxel", "live"]).command;
@@ -276,6 +293,18 @@ impl Cli {
             Command::Scenes(args) => scenes::run(args),
         }
     }
+}
+
+/// A number that is none, in plain words.
+fn in_words(error: clap::Error) -> clap::Error {
+    let Some(theirs) = std::error::Error::source(&error).map(ToString::to_string) else { return error };
+    let ours = words::plain(&theirs);
+    if ours == theirs {
+        return error;
+    }
+    let told = error.to_string();
+    let message = told.trim_start_matches("error: ").replacen(&theirs, &ours, 1);
+    clap::Error::raw(error.kind(), message)
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ pub mod unite;
 pub mod weight;
 pub mod why;
 
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 
 /// Arguments of `taxel fcm`.
@@ -74,6 +75,6 @@ pub fn run(args: FcmArgs) -> Result<()> {
         (Some(Command::Draw(args)), _) => draw::run(args),
         (Some(Command::Bench(args)), _) => bench::run(args),
         (None, Some(args)) => run::run(args),
-        (None, None) => bail!("a map or a command is missing: see taxel fcm --help"),
+        (None, None) => bail!(Fault::usage("a map or a command is missing: see taxel fcm --help")),
     }
 }

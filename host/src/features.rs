@@ -1,6 +1,7 @@
 //! `taxel features`: moments, NMI and axis of one recorded image as it stands, without conditioning or thresholds.
 
 use crate::arrays;
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -72,7 +73,8 @@ pub fn run(args: FeaturesArgs) -> Result<()> {
     let frames = arrays::read(&args.file, args.array.as_deref())?;
     let file = args.file.display();
     let Some(image) = frames.frame(args.frame) else {
-        bail!("{file}: there is no frame {}, the last is {}", args.frame, frames.count - 1);
+        let (wanted, last) = (args.frame, frames.count - 1);
+        bail!(Fault::usage(format!("{file}: there is no frame {wanted}, the last is {last}")));
     };
     let features = Features::of(image, frames.columns.into()).with_context(|| file.to_string())?;
     if args.json {

@@ -1,5 +1,6 @@
 //! `taxel flash`: the firmware onto a board, by its boot loader's drive or by a debug probe.
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::fs::{self, File};
@@ -66,12 +67,17 @@ pub fn drives() -> Vec<PathBuf> {
 fn only(drives: Vec<PathBuf>) -> Result<PathBuf> {
     match drives.as_slice() {
         [drive] => Ok(drive.clone()),
-        [] => bail!(
+        [] => bail!(Fault::board(format!(
             "no drive {} is mounted: hold BOOTSEL while plugging the board in, open the drive once if nothing mounts it by itself, \
              and try again",
             TELLS.1
-        ),
-        many => bail!("{} boards wait in their boot loaders: --drive tells which one is meant", many.len()),
+        ))),
+        many => {
+            let count = many.len();
+            bail!(Fault::usage(format!(
+                "{count} boards wait in their boot loaders: --drive tells which one is meant"
+            )))
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `taxel gestures`: which gesture a touch is, by a model that fits the board.
 
 use crate::arrays;
+use crate::fault::Fault;
 use crate::touches::{
     self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
 };
@@ -70,7 +71,10 @@ pub fn across_people(files: &Files) -> Result<Report> {
 
 /// Times of observation at so many frames per second.
 fn times(rate: f64) -> Result<Times> {
-    ensure!(rate > 0.0 && rate.is_finite(), "--rate {rate}: expected a number above 0");
+    ensure!(
+        rate > 0.0 && rate.is_finite(),
+        Fault::usage(format!("--rate {rate}: expected a number above 0"))
+    );
     let frames = |seconds: &f64| ((seconds * rate).round() as usize).max(1);
     Ok(Times { unit: "seconds", steps: TIMES.iter().map(|t| (*t, frames(t))).collect() })
 }

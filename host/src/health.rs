@@ -1,4 +1,4 @@
-//! `taxel health`: the taxels that are ill and where they are, and lines and inputs at fault.
+//! `taxel health`: the faulty taxels and where they are, and faulty lines and inputs.
 
 mod ghosts;
 pub(crate) mod pins;
@@ -6,10 +6,11 @@ pub(crate) mod pins;
 pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
+use crate::fault::{Blame, Fault};
 use crate::garments;
 use crate::live::{self, BoardArgs, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -52,9 +53,11 @@ pub struct Told {
     pub text: String,
     /// Lines and inputs at fault.
     pub faults: usize,
+    /// Faulty taxels.
+    pub taxels: usize,
 }
 
-/// Runs the command; fails where a line or an input is at fault.
+/// Runs the command; the board is at fault where a line, an input or a taxel is.
 pub fn run(args: HealthArgs) -> Result<()> {
     let told = look(&args)?;
     if args.json {
@@ -62,10 +65,9 @@ pub fn run(args: HealthArgs) -> Result<()> {
     } else {
         print!("{}", told.text);
     }
-    match told.faults {
-        0 => Ok(()),
-        count => bail!("faults of lines and inputs: {count}"),
-    }
+    ensure!(told.faults == 0, Fault::board(format!("faults of lines and inputs: {}", told.faults)));
+    ensure!(told.taxels == 0, Fault::board(format!("faulty taxels: {}", told.taxels)));
+    Ok(())
 }
 
 /// Watches a board for as long as the arguments say.
@@ -77,10 +79,10 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     live::watch(&live, source, &mut found)?;
     if args.self_test && !found.answered {
-        bail!("no self-test has come; ask for more --frames");
+        bail!(Fault::board("no self-test has come; ask for more --frames"));
     }
     let passive = found.is_passive();
-    let garment = found.garment.context("the board has not said what it wears")?;
+    let garment = found.garment.context("the board has not said what it wears").board()?;
     let places = places(&garment, &found.ill)?;
     let pins = found.pins.as_ref();
     let ghosts = passive.then(|| found.ghosts.report(&garment));
@@ -88,6 +90,7 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
         json: json!({ "self_test": pins::report(&garment, pins), "taxels": report(&places), "ghosts": ghosts }),
         text: pins::table(&garment, pins) + &table(&garment, &places) + &found.ghosts.table(&garment),
         faults: pins.map_or(0, |findings| findings.faults.len()),
+        taxels: places.len(),
     })
 }
 
@@ -125,7 +128,9 @@ impl Show for Known {
             Event::Answer { request, refusal: None } if *request == Request::SelfTest.number() => {
                 self.answered = true;
             }
-            Event::Answer { refusal: Some(why), .. } => return Err(anyhow!("the board refuses: {why}")),
+            Event::Answer { refusal: Some(why), .. } => {
+                bail!(Fault::board(format!("the board refuses: {why}")))
+            }
             _ => {}
         }
         Ok(())
@@ -188,7 +193,7 @@ pub fn report(places: &[IllPlace]) -> Value {
 /// The readable form: a line for each taxel.
 pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
     if places.is_empty() {
-        return format!("{}: nothing is known against any taxel.\n", garment.name);
+        return format!("{}: no faulty taxels.\n", garment.name);
     }
     let line = |p: &IllPlace| {
         let (row, column) = p.place;
@@ -209,6 +214,7 @@ pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fault;
 
     #[test]
     fn a_line_at_fault_is_told_and_fails_the_command() {
@@ -226,7 +232,9 @@ mod tests {
         };
         run(args("")).unwrap();
         let error = run(args("[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]")).unwrap_err();
-        assert_eq!(error.to_string(), "faults of lines and inputs: 1");
+        assert_eq!((error.to_string().as_str(), fault::status(&error)), ("faults of lines and inputs: 1", 3));
+        let stuck = run(args("[faults]\nstuck = [{ taxel = 77, code = 300 }]")).unwrap_err();
+        assert_eq!((stuck.to_string().as_str(), fault::status(&stuck)), ("faulty taxels: 1", 3));
         std::fs::remove_file(&file).unwrap();
     }
 
@@ -241,6 +249,6 @@ mod tests {
             format!("stuck    back, row 7, column 5 (block {block}, its row 3, column 5; taxel 629)\n")
         );
         assert_eq!(report(&places)[0]["wired_row"], 3);
-        assert!(table(&garment, &[]).ends_with("nothing is known against any taxel.\n"));
+        assert!(table(&garment, &[]).ends_with(": no faulty taxels.\n"));
     }
 }

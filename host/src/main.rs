@@ -1,25 +1,20 @@
-//! The program `taxel`: one sentence and exit status 2 where the input is bad.
+//! The program `taxel`: where it fails one sentence, and the exit status of [`taxel::fault`].
 #![forbid(unsafe_code)]
 
-use clap::Parser;
 use std::process::ExitCode;
 use taxel::cli::Cli;
+use taxel::{fault, words};
 
 fn main() -> ExitCode {
     leave_quietly_on_broken_pipe();
-    match Cli::parse().run() {
+    match Cli::read().run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if is_closed_output(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", one_line(&error));
-            ExitCode::from(2)
+            eprintln!("error: {}", words::sentence(&error));
+            ExitCode::from(fault::status(&error))
         }
     }
-}
-
-/// The chain of causes as one sentence on one line.
-fn one_line(error: &anyhow::Error) -> String {
-    format!("{error:#}").lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
 /// A broken pipe that nobody has put into words is that of the standard output; those of links say which link.

@@ -1,6 +1,7 @@
 //! `taxel process`: the board's pipeline over recorded frames, one JSON object a frame.
 
 use crate::arrays::{self, Frames};
+use crate::fault::Fault;
 use crate::growths::Growths;
 use crate::json;
 use anyhow::{Context, Result, bail};
@@ -48,10 +49,10 @@ pub struct ProcessArgs {
 /// Runs the command.
 pub fn run(args: ProcessArgs) -> Result<()> {
     if !(args.rate.is_finite() && args.rate > 0.0 && args.rate <= 1e6) {
-        bail!("--rate {}: it must be above 0 and at most 1000000 Hz", args.rate);
+        bail!(Fault::usage(format!("--rate {}: it must be above 0 and at most 1000000 Hz", args.rate)));
     }
     if args.full_scale == 0 {
-        bail!("--full-scale 0: it must be 1 to 65535");
+        bail!(Fault::usage("--full-scale 0: it must be 1 to 65535"));
     }
     let mut out = BufWriter::new(std::io::stdout().lock());
     let recordings = recordings(&args.file, args.array.as_deref())?;

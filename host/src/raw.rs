@@ -1,6 +1,7 @@
 //! A board that is asked for raw codes, and that wears what it is told meanwhile.
 
 use crate::client::{Client, Event, Worn, scene_bytes};
+use crate::fault::{Blame, Fault};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use crate::stop;
 use anyhow::{Context, Result, bail};
@@ -148,7 +149,7 @@ impl RawBoard {
             _ => false,
         })?;
         match refused {
-            Some(why) => bail!("{}: refused: {why}", self.source.label),
+            Some(why) => bail!(Fault::board(format!("{}: refused: {why}", self.source.label))),
             None => Ok(()),
         }
     }
@@ -169,14 +170,15 @@ impl RawBoard {
                 }
             }
             let lost = || format!("{label} is gone");
-            self.source.port.write(&self.client.take_requests()).with_context(lost)?;
+            self.source.port.write(&self.client.take_requests()).with_context(lost).board()?;
             self.buffer.resize(4096, 0);
-            let Some(count) = self.source.port.read(&mut self.buffer).with_context(lost)? else {
-                bail!("{label} ended before {what} came");
+            let Some(count) = self.source.port.read(&mut self.buffer).with_context(lost).board()? else {
+                bail!(Fault::board(format!("{label} ended before {what} came")));
             };
             self.buffer.truncate(count);
             if began.elapsed() > PATIENCE {
-                bail!("{label}: {what} did not come in {} s", PATIENCE.as_secs());
+                let seconds = PATIENCE.as_secs();
+                bail!(Fault::board(format!("{label}: {what} did not come in {seconds} s")));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! `taxel save`: what the board knows survives a restart.
 
 use crate::client::{Client, Event};
+use crate::fault::Fault;
 use crate::live::{self, BoardArgs, LiveArgs, Show};
 use crate::source::SourceOptions;
 use anyhow::{Result, bail};
@@ -23,10 +24,10 @@ pub fn run(args: SaveArgs) -> Result<()> {
     let (source, _) = args.board.open(SourceOptions::default())?;
     let label = source.label.clone();
     let tare = args.board.tare.unwrap_or(source.tare);
-    let mut saving = Saving { waits_for: tare > 0, asked: None, done: false };
+    let mut saving = Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false };
     live::watch(&LiveArgs::on(args.board), source, &mut saving)?;
     if !saving.done {
-        bail!("{label} ended before it had stored its settings");
+        bail!(Fault::board(format!("{label} ended before it had stored its settings")));
     }
     println!("{label} has stored garment, scene, gains and baseline: they survive a restart.");
     Ok(())
@@ -36,6 +37,7 @@ pub fn run(args: SaveArgs) -> Result<()> {
 struct Saving {
     /// A tare is under way.
     waits_for: bool,
+    begun: Instant,
     asked: Option<Instant>,
     done: bool,
 }
@@ -44,7 +46,7 @@ impl Show for Saving {
     fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         if let Some(why) = refusal {
-            bail!("the board refuses: {why}");
+            bail!(Fault::board(format!("the board refuses: {why}")));
         }
         self.waits_for &= *request != Request::Tare { frames: 0 }.number();
         self.done |= *request == Request::Save.number();
@@ -57,7 +59,11 @@ impl Show for Saving {
                 client.request(&Request::Save)?;
                 self.asked = Some(Instant::now());
             }
-            Some(asked) if asked.elapsed() > PATIENCE => bail!("the board does not answer"),
+            // A tare over many frames may take longer.
+            None if client.worn().is_none() && self.begun.elapsed() > PATIENCE => {
+                bail!(Fault::board("the board does not answer"))
+            }
+            Some(asked) if asked.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
             _ => {}
         }
         Ok(!self.done)

@@ -11,8 +11,9 @@
 //! ```
 
 use crate::client::{Client, Event};
+use crate::fault::{Blame, Fault};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use taxel_core::wire::Request;
 
 /// A board that streams. Dropping it lets the board go.
@@ -27,7 +28,8 @@ impl Session {
     /// Connects by the words of `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`, `tcp:HOST:PORT` ...) and asks for
     /// everything, after a tare where a simulation wants one.
     pub fn open(source: &str) -> Result<Session> {
-        let spec: SourceSpec = source.parse().map_err(|why| anyhow!("source {source}: {why}"))?;
+        let spec: SourceSpec =
+            source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
         Session::over(source::open(&spec, &SourceOptions::default())?)
     }
 
@@ -57,9 +59,9 @@ impl Session {
             }
         }
         let lost = || format!("{} is gone", self.source.label);
-        self.source.port.write(&self.client.take_requests()).with_context(lost)?;
+        self.source.port.write(&self.client.take_requests()).with_context(lost).board()?;
         self.buffer.resize(4096, 0);
-        let count = self.source.port.read(&mut self.buffer).with_context(lost)?;
+        let count = self.source.port.read(&mut self.buffer).with_context(lost).board()?;
         self.buffer.truncate(count.unwrap_or(0));
         self.taken = 0;
         Ok(if count.is_some() { Poll::Nothing } else { Poll::End })

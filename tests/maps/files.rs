@@ -127,12 +127,12 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "strong -",
             "strongish -",
-            "map.toml: line 31: \"strongish -\" is no weight: expected none, or weak, medium, strong, very strong followed by + or -",
+            "map.toml, line 31, `weight`: \"strongish -\" is no weight: expected none, or weak, medium, strong, very strong followed by + or -",
         ),
         (
             "lambda",
             "lamda",
-            "map.toml: line 7: unknown field `lamda`, expected one of `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
+            "map.toml, line 7: `lamda` is no key that is known here: `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
         ),
         ("lambda = 2.5", "lambda = 0", "map.toml: map whole: lambda = 0 is outside 0.001 ..= 65.535"),
         (
@@ -168,7 +168,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
         assert_eq!(refused(from, to), message);
     }
     let cut = load::parse(&WHOLE[..WHOLE.len() - 16], "map.toml").unwrap_err().to_string();
-    assert!(cut.starts_with("map.toml: line "), "{cut}");
+    assert!(cut.starts_with("map.toml, line "), "{cut}");
     let empty = load::parse("name = \"m\"", "m.toml").unwrap_err();
     assert_eq!(format!("{empty:#}"), "m.toml: map m: it has no concept");
     let missing = format!("{:#}", load::map("missing.toml").unwrap_err());

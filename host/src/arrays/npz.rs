@@ -1,6 +1,7 @@
 //! An archive of NumPy arrays.
 
 use super::{Frames, npy};
+use crate::fault::Fault;
 use anyhow::{Context, Result, anyhow, bail};
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -30,7 +31,7 @@ impl Archive {
     /// The array of that name.
     pub fn named(&mut self, name: &str) -> Result<Frames> {
         if !self.names.iter().any(|known| known == name) {
-            bail!("there is no array {name}; known are {}", listed(&self.names));
+            bail!(Fault::usage(format!("there is no array {name}; known are {}", listed(&self.names))));
         }
         let frames = self.entry(name, |entry, size| npy::read(entry, size));
         frames.with_context(|| format!("array {name}"))
@@ -69,7 +70,12 @@ impl Archive {
         match candidates.as_slice() {
             [name] => self.named(name),
             [] => bail!("holds no array [frames, rows, columns] or [rows, columns]"),
-            several => bail!("holds several arrays, choose one with --array: {}", listed(several)),
+            several => {
+                bail!(Fault::usage(format!(
+                    "holds several arrays, choose one with --array: {}",
+                    listed(several)
+                )))
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::file::Calibration;
 use super::plates::{Over, Plate, plates};
 use super::reading::Reading;
 use crate::date;
+use crate::fault::{Blame, Fault};
 use crate::raw::RawBoard;
 use crate::source::SourceSpec;
 use anyhow::{Context, Result, ensure};
@@ -45,8 +46,8 @@ pub struct CheckArgs {
 /// Runs the command.
 pub fn run(args: &CheckArgs) -> Result<()> {
     let above = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
-    ensure!(above(args.press), "--press must be a force above 0");
-    ensure!(above(args.every), "--every must be a time above 0");
+    ensure!(above(args.press), Fault::usage("--press must be a force above 0"));
+    ensure!(above(args.every), Fault::usage("--every must be a time above 0"));
     let calibration = Calibration::read(&args.file)?;
     let Some(every) = args.every else {
         let reasons = reasons(args, &calibration)?;
@@ -54,7 +55,7 @@ pub fn run(args: &CheckArgs) -> Result<()> {
         ensure!(reasons.is_empty(), "calibration {} does not hold", calibration.id);
         return Ok(());
     };
-    let pause = Duration::try_from_secs_f64(every).context("--every")?;
+    let pause = Duration::try_from_secs_f64(every).context("--every").usage()?;
     let mut told = None;
     loop {
         let now = reasons(args, &calibration)?;
@@ -71,7 +72,7 @@ pub fn run(args: &CheckArgs) -> Result<()> {
 /// Looks at the garment once.
 fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
-    let worn = board.worn().context("the board has not said what it wears")?;
+    let worn = board.worn().context("the board has not said what it wears").board()?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let mut dialogue = Dialogue::new(&mut board, garment.wiring.falling, args.wait, args.json);

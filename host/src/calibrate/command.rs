@@ -7,6 +7,7 @@ use super::operator;
 use super::plates::{Over, plates};
 use super::residuals::OfWeight;
 use super::task::{Task, calibrate};
+use crate::fault::Fault;
 use crate::raw::RawBoard;
 use crate::sim::{self, Sensor};
 use crate::source::{self, SourceSpec};
@@ -81,7 +82,7 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
         return check::run(args);
     }
     let weights = weights(args)?;
-    ensure!(args.wait.is_finite() && args.wait > 0.0, "--wait must be a time above 0");
+    ensure!(args.wait.is_finite() && args.wait > 0.0, Fault::usage("--wait must be a time above 0"));
     let mut board = open(args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
         board.wear(&sim::garment(garment)?)?;
@@ -106,7 +107,7 @@ fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
         weights = args.over.weights().to_vec();
     }
     if let Some(wrong) = weights.iter().find(|w| !w.is_finite() || **w <= 0.0 || **w > 10_000.0) {
-        bail!("--weights must be above 0 and at most 10000 N, not {wrong}");
+        bail!(Fault::usage(format!("--weights must be above 0 and at most 10000 N, not {wrong}")));
     }
     weights.sort_by(f64::total_cmp);
     weights.dedup();

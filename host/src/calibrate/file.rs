@@ -103,7 +103,7 @@ impl Calibration {
     /// Reads the text of a file of that name and checks it.
     pub fn parse(text: &str, name: &str) -> Result<Calibration> {
         let read: Calibration =
-            toml::from_str(text).map_err(|error| anyhow!(crate::sim::sentence(&error, text, name)))?;
+            toml::from_str(text).map_err(|error| anyhow!(crate::words::toml(&error, text, name)))?;
         read.check().with_context(|| name.to_string())?;
         Ok(read)
     }

@@ -1,8 +1,8 @@
 //! Whether a garment's file can be worn, and a scene's played on it.
 
 use super::line;
-use crate::sim;
 use crate::source::read_scene;
+use crate::words;
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
 use taxel_core::board::{BoardInfo, Setup};
@@ -18,7 +18,7 @@ pub fn check(file: &Path, scene: Option<&Path>) -> Result<String> {
     let name = file.display().to_string();
     let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {name}"))?;
     let garment: Garment =
-        toml::from_str(&text).map_err(|error| anyhow!(sim::sentence(&error, &text, &name)))?;
+        toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
     let (capacity, info) = BOARD;
     let place = |error: String| match line::of(&error, &text) {
         Some(line) => anyhow!("{name}, line {line}: {error}"),

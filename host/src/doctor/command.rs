@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
 use crate::date;
+use crate::fault::Fault;
 use crate::live::{self, LiveArgs};
 use crate::source::{self, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail, ensure};
@@ -26,7 +27,7 @@ pub struct DoctorArgs {
 
 /// Runs the command; an error where the board does not work.
 pub fn run(args: &DoctorArgs) -> Result<()> {
-    ensure!(args.seconds.is_finite() && args.seconds > 0.0, "--seconds must be a time above 0");
+    ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
     let options = SourceOptions { seconds: Some(args.seconds), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)
         .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
@@ -44,7 +45,9 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     }
     heard?;
     match worst {
-        Grade::Bad => bail!("{label} does not work as it should: {}", first_cure(&found)),
+        Grade::Bad => {
+            bail!(Fault::board(format!("{label} does not work as it should: {}", first_cure(&found))))
+        }
         _ if args.json => {}
         Grade::Weak => println!("It works. What could be better is marked with !"),
         Grade::Good => println!("All is well."),

@@ -15,6 +15,7 @@ mod npz;
 mod png;
 mod units;
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use frames::Frames;
@@ -85,12 +86,18 @@ impl ExportArgs {
 
 /// Runs the command.
 pub fn run(args: ExportArgs) -> Result<()> {
-    ensure!(!args.touched || args.to == Form::Csv, "--touched is for --to csv");
+    ensure!(!args.touched || args.to == Form::Csv, Fault::usage("--touched is for --to csv"));
     let in_units = matches!(args.to, Form::Csv | Form::Lerobot);
-    ensure!(!args.counts || in_units, "--counts is for --to csv and --to lerobot: the others hold counts");
-    ensure!(args.reference.is_finite() && args.reference > 0.0, "--reference must be a voltage above 0");
+    ensure!(
+        !args.counts || in_units,
+        Fault::usage("--counts is for --to csv and --to lerobot: the others hold counts")
+    );
+    ensure!(
+        args.reference.is_finite() && args.reference > 0.0,
+        Fault::usage("--reference must be a voltage above 0")
+    );
     if let Some(same) = args.files.iter().find(|file| **file == args.output) {
-        bail!("{} is the recording itself: give another name", same.display());
+        bail!(Fault::usage(format!("{} is the recording itself: give another name", same.display())));
     }
     let frames = |file| Frames::new(file, args.every, args.counts || !in_units);
     let recordings = args.files.iter().map(|file| frames(file)).collect::<Result<Vec<_>>>()?;
@@ -101,7 +108,9 @@ pub fn run(args: ExportArgs) -> Result<()> {
         }
         (Form::Npz, [one]) => npz::write(one, &args.output),
         (Form::Png, [one]) => png::write(one, &args.output),
-        (_, all) => bail!("{} recordings: only --to lerobot takes more than one", all.len()),
+        (_, all) => {
+            bail!(Fault::usage(format!("{} recordings: only --to lerobot takes more than one", all.len())))
+        }
     };
     let names: Vec<_> = args.files.iter().map(|file| file.display().to_string()).collect();
     let count = done.with_context(|| format!("{} to {}", names.join(", "), args.output.display()))?;

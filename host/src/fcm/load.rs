@@ -2,6 +2,7 @@
 
 use super::decimal::Decimal;
 use super::map::MapFile;
+use crate::words;
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
 
@@ -23,11 +24,7 @@ pub fn map(name_or_path: &str) -> Result<MapFile> {
 
 /// Reads the text of a map from `place`.
 pub fn parse(text: &str, place: &str) -> Result<MapFile> {
-    let map: MapFile = toml::from_str(text).map_err(|error| {
-        let line =
-            error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count());
-        anyhow!("{place}: line {line}: {}", error.message().lines().collect::<Vec<_>>().join(" "))
-    })?;
+    let map: MapFile = toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, place)))?;
     map.check_numbers().with_context(|| place.to_string())?;
     Ok(map)
 }

@@ -3,6 +3,7 @@
 use super::decimal::Decimal;
 use super::engine::{self, Problem, Settings, Trajectory};
 use super::{json, load};
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -77,7 +78,9 @@ fn problem(args: &RunArgs) -> Result<(Problem, Settings)> {
         let mut problem = json::read(Path::new(&args.map))?;
         for (concept, value) in &args.input {
             let at = problem.names.iter().position(|name| name == concept);
-            let Some(at) = at else { bail!("{}: --input names the unknown concept {concept}", args.map) };
+            let unknown =
+                || Fault::usage(format!("{}: --input names the unknown concept {concept}", args.map));
+            let at = at.ok_or_else(unknown)?;
             problem.start[at] = *value;
         }
         (problem, Settings::default())
@@ -100,7 +103,10 @@ pub fn run(args: RunArgs) -> Result<()> {
     let steps = args.steps as usize;
     // Both trajectories are kept in memory until they are printed.
     if steps.saturating_mul(problem.names.len()) > 20_000_000 {
-        bail!("--steps {steps} with {} concepts is more than 20 million values", problem.names.len());
+        let concepts = problem.names.len();
+        bail!(Fault::usage(format!(
+            "--steps {steps} with {concepts} concepts is more than 20 million values"
+        )));
     }
     let float = engine::run(&problem, &settings, steps);
     // A map that the core refuses (too large, too steep) still has its f64 answer.

@@ -7,6 +7,7 @@ use super::load;
 use super::map::MapFile;
 use super::paths::{Shares, shares};
 use super::told::{Told, ToldArgs};
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use taxel_core::intent::{Inference, Leading, Outcome, Why};
@@ -115,7 +116,9 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
     for (name, value) in inputs {
         let concept = file.index(name, "--input")?;
         if file.is_driven(name) {
-            bail!("--input: {name} has causes, which would overwrite it; --set holds it");
+            bail!(Fault::usage(format!(
+                "--input: {name} has causes, which would overwrite it; --set holds it"
+            )));
         }
         numbered.push((concept, *value));
     }
@@ -145,7 +148,9 @@ pub fn what_if(
     for (name, value) in set {
         file.index(name, "--set")?;
         if file.is_driven(name) && !file.held {
-            bail!("--set: the map lets concepts without causes follow the rule, so {name} cannot be held");
+            bail!(Fault::usage(format!(
+                "--set: the map lets concepts without causes follow the rule, so {name} cannot be held"
+            )));
         }
         other.edge.retain(|edge| edge.to != *name);
         values.push((name.clone(), *value));

@@ -1,6 +1,7 @@
 //! Another garment or scene for a board, from a file, before it streams.
 
 use crate::client::Client;
+use crate::fault::Blame;
 use crate::sim;
 use crate::source::read_scene;
 use anyhow::{Context, Result};
@@ -54,6 +55,6 @@ pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) ->
         // What is out of range, not a number included, becomes one that is refused.
         config.gain = (gain * 256.0).round() as u16;
     }
-    Gestures::build(&config).context("--gestures")?;
+    Gestures::build(&config).context("--gestures").usage()?;
     Ok(client.request(&Request::SetGestures(Some(config)))?)
 }

@@ -4,16 +4,20 @@ use super::{BoardArgs, LiveArgs, Show, outfit};
 use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews};
 use crate::clock::SteadyTime;
+use crate::fault::{Blame, Fault};
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
 use crate::source::Source;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
+
+/// Requests, one a second, that a board may leave without an answer where somebody watches for some time only.
+const SILENCE: u32 = 10;
 
 /// Shows what comes from a source until it ends, or until enough has come.
 pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result<()> {
@@ -27,7 +31,8 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         ended: false,
     };
     let mut save = args.save.as_ref().map(Saver::open).transpose()?;
-    let mut patience = Patience { asked: Instant::now(), times: 0 };
+    let limited = args.frames.is_some() || args.seconds.is_some();
+    let mut patience = Patience { limited, asked: Instant::now(), times: 0 };
     let time = SteadyTime::start();
     let tell_time = |client: &mut Client, real: bool| {
         if real {
@@ -40,8 +45,8 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         let lost = || format!("{} is gone", source.label);
         let requests = client.take_requests();
         show.asked(&client, &requests)?;
-        source.port.write(&requests).with_context(lost)?;
-        let Some(count) = source.port.read(&mut buffer).with_context(lost)? else { break };
+        source.port.write(&requests).with_context(lost).board()?;
+        let Some(count) = source.port.read(&mut buffer).with_context(lost).board()? else { break };
         tell_time(&mut client, source.real_time);
         show.bytes(&buffer[..count]);
         let mut taken = 0;
@@ -64,15 +69,23 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     show.end(&client)?;
     match client.worn() {
         Some(_) => Ok(()),
-        None => bail!("{}: no Hello of a taxel board in {} bytes", source.label, client.counts().bytes),
+        None => Err(silent(&source, client.counts().bytes)),
     }
+}
+
+/// A board is at fault where none is heard, a file is not.
+fn silent(source: &Source, bytes: u64) -> Error {
+    let why = format!("{}: no Hello of a taxel board in {bytes} bytes", source.label);
+    if source.real_time { Fault::board(why).into() } else { Error::msg(why) }
 }
 
 /// Queues what is asked of the board before anything is shown.
 fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
     if let Some(garment) = &args.garment {
         if source.label.starts_with("sim:") {
-            bail!("--garment {garment}: a simulated board wears the garment that its scene file names");
+            bail!(Fault::usage(format!(
+                "--garment {garment}: a simulated board wears the garment that its scene file names"
+            )));
         }
         outfit::wear(client, garment)?;
     }
@@ -143,6 +156,8 @@ impl Saver {
 
 /// A request that came to nothing (the board was starting, the line was noisy) is made again.
 struct Patience {
+    /// Whoever watches for some time only does not wait for ever for a board that says nothing.
+    limited: bool,
     asked: Instant,
     times: u32,
 }
@@ -156,6 +171,9 @@ impl Patience {
         self.times += 1;
         if self.times == 3 {
             eprintln!("No Hello yet from {}.", source.label);
+        }
+        if self.limited && self.times >= SILENCE {
+            return Err(silent(source, client.counts().bytes));
         }
         Ok(client.start(0)?)
     }

@@ -1,6 +1,7 @@
 //! The command itself.
 
 use super::{Seen, page};
+use crate::fault::Fault;
 use crate::live::{self, LiveArgs};
 use crate::source::{self, SourceOptions, SourceSpec, Speed};
 use anyhow::{Context, Result, bail};
@@ -32,7 +33,7 @@ pub fn run(args: ReportArgs) -> Result<()> {
     let spec = match (args.file, args.source) {
         (Some(path), _) => SourceSpec::Replay { path, speed: Speed::Max },
         (None, Some(spec)) => spec,
-        (None, None) => bail!("give a recording, or a --source"),
+        (None, None) => bail!(Fault::usage("give a recording, or a --source")),
     };
     let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;

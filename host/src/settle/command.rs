@@ -1,6 +1,7 @@
 //! The command `taxel settle`.
 
 use super::search::{Scanner, Settled, settle};
+use crate::fault::Fault;
 use crate::garments;
 use crate::raw::RawBoard;
 use crate::sim::{self, Timing};
@@ -65,7 +66,7 @@ impl Scanner for Worn<'_> {
 /// Runs the command.
 pub fn run(args: &SettleArgs) -> Result<()> {
     if !args.error.is_finite() || !(0.5..=400.0).contains(&args.error) {
-        bail!("--error must be 0.5 to 400 counts");
+        bail!(Fault::usage("--error must be 0.5 to 400 counts"));
     }
     let given = args.garment.as_deref().map(sim::garment).transpose()?;
     let mut board = RawBoard::open(&args.source)?;

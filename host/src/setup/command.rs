@@ -5,6 +5,7 @@ use super::feel::Feeler;
 use super::solver::{Found, Next, Solver};
 use super::touch::Touch;
 use super::user::User;
+use crate::fault::Fault;
 use crate::raw::RawBoard;
 use crate::source::SourceSpec;
 use crate::{garments, sim};
@@ -80,7 +81,7 @@ impl Hands for Watch<'_> {
 /// Runs the command.
 pub fn run(args: &SetupArgs) -> Result<()> {
     if !args.wait.is_finite() || args.wait <= 0.0 {
-        bail!("--wait must be a time above 0");
+        bail!(Fault::usage("--wait must be a time above 0"));
     }
     let found = match args.simulate {
         Some(seed) => simulated(args, seed)?,

@@ -3,6 +3,7 @@
 use super::classes::Classes;
 use super::view::{View, ViewArgs};
 use crate::arrays::{self, Frames};
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -145,7 +146,8 @@ impl ImagesArgs {
         let asked = |set: &str| self.set.is_empty() || self.set.iter().any(|pattern| matches(pattern, set));
         let sets: Vec<&str> = known.iter().copied().filter(|set| asked(set)).collect();
         if sets.is_empty() {
-            bail!("{file}: no set NAME_img is asked for; known are {}", known.join(", "));
+            let known = known.join(", ");
+            bail!(Fault::usage(format!("{file}: no set NAME_img is asked for; known are {known}")));
         }
         let classes = arrays::texts(&self.images, "classes")?;
         sets.into_iter().map(|set| self.labelled(set, classes.as_deref())).collect()

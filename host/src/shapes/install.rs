@@ -3,6 +3,7 @@
 use super::base::Base;
 use super::teach::teach;
 use crate::client::{Client, Event};
+use crate::fault::Fault;
 use crate::live::{self, LiveArgs, Show};
 use crate::source::{self, SourceOptions, SourceSpec};
 use anyhow::{Context, Result, bail};
@@ -28,20 +29,21 @@ pub fn run(args: InstallArgs) -> Result<()> {
     let base = Base::open(&args.base)?;
     let source = source::open(&args.source, &SourceOptions::default())?;
     let label = source.label.clone();
-    let mut installing = Installing { base, begun: None, installed: None };
+    let mut installing = Installing { base, opened: Instant::now(), begun: None, installed: None };
     live::watch(&LiveArgs::of(args.source), source, &mut installing)?;
     match installing.installed {
         Some((classes, prototypes)) => {
             println!("{label} knows {classes} classes by {prototypes} prototypes, until it is switched off.");
             Ok(())
         }
-        None => bail!("{label} ended before it had the base"),
+        None => bail!(Fault::board(format!("{label} ended before it had the base"))),
     }
 }
 
 /// Waits for the board, teaches it, and waits until it says what it knows.
 struct Installing {
     base: Base,
+    opened: Instant,
     begun: Option<Instant>,
     installed: Option<(usize, u16)>,
 }
@@ -54,7 +56,7 @@ impl Show for Installing {
                     .iter()
                     .any(|r| r.number() == *request) =>
             {
-                bail!("the board refuses: {why}")
+                bail!(Fault::board(format!("the board refuses: {why}")))
             }
             Event::Shapes { names, prototypes } if self.begun.is_some() && *prototypes > 0 => {
                 self.installed = Some((names.len(), *prototypes));
@@ -70,7 +72,8 @@ impl Show for Installing {
                 teach(client, &self.base).context("the base is too long for a request")?;
                 self.begun = Some(Instant::now());
             }
-            Some(begun) if begun.elapsed() > PATIENCE => bail!("the board does not answer"),
+            None if self.opened.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            Some(begun) if begun.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
             _ => {}
         }
         Ok(self.installed.is_none())

@@ -41,7 +41,6 @@ pub use decode::{Address, Decoder};
 pub use flash::{Cut, FlashError, SimFlash};
 pub use footprint::Footprint;
 pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};
-pub use parse::sentence;
 pub use pressure::Pressure;
 pub use rewire::rewire;
 pub use scenes::{SceneInfo, garment, list, load};

@@ -2,7 +2,8 @@
 
 use super::script::{Joint, Script};
 use super::touch::Touch;
-use anyhow::{Context, Result, bail, ensure};
+use crate::words;
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -17,7 +18,7 @@ impl Script {
     /// Reads a script; `file` names it in errors.
     pub fn parse(text: &str, file: &str) -> Result<Script> {
         let mut script: Script =
-            toml::from_str(text).map_err(|e| anyhow::anyhow!(sentence(&e, text, file)))?;
+            toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, file)))?;
         if script.name.is_empty() {
             let stem = Path::new(file).file_stem().and_then(|s| s.to_str());
             script.name = stem.unwrap_or(file).into();
@@ -106,20 +107,6 @@ fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
     Ok(())
 }
 
-/// What the TOML reader found, with its line, and the key of that line where the message itself names none.
-pub fn sentence(error: &toml::de::Error, text: &str, file: &str) -> String {
-    let message = error.message().lines().collect::<Vec<_>>().join(", ");
-    let Some(before) = error.span().and_then(|span| text.get(..span.start)) else {
-        return format!("{file}: {message}");
-    };
-    let number = before.matches('\n').count();
-    let line = text.lines().nth(number).unwrap_or("");
-    let named = |key: &str| message.contains(&format!("`{key}`")) || message.starts_with("missing field");
-    let key = line.split_once('=').map(|(key, _)| key.trim()).filter(|key| !named(key));
-    let key = key.map_or(String::new(), |key| format!(", `{key}`"));
-    format!("{file}, line {}{key}: {message}", number + 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,14 +143,14 @@ mod tests {
 
     #[test]
     fn errors_name_file_line_and_key() {
-        assert_eq!(error("seed = 2\n"), "x.toml, line 1: missing field `duration_s`");
+        assert_eq!(error("seed = 2\n"), "x.toml, line 1: `duration_s` is missing");
         let unknown = error("duration_s = 1\ncolour = 3\n");
         assert!(
-            unknown.starts_with("x.toml, line 2: unknown field `colour`, expected one of `name`"),
+            unknown.starts_with("x.toml, line 2: `colour` is no key that is known here: `name`"),
             "{unknown}"
         );
         let wrong = error("duration_s = 1\nseed = \"a\"\n");
-        assert!(wrong.starts_with("x.toml, line 2, `seed`: invalid type: string \"a\""), "{wrong}");
+        assert_eq!(wrong, "x.toml, line 2, `seed`: must be a whole number of 0 or more, not \"a\"");
         let size = error(&format!("{TOUCH}size_mm = \"large\"\n"));
         assert_eq!(size, "x.toml, line 8, `size_mm`: must be a number or [length, width]");
         assert!(error("duration_s = = 1").starts_with("x.toml, line 1"));

@@ -1,7 +1,9 @@
 //! The scenes that come with the program, and scenes and garments from files.
 
 use super::script::Script;
-use anyhow::{Context, Result, bail};
+use crate::fault::Fault;
+use crate::words;
+use anyhow::{Context, Result, anyhow, bail};
 use std::path::Path;
 use taxel_core::garment::Garment;
 
@@ -55,7 +57,10 @@ pub fn load(name_or_path: &str) -> Result<Script> {
     }
     if !is_file(name_or_path) {
         let names: Vec<_> = SCENES.iter().map(|(name, _)| *name).collect();
-        bail!("there is no scene \"{name_or_path}\"; known are {}, or give a .toml file", names.join(", "));
+        let names = names.join(", ");
+        bail!(Fault::usage(format!(
+            "there is no scene \"{name_or_path}\"; known are {names}, or give a .toml file"
+        )));
     }
     Script::parse(&read(name_or_path)?, name_or_path)
 }
@@ -67,10 +72,12 @@ pub fn garment(name_or_path: &str) -> Result<Garment> {
     }
     if !is_file(name_or_path) {
         let names = Garment::PRESETS.join(", ");
-        bail!("there is no garment \"{name_or_path}\"; known are {names}, or give a .toml file");
+        bail!(Fault::usage(format!(
+            "there is no garment \"{name_or_path}\"; known are {names}, or give a .toml file"
+        )));
     }
     let text = read(name_or_path)?;
-    toml::from_str(&text).map_err(|e| anyhow::anyhow!(super::parse::sentence(&e, &text, name_or_path)))
+    toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, name_or_path)))
 }
 
 fn is_file(name: &str) -> bool {
@@ -78,9 +85,7 @@ fn is_file(name: &str) -> bool {
 }
 
 fn read(path: &str) -> Result<String> {
-    std::fs::read_to_string(path)
-        .with_context(|| format!("cannot read {path}"))
-        .map_err(|e| anyhow::anyhow!("{e:#}"))
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {path}")).map_err(|e| anyhow!("{e:#}"))
 }
 
 impl Script {
@@ -88,7 +93,7 @@ impl Script {
     pub fn load_garment(&self) -> Result<Garment> {
         garment(&self.garment)
             .with_context(|| format!("in script {}: `garment`", self.name))
-            .map_err(|e| anyhow::anyhow!("{e:#}"))
+            .map_err(|e| anyhow!("{e:#}"))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
@@ -54,8 +55,10 @@ pub fn usb() -> Result<Source> {
     }
     let (vendor, product, name) = BOARD;
     match why.len() {
-        0 => bail!("no board on USB: no serial port says that it is {vendor:04x}:{product:04x} {name}"),
-        _ => bail!("no board on USB can be used: {}", why.join(", ")),
+        0 => bail!(Fault::board(format!(
+            "no board on USB: no serial port says that it is {vendor:04x}:{product:04x} {name}"
+        ))),
+        _ => bail!(Fault::board(format!("no board on USB can be used: {}", why.join(", ")))),
     }
 }
 

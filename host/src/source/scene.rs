@@ -1,7 +1,8 @@
 //! Scenes as people write them: the one that ships, with what a script or a file says otherwise.
 
 use crate::fcm;
-use crate::sim::{self, Script};
+use crate::sim::Script;
+use crate::words;
 use anyhow::{Context, Result, anyhow};
 use serde_json::Value;
 use std::path::Path;
@@ -10,7 +11,8 @@ use taxel_core::scene::Scene;
 /// The shipped scene with the settings of a script's `[scene]` in their places.
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
-    filled(said, Path::new(".")).map_err(|error| anyhow!("scene {}: [scene]: {error:#}", script.name))
+    filled(said, Path::new("."))
+        .map_err(|error| anyhow!("scene {}: [scene]: {}", script.name, words::sentence(&error)))
 }
 
 /// Reads the file of a scene; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
@@ -18,7 +20,8 @@ pub fn scene_of(script: &Script) -> Result<Scene> {
 pub fn read_scene(path: &Path) -> Result<Scene> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
-    let said: toml::Table = toml::from_str(&text).map_err(|e| anyhow!(sim::sentence(&e, &text, &name)))?;
+    let said: toml::Table =
+        toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
     filled(serde_json::to_value(said)?, path.parent().unwrap_or(Path::new("."))).with_context(|| name)
 }
 
@@ -32,7 +35,8 @@ fn filled(mut said: Value, folder: &Path) -> Result<Scene> {
         // One by one, so that an error can say where.
         for (key, value) in sections {
             let alone = Value::Object([(key.clone(), value.clone())].into_iter().collect());
-            serde_json::from_value::<Scene>(alone).map_err(|error| anyhow!("{key}: {error}"))?;
+            serde_json::from_value::<Scene>(alone)
+                .map_err(|error| anyhow!("{key}: {}", words::cause(&error)))?;
         }
     }
     Ok(serde_json::from_value(merged)?)
@@ -72,8 +76,11 @@ mod tests {
         let error = of(&map.replace("to = \"threat\"", "to = \"joy\"")).unwrap_err().to_string();
         assert!(error.contains("intent.map: map two: an edge names the unknown concept joy"), "{error}");
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
-        assert!(error.starts_with("scene a: [scene]: contact: unknown field `lo`"), "{error}");
+        assert!(error.starts_with("scene a: [scene]: contact: `lo` is no key that is known here"), "{error}");
         let error = of("speed = 3").unwrap_err().to_string();
-        assert!(error.starts_with("scene a: [scene]: speed: unknown field `speed`"), "{error}");
+        assert!(
+            error.starts_with("scene a: [scene]: speed: `speed` is no key that is known here"),
+            "{error}"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! A serial port.
 
 use super::Port;
-use anyhow::{Result, anyhow};
+use crate::fault::Fault;
+use anyhow::Result;
 use serialport::SerialPort;
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
@@ -20,11 +21,10 @@ impl Serial {
     /// Opens a port, 8N1.
     pub fn open(path: &str, baud: u32) -> Result<Serial> {
         // DTR: a board on USB talks to a port that is open, and takes this line for it.
-        let port = serialport::new(path, baud)
-            .timeout(PATIENCE)
-            .dtr_on_open(true)
-            .open()
-            .map_err(|error| anyhow!("serial port {path} at {baud} Bd cannot be opened: {error}"))?;
+        let port =
+            serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open().map_err(|error| {
+                Fault::board(format!("serial port {path} at {baud} Bd cannot be opened: {error}"))
+            })?;
         Ok(Serial { port, heard: Vec::new() })
     }
 

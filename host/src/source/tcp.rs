@@ -1,7 +1,8 @@
 //! A board behind TCP.
 
 use super::Port;
-use anyhow::{Result, anyhow};
+use crate::fault::Fault;
+use anyhow::Result;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::Duration;
@@ -17,7 +18,7 @@ pub struct Tcp(TcpStream);
 impl Tcp {
     /// Connects to `HOST:PORT`.
     pub fn open(address: &str) -> Result<Tcp> {
-        let wrong = |error: io::Error| anyhow!("tcp:{address} cannot be reached: {error}");
+        let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
         for target in address.to_socket_addrs().map_err(wrong)? {
             match TcpStream::connect_timeout(&target, CONNECT) {
@@ -31,7 +32,7 @@ impl Tcp {
                 Err(error) => last = error,
             }
         }
-        Err(wrong(last))
+        Err(wrong(last).into())
     }
 }
 

@@ -5,6 +5,7 @@ use super::data::Data;
 use super::model::{Course, Provenance, Settings, read, train};
 use super::nested::nested;
 use super::report::Report;
+use crate::fault::Fault;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -142,7 +143,9 @@ pub fn labels(files: &Files) -> Result<&Path> {
     let frames = files.frames.display();
     ensure!(
         files.labels.is_some(),
-        "{frames}: frames of touches hold no labels of their own, name their file with --labels"
+        Fault::usage(format!(
+            "{frames}: frames of touches hold no labels of their own, name their file with --labels"
+        ))
     );
     Ok(files.labels.as_deref().unwrap_or(&files.frames))
 }

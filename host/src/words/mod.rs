@@ -1,0 +1,74 @@
+//! Errors in the words of the user, not in those of the libraries: `must be a whole number from 0 to 255, not "a"` instead of
+//! `invalid type: string "a", expected u8`.
+//!
+//! Who parses a file of the user turns the reader's error into a sentence by [`toml`] or [`json`], which name file, line and
+//! key. What nobody has put into words on its way up is translated where the program prints it, by [`sentence`].
+
+mod json;
+mod place;
+mod serde;
+mod toml;
+
+pub use self::json::json;
+pub use self::place::{Step, line_of};
+pub use self::serde::plain;
+pub use self::toml::toml;
+
+use std::error::Error;
+
+/// An error and its causes as one sentence on one line.
+pub fn sentence(error: &anyhow::Error) -> String {
+    let causes: Vec<String> = error.chain().map(cause).collect();
+    causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ")
+}
+
+/// One error without its causes.
+pub fn cause(error: &(dyn Error + 'static)) -> String {
+    if let Some(error) = error.downcast_ref::<serde_json::Error>() {
+        return json::without_text(error);
+    }
+    if let Some(error) = error.downcast_ref::<::toml::de::Error>() {
+        return plain(error.message());
+    }
+    io(&error.to_string())
+}
+
+/// What the system says, without its number; sentences go on in lower case.
+fn io(message: &str) -> String {
+    match message {
+        "stream did not contain valid UTF-8" => return "it is no text (UTF-8)".into(),
+        "failed to fill whole buffer" => return "it ends too early".into(),
+        _ => {}
+    }
+    let mut text = message.to_string();
+    while let Some(start) = text.find(" (os error ") {
+        let Some(length) = text[start..].find(')') else { break };
+        text.replace_range(start..=start + length, "");
+        // What comes before the number is a sentence of the system.
+        let begin = text[..start].rfind(": ").map_or(0, |at| at + 2);
+        if let Some(lower) = text[begin..].chars().next().map(|first| first.to_lowercase().to_string()) {
+            text.replace_range(begin..begin + text[begin..].chars().next().map_or(0, char::len_utf8), &lower);
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::{Context, anyhow};
+
+    #[test]
+    fn causes_are_told_without_numbers_of_the_system() {
+        let missing = std::io::Error::from_raw_os_error(2);
+        let flat = anyhow!("tcp:a:1 cannot be reached: {missing}");
+        assert_eq!(sentence(&flat), "tcp:a:1 cannot be reached: no such file or directory");
+        let deep = anyhow::Error::from(missing).context("x.toml cannot be read");
+        assert_eq!(sentence(&deep), "x.toml cannot be read: no such file or directory");
+        let number = serde_json::from_str::<u8>("-3").context("age").unwrap_err();
+        assert_eq!(
+            sentence(&number),
+            "age: line 1, character 2: must be a whole number from 0 to 255, not -3"
+        );
+    }
+}
