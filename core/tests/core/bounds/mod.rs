@@ -1,0 +1,14 @@
+//! The largest errors that the documentation names (docs/bounds.md), against exact rationals and 60 digits, over
+//! exhaustive and random sweeps; and what functions do outside the interval that they are for.
+
+mod axes;
+mod condition;
+mod exact;
+mod images;
+mod map;
+mod nmi;
+mod numbers;
+mod speed;
+mod stability;
+mod sums;
+mod table;

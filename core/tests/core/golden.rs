@@ -1,0 +1,255 @@
+//! The bytes of every message, frozen: a changed byte is a changed wire.
+//!
+//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new variant adds a line; no line changes.
+
+use heapless::Vec;
+use std::fmt::Write;
+use taxel_core::body::Placed;
+use taxel_core::condition::Certificate;
+use taxel_core::contact::{Contact, Phase};
+use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
+use taxel_core::garment::{Garment, Place, Rect};
+use taxel_core::gesture::{GestureConfig, Shipped};
+use taxel_core::health::TaxelHealth;
+use taxel_core::intent::{Feed, Leading, Outcome};
+use taxel_core::react::Reaction;
+use taxel_core::scene::Scene;
+use taxel_core::selftest::{Fault, Findings, PinFault};
+use taxel_core::shape::{Class, Shape};
+use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
+use taxel_core::wire::*;
+
+fn placed() -> Placed {
+    let contact = Contact {
+        id: 7,
+        phase: Phase::Held,
+        panel: 1,
+        total: 70_000,
+        peak: 4095,
+        peak_at: Place { panel: 1, row: 30, column: 2 },
+        area: 40,
+        perimeter: 20,
+        edge: 300,
+        bounds: Rect { panel: 1, top: 28, bottom: 31, left: 0, right: 5 },
+        x: Fixed16(-1),
+        y: Fixed16(0x1d_8000),
+        azimuth: Some(Turn(-0x2000_0000)),
+        anisotropy: Q15(8192),
+        breadth: 412,
+        dx: Fixed16(65_536),
+        dy: Fixed16(-65_536),
+        vx: Fixed16(300),
+        vy: Fixed16(-300),
+        slip: true,
+        onset: Micros(1_000_000),
+        duration_ms: 250,
+        peak_total: 80_000,
+        peak_breadth: 500,
+    };
+    let shape = Shape {
+        nmi: Fixed24(1000),
+        nmi_peak: Fixed24(6_690_000),
+        nmi_s2: Fixed24(6_000_000),
+        class: Class::ROUND,
+        confidence: Q15::ONE,
+    };
+    Placed { contact, shape, region: 1 }
+}
+
+fn one<T, const N: usize>(item: T) -> Vec<T, N> {
+    [item].into_iter().collect()
+}
+
+/// Of all messages that have one.
+const FRAME: u32 = 300;
+const TIME: Micros = Micros(5_000_000_000);
+
+fn symbols() -> SymbolList {
+    let words = Words {
+        strength: Strength::Firm,
+        extent: Extent::Wide,
+        span: Span::Short,
+        moving: true,
+        class: Class::RECTANGLE,
+    };
+    let event =
+        Symbol { contact: 7, phase: Phase::Released, region: 1, words, peak_total: 80_000, duration_ms: 250 };
+    let region = RegionState { region: 1, contacts: 2, total: 70_000, peak: 4095, moving: true, since: TIME };
+    SymbolList { frame: FRAME, time: TIME, events: one(event), regions: one(region) }
+}
+
+fn health() -> Health {
+    Health {
+        time: TIME,
+        scans: 1,
+        failed: 2,
+        overruns: 3,
+        thinned_frames: 4,
+        thinned_contacts: 5,
+        lost: 6,
+        refused: 7,
+        scan_us: 7_628,
+        process_us: 3_200,
+    }
+}
+
+fn budget() -> Budget {
+    Budget {
+        frame: FRAME,
+        time: TIME,
+        frames: 195,
+        scan_us: 5_120,
+        process_us: 2_010,
+        encode_us: 590,
+        send_us: 700,
+        overruns: 3,
+        thinned_frames: 4,
+    }
+}
+
+fn hello() -> Hello<'static> {
+    Hello {
+        magic: MAGIC,
+        protocol: PROTOCOL,
+        garment: &[1, 2],
+        firmware: b"taxel 0.1.0",
+        clock: &[3],
+        scene: &[4, 5, 6],
+        calibration: &[],
+    }
+}
+
+fn findings() -> Findings {
+    let lines =
+        [(2, Fault::StuckHigh), (3, Fault::StuckLow), (6, Fault::Bridged(7)), (26, Fault::Open)].into_iter();
+    let faults = lines.chain([(27, Fault::Grounded), (28, Fault::Supplied)]);
+    let faults = faults.map(|(pin, fault)| PinFault { pin, fault }).collect();
+    Findings { lines: 9, inputs: 4, faults }
+}
+
+fn gesture() -> GestureReport {
+    GestureReport {
+        frame: FRAME,
+        time: TIME,
+        touch: 3,
+        panel: 1,
+        class: 2,
+        name: name("pat"),
+        score: -262_144,
+        lead: 65_536,
+        observed_ms: 1500,
+        ended: true,
+    }
+}
+
+fn intent() -> IntentReport {
+    IntentReport {
+        frame: FRAME,
+        time: TIME,
+        leading: Leading::Attack,
+        outcome: Outcome::Cycle(2),
+        steps: 6,
+        concepts: [Q15(0), Q15(32_768), Q15(-32_768)].into_iter().collect(),
+    }
+}
+
+fn reports() -> [(&'static str, Report<'static>); 17] {
+    let (frame, time) = (FRAME, TIME);
+    let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
+    let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
+    let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
+    [
+        ("Hello", Report::Hello(hello())),
+        ("Frame", Report::Frame(Frame { frame, time, base: Some(299), sum: 0xdead_beef, data: &[5, 1, 20] })),
+        ("Contacts", Report::Contacts(ContactList { frame, time, dropped: 1, contacts: one(placed()) })),
+        ("Symbols", Report::Symbols(symbols())),
+        ("Intent", Report::Intent(intent())),
+        ("Reaction", Report::Reaction(ReactionReport { frame, time, reaction })),
+        ("Health", Report::Health(health())),
+        ("Log", Report::Log(Log { time, level: Level::Warn, text: "pin 9" })),
+        ("Sync", Report::Sync(SyncReport { token: 9, received: time, sent: Micros(5_000_000_100) })),
+        ("Answer", Report::Answer(Answer { request: 2, refusal: Some("no") })),
+        ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
+        ("Budget", Report::Budget(budget())),
+        ("HealthMap", Report::HealthMap(map)),
+        ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
+        ("SelfTest", Report::SelfTest(SelfTestReport { time, findings: findings() })),
+        ("Gesture", Report::Gesture(gesture())),
+        ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
+    ]
+}
+
+fn requests() -> [(&'static str, Request<'static>); 18] {
+    let concept = name("warmth");
+    let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
+    let certificate =
+        Certificate { id: 0xdead_beef, taxels: 2048, year: 2026, month: 11, day: 21, error: 125 };
+    let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
+    [
+        ("SetGarment", Request::SetGarment(&[1, 2, 3])),
+        ("SetScene", Request::SetScene(&[4, 5])),
+        ("Tare", Request::Tare { frames: 300 }),
+        ("Start", Request::Start),
+        ("Stop", Request::Stop),
+        ("Sync", Request::Sync { token: 1_000_000 }),
+        ("Posture", Request::Posture(posture)),
+        ("Concept", Request::Concept { slot: 3, value: Q15(-16_384) }),
+        ("KeyFrame", Request::KeyFrame),
+        ("SelfTest", Request::SelfTest),
+        ("Save", Request::Save),
+        ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
+        ("Budget", Request::Budget { hz: 65_535 }),
+        ("Feed", Request::Feed(feed)),
+        ("SetGestures", Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))),
+        ("SetCalibration", Request::SetCalibration(certificate)),
+        ("SetShapes", Request::SetShapes(&[6, 7])),
+        ("AddShapes", Request::AddShapes(&[1, 0, 2])),
+    ]
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        write!(text, "{byte:02x}").expect("a string takes all");
+        text
+    })
+}
+
+#[test]
+fn every_message_has_its_golden_bytes() {
+    let mut table = String::new();
+    let mut line = |kind: &str, name: &str, bytes: &[u8]| {
+        writeln!(table, "{kind} {name} {}", hex(bytes)).expect("a string takes all");
+    };
+    for (number, (name, report)) in reports().iter().enumerate() {
+        let bytes = postcard::to_allocvec(&(5u32, report)).expect("it fits");
+        assert_eq!(bytes[..2], [5, number as u8], "seq, then the number of the variant");
+        assert_eq!(decode::<(u32, Report)>(&bytes).expect("it is read again"), (5, report.clone()));
+        line("report", name, &bytes);
+    }
+    for (number, (name, request)) in requests().iter().enumerate() {
+        let bytes = postcard::to_allocvec(request).expect("it fits");
+        assert_eq!((bytes[0], request.number()), (number as u8, number as u8));
+        assert_eq!(decode::<Request>(&bytes).expect("it is read again"), *request);
+        line("request", name, &bytes);
+    }
+    let mut block = Garment::block();
+    // Its settling has changed since its bytes were frozen; the form has not.
+    block.wiring.settle_ns = 3_000;
+    line("garment", "block-4x16", &postcard::to_allocvec(&block).expect("it fits"));
+    line("garment", "reference", &postcard::to_allocvec(&Garment::reference()).expect("it fits"));
+    let scene = postcard::to_allocvec(&Scene::shipped()).expect("it fits");
+    assert_eq!(decode::<Scene>(&scene).expect("it is read again"), Scene::shipped());
+    let mut frame = [0; 64];
+    let frame = encode(&Request::Tare { frames: 300 }, &mut frame).expect("it fits");
+    line("frame", "Tare", frame);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/core/golden/wire.txt");
+    if std::env::var_os("TAXEL_BLESS").is_some() {
+        std::fs::write(path, &table).expect("it can be written");
+    }
+    let golden = std::fs::read_to_string(path).expect("golden/wire.txt");
+    for (new, old) in table.lines().zip(golden.lines()) {
+        assert_eq!(new, old);
+    }
+    assert_eq!(table.lines().count(), golden.lines().count());
+}

@@ -1,0 +1,15 @@
+//! The core by itself: exact references, golden bytes, hard images, properties. `cargo test -p taxel-core` runs this alone.
+
+mod baseline;
+mod board;
+mod bounds;
+mod condition;
+mod dense;
+mod garment;
+mod golden;
+mod hard;
+mod moments;
+mod plain;
+mod sweep;
+mod tracking;
+mod wire;

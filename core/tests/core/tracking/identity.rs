@@ -1,0 +1,149 @@
+//! Who stays who: through motion, across seams, merging and splitting.
+
+use crate::tracking::rig::{Frame, Rig};
+use taxel_core::contact::{Contact, ContactConfig};
+use taxel_core::garment::{Garment, Place};
+
+/// Rows and columns, last included, and the pressure there, on panel 0.
+type Patch = ([u16; 2], [u16; 2], u16);
+
+fn show(rig: &mut Rig, patches: &[Patch]) -> Frame {
+    rig.values.fill(0);
+    for ([top, bottom], [left, right], value) in patches {
+        for (row, column) in (*top..=*bottom).flat_map(|row| (*left..=*right).map(move |c| (row, c))) {
+            let taxel = rig.layout.taxel(Place { panel: 0, row, column }).expect("on the panel");
+            rig.values[taxel] = *value;
+        }
+    }
+    rig.frame()
+}
+
+fn ids(contacts: &[Contact]) -> Vec<u32> {
+    contacts.iter().map(|c| c.id).collect()
+}
+
+/// A patch of 4 x 4 at the right, one of 3 x 3 whose left column is given.
+fn large_and_small(left: u16) -> [Patch; 2] {
+    [([10, 13], [20, 23], 900), ([10, 12], [left, left + 2], 800)]
+}
+
+#[test]
+fn of_two_that_merge_the_greater_goes_on() {
+    for small_first in [true, false] {
+        let mut rig = Rig::mat();
+        let [large, small] = large_and_small(2);
+        show(&mut rig, &[if small_first { small } else { large }]);
+        let (large_id, small_id) = if small_first { (2, 1) } else { (1, 2) };
+        for left in 2..=16 {
+            let frame = show(&mut rig, &large_and_small(left));
+            assert_eq!(ids(&frame.present), [1, 2], "{left}");
+        }
+        let frame = show(&mut rig, &large_and_small(17));
+        assert_eq!((ids(&frame.present), ids(&frame.released)), (vec![large_id], vec![small_id]));
+        // Its centroid leaps, and that is no motion.
+        let contact = &frame.present[0];
+        assert!(contact.x.to_f64() < 21.0);
+        assert_eq!((contact.dx.0, contact.vx.0, contact.slip), (0, 0, false));
+    }
+}
+
+#[test]
+fn of_two_equals_that_merge_one_goes_on() {
+    let mut rig = Rig::mat();
+    for gap in (1..=6).rev() {
+        let frame = show(&mut rig, &[([10, 12], [10 - gap, 12 - gap], 800), ([10, 12], [13, 15], 800)]);
+        assert_eq!(ids(&frame.present), [1, 2]);
+    }
+    let frame = show(&mut rig, &[([10, 12], [10, 12], 800), ([10, 12], [13, 15], 800)]);
+    assert_eq!((frame.present.len(), frame.released.len()), (1, 1));
+}
+
+#[test]
+fn one_that_covers_another_goes_on_as_it() {
+    // A palm lands on a resting finger, in one frame and with its middle far away: the touch there has not ended.
+    let mut rig = Rig::mat();
+    show(&mut rig, &[([10, 11], [2, 3], 900)]);
+    let frame = show(&mut rig, &[([8, 40], [2, 20], 900)]);
+    assert_eq!((ids(&frame.present), frame.released.len()), (vec![1], 0));
+    assert_eq!((frame.present[0].dx.0, frame.present[0].dy.0), (0, 0));
+}
+
+#[test]
+fn of_one_that_splits_the_greater_part_goes_on() {
+    let mut rig = Rig::mat();
+    let whole = show(&mut rig, &[([10, 13], [8, 19], 900)]);
+    assert_eq!(ids(&whole.present), [1]);
+    // The fourth of it at the right comes away.
+    let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10, 13], [17, 19], 900)]);
+    assert_eq!((ids(&frame.present), frame.released.len()), (vec![1, 2], 0));
+    assert_eq!(frame.present[0].x.to_f64(), 11.5);
+    assert_eq!((frame.present[0].dx.0, frame.present[0].vx.0), (0, 0), "no motion");
+    // And both go their ways.
+    for step in 1..10 {
+        let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10 + step, 13 + step], [17, 19], 900)]);
+        assert_eq!(ids(&frame.present), [1, 2]);
+        assert_eq!(frame.present[1].dy.to_f64(), f64::from(step));
+    }
+}
+
+#[test]
+fn a_merge_and_a_split_leave_the_greater_its_id() {
+    let mut rig = Rig::mat();
+    show(&mut rig, &large_and_small(10)[..1]);
+    for left in (10..=17).chain((10..=16).rev()) {
+        let frame = show(&mut rig, &large_and_small(left));
+        assert_eq!(frame.present[0].id, 1);
+        let back = frame.present.get(1).map(|contact| contact.id);
+        assert!(back.is_none_or(|id| id == 2 || id == 3), "the smaller begins anew");
+    }
+}
+
+#[test]
+fn paths_that_cross_are_kept_apart() {
+    // Past each other with one free row between them, two taxels a frame each.
+    let mut rig = Rig::mat();
+    for step in 0..13u16 {
+        let (a, b) = (2 * step, 26 - 2 * step);
+        let frame = show(&mut rig, &[([10, 12], [a, a + 2], 900), ([14, 16], [b, b + 2], 900)]);
+        assert_eq!(ids(&frame.present), [1, 2], "step {step}");
+        assert_eq!(frame.present[0].y.to_f64(), 11.0, "the first is still the upper one");
+        assert_eq!(frame.present[1].dx.to_f64(), -2.0 * f64::from(step));
+    }
+}
+
+#[test]
+fn a_contact_keeps_its_id_over_a_seam() {
+    // From the chest over its right side to the back, one column a frame, and on.
+    let mut rig = Rig::new(&Garment::reference(), ContactConfig::default());
+    for step in 0..28u16 {
+        rig.values.fill(0);
+        for (row, column) in (10..13).flat_map(|row| (step..step + 3).map(move |column| (row, column))) {
+            let place = Place { panel: (column / 16) as u8, row, column: column % 16 };
+            let taxel = rig.layout.taxel(place).expect("on the garment");
+            rig.values[taxel] = 900;
+        }
+        let contact = rig.only();
+        assert_eq!((contact.id, contact.dx.to_f64(), contact.dy.to_f64()), (1, f64::from(step), 0.0));
+        assert_eq!(contact.panel, u8::from(step >= 15));
+    }
+}
+
+#[test]
+fn the_gate_is_the_farthest_leap() {
+    // Four taxels and half the size of one taxel.
+    for (leap, same) in [(4, true), (5, false)] {
+        let mut rig = Rig::mat();
+        show(&mut rig, &[([10, 10], [5, 5], 900)]);
+        let frame = show(&mut rig, &[([10, 10], [5 + leap, 5 + leap], 900)]);
+        let expected: (&[u32], &[u32]) = if same { (&[1], &[]) } else { (&[2], &[1]) };
+        assert_eq!((&ids(&frame.present)[..], &ids(&frame.released)[..]), expected, "{leap}");
+    }
+    // One that gets faster is looked for where it is going: six taxels a frame in the end.
+    let mut rig = Rig::mat();
+    let mut row = 0;
+    for step in [1, 2, 3, 4, 4, 4, 5, 5, 6, 6, 6] {
+        row += step;
+        let contact = show(&mut rig, &[([row, row], [5, 5], 900)]).present[0].clone();
+        assert_eq!(contact.id, 1, "a step of {step}");
+    }
+}

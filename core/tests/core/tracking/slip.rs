@@ -1,0 +1,172 @@
+//! Slip: told within three frames of the start of a motion, and of no contact that is held.
+
+use crate::tracking::rig::{FRAME_US, Noise, Rig, Texture, felt};
+use taxel_core::contact::{ContactConfig, NO_SLIP};
+use taxel_core::garment::Garment;
+
+/// A pressure at (x, y) from the middle of the panel.
+type Pressure<'a> = &'a dyn Fn(f64, f64) -> f64;
+
+fn dome(radius: f64) -> impl Fn(f64, f64) -> f64 {
+    move |x, y| {
+        let pressure = |x: f64, y: f64| 0.8 * (1.0 - (x * x + y * y) / (radius * radius)).max(0.0).sqrt();
+        if x.hypot(y) > radius + 1.0 { 0.0 } else { felt(x, y, pressure) }
+    }
+}
+
+fn flat(radius: f64) -> impl Fn(f64, f64) -> f64 {
+    move |x, y| {
+        let pressure = |x: f64, y: f64| if x.hypot(y) < radius { 0.5 } else { 0.0 };
+        if x.hypot(y) > radius + 1.0 { 0.0 } else { felt(x, y, pressure) }
+    }
+}
+
+/// Four standard deviations of a noise of 2 %.
+fn above_noise() -> ContactConfig {
+    ContactConfig { low: 330, high: 660, ..ContactConfig::default() }
+}
+
+/// Held for 60 frames, then moving: frames from the first that differs until the slip is told; none of the held ones is one.
+fn onset(config: ContactConfig, noise: f64, speed: f64, degrees: f64, pressure: Pressure) -> Option<usize> {
+    let mut rig = Rig::new(&Garment::mat(), config);
+    let mut random = Noise(11);
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    for frame in 0..90usize {
+        let way = speed * frame.saturating_sub(60) as f64;
+        let at = |x: f64, y: f64| pressure(x - 15.4 - way * cos, y - 31.3 - way * sin);
+        rig.draw_noisy(&mut random, noise, at);
+        if rig.only().slip {
+            assert!(frame > 60, "held, and it slips in frame {frame}");
+            return Some(frame - 60);
+        }
+    }
+    None
+}
+
+/// The slip speed in taxels per frame.
+fn slip_step(config: ContactConfig) -> f64 {
+    f64::from(config.slip_speed) / 16.0 * FRAME_US as f64 / 1e6
+}
+
+#[test]
+fn a_slip_is_told_within_three_frames() {
+    let config = ContactConfig::default();
+    let (texture, ridges) = (Texture::new(3), Texture::ridges(7.0));
+    let things: [(&str, Pressure); 5] = [
+        ("a finger", &dome(2.6)),
+        ("a palm", &dome(6.0)),
+        ("a disc", &flat(4.2)),
+        ("a texture under all of the panel", &|x, y| texture.at(x, y)),
+        ("ridges under all of the panel", &|x, y| ridges.at(x, y)),
+    ];
+    for (what, pressure) in things {
+        for factor in [1.5, 3.0, 10.0, 25.0] {
+            for degrees in [0.0, 31.0, 180.0] {
+                let told = onset(config, 0.0, factor * slip_step(config), degrees, pressure);
+                assert!(
+                    told.is_some_and(|frame| frame <= 3),
+                    "{what}, {factor} times the slip speed: {told:?}"
+                );
+            }
+        }
+        // At half the slip speed it moves, but does not slip.
+        assert_eq!(onset(config, 0.0, 0.5 * slip_step(config), 0.0, pressure), None, "{what}");
+    }
+}
+
+#[test]
+fn with_noise_a_slip_that_is_clear_of_it_is_told_within_three_frames() {
+    let texture = Texture::new(3);
+    // The pattern of a smooth palm is told less exactly under noise than that of a texture.
+    let things: [(&str, Pressure, f64); 3] = [
+        ("a finger", &dome(2.6), 0.2),
+        ("a texture", &|x, y| texture.at(x, y), 0.2),
+        ("a palm", &dome(6.0), 0.5),
+    ];
+    for (what, pressure, least) in things {
+        for speed in [least, 2.0 * least] {
+            for degrees in [0.0, 31.0, 180.0] {
+                let told = onset(above_noise(), 0.02, speed, degrees, pressure);
+                assert!(told.is_some_and(|frame| frame <= 3), "{what}, {speed} taxels a frame: {told:?}");
+            }
+        }
+    }
+}
+
+/// 24,000 frames of things that are held, with noise of 2 %; frames with a slip.
+fn slips(held: Pressure) -> usize {
+    let mut rig = Rig::new(&Garment::mat(), above_noise());
+    let mut random = Noise(5);
+    let still: Vec<f64> = (0..2048).map(|i| held(f64::from(i % 32), f64::from(i / 32))).collect();
+    let mut slips = 0;
+    for _ in 0..24_000 {
+        rig.draw_noisy(&mut random, 0.02, |x, y| still[y as usize * 32 + x as usize]);
+        slips += rig.frame().present.iter().filter(|contact| contact.slip).count();
+    }
+    slips
+}
+
+#[test]
+fn held_contacts_with_noise_never_slip() {
+    let texture = Texture::new(9);
+    let pad = |x: f64, y: f64| if x.abs().max(y.abs()) < 6.0 { texture.at(x, y) } else { 0.0 };
+    // A finger, a single taxel, a disc with a flat top, a palm, a textured pad.
+    let all = |x: f64, y: f64| {
+        dome(1.8)(x - 4.3, y - 5.6)
+            + flat(0.4)(x - 15.0, y - 4.0)
+            + flat(4.5)(x - 24.5, y - 8.2)
+            + dome(5.5)(x - 9.1, y - 24.7)
+            + pad(x - 15.5, y - 46.5)
+    };
+    assert_eq!(slips(&all), 0);
+}
+
+#[test]
+fn a_texture_that_is_held_with_noise_never_slips() {
+    let texture = Texture::new(9);
+    assert_eq!(slips(&|x, y| texture.at(x, y)), 0);
+}
+
+#[test]
+fn a_slip_ends_with_the_motion() {
+    let pressure = dome(3.0);
+    let mut rig = Rig::mat();
+    let mut ended = None;
+    for frame in 0..140usize {
+        // Ten taxels per second for 60 frames.
+        let way = 0.05128 * frame.clamp(30, 90) as f64;
+        rig.draw(|x, y| pressure(x - 12.0 - way, y - 31.0));
+        let contact = rig.only();
+        assert_eq!(
+            contact.slip,
+            (33..=90).contains(&frame) || (frame > 90 && ended.is_none() && contact.slip)
+        );
+        if frame > 90 && !contact.slip {
+            ended.get_or_insert(frame - 90);
+        }
+    }
+    // The velocity falls below the slip speed: 40 ms ln(10 / 4) are 37 ms.
+    assert!(ended.is_some_and(|frames| frames <= 10), "{ended:?}");
+}
+
+#[test]
+fn pressing_and_lifting_is_no_slip() {
+    let texture = Texture::new(2);
+    for what in [&dome(2.6) as Pressure, &dome(6.0), &|x, y| texture.at(x, y) * dome(7.0)(x, y)] {
+        let mut rig = Rig::mat();
+        for frame in 0..80 {
+            let force = f64::from(frame.min(79 - frame)) / 20.0;
+            rig.draw(|x, y| force.min(1.0) * what(x - 15.4, y - 31.3));
+            for contact in rig.frame().present {
+                assert!(!contact.slip, "frame {frame}");
+                assert!(contact.dx.to_f64().hypot(contact.dy.to_f64()) < 0.5, "frame {frame}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_does_not_ask_for_slip_is_not_told() {
+    let config = ContactConfig { slip_speed: NO_SLIP, ..ContactConfig::default() };
+    assert_eq!(onset(config, 0.0, 0.5, 0.0, &dome(3.0)), None);
+}

@@ -1,0 +1,13 @@
+//! Ill taxels, lines and inputs on the simulated board: each is found, and told as what it is; no other is.
+
+mod broken;
+mod classes;
+mod healthy;
+mod lines;
+mod rings;
+mod scripts;
+mod worn;
+
+fn is_campaign() -> bool {
+    std::env::var_os("TAXEL_CAMPAIGN").is_some()
+}

@@ -1,0 +1,22 @@
+//! The library: simulated boards and garments, maps, shapes, touches, recordings.
+
+mod bases;
+mod calibrate;
+mod clock;
+mod drawn;
+mod faults;
+mod fcm;
+mod ghosts;
+mod health;
+mod maps;
+mod meaning;
+mod people;
+mod record;
+mod scan;
+mod settle;
+mod setup;
+mod shape_of;
+mod shapes;
+mod store;
+mod tables;
+mod touch;

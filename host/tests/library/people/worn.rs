@@ -1,0 +1,108 @@
+//! A board under a garment that somebody touches, and what it says to that.
+
+use crate::people::kind::{Act, Session};
+use taxel::sim::FRAME_PERIOD_US;
+use taxel_core::acquire::{Scan, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::Pins;
+use taxel_core::intent::Leading;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{self, Receiver, Report, Request};
+
+const TAXELS: usize = 2048;
+/// Frames of the baseline, and of rest before the first touch.
+const TARE: u16 = 16;
+/// How long after the end of an act what is announced still belongs to it, us.
+const AFTER_US: u64 = 300_000;
+
+/// What was said to an act.
+#[derive(Debug, Clone)]
+pub struct Heard {
+    /// What was done.
+    pub act: Act,
+    /// What was announced meanwhile, with the number of frames since its force began.
+    pub announced: Vec<(Leading, u64)>,
+}
+
+impl Heard {
+    /// What the robot acts upon: the gravest that was announced.
+    pub fn gravest(&self) -> Leading {
+        self.announced.iter().map(|(leading, _)| *leading).max_by_key(|l| *l as u8).unwrap_or_default()
+    }
+
+    /// What it took the touch for in the end.
+    pub fn last(&self) -> Leading {
+        let said = self.announced.iter().rev().map(|(leading, _)| *leading);
+        said.into_iter().find(|leading| *leading != Leading::None).unwrap_or_default()
+    }
+
+    /// Frames until what was meant was announced.
+    pub fn delay(&self) -> Option<u64> {
+        let meant = self.act.kind.meaning();
+        self.announced.iter().find(|(leading, _)| *leading == meant).map(|(_, frames)| *frames)
+    }
+}
+
+/// What is said to each act of a session, and how often an attack was called while nobody touched.
+pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let board = Board::<TAXELS, { TAXELS / 2 }>::new(info, session.garment(), Scene::shipped());
+    let mut board = Box::new(board.expect("garment and scene fit"));
+    let mut receiver = Box::new(Receiver::<8192>::new());
+    for request in [Request::Start, Request::Tare { frames: TARE }] {
+        let mut frame = [0; 64];
+        let frame = wire::encode(&request, &mut frame).expect("it is short");
+        board.step(Micros(0), Input::Received(frame), &mut ());
+    }
+    let mut heard: Vec<Heard> =
+        session.acts().iter().map(|act| Heard { act: act.clone(), announced: Vec::new() }).collect();
+    let (mut untouched, mut leading) = (0, Leading::None);
+    let mut raw = vec![0; TAXELS];
+    let end = heard.last().map_or(0, |last| last.act.span.1) + 1_000_000;
+    for start in (0..end).step_by(FRAME_PERIOD_US as usize) {
+        session.frame(start, &mut raw);
+        let codes: Vec<Code> = raw.iter().map(|code| Code(*code)).collect();
+        let report = ScanReport { start: Micros(start), duration_us: 5_000, overruns: 0, temperature: None };
+        let scanned = Input::Scanned(Ok(Scan { codes: &codes, report }));
+        board.step(Micros(start + 5_000), scanned, &mut ());
+        let Some(said) = read(&mut board, &mut receiver, start).filter(|said| *said != leading) else {
+            continue;
+        };
+        leading = said;
+        let during = |act: &Act| (act.span.0..act.span.1 + AFTER_US).contains(&start);
+        match heard.iter_mut().find(|heard| during(&heard.act)) {
+            Some(heard) => {
+                let frames = (start - heard.act.span.0) / FRAME_PERIOD_US + 1;
+                heard.announced.push((said, frames));
+            }
+            None => untouched += usize::from(said == Leading::Attack),
+        }
+    }
+    (heard, untouched)
+}
+
+/// Takes what the board has to send; the newest intention among it.
+fn read(
+    board: &mut Board<TAXELS, { TAXELS / 2 }>,
+    receiver: &mut Receiver<8192>,
+    now: u64,
+) -> Option<Leading> {
+    let mut said = None;
+    loop {
+        let bytes = board.pending(Micros(now + 5_000), &mut ());
+        let count = bytes.len();
+        if count == 0 {
+            return said;
+        }
+        for byte in bytes {
+            let Some(frame) = receiver.push(*byte) else { continue };
+            let (_, report): (u32, Report) =
+                wire::decode(frame.expect("the board's frames are good")).expect("and its messages");
+            if let Report::Intent(intent) = report {
+                said = Some(intent.leading);
+            }
+        }
+        board.sent(count);
+    }
+}

@@ -1,0 +1,49 @@
+//! From an image to the shape of its greatest contact.
+#![allow(dead_code)] // each test that uses this takes a part of it
+
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::shape::{BUILT_IN, Base, Shape, ShapeConfig, Shapes};
+
+/// The stage with the base that is built in.
+pub fn shapes() -> Shapes<BUILT_IN> {
+    ShapeConfig::default().build(Base::built_in()).unwrap()
+}
+
+/// The shape of the greatest contact of an image.
+pub fn shape_of(layout: &Layout, image: &Image) -> Option<Shape> {
+    greatest(layout, image, |moments, contact| shapes().process(moments, contact))
+}
+
+/// What is made of the greatest contact of an image.
+pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Contact) -> T) -> Option<T> {
+    let mut state: ContactState<8, 1024> = ContactState::new();
+    let contacts = ContactConfig::default().build().unwrap();
+    let touches = contacts.process(&mut state, layout, image, Micros(0));
+    let all = touches.moments.iter().zip(touches.present);
+    all.max_by_key(|(_, contact)| contact.total).map(|(moments, contact)| of(moments, contact))
+}
+
+/// The shape of the greatest contact of a frame of codes.
+pub fn shape_of_codes(layout: &Layout, codes: &[Code]) -> Option<Shape> {
+    greatest_of_codes(layout, codes, |moments, contact| shapes().process(moments, contact))
+}
+
+/// What is made of the greatest contact of a frame of codes.
+pub fn greatest_of_codes<T>(
+    layout: &Layout,
+    codes: &[Code],
+    of: impl Fn(&Moments, &Contact) -> T,
+) -> Option<T> {
+    let mut state: Box<ConditionState<2048>> = Box::default();
+    state.reset(layout, Code(0));
+    let condition = ConditionConfig::default().build().unwrap();
+    greatest(layout, &condition.process(&mut state, layout, codes, false, 1, &Feedback::<8>::new()), of)
+}
+
+/// A garment of one panel, as recordings are.
+pub fn recorded(rows: u16, columns: u16) -> Layout {
+    Layout::build(&Garment::recorded(rows, columns), 2048, u16::MAX).unwrap()
+}

@@ -1,0 +1,192 @@
+//! A user teaches shapes, from outside: by touches, `taxel shapes learn` on a simulated board, then `taxel live` with the base;
+//! and by labelled images, `taxel shapes train`.
+
+use crate::drawn::{CLASSES, Rng, Touch};
+use crate::start::taxel;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A new empty folder.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("teach").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    Command::new(taxel()).current_dir(folder).args(args).output().unwrap()
+}
+
+/// What is printed by a command that is to succeed; what it says meanwhile comes second.
+fn done(folder: &Path, args: &[&str]) -> (String, String) {
+    let Output { status, stdout, stderr } = run(folder, args);
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let (out, err) = (text(stdout), text(stderr));
+    assert!(status.success(), "{args:?}: {err}");
+    (out, err)
+}
+
+/// A scene in which something is held against back and chest, elsewhere, turned and harder each time. Places follow `draw`.
+fn scene(folder: &Path, name: &str, (shape, size_mm): (&str, [u32; 2]), draw: u32) {
+    let touch = |n: u32| {
+        let step = |of: u32| f64::from((n * 7 + draw * 5) % of) / f64::from(of);
+        format!(
+            "[[touch]]\npanel = \"{}\"\nshape = \"{shape}\"\nsize_mm = {size_mm:?}\nforce_n = {}\nat = [{}, {}]\n\
+             angle_deg = {}\nstart_s = {}\nrise_s = 0.1\nhold_s = 0.3\nfall_s = 0.1\n",
+            if n.is_multiple_of(2) { "back" } else { "chest" },
+            15.0 + 10.0 * step(4),
+            5.5 + 4.0 * step(9),
+            9.0 + 13.0 * step(11),
+            180.0 * step(13),
+            0.3 + 0.9 * f64::from(n),
+        )
+    };
+    let touches: String = (0..5).map(touch).collect();
+    std::fs::write(folder.join(format!("{name}.toml")), format!("duration_s = 5\nseed = {draw}\n{touches}"))
+        .unwrap();
+}
+
+/// What each contact of a scene is most often taken for, by a board that was taught.
+fn answers(folder: &Path, scene: &str) -> Vec<String> {
+    let source = format!("sim:{scene}.toml");
+    let (lines, _) = done(folder, &["live", "--source", &source, "--shapes", "mine.json", "--json"]);
+    let mut votes = BTreeMap::<u64, BTreeMap<String, u32>>::new();
+    for line in lines.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()) {
+        for contact in line["contacts"].as_array().filter(|_| line["type"] == "frame").into_iter().flatten() {
+            let shape = contact["shape"].as_str().unwrap().to_string();
+            *votes.entry(contact["id"].as_u64().unwrap()).or_default().entry(shape).or_default() += 1;
+        }
+    }
+    let most = |votes: BTreeMap<String, u32>| votes.into_iter().max_by_key(|(_, count)| *count).unwrap().0;
+    votes.into_values().map(most).collect()
+}
+
+#[test]
+fn shapes_are_taught_by_touch_and_known_from_then_on() {
+    let folder = folder("path");
+    let things = [("box", [60, 40]), ("ball", [80, 80]), ("strap", [120, 20])];
+    for thing in things {
+        scene(&folder, thing.0, thing, 1);
+        scene(&folder, &format!("other-{}", thing.0), thing, 2);
+    }
+    let learn = |name: &str| {
+        let source = format!("sim:{name}.toml");
+        done(&folder, &["shapes", "learn", name, "--source", &source, "-o", "mine.json"]).1
+    };
+    learn("box");
+    let said = learn("ball");
+    assert!(
+        said.contains("\n5 of 5: held for 0.") && said.ends_with("100 % of 10 are known by the others\n"),
+        "{said}"
+    );
+    let (list, _) = done(&folder, &["shapes", "list", "mine.json", "--json"]);
+    let list: Value = serde_json::from_str(&list).unwrap();
+    let class = |n: usize| {
+        (list[0]["classes"][n]["name"].as_str().unwrap(), list[0]["classes"][n]["prototypes"].as_u64())
+    };
+    assert_eq!((class(0), class(1)), (("box", Some(5)), ("ball", Some(5))));
+    for name in ["box", "ball"] {
+        assert_eq!(answers(&folder, &format!("other-{name}")), vec![name; 5]);
+    }
+    assert_eq!(answers(&folder, "other-strap"), ["unknown"; 5], "nobody has taught it");
+    learn("strap");
+    for (name, _) in things {
+        assert_eq!(answers(&folder, &format!("other-{name}")), vec![name; 5]);
+    }
+    let (told, _) = done(&folder, &["shapes", "install", "mine.json", "--source", "sim:box.toml"]);
+    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it is switched off.\n");
+    let (card, _) = done(&folder, &["shapes", "card", "mine.json"]);
+    assert!(
+        card.contains("5 touches of sim:strap.toml") && card.contains("each prototype left out in turn"),
+        "{card}"
+    );
+}
+
+#[test]
+fn a_recording_teaches_what_its_board_would() {
+    let folder = folder("recording");
+    scene(&folder, "box", ("box", [60, 40]), 3);
+    done(&folder, &["record", "--source", "sim:box.toml", "-o", "box.mcap"]);
+    let prototypes = |source: &str, file: &str| {
+        done(&folder, &["shapes", "learn", "box", "--source", source, "-o", file]);
+        let base: Value = serde_json::from_slice(&std::fs::read(folder.join(file)).unwrap()).unwrap();
+        (
+            base["gallery"].clone(),
+            base["trained_on"].as_array().unwrap().last().unwrap()["fingerprint"].clone(),
+        )
+    };
+    let (live, recorded) =
+        (prototypes("sim:box.toml", "live.json"), prototypes("replay:box.mcap@max", "recorded.json"));
+    assert_eq!(live.0, recorded.0);
+    assert!(live.1 == "" && recorded.1 != "", "a file is known again: {} {}", live.1, recorded.1);
+}
+
+#[test]
+fn what_teaches_nothing_is_said_in_one_sentence() {
+    let folder = folder("refused");
+    let refused = |args: &[&str], why: &str| {
+        let Output { status, stderr, .. } = run(&folder, args);
+        let text = String::from_utf8(stderr).unwrap();
+        assert!(!status.success() && text.lines().last().unwrap().contains(why), "{args:?}: {text}");
+        assert!(!folder.join("x.json").exists());
+    };
+    let learn = |name| ["shapes", "learn", name, "--source", "sim:idle", "--seconds", "1", "-o", "x.json"];
+    refused(&learn("box"), "sim:idle ended before anything was held against it for half a second");
+    let taps = ["shapes", "learn", "tap", "--source", "sim:pat", "-o", "x.json"];
+    assert!(String::from_utf8(run(&folder, &taps).stderr).unwrap().contains("too short"));
+    let long = ["shapes", "learn", "seventeen letters", "--source", "sim:box", "-o", "x.json"];
+    refused(&long, "the name \"seventeen letters\" has 17 bytes, expected 1 to 16");
+    let unknown = ["live", "--source", "sim:box", "--shapes", "no-such-base"];
+    refused(&unknown, "no-such-base: cannot be read");
+}
+
+/// Files of so many drawn images and of their labels: NAME.csv, NAME-labels.csv.
+fn draw(folder: &Path, name: &str, count: usize, seed: u64) -> [String; 2] {
+    let (rows, columns, mut rng) = (16, 16, Rng(seed));
+    let (mut images, mut labels) = (String::new(), "index,name\n".to_string());
+    for (index, (class, what)) in
+        CLASSES.into_iter().zip(["rectangle", "round", "finger"]).cycle().take(count).enumerate()
+    {
+        let codes = Touch::random(class, rows, columns, &mut rng).codes(rows, columns);
+        for row in codes.chunks(columns.into()) {
+            images += &row.iter().map(|code| code.0.to_string()).collect::<Vec<_>>().join(",");
+            images.push('\n');
+        }
+        images.push('\n');
+        labels += &format!("{index},{what}\n");
+    }
+    let files = [format!("{name}.csv"), format!("{name}-labels.csv")];
+    std::fs::write(folder.join(&files[0]), images).unwrap();
+    std::fs::write(folder.join(&files[1]), labels).unwrap();
+    files
+}
+
+#[test]
+fn a_base_is_trained_on_drawn_images_and_holds_on_others() {
+    let folder = folder("train");
+    let (own, other) = (draw(&folder, "own", 240, 1), draw(&folder, "other", 240, 2));
+    let train = ["shapes", "train", "--images", &own[0], "--labels", &own[1], "-o", "base.json"];
+    let (_, said) = done(&folder, &train);
+    assert!(said.contains("learning 3 classes from 240 images, and in 5 folds"), "{said}");
+    let eval = |[images, labels]: &[String; 2], by: &[&str]| {
+        let args = [&["shapes", "eval", "--images", images, "--labels", labels, "--json"], by].concat();
+        let (report, said) = done(&folder, &args);
+        let report: Value = serde_json::from_str(&report).unwrap();
+        assert_eq!(report["classes"], serde_json::json!(["finger", "rectangle", "round"]));
+        assert_eq!(report["trained_on"] == true, said.contains("warning"), "{said}");
+        let sum =
+            |row: &Value| row.as_array().unwrap().iter().map(|count| count.as_u64().unwrap()).sum::<u64>();
+        let rows: Vec<u64> = report["confusion"].as_array().unwrap().iter().map(sum).collect();
+        assert_eq!(rows, [80, 80, 80]);
+        (report["accuracy"].as_f64().unwrap(), report["trained_on"] == true)
+    };
+    let (own_right, warned) = eval(&own, &["--base", "base.json"]);
+    let (other_right, not_warned) = eval(&other, &["--base", "base.json"]);
+    let (cross_right, _) = eval(&own, &["--cross", "5"]);
+    println!("drawn images: own {own_right:.3}, others {other_right:.3}, five folds {cross_right:.3}");
+    assert!(warned && !not_warned);
+    assert!(own_right > 0.95 && other_right > 0.93 && cross_right > 0.93);
+}

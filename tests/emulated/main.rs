@@ -1,0 +1,16 @@
+//! The firmware image in the emulator. `cargo xtask test` builds the image first and names it in TAXEL_FIRMWARE_ELF.
+
+mod board;
+mod contacts;
+#[path = "../../host/tests/recorded/data.rs"]
+mod data;
+#[path = "../../host/tests/library/faults.rs"]
+mod faults;
+mod health;
+mod images;
+mod latency;
+mod recorded;
+mod scan;
+mod stack;
+mod store;
+mod usb;

@@ -1,0 +1,204 @@
+//! The scan by DMA and PIO on the emulated board: every code of every frame, and how long it all takes.
+//! `cargo xtask test --only emulator-scan`.
+
+use crate::board::Emulated;
+use serde_json::Value;
+use taxel_core::acquire::Depth;
+use taxel_core::format::name;
+use taxel_core::garment::Garment;
+use taxel_core::scene::{Scene, StreamConfig};
+use taxel_core::wire::{Report, Request, decode_image};
+
+const TAXELS: usize = 2048;
+/// Frames that are shown in turn, no two of them alike.
+const FRAMES: usize = 61;
+/// Cycles of the processor in a second.
+const CLOCK: f64 = 125e6;
+
+/// An empty garment: a level for each taxel that no neighbour has, and a noise of 7 counts.
+fn codes() -> Vec<u16> {
+    let level = |taxel: usize| 100 + (taxel * 1367 % TAXELS) as u16;
+    let noise = |frame: usize, taxel: usize| ((frame * 7919 + taxel * 104_729) >> 3) as u16 % 7;
+    (0..FRAMES * TAXELS).map(|at| level(at % TAXELS) + noise(at / TAXELS, at % TAXELS)).collect()
+}
+
+/// A board that wears an empty garment, whose codes are shown over and over, and knows it for empty.
+fn tared(garment: &Garment, scene: &Scene) -> Emulated {
+    let mut board = Emulated::start(garment, &codes(), 0, &["--loop"]);
+    let garment = postcard::to_allocvec(garment).unwrap();
+    let scene = postcard::to_allocvec(scene).unwrap();
+    // It hears nothing before it has started.
+    board.receive();
+    board.obey(&Request::SetGarment(&garment));
+    board.obey(&Request::SetScene(&scene));
+    board.play();
+    board.obey(&Request::Tare { frames: 16 });
+    board.obey(&Request::Start);
+    board
+}
+
+/// What was counted between two looks at a board.
+struct Spent {
+    frames: u64,
+    taxels: u64,
+    wrong: u64,
+    unseen: u64,
+    rate: f64,
+    /// Cycles of the stage that scans, per frame.
+    scan: u64,
+}
+
+/// Lets so many frames pass.
+fn measure(board: &mut Emulated, frames: u64) -> Spent {
+    let before = board.look("stats");
+    let mut after = before.clone();
+    let counted = |stats: &Value, what: &str| stats["check"][what].as_u64().unwrap();
+    let mut bytes = 0;
+    while counted(&after, "frames") < counted(&before, "frames") + frames {
+        bytes += board.receive().wire_bytes as u64;
+        after = board.look("stats");
+    }
+    let spent = |what| counted(&after, what) - counted(&before, what);
+    let scan = |what| {
+        let of = |stats: &Value| stats["marks"]["8"][what].as_u64().unwrap();
+        of(&after) - of(&before)
+    };
+    let us = spent("last_us") as f64;
+    let rate = spent("frames") as f64 * 1e6 / us;
+    println!(
+        "{rate:.2} frames/s over {} frames, {} codes wrong, {} scans unseen; {} cycles of scan and {} bytes sent \
+         per frame; {} s emulated in {} s",
+        spent("frames"),
+        counted(&after, "wrong"),
+        spent("unseen"),
+        scan("cycles") / scan("count"),
+        bytes / spent("frames"),
+        after["emulated_us"].as_u64().unwrap() / 1_000_000,
+        after["wall_ms"].as_u64().unwrap() / 1_000,
+    );
+    Spent {
+        frames: spent("frames"),
+        taxels: spent("taxels"),
+        wrong: counted(&after, "wrong"),
+        unseen: spent("unseen"),
+        rate,
+        scan: scan("cycles") / scan("count"),
+    }
+}
+
+#[test]
+fn the_whole_garment_at_the_limit_of_the_converter() {
+    let mut board = tared(&Garment::reference(), &Scene::shipped());
+    let spent = measure(&mut board, 1000);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
+    assert!(spent.rate >= 195.0);
+    assert!((spent.scan as f64) < 0.01 * CLOCK / spent.rate);
+}
+
+#[test]
+fn one_panel_alone() {
+    let mut scene = Scene::shipped();
+    scene.plan.panels = 0b0100;
+    let mut board = tared(&Garment::reference(), &scene);
+    let spent = measure(&mut board, 300);
+    board.end();
+    assert_eq!(spent.wrong, 0);
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64 / 4);
+    assert!(spent.rate * (spent.frames + spent.unseen) as f64 / spent.frames as f64 >= 480.0);
+}
+
+/// Codes that go up and down by 4 from scan to scan: the mean of an even number of scans lies between.
+#[test]
+fn a_mean_of_scans() {
+    let level = |taxel: usize| 100 + (taxel * 1367 % TAXELS) as u16;
+    let codes: Vec<u16> = (0..2 * TAXELS).map(|at| level(at % TAXELS) + 4 * (at / TAXELS) as u16).collect();
+    let mean: Vec<u16> = (0..TAXELS).map(|taxel| level(taxel) + 2).collect();
+    let garment = Garment::reference();
+    let mut scene = Scene::shipped();
+    scene.stream = StreamConfig { frames_hz: 0, raw_hz: 10, ..StreamConfig::default() };
+    let mut board = Emulated::start(&garment, &codes, 0, &["--loop"]);
+    let mut warm = 0;
+    board.receive();
+    board.obey(&Request::SetGarment(&postcard::to_allocvec(&garment).unwrap()));
+    board.play();
+    for depth in [Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8] {
+        scene.plan.depth = depth;
+        board.obey(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
+        board.obey(&Request::Start);
+        let mut told = 0;
+        while told < 3 {
+            let message = board.receive();
+            match message.report() {
+                Report::Raw(raw) => {
+                    let mut have = vec![0; TAXELS];
+                    decode_image(raw.data, None, &mut have).unwrap();
+                    assert_eq!(have, mean, "{depth:?}, frame {}", raw.frame);
+                    told += 1;
+                }
+                Report::Health(health) => println!("{depth:?}: {} us a frame", health.scan_us),
+                // The harness holds the thermometer at 27 degrees.
+                Report::Temperature(now) => {
+                    assert!(now.celsius.0.abs_diff(2700) < 50, "{:?}", now.celsius);
+                    warm += 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    board.end();
+    assert!(warm >= 1);
+}
+
+/// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is lost is counted.
+#[test]
+fn a_chain_that_loses_samples_begins_anew() {
+    let mut board = tared(&Garment::reference(), &Scene::shipped());
+    let counted = |board: &mut Emulated| loop {
+        if let Report::Health(health) = board.receive().report() {
+            return health;
+        }
+    };
+    let before = counted(&mut board);
+    let mut images = Vec::new();
+    for round in 0..20 {
+        // A prime number of frames' parts: never the same place.
+        board.starve(1 + round % 7);
+        let since = images.len();
+        while images.len() < since + 6 {
+            if let Report::Frame(image) = board.receive().report() {
+                images.push(image.time.0);
+            }
+        }
+    }
+    let after = counted(&mut board);
+    let stats = board.look("stats");
+    board.end();
+    let missing: u64 = images.windows(2).map(|pair| (pair[1] - pair[0] + 2_560) / 5_120 - 1).sum();
+    let failed = after.failed - before.failed;
+    println!(
+        "20 losses of samples: {failed} frames refused, {} more lost, {missing} missing in between; {} of {} frames had a \
+         wrong code",
+        after.overruns - before.overruns,
+        stats["check"]["wrong"],
+        stats["check"]["frames"],
+    );
+    assert_eq!(stats["check"]["wrong"].as_u64(), Some(0));
+    assert_eq!(failed, 20);
+    assert_eq!(u64::from(failed + after.overruns - before.overruns), missing);
+}
+
+#[test]
+fn a_wiring_that_no_chain_follows_is_scanned_by_the_processor() {
+    let mut garment = Garment::reference();
+    garment.name = name("mirrored arm");
+    garment.blocks.iter_mut().filter(|b| b.panel == 3).for_each(|b| b.orientation.mirror_x = true);
+    let mut board = tared(&garment, &Scene::shipped());
+    let spent = measure(&mut board, 50);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
+    // 2,048 conversions of 2 us and 512 times 3 us of settling.
+    assert!(spent.scan as f64 > 5.632e-3 * CLOCK);
+}

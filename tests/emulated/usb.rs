@@ -1,0 +1,194 @@
+//! The board on USB, in the emulator: what arrives, what it costs, and a cable that is pulled.
+//! `cargo xtask test --only emulator-usb`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): all scenes of the bench, for longer.
+
+use crate::board::Emulated;
+use crate::images::{Images, TAXELS};
+use std::collections::BTreeMap;
+use taxel_core::format::Code;
+use taxel_core::garment::Garment;
+use taxel_core::wire::{Budget, Report, Request};
+use taxel_suite::pattern::Pattern;
+
+/// Time from scan to scan, us.
+const SCAN_US: u64 = 5_120;
+/// Scans at rest: the board is told to tare and to stream meanwhile.
+const REST: usize = 100;
+/// Scans of a scene's beginning that are not looked at: contacts begin, and lists are long.
+const BEGIN: usize = 8;
+/// Cycles that chain, link and interrupts may take together of the 640,000 from any scan to the next.
+const MOST_CYCLES: u64 = 600_000;
+
+/// A scene, and whether all of its images must come.
+type Shown = (Pattern, bool);
+
+/// What is shown, and for how many scans each.
+fn shown() -> (Vec<Shown>, usize) {
+    let shown = |patterns: &[Pattern]| {
+        patterns.iter().map(|pattern| (*pattern, !matches!(pattern, Pattern::Texture))).collect()
+    };
+    if std::env::var_os("TAXEL_CAMPAIGN").is_some() {
+        (shown(&Pattern::ALL), 400)
+    } else {
+        (shown(&[Pattern::Empty, Pattern::One, Pattern::Five, Pattern::Grid, Pattern::Texture]), 60)
+    }
+}
+
+/// A rest, then the scenes one after the other.
+fn codes(shown: &[Shown], scans: usize) -> Vec<u16> {
+    let scenes = shown.iter().flat_map(|(pattern, _)| std::iter::repeat_n(*pattern, scans));
+    let frames = std::iter::repeat_n(Pattern::Empty, REST).chain(scenes).zip(0..);
+    frames.flat_map(|(pattern, number)| codes_of(pattern, number)).collect()
+}
+
+fn codes_of(pattern: Pattern, number: u32) -> [u16; TAXELS] {
+    let mut codes = [Code(0); TAXELS];
+    pattern.codes(number, &mut codes);
+    codes.map(|code| code.0)
+}
+
+/// A board on USB that streams, with a budget for each frame; when the first frame was shown.
+fn streaming(codes: &[u16], options: &[&str]) -> (Emulated, u64) {
+    let mut board =
+        Emulated::start(&Garment::reference(), codes, 100, &[&["--link", "usb"], options].concat());
+    let known = board.wait_for("usb");
+    assert_eq!((&known["usb"]["id"], &known["usb"]["name"]), (&"1209:0001".into(), &"taxel".into()));
+    board.receive();
+    let played = board.play().0;
+    board.obey(&Request::Tare { frames: 16 });
+    board.obey(&Request::Budget { hz: u16::MAX });
+    board.obey(&Request::Start);
+    (board, played)
+}
+
+/// What came of a scene.
+#[derive(Default)]
+struct Came {
+    /// Numbers of the frames whose images came.
+    images: Vec<u32>,
+    budgets: Vec<Budget>,
+    bytes: usize,
+}
+
+impl Came {
+    /// Prints a line, and compares what came with what was counted as left out. `cycles`: from scan to scan, the mean and the most.
+    fn check(&self, (pattern, whole): Shown, cycles: (u64, u64)) {
+        let (first, last) = (self.budgets[0], self.budgets[self.budgets.len() - 1]);
+        let scans = ((last.time.since(first.time) + SCAN_US / 2) / SCAN_US) as u32;
+        let (frames, overruns) = (last.frame - first.frame, last.overruns - first.overruns);
+        let images =
+            self.images.iter().filter(|frame| (first.frame..last.frame).contains(frame)).count() as u32;
+        let thinned = last.thinned_frames - first.thinned_frames;
+        let mean = |of: fn(&Budget) -> u32| {
+            self.budgets.iter().map(|budget| u64::from(of(budget))).sum::<u64>() / self.budgets.len() as u64
+        };
+        println!(
+            "{:>12}  {:6.1} frames/s  images {images:>4} of {scans:>4} scans  overruns {overruns:>4}  thinned {thinned:>3}  \
+             {:>5} bytes a frame  process {:>5} us  encode {:>4} us  link {:>4} us  {:>6} cycles from scan to scan, {} at most",
+            pattern.name(),
+            f64::from(frames) * 1e6 / last.time.since(first.time) as f64,
+            self.bytes / self.images.len(),
+            mean(|b| b.process_us),
+            mean(|b| b.encode_us),
+            mean(|b| b.send_us),
+            cycles.0,
+            cycles.1,
+        );
+        assert_eq!(frames + overruns, scans, "each scan is perceived, or counted as left out");
+        assert!((images + thinned).abs_diff(frames) <= 1, "each image comes, or is counted as left out");
+        assert!(self.budgets.iter().all(|budget| budget.frames == 1));
+        if whole {
+            assert_eq!((images, overruns, thinned), (scans, 0, 0));
+        }
+        assert!(cycles.1 <= MOST_CYCLES);
+    }
+}
+
+#[test]
+fn what_is_perceived_arrives() {
+    let (shown, scans) = shown();
+    let window = scans - BEGIN;
+    let (mut board, played) = streaming(&codes(&shown, scans), &["--every", "1"]);
+    // Number of the scene to which a scan belongs that began then.
+    let scene = |time: u64| {
+        let scan = ((time + SCAN_US / 2).saturating_sub(played) / SCAN_US) as usize;
+        let since = scan.checked_sub(REST)?;
+        (since % scans >= BEGIN).then_some(since / scans)
+    };
+    let (mut images, mut came) = (Images::default(), BTreeMap::<usize, Came>::new());
+    loop {
+        let message = board.receive();
+        if let Some((number, time)) = images.take(&message) {
+            let Some(of) = scene(time) else { continue };
+            if of >= shown.len() {
+                break;
+            }
+            came.entry(of).or_default().images.push(number);
+        }
+        let latest = match message.report() {
+            Report::Budget(budget) => {
+                let of = scene(budget.time.0).filter(|of| *of < shown.len());
+                of.inspect(|of| came.entry(*of).or_default().budgets.push(budget))
+            }
+            Report::Contacts(list) => scene(list.time.0),
+            Report::Frame(frame) => scene(frame.time.0),
+            _ => None,
+        };
+        if let Some(came) = latest.and_then(|of| came.get_mut(&of)) {
+            came.bytes += message.wire_bytes;
+        }
+    }
+    let stats = board.look("stats");
+    let passed: Vec<(u64, u64)> = std::mem::take(&mut board.said)
+        .iter()
+        .filter_map(|line| Some((line["passed"]["us"].as_f64()? as u64, line["passed"]["cycles"].as_u64()?)))
+        .collect();
+    board.end();
+    for (of, came) in &came {
+        let start = played + ((REST + of * scans + BEGIN) as u64) * SCAN_US;
+        let first = passed.iter().position(|(time, _)| time + SCAN_US / 2 > start).unwrap();
+        let scans = passed[first..first + window].windows(2).map(|two| two[1].1 - two[0].1);
+        let mean = scans.clone().sum::<u64>() / (window as u64 - 1);
+        came.check(shown[*of], (mean, scans.max().unwrap()));
+    }
+    println!("USB {}; stack {}; {} us", stats["usb"], stats["stack"], stats["emulated_us"]);
+    assert_eq!(came.len(), shown.len());
+}
+
+#[test]
+fn a_cable_may_be_pulled_and_put_again() {
+    let codes: Vec<u16> =
+        [Pattern::Empty, Pattern::One].into_iter().flat_map(|pattern| codes_of(pattern, 0)).collect();
+    let (mut board, _) = streaming(&codes, &["--seconds", "3"]);
+    let first = next_frame(&mut board, &mut Images::default());
+    let before = board.look("unplug").as_f64().unwrap() as u64;
+    let sent = |board: &mut Emulated| board.look("stats")["uart"].as_u64().unwrap();
+    let over_uart = sent(&mut board);
+    while board.look("stats")["emulated_us"].as_u64().unwrap() < before + 30_000 {}
+    assert!(sent(&mut board) > over_uart, "the board goes on over the UART");
+    board.forgiving = true;
+    board.look("plug");
+    board.wait_for("usb");
+    board.ask(&Request::Start);
+    // As a host does that has just opened the port: what differs from an image that it has not is not for it.
+    let again = loop {
+        let message = board.receive();
+        if matches!(message.report(), Report::Frame(frame) if frame.base.is_none() && frame.time.0 > before) {
+            break Images::default().take(&message).unwrap();
+        }
+    };
+    println!("pulled at {before} us; image {first:?} before, {again:?} after");
+    assert_eq!(
+        (again.1 - first.1 + SCAN_US / 2) / SCAN_US,
+        u64::from(again.0 - first.0),
+        "no scan was left out"
+    );
+    board.end();
+}
+
+fn next_frame(board: &mut Emulated, images: &mut Images) -> (u32, u64) {
+    loop {
+        if let Some(seen) = images.take(&board.receive()) {
+            return seen;
+        }
+    }
+}
