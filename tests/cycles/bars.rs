@@ -26,13 +26,19 @@ fn kernel(table: &Table, what: &str) -> Option<u64> {
 }
 
 /// Of what ships.
-const BARS: [Bar; 5] = [
+const BARS: [Bar; 6] = [
     Bar { scene: "empty", what: "all", most: 60_000, of: |table, scene| chain(table, scene, Row::whole) },
     Bar {
         scene: "5 contacts",
         what: "all",
         most: 150_000,
         of: |table, scene| chain(table, scene, Row::whole),
+    },
+    Bar {
+        scene: "5 contacts",
+        what: "largest",
+        most: 150_000,
+        of: |table, scene| chain(table, scene, |row| row.largest),
     },
     Bar {
         scene: "saturated",
@@ -49,9 +55,11 @@ const BARS: [Bar; 5] = [
     Bar { scene: INFERENCE, what: "ten concepts", most: 25_000, of: kernel },
 ];
 
-/// How far a figure may be from the one that was written, in percent, and in cycles where it is small.
+/// How far a figure may be from the one that was written, in percent, and in cycles where it is small, if both are of one compiler.
 const TOLERANCE: u64 = 10;
 const SMALL: u64 = 500;
+/// By how much an image of another compiler may exceed a bar, in percent: rustup's library keeps frame pointers, which cost 3 to 6 %.
+const MARGIN: u64 = 6;
 
 /// The bars and what is measured against them.
 fn bars(table: &Table) -> impl Iterator<Item = (&'static Bar, u64)> {
@@ -96,13 +104,19 @@ pub fn write(table: &Table, folder: &Path) -> Result<(), String> {
     write("cycles.json", format!("{}\n", json(table)))
 }
 
-/// No figure is far from the one that was written, and no bar that was met then is missed now.
+const RENEW: &str = "`cargo xtask cycles --write` renews the table";
+
+/// No bar is missed; and if the table that was written is of the same compiler, no figure is far from the one in it. Else the
+/// figures are put beside each other, for people.
 pub fn compare(table: &Table, folder: &Path) -> Result<(), String> {
-    const RENEW: &str = "`cargo xtask cycles --write` renews the table";
     let text = std::fs::read_to_string(folder.join("cycles.json"))
         .map_err(|error| format!("{}: {error}; {RENEW}", folder.display()))?;
     let written: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     let now: Value = serde_json::from_str(&json(table)).map_err(|error| error.to_string())?;
+    let is_same = written["place"] == now["place"];
+    if !is_same {
+        println!("beside the table of {}: now, then, ratio", written["place"].as_str().unwrap_or_default());
+    }
     for (list, names, figures) in [
         ("rows", ["scene", "variant"], &["perceive", "encode", "all", "largest"][..]),
         ("forms", ["what", "form"], &["cost"][..]),
@@ -111,24 +125,24 @@ pub fn compare(table: &Table, folder: &Path) -> Result<(), String> {
             let called = names.map(|name| row[name].as_str().unwrap_or_default());
             let mut old = written[list].as_array().into_iter().flatten();
             let old = old.find(|old| names.map(|name| old[name].as_str().unwrap_or_default()) == called);
-            let old = old.ok_or(format!("{} is not written yet; {RENEW}", called.join(", ")))?;
+            let called = called.join(", ");
+            let old = old.ok_or(format!("{called} is not written yet; {RENEW}"))?;
             for figure in figures {
                 let [cost, before] = [row, old].map(|row| row[figure].as_u64().unwrap_or(0));
-                if cost.abs_diff(before) > (before * TOLERANCE / 100).max(SMALL) {
-                    let called = called.join(", ");
+                if !is_same {
+                    let ratio = cost as f64 / before.max(1) as f64;
+                    println!("{:<32}{cost:>10}{before:>10}{ratio:>8.3}", format!("{called}, {figure}"));
+                } else if cost.abs_diff(before) > (before * TOLERANCE / 100).max(SMALL) {
                     return Err(format!("{called}, {figure}: {cost} cycles, {before} were written; {RENEW}"));
                 }
             }
         }
     }
-    let mut before = written["bars"].as_array().into_iter().flatten();
-    let lost = bars(table).find(|(bar, cost)| {
-        let old = before.next().and_then(|old| old["cycles"].as_u64());
-        *cost > bar.most && old.is_some_and(|old| old <= bar.most)
-    });
-    match lost {
+    let margin = if is_same { 0 } else { MARGIN };
+    match bars(table).find(|(bar, cost)| *cost > bar.most + bar.most * margin / 100) {
         Some((bar, cost)) => {
-            Err(format!("{}, {}: {cost} cycles, at most {} and less before", bar.scene, bar.what, bar.most))
+            let Bar { scene, what, most, .. } = bar;
+            Err(format!("{scene}, {what}: {cost} cycles, at most {most} and {margin} %"))
         }
         None => Ok(()),
     }

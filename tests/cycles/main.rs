@@ -3,17 +3,16 @@
 
 mod bars;
 mod board;
+#[path = "../../host/tests/recorded/data.rs"]
+mod data;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use taxel::bench::stages::case::{Case, Step};
 use taxel::bench::stages::format::{Form, FormRow};
 use taxel::bench::stages::row::{Cost, Row};
 use taxel::bench::stages::table::Table;
 use taxel::bench::stages::twin::{Told, Twin};
-
-/// Where recordings lie unless TAXEL_DATA says so.
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data");
 
 /// The tables as they were last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");
@@ -48,12 +47,13 @@ fn run(args: &[String]) -> Result<(), String> {
 
 /// Runs everything on the board and here; both must say the same.
 fn measure() -> Result<Table, String> {
-    let data = std::env::var_os("TAXEL_DATA").map_or_else(|| PathBuf::from(DATA), PathBuf::from);
     let mut cases = Case::simulated();
-    if data.is_dir() {
-        cases.push(Case::recorded(&data).map_err(|error| format!("{error:#}"))?);
+    if std::env::var_os("TAXEL_DATA").is_some() {
+        let frames = data::find("pmatdata");
+        let folder = frames.parent().ok_or("pmatdata lies in no folder")?;
+        cases.push(Case::recorded(folder).map_err(|error| format!("{error:#}"))?);
     } else {
-        eprintln!("recorded frames are left out: there is no folder {}", data.display());
+        eprintln!("recorded frames are left out: TAXEL_DATA lists no folders of recordings");
     }
     let forms = Form::all();
     let steps = cases.iter().map(Case::steps).collect::<Result<Vec<_>, _>>();

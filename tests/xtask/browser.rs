@@ -1,6 +1,6 @@
 //! The page of `taxel view` in a browser, see tests/browser.
 
-use crate::checks::cargo;
+use crate::targets::{End, shown, test_target};
 use crate::{install, paths, process};
 use std::path::Path;
 use std::process::Command;
@@ -9,19 +9,15 @@ use std::process::Command;
 const MEASURED: &str = "# view: ";
 
 /// Every test of the page; what it measured is shown.
-pub fn check(log: &Path) -> Result<Result<(), String>, String> {
-    let end = measured(&[], log, &[])?;
-    Ok(end.map(|lines| lines.iter().for_each(|line| println!("  {line}"))))
+pub fn check(log: &Path) -> End {
+    shown(measured(&[], log, &[])?)
 }
 
 /// What the tests in some files print, or in all.
-pub fn measured(
-    files: &[&str],
-    log: &Path,
-    variables: &[(&str, &str)],
-) -> Result<Result<Vec<String>, String>, String> {
+pub fn measured(files: &[&str], log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     install::browser()?;
-    if let Err(why) = process::run_into(&mut cargo(&["build", "--package", "taxel"], paths::root()), log) {
+    // The tests of the program are built together with it.
+    if let Err(why) = process::run_into(test_target("program").arg("--no-run"), log) {
         return Ok(Err(why));
     }
     let program = paths::target().join("debug/taxel").with_extension(std::env::consts::EXE_EXTENSION);

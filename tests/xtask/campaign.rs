@@ -1,30 +1,54 @@
 //! `cargo xtask campaign`: runs that take longer than a check may, each of which prints a table.
 
-use crate::{browser, paths, targets};
+use crate::{browser, paths, targets, ways};
 use std::path::{Path, PathBuf};
 
-/// What a run needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Needs {
-    Nothing,
-    /// The firmware image.
-    Image,
-    /// A browser.
-    Browser,
-    /// Python's readers of recordings.
-    Python,
+/// What a run is.
+#[derive(Debug, Clone, Copy)]
+enum Run {
+    /// Tests of the library whose names hold this.
+    Library(&'static str),
+    /// A module of the tests of the firmware image.
+    Image(&'static str),
+    /// A file of the tests of the page.
+    Browser(&'static str),
+    /// Tests of Python whose names hold this.
+    Python(&'static str),
+    /// The image by each way of having a compiler.
+    Ways,
 }
 
-/// The runs: a test target, what it needs, and what of it takes longer where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Needs, &str); 8] = [
-    ("emulator_usb", Needs::Image, "frames over USB: every scene of the bench, 400 scans each (emulated)"),
-    ("emulator_latency", Needs::Image, "onset and reflex: 500 touches of one to five contacts (emulated)"),
-    ("emulator_health", Needs::Image, "health: 1,000 healthy frames, then one of each fault (emulated)"),
-    ("health", Needs::Nothing, "health: every fault, and 10,000 healthy frames (simulated)"),
-    ("setup", Needs::Nothing, "setup by touch: 1,000 random wirings (simulated)"),
-    ("people", Needs::Nothing, "intentions: 4,000 touches by 20 people, of each of two families (simulated)"),
-    ("record_python", Needs::Python, "recordings: kill -9 while 50 of them are made"),
-    ("stream.test.mjs", Needs::Browser, "taxel view: ten minutes of five contacts at full speed (simulated)"),
+/// The runs: each prints more where TAXEL_CAMPAIGN is set.
+const RUNS: [(&str, Run, &str); 9] = [
+    (
+        "emulator-usb",
+        Run::Image("usb"),
+        "frames over USB: every scene of the bench, 400 scans each (emulated)",
+    ),
+    (
+        "emulator-latency",
+        Run::Image("latency"),
+        "onset and reflex: 500 touches of one to five contacts (emulated)",
+    ),
+    (
+        "emulator-health",
+        Run::Image("health"),
+        "health: 1,000 healthy frames, then one of each fault (emulated)",
+    ),
+    ("health", Run::Library("health::"), "health: every fault, and 10,000 healthy frames (simulated)"),
+    ("setup", Run::Library("setup::"), "setup by touch: 1,000 random wirings (simulated)"),
+    (
+        "people",
+        Run::Library("people::"),
+        "intentions: 4,000 touches by 20 people, of each of two families (simulated)",
+    ),
+    ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
+    (
+        "view",
+        Run::Browser("stream.test.mjs"),
+        "taxel view: ten minutes of five contacts at full speed (simulated)",
+    ),
+    ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
 ];
 
 /// What the table begins with.
@@ -41,18 +65,15 @@ pub fn run(args: &[String]) -> Result<(), String> {
         ["--only", name, "--write"] => (Some(name), true),
         _ => return Err(crate::USAGE.into()),
     };
-    let chosen: Vec<_> = RUNS.iter().filter(|(target, ..)| only.is_none_or(|only| only == *target)).collect();
+    let chosen: Vec<_> = RUNS.iter().filter(|(name, ..)| only.is_none_or(|only| only == *name)).collect();
     if chosen.is_empty() {
-        return Err(format!(
-            "there is no such run; there are {}",
-            RUNS.map(|(target, ..)| target).join(", ")
-        ));
+        return Err(format!("there is no such run; there are {}", RUNS.map(|(name, ..)| name).join(", ")));
     }
     let logs = paths::target().join("xtask");
     std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
-    for (target, needs, what) in chosen {
+    for (name, run, what) in chosen {
         println!("{what} ...");
-        let lines = measured(target, *needs, &logs.join(format!("campaign-{target}.log")))?;
+        let lines = measured(*run, &logs.join(format!("campaign-{name}.log")))?;
         println!("{lines}");
         if write {
             note(what, &lines).map_err(|error| format!("{}: {error}", written().display()))?;
@@ -62,21 +83,20 @@ pub fn run(args: &[String]) -> Result<(), String> {
 }
 
 /// What one of them prints.
-fn measured(target: &'static str, needs: Needs, log: &Path) -> Result<String, String> {
+fn measured(run: Run, log: &Path) -> Result<String, String> {
     let _ = std::fs::remove_file(log);
     let longer = [("TAXEL_CAMPAIGN", "1")];
-    let end = match needs {
-        Needs::Image => targets::measured(target, log, &longer)?,
-        Needs::Nothing => targets::printed(target, log, &longer),
-        Needs::Browser => browser::measured(&[target], log, &longer)?,
-        Needs::Python => targets::read_by_python(log, &longer)?,
+    let end = match run {
+        Run::Library(names) => targets::printed("library", &[names], log, &longer),
+        Run::Image(module) => targets::measured(module, log, &longer)?,
+        Run::Browser(file) => browser::measured(&[file], log, &longer)?,
+        Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
+        Run::Ways => ways::measured(log),
     };
-    let lines = end.map_err(|why| format!("{target}: {why}, see {}", log.display()))?;
-    // Nor does it belong into a table which files were written.
+    let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;
+    // It does not belong into a table which files were written.
     let file = paths::target().display().to_string();
-    let said = lines.iter().filter(|line| {
-        !line.is_empty() && !["test ", file.as_str()].iter().any(|other| line.starts_with(other))
-    });
+    let said = lines.iter().filter(|line| !line.is_empty() && !line.starts_with(&file));
     Ok(said.map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n"))
 }
 

@@ -1,71 +1,118 @@
-//! `cargo xtask test`: every check, one after the other.
+//! `cargo xtask test`: every check. Two run at a time: while one compiles on all cores the other mostly waits for cargo, and while
+//! one runs the emulator, which takes one core, the other has the rest.
 
 use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
-use crate::{browser, firmware, install, locks, no_panic, paths, process, sizes, targets};
+use crate::targets::{End, WHOLE};
+use crate::{browser, firmware, locks, no_panic, paths, process, sizes, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
 use std::time::Instant;
 
-/// A check appends what it prints to a log. `Err` of the outer result: it cannot run, and why.
-type Check = fn(&Path) -> Result<Result<(), String>, String>;
+/// A check appends what it prints to a log.
+type Check = fn(&Path) -> End;
 
+/// In the order in which they begin: what takes long or builds what others need first.
 const CHECKS: &[(&str, Check)] = &[
     ("fmt", fmt),
-    ("clippy", clippy),
-    ("locks", compare_locks),
     ("test", test),
-    ("docs", docs),
-    ("core-thumb", core_thumb),
     ("firmware", build_firmware),
     ("sizes", compare_sizes),
-    ("firmware-clippy", firmware_clippy),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
-    ("view", browser::check),
+    ("firmware-clippy", firmware_clippy),
+    ("core-thumb", core_thumb),
     ("cycles", targets::cycles),
-    ("emulator", targets::emulator),
-    ("emulator-stack", targets::emulator_stack),
-    ("emulator-scan", targets::emulator_scan),
-    ("emulator-usb", targets::emulator_usb),
-    ("emulator-latency", targets::emulator_latency),
-    ("emulator-store", targets::emulator_store),
-    ("emulator-health", targets::emulator_health),
-    ("record-python", targets::record_python),
-    ("recorded", targets::recorded),
-    ("touch-recorded", targets::touch_recorded),
-    ("emulator-recorded", targets::emulator_recorded),
+    ("emulator-scan", |log| targets::on_emulator("scan", log)),
+    ("emulator-latency", |log| targets::on_emulator("latency", log)),
+    ("emulator-usb", |log| targets::on_emulator("usb", log)),
+    ("emulator-stack", |log| targets::on_emulator("stack", log)),
+    ("emulator-health", |log| targets::on_emulator("health", log)),
+    ("emulator", |log| targets::on_emulator("contacts", log)),
+    ("emulator-store", |log| targets::on_emulator("store", log)),
+    ("view", browser::check),
+    ("python", targets::python),
+    ("clippy", clippy),
+    ("docs", docs),
+    ("locks", compare_locks),
 ];
+
+/// What needs recordings, which only their owners have: an extra that is asked for.
+const RECORDED: &[(&str, Check)] =
+    &[("recorded", targets::recorded), ("emulator-recorded", targets::emulator_recorded)];
+
+/// Checks that run at a time.
+const AT_ONCE: usize = 2;
 
 /// Lines of a failed check's log that are shown.
 const SHOWN: usize = 80;
 
-/// Runs the checks that `args` ask for. True: all is well.
-pub fn run(args: &[String]) -> Result<bool, String> {
-    let (mut only, mut may_miss) = (Vec::new(), Vec::new());
-    let mut args = args.iter();
-    while let Some(arg) = args.next() {
-        let list = match arg.as_str() {
-            "--only" => &mut only,
-            "--may-miss" => &mut may_miss,
-            _ => return Err(format!("unknown option {arg}\n{}", crate::USAGE)),
-        };
-        let name = args.next().filter(|name| CHECKS.iter().any(|(known, _)| known == name));
-        list.push(name.ok_or_else(|| format!("{arg} takes one of: {}", names()))?.clone());
-    }
-    let logs = paths::target().join("xtask");
-    std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
-    let mut report = Report::default();
-    for (name, check) in CHECKS.iter().filter(|(name, _)| only.is_empty() || only.iter().any(|o| o == name)) {
-        report.add(name, one(name, *check, &logs.join(format!("{name}.log"))));
-    }
-    println!("\n{}", report.closing());
-    Ok(report.succeeded(&may_miss))
+/// What the command line asks for.
+struct Asked {
+    checks: Vec<(&'static str, Check)>,
+    may_miss: Vec<String>,
+    /// Whether the checks that need recordings were left out, as they were not asked for.
+    left_out: bool,
 }
 
-fn names() -> String {
-    CHECKS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
+impl Asked {
+    fn read(args: &[String]) -> Result<Asked, String> {
+        let (mut only, mut may_miss) = (Vec::new(), Vec::new());
+        let mut recorded = std::env::var_os("TAXEL_DATA").is_some();
+        let all = || CHECKS.iter().chain(RECORDED);
+        let mut args = args.iter();
+        while let Some(arg) = args.next() {
+            let list = match arg.as_str() {
+                "--recorded" => {
+                    recorded = true;
+                    continue;
+                }
+                "--only" => &mut only,
+                "--may-miss" => &mut may_miss,
+                _ => return Err(format!("unknown option {arg}\n{}", crate::USAGE)),
+            };
+            let name = args.next().filter(|name| all().any(|(known, _)| known == name));
+            let names = || all().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+            list.push(name.ok_or_else(|| format!("{arg} takes one of: {}", names()))?.clone());
+        }
+        let extra = if recorded { RECORDED } else { &[] };
+        let checks: Vec<_> = if only.is_empty() {
+            CHECKS.iter().chain(extra).copied().collect()
+        } else {
+            all().filter(|(name, _)| only.iter().any(|only| only == name)).copied().collect()
+        };
+        Ok(Asked { checks, may_miss, left_out: only.is_empty() && !recorded })
+    }
+}
+
+/// Runs the checks that `args` ask for. True: all is well.
+pub fn run(args: &[String]) -> Result<bool, String> {
+    let asked = Asked::read(args)?;
+    let logs = paths::target().join("xtask");
+    std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
+    let start = Instant::now();
+    let report = Mutex::new(Report::default());
+    let waiting = Mutex::new(asked.checks.into_iter());
+    let work = || {
+        while let Some((name, check)) = next(&waiting) {
+            let outcome = one(name, check, &logs.join(format!("{name}.log")));
+            report.lock().unwrap_or_else(|broken| broken.into_inner()).add(name, outcome);
+        }
+    };
+    std::thread::scope(|scope| (0..AT_ONCE).for_each(|_| _ = scope.spawn(work)));
+    let report = report.into_inner().unwrap_or_else(|broken| broken.into_inner());
+    if asked.left_out {
+        let names: Vec<&str> = RECORDED.iter().map(|(name, _)| *name).collect();
+        println!("\nnot asked for: {}, which need recordings (--recorded)", names.join(" and "));
+    }
+    println!("\n{} min\n{}", start.elapsed().as_secs().div_ceil(60), report.closing());
+    Ok(report.succeeded(&asked.may_miss))
+}
+
+fn next(waiting: &Mutex<impl Iterator<Item = (&'static str, Check)>>) -> Option<(&'static str, Check)> {
+    waiting.lock().unwrap_or_else(|broken| broken.into_inner()).next()
 }
 
 fn one(name: &str, check: Check, log: &Path) -> Outcome {
@@ -88,8 +135,8 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
         }
         Ok(Err(why)) => {
             let lines: Vec<&str> = text.lines().collect();
-            println!("{}", lines[lines.len().saturating_sub(SHOWN)..].join("\n"));
-            println!("{name}: FAILED in {seconds:.1} s: {why}");
+            let lines = lines[lines.len().saturating_sub(SHOWN)..].join("\n");
+            println!("{lines}\n{name}: FAILED in {seconds:.1} s: {why}");
             Outcome::Failed(counts.unwrap_or_default(), why)
         }
         Err(why) => {
@@ -106,26 +153,30 @@ pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     command
 }
 
-fn fmt(log: &Path) -> Result<Result<(), String>, String> {
+fn fmt(log: &Path) -> End {
     let check = |folder| {
         process::run_into(&mut cargo(&["fmt", "--all", "--", "--check", "--color=never"], folder), log)
     };
     Ok(check(paths::root()).and_then(|()| check(paths::firmware())))
 }
 
-fn clippy(log: &Path) -> Result<Result<(), String>, String> {
+fn clippy(log: &Path) -> End {
     let run = |which: &[&str]| {
         let args = [&["clippy"], which, &["--", "--deny", "warnings"]].concat();
         process::run_into(&mut cargo(&args, paths::root()), log)
     };
-    let apart: Vec<&str> = targets::APART.iter().flat_map(|name| ["--test", *name]).collect();
-    let apart = [&["--package", "taxel-tests"], apart.as_slice()].concat();
-    // The tests ask for all features of the program: as most build it, it is looked at for itself.
-    let plain = ["--package", "taxel"];
-    Ok(run(&["--workspace", "--all-targets"]).and_then(|()| run(&apart)).and_then(|()| run(&plain)))
+    let apart: Vec<&str> = targets::APART
+        .iter()
+        .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
+        .collect();
+    // Tests ask for all features; the program is also looked at as most people build it.
+    let plain = ["--workspace", "--exclude", "taxel-tests"];
+    Ok(run(&[WHOLE, &["--all-targets"]].concat())
+        .and_then(|()| run(&[WHOLE, &apart].concat()))
+        .and_then(|()| run(&plain)))
 }
 
-fn compare_locks(_: &Path) -> Result<Result<(), String>, String> {
+fn compare_locks(_: &Path) -> End {
     let read = |path: PathBuf| {
         std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
     };
@@ -134,37 +185,32 @@ fn compare_locks(_: &Path) -> Result<Result<(), String>, String> {
     Ok(root.and_then(|root| locks::compare(&root, &firmware?)))
 }
 
-fn test(log: &Path) -> Result<Result<(), String>, String> {
-    Ok(process::run_into(&mut cargo(&["test", "--workspace", "--no-fail-fast"], paths::root()), log))
+fn test(log: &Path) -> End {
+    let args = [&["test"], WHOLE, &["--no-fail-fast"]].concat();
+    Ok(process::run_into(&mut cargo(&args, paths::root()), log))
 }
 
-fn docs(log: &Path) -> Result<Result<(), String>, String> {
-    let mut command = cargo(&["doc", "--workspace", "--no-deps"], paths::root());
+fn docs(log: &Path) -> End {
+    let mut command = cargo(&[&["doc"], WHOLE, &["--no-deps"]].concat(), paths::root());
     Ok(process::run_into(command.env("RUSTDOCFLAGS", "--deny warnings"), log))
 }
 
-fn core_thumb(log: &Path) -> Result<Result<(), String>, String> {
+fn core_thumb(log: &Path) -> End {
     Ok(process::run_into(&mut firmware::core_command(&Toolchain::find()?), log))
 }
 
-fn build_firmware(log: &Path) -> Result<Result<(), String>, String> {
-    Ok(image(&Toolchain::find()?, log).map(|image| print!("{image}")))
+fn build_firmware(log: &Path) -> End {
+    Ok(firmware::image(&Toolchain::find()?, log).map(|image| print!("{image}")))
 }
 
-fn compare_sizes(log: &Path) -> Result<Result<(), String>, String> {
-    Ok(image(&Toolchain::find()?, log).and_then(|image| sizes::check(&image.elf)))
+fn compare_sizes(log: &Path) -> End {
+    let image = firmware::image(&Toolchain::find()?, log);
+    Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
 }
 
-/// The firmware as its lock file says; built at once where nothing has changed.
-pub fn image(toolchain: &Toolchain, log: &Path) -> Result<firmware::Image, String> {
-    process::run_into(firmware::command(toolchain).arg("--locked"), log).and_then(|()| firmware::measure())
-}
-
-fn firmware_clippy(log: &Path) -> Result<Result<(), String>, String> {
+fn firmware_clippy(log: &Path) -> End {
     let toolchain = Toolchain::find()?;
-    if !toolchain.has_clippy() {
-        install::packages(install::CROSS)?;
-    }
+    toolchain.install_clippy()?;
     let mut command = toolchain.cargo("clippy", &paths::firmware());
     Ok(process::run_into(
         command.args(["--bins", "--examples", "--features", "bench", "--", "--deny", "warnings"]),
@@ -172,8 +218,8 @@ fn firmware_clippy(log: &Path) -> Result<Result<(), String>, String> {
     ))
 }
 
-fn emulator_units(log: &Path) -> Result<Result<(), String>, String> {
-    install::emulator()?;
+fn emulator_units(log: &Path) -> End {
+    crate::install::emulator()?;
     let mut node = Command::new("node");
     node.args(["--test", "--test-reporter=tap"]).current_dir(paths::emulator());
     Ok(process::run_into(&mut node, log))

@@ -1,8 +1,9 @@
 //! The compiler for the microcontroller.
 //!
-//! The first compiler that has the source of its library builds that, too, and so without frame pointers: they would take one of the
-//! eight registers that most instructions of a Cortex-M0+ can name, and 3 to 6 % more cycles. Else a toolchain that has the target's
-//! library builds plainly; else rustup is asked for the target, then apt-get for a compiler with source.
+//! There are three ways to have one. Two build the compiler's library, too, and so without frame pointers: they would take one of the
+//! eight registers that most instructions of a Cortex-M0+ can name, and 3 to 6 % more cycles. That is what `cargo xtask firmware` does
+//! wherever it can: it asks rustup for the library's source, else apt-get for a compiler with source. Only where neither is to be had
+//! is the image built with the library that rustup has for the target. TAXEL_CROSS chooses a way by its name.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
@@ -21,9 +22,65 @@ const FLAGS: &str = "-Cllvm-args=-unroll-runtime=false";
 /// The oldest compiler that the sources are written for.
 const OLDEST: (u32, u32) = (1, 95);
 
+/// How the compiler and its library come about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Rustup's compiler; the library is built from its source.
+    RustSrc,
+    /// Debian's compiler; likewise.
+    Debian,
+    /// Rustup's compiler and rustup's library for the target.
+    Target,
+}
+
+impl Way {
+    /// All, the best first.
+    pub const ALL: [Way; 3] = [Way::RustSrc, Way::Debian, Way::Target];
+
+    /// As TAXEL_CROSS names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Way::RustSrc => "rust-src",
+            Way::Debian => "debian",
+            Way::Target => "target",
+        }
+    }
+
+    /// The way that TAXEL_CROSS asks for.
+    fn asked() -> Result<Option<Way>, String> {
+        let Some(name) = std::env::var_os("TAXEL_CROSS") else { return Ok(None) };
+        let found = Way::ALL.into_iter().find(|way| name == way.name());
+        found.map(Some).ok_or_else(|| {
+            format!("TAXEL_CROSS is one of {}, not {name:?}", Way::ALL.map(Way::name).join(", "))
+        })
+    }
+
+    /// Installs what it takes.
+    fn install(self) -> Result<(), String> {
+        match self {
+            Way::RustSrc => rustup(&["component", "add", "rust-src"]),
+            Way::Debian => install::packages(install::CROSS),
+            Way::Target => rustup(&["target", "add", TARGET]),
+        }
+    }
+
+    /// A compiler that is there already.
+    fn installed(self) -> Option<Toolchain> {
+        let roots = sysroots();
+        let mut mine = roots.iter().filter(|root| root.starts_with("/usr") == (self == Way::Debian));
+        let (root, described) = if self == Way::Target {
+            (mine.find(|root| has_target_library(root))?, None)
+        } else {
+            mine.filter(|root| has_source(root)).find_map(|root| Some((root, Some(describe(root, self)?))))?
+        };
+        Some(Toolchain { way: self, bin: root.join("bin"), described, linker: linker(&roots)? })
+    }
+}
+
 /// A compiler that can build for the target.
 #[derive(Debug)]
 pub struct Toolchain {
+    way: Way,
     bin: PathBuf,
     /// The description of the target for which the library is built, too; none: the library is there.
     described: Option<PathBuf>,
@@ -31,26 +88,45 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// Finds one, or installs one.
+    /// Finds one, or installs one: the way that TAXEL_CROSS names, else the best that can be had. A way that only needs what is
+    /// there goes before one as good for which something must be installed.
     pub fn find() -> Result<Toolchain, String> {
-        if let Some(found) = Toolchain::installed() {
-            return Ok(found);
+        if let Some(way) = Way::asked()? {
+            return Toolchain::by(way);
         }
-        let rustup = ["target", "add", TARGET];
-        if process::output(Command::new("rustup").args(rustup)).is_none() {
-            install::packages(install::CROSS)
-                .map_err(|apt| format!("no compiler for {TARGET}: rustup {}; or {apt}", rustup.join(" ")))?;
+        if let Some(there) = [Way::RustSrc, Way::Debian].into_iter().find_map(Way::installed) {
+            return Ok(there);
         }
-        Toolchain::installed().ok_or(format!("no compiler for {TARGET}"))
+        let mut why = Vec::new();
+        for way in [Way::RustSrc, Way::Target, Way::Debian] {
+            match Toolchain::by(way) {
+                Ok(found) => return Ok(found),
+                Err(error) => why.push(error),
+            }
+        }
+        Err(format!("no compiler for {TARGET}: {}", why.join("; ")))
     }
 
-    fn installed() -> Option<Toolchain> {
-        let sysroots = sysroots();
-        let sources = sysroots.iter().filter(|root| has_source(root));
-        let mut described = sources.filter_map(|root| Some((root, Some(describe(root)?))));
-        let plain = || sysroots.iter().find(|root| has_target_library(root)).map(|root| (root, None));
-        let (root, described) = described.next().or_else(plain)?;
-        Some(Toolchain { bin: root.join("bin"), described, linker: linker(&sysroots)? })
+    /// Of one way, installed if it must be.
+    pub fn by(way: Way) -> Result<Toolchain, String> {
+        if let Some(there) = way.installed() {
+            return Ok(there);
+        }
+        way.install()?;
+        way.installed().ok_or(format!("{}: no compiler that is new enough", way.name()))
+    }
+
+    /// What it builds with, for people and for tables: only images of one compiler and one way are alike.
+    pub fn library(&self) -> &'static str {
+        match self.way {
+            Way::Target => "rustup's library, with frame pointers",
+            Way::RustSrc | Way::Debian => "library built without frame pointers",
+        }
+    }
+
+    /// Where it builds: each way has a folder of its own, so that none finds what another has left.
+    pub fn folder(&self) -> PathBuf {
+        folder(self.way)
     }
 
     /// `cargo SUBCOMMAND` for the target, in `folder`, whose manifest and configuration cargo finds by that.
@@ -65,7 +141,7 @@ impl Toolchain {
             .current_dir(folder)
             .env("CARGO", self.bin.join("cargo"))
             .env("RUSTC", self.bin.join("rustc"))
-            .env("CARGO_TARGET_DIR", paths::cross_target())
+            .env("CARGO_TARGET_DIR", self.folder())
             .env("CARGO_TARGET_THUMBV6M_NONE_EABI_LINKER", &self.linker)
             .env("CARGO_TARGET_THUMBV6M_NONE_EABI_RUSTFLAGS", FLAGS)
             .env_remove("RUSTUP_TOOLCHAIN");
@@ -75,10 +151,29 @@ impl Toolchain {
         command
     }
 
-    /// Whether this toolchain has clippy.
-    pub fn has_clippy(&self) -> bool {
-        self.bin.join("cargo-clippy").exists()
+    /// Installs this toolchain's clippy where it is missing.
+    pub fn install_clippy(&self) -> Result<(), String> {
+        if self.bin.join("cargo-clippy").exists() {
+            return Ok(());
+        }
+        if self.way == Way::Debian {
+            install::packages(install::CROSS)
+        } else {
+            rustup(&["component", "add", "clippy"])
+        }
     }
+}
+
+fn rustup(args: &[&str]) -> Result<(), String> {
+    let mut rustup = Command::new("rustup");
+    let typed = process::shown(rustup.args(args));
+    eprintln!("xtask: {typed}");
+    process::output(&mut rustup).map(|_| ()).ok_or(format!("`{typed}` failed"))
+}
+
+/// Where images of a way are built.
+fn folder(way: Way) -> PathBuf {
+    paths::cross_target().join(way.name())
 }
 
 /// The folders of all compilers that are new enough: the one in use first, then rustup's others, then the system's.
@@ -119,13 +214,13 @@ fn has_target_library(root: &Path) -> bool {
 }
 
 /// Writes down what a compiler knows of the target, but that frame pointers are not wanted; the file is named as the target is.
-fn describe(root: &Path) -> Option<PathBuf> {
+fn describe(root: &Path, way: Way) -> Option<PathBuf> {
     let print = ["-Zunstable-options", "--print", "target-spec-json", "--target", TARGET];
     let known =
         process::output(Command::new(root.join("bin/rustc")).args(print).env(BOOTSTRAP.0, BOOTSTRAP.1))?;
     let text = known.replace(r#""frame-pointer": "always""#, r#""frame-pointer": "may-omit""#);
     // Cargo looks for it from another folder.
-    let path = std::path::absolute(paths::cross_target().join(TARGET).with_extension("json")).ok()?;
+    let path = std::path::absolute(folder(way).join(TARGET).with_extension("json")).ok()?;
     if std::fs::read_to_string(&path).is_ok_and(|written| written == text) {
         return Some(path);
     }

@@ -3,7 +3,7 @@
 use crate::cross::Toolchain;
 use crate::{elf, install, paths, process, uf2};
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const FLASH: u64 = 2048 * 1024 - 64 * 1024;
@@ -17,6 +17,15 @@ pub struct Image {
     uf2: PathBuf,
     flash: u64,
     ram: u64,
+    /// The compiler, and how its library came about.
+    pub compiler: String,
+}
+
+impl Image {
+    /// Bytes of flash, and of RAM before the stack.
+    pub fn sizes(&self) -> [u64; 2] {
+        [self.flash, self.ram]
+    }
 }
 
 impl fmt::Display for Image {
@@ -25,6 +34,7 @@ impl fmt::Display for Image {
         let ram = u64::from(RAM.end - RAM.start);
         writeln!(f, "ELF    {}", self.elf.display())?;
         writeln!(f, "UF2    {}", self.uf2.display())?;
+        writeln!(f, "by     {}", self.compiler)?;
         writeln!(f, "flash  {:.1} of {:.0} KiB", kib(self.flash), kib(FLASH))?;
         writeln!(
             f,
@@ -40,7 +50,7 @@ impl fmt::Display for Image {
 pub fn build() -> Result<Image, String> {
     let toolchain = Toolchain::find()?;
     process::run(&mut command(&toolchain))?;
-    measure()
+    measure(&toolchain)
 }
 
 /// The command that builds the firmware.
@@ -56,13 +66,13 @@ pub fn bench_command(toolchain: &Toolchain) -> Command {
 }
 
 /// The image that measures.
-pub fn bench_elf() -> PathBuf {
-    paths::cross_target().join(crate::cross::TARGET).join("release/bench")
+pub fn bench_elf(toolchain: &Toolchain) -> PathBuf {
+    toolchain.folder().join(crate::cross::TARGET).join("release/bench")
 }
 
 /// Writes the UF2 beside the ELF that was just built, and measures both.
-pub fn measure() -> Result<Image, String> {
-    let elf = paths::cross_target().join(crate::cross::TARGET).join("release/taxel-firmware");
+pub fn measure(toolchain: &Toolchain) -> Result<Image, String> {
+    let elf = toolchain.folder().join(crate::cross::TARGET).join("release/taxel-firmware");
     let read = |error: std::io::Error| format!("{}: {error}", elf.display());
     let file = std::fs::read(&elf).map_err(read)?;
     let segments = elf::segments(&file).ok_or(format!("{} is no ELF file", elf.display()))?;
@@ -70,7 +80,20 @@ pub fn measure() -> Result<Image, String> {
     std::fs::write(&uf2, uf2::file(&segments)?).map_err(|error| format!("{}: {error}", uf2.display()))?;
     let flash = segments.iter().map(|s| s.bytes.len() as u64).sum();
     let ram = segments.iter().filter(|s| RAM.contains(&s.runs)).map(|s| u64::from(s.memory)).sum();
-    Ok(Image { elf, uf2, flash, ram })
+    let compiler = compiler(&elf, toolchain)?;
+    Ok(Image { elf, uf2, flash, ram, compiler })
+}
+
+/// What an image was built by: the compiler, as the image itself says, and how its library came about.
+pub fn compiler(image: &Path, toolchain: &Toolchain) -> Result<String, String> {
+    let file = std::fs::read(image).map_err(|error| format!("{}: {error}", image.display()))?;
+    let compiler = elf::compiler(&file).ok_or(format!("{} does not name its compiler", image.display()))?;
+    Ok(format!("{compiler}, {}", toolchain.library()))
+}
+
+/// The firmware as its lock file says; built at once where nothing has changed.
+pub fn image(toolchain: &Toolchain, log: &Path) -> Result<Image, String> {
+    process::run_into(command(toolchain).arg("--locked"), log).and_then(|()| measure(toolchain))
 }
 
 /// The command that builds the core alone.

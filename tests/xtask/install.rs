@@ -3,6 +3,7 @@
 use crate::process;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, MutexGuard};
 
 /// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's source.
 pub const CROSS: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy", "lld"];
@@ -12,6 +13,13 @@ pub const NODE: &[&str] = &["nodejs", "npm"];
 
 /// What shows the page of `taxel view`.
 pub const BROWSER: &[&str] = &["chromium"];
+
+/// Checks run two at a time; only one of them installs.
+static INSTALLING: Mutex<()> = Mutex::new(());
+
+fn alone() -> MutexGuard<'static, ()> {
+    INSTALLING.lock().unwrap_or_else(|broken| broken.into_inner())
+}
 
 /// Installs Debian packages, or says what to type.
 pub fn packages(names: &[&str]) -> Result<(), String> {
@@ -42,11 +50,13 @@ fn is_root() -> bool {
 
 /// Node and the emulator's packages.
 pub fn emulator() -> Result<(), String> {
+    let _alone = alone();
     node(&crate::paths::emulator(), "rp2040js")
 }
 
 /// A browser without a screen, and Node with what drives it.
 pub fn browser() -> Result<(), String> {
+    let _alone = alone();
     if !process::exists("chromium") {
         packages(BROWSER)?;
     }
@@ -72,12 +82,13 @@ fn node(folder: &Path, package: &str) -> Result<(), String> {
 
 /// An interpreter of Python that has the readers of recordings, in a folder of its own.
 pub fn python() -> Result<PathBuf, String> {
+    let _alone = alone();
     if !process::exists("python3") {
         packages(&["python3", "python3-venv"])?;
     }
     let folder = crate::paths::target().join("xtask/python");
     let python = folder.join("bin/python");
-    let wanted = crate::paths::root().join("tests/record_python/requirements.txt");
+    let wanted = crate::paths::root().join("host/tests/python/requirements.txt");
     let read = |path: &Path| std::fs::read(path).ok();
     let note = folder.join("requirements.txt");
     if read(&note).is_some() && read(&note) == read(&wanted) {

@@ -17,6 +17,7 @@ mod report;
 mod sizes;
 mod targets;
 mod uf2;
+mod ways;
 
 use std::process::ExitCode;
 
@@ -34,8 +35,11 @@ usage: cargo xtask COMMAND
                         the core beside imageproc, and OpenCV where Python has it: microseconds per panel
   campaign [--only NAME] [--write]
                         long runs on the emulated and the simulated board; --write: and write down what they print, docs/bench/campaign.txt
-  test [--only NAME] [--may-miss NAME]
-                        every check; a check that cannot run fails the run, unless it is named as one that may be missing
+  test [--recorded] [--only NAME] [--may-miss NAME]
+                        every check, two at a time; one that cannot run fails the run, unless it is named as one that may be missing;
+                        --recorded, or TAXEL_DATA set to folders of recordings: and those that need recordings
+
+TAXEL_CROSS chooses the compiler for the board: rust-src, debian or target (see docs/contributing.md)
 ";
 
 /// Builds the firmware, says how large it is, and writes that down if it is asked to.
@@ -47,7 +51,7 @@ fn build_firmware(args: &[String]) -> Result<(), String> {
     };
     let built = firmware::build()?;
     print!("{built}");
-    if write { sizes::write(&built.elf) } else { Ok(()) }
+    if write { sizes::write(&built) } else { Ok(()) }
 }
 
 fn main() -> ExitCode {

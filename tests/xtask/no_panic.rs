@@ -1,6 +1,7 @@
 //! Whether a panic is reachable from the core on the microcontroller: what the linker says of `firmware/examples/no_panic.rs`.
 
 use crate::cross::Toolchain;
+use crate::targets::End;
 use crate::{paths, process};
 use std::path::Path;
 use std::process::Command;
@@ -9,22 +10,26 @@ use std::process::Command;
 const REACHABLE: &str = "undefined symbol: a_panic_is_reachable";
 
 /// It links, and with a panic that is reachable it does not, for that reason and no other.
-pub fn check(log: &Path) -> Result<Result<(), String>, String> {
-    let toolchain = Toolchain::find()?;
-    if process::run_into(&mut command(&toolchain), log).is_err() {
+pub fn check(log: &Path) -> End {
+    Ok(by(&Toolchain::find()?, log))
+}
+
+/// By one compiler.
+pub fn by(toolchain: &Toolchain, log: &Path) -> Result<(), String> {
+    if process::run_into(&mut command(toolchain), log).is_err() {
         let text = std::fs::read_to_string(log).unwrap_or_default();
         let why = if text.contains(REACHABLE) { "a panic is reachable" } else { "it cannot be built" };
-        return Ok(Err(why.into()));
+        return Err(why.into());
     }
     let control = log.with_extension("control.log");
     let _ = std::fs::remove_file(&control);
-    let linked = process::run_into(command(&toolchain).args(["--", "--cfg", "control"]), &control).is_ok();
+    let linked = process::run_into(command(toolchain).args(["--", "--cfg", "control"]), &control).is_ok();
     let text = std::fs::read_to_string(&control).unwrap_or_default();
-    Ok(match (linked, text.contains(REACHABLE)) {
+    match (linked, text.contains(REACHABLE)) {
         (true, _) => Err("the control, in which a panic is reachable, links, too".into()),
         (false, false) => Err(format!("the control fails for another reason: {}", control.display())),
         (false, true) => Ok(()),
-    })
+    }
 }
 
 fn command(toolchain: &Toolchain) -> Command {

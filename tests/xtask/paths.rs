@@ -27,13 +27,7 @@ pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// The target folder of everything that is built for the microcontroller: its compiler may be another one, and two
-/// compilers in one folder build everything anew in turn.
+/// The folder of everything that is built for the microcontroller, a folder a way (see `cross`).
 pub fn cross_target() -> PathBuf {
     target().join("firmware")
-}
-
-/// Recorded data: `TAXEL_DATA`, or the folder beside the repository.
-pub fn recorded_data() -> PathBuf {
-    std::env::var_os("TAXEL_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from)
 }

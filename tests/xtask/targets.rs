@@ -1,164 +1,118 @@
-//! The test targets that a plain `cargo test` leaves out: they need the firmware image, or the recordings, or both.
+//! The test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, or Python.
 
-use crate::checks::{cargo, image};
+use crate::checks::cargo;
 use crate::cross::Toolchain;
-use crate::{elf, firmware, install, paths, process};
+use crate::{firmware, install, paths, process};
 use std::path::Path;
 use std::process::Command;
 
-/// All of them; cargo passes them over even where it is asked for all targets.
-pub const APART: &[&str] = &[
-    "emulator",
-    "emulator_stack",
-    "emulator_scan",
-    "emulator_usb",
-    "emulator_latency",
-    "emulator_store",
-    "emulator_health",
-    "emulator_recorded",
-    "record_python",
-    "recorded",
-    "touch_recorded",
-    "cycles",
-];
+/// How a check ends. `Err` of the outer result: it cannot run, and why.
+pub type End<T = ()> = Result<Result<T, String>, String>;
 
-/// Five contacts at full speed.
-pub fn emulator(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator", log)
+/// All of them by package; cargo passes them over even where it is asked for all targets.
+pub const APART: &[(&str, &[&str])] =
+    &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python"])];
+
+/// What all of the workspace's builds have in common, so that none builds anew what another has built: cargo takes the features
+/// of dependencies from all packages and targets that it is asked for.
+pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
+
+/// The part of the tests on the emulated board that a module holds; what it measured is shown.
+pub fn on_emulator(module: &'static str, log: &Path) -> End {
+    shown(measured(module, log, &[])?)
 }
 
-/// How deep the stack gets.
-pub fn emulator_stack(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_stack", log)
+/// Lines of a check that are for people.
+pub fn shown(end: Result<Vec<String>, String>) -> End {
+    Ok(end.map(|lines| lines.iter().filter(|line| !line.is_empty()).for_each(|line| println!("  {line}"))))
 }
 
-/// The scan by DMA and PIO, every code checked.
-pub fn emulator_scan(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_scan", log)
-}
-
-/// The board on USB: what arrives, and what it costs.
-pub fn emulator_usb(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_usb", log)
-}
-
-/// How late messages and reactions are.
-pub fn emulator_latency(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_latency", log)
-}
-
-/// Settings in the flash.
-pub fn emulator_store(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_store", log)
-}
-
-/// Faults of lines, inputs and taxels.
-pub fn emulator_health(log: &Path) -> Result<Result<(), String>, String> {
-    on_emulator("emulator_health", log)
-}
-
-/// Recordings on the emulated board and on this machine.
-pub fn emulator_recorded(log: &Path) -> Result<Result<(), String>, String> {
-    recordings()?;
-    on_emulator("emulator_recorded", log)
-}
-
-/// A test target that runs the firmware image; what it measured is shown.
-fn on_emulator(target: &str, log: &Path) -> Result<Result<(), String>, String> {
-    let end = measured(target, log, &[])?;
-    Ok(end.map(|lines| lines.iter().for_each(|line| println!("  {line}"))))
-}
-
-/// What a test target that runs the firmware image printed.
-pub fn measured(
-    target: &str,
-    log: &Path,
-    variables: &[(&str, &str)],
-) -> Result<Result<Vec<String>, String>, String> {
+/// What a module of the tests on the emulated board printed.
+pub fn measured(module: &str, log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     install::emulator()?;
-    let image = match image(&Toolchain::find()?, log) {
+    let toolchain = Toolchain::find()?;
+    let image = match firmware::image(&toolchain, log) {
         Ok(image) => image,
         Err(why) => return Ok(Err(why)),
     };
     let elf = image.elf.to_string_lossy().into_owned();
     let variables = [variables, &[("TAXEL_FIRMWARE_ELF", elf.as_str())]].concat();
-    Ok(printed(target, log, &variables))
+    Ok(printed("emulated", &[&format!("{module}::")], log, &variables))
 }
 
-/// What a test target printed.
-pub fn printed(target: &str, log: &Path, variables: &[(&str, &str)]) -> Result<Vec<String>, String> {
+/// What a test target printed, or the tests of it whose names hold one of `names`.
+pub fn printed(
+    target: &str,
+    names: &[&str],
+    log: &Path,
+    variables: &[(&str, &str)],
+) -> Result<Vec<String>, String> {
     let mut command = test_target(target);
-    command.args(["--", "--nocapture"]).envs(variables.iter().copied());
+    command.args(["--", "--nocapture"]).args(names).envs(variables.iter().copied());
     let end = process::run_into(&mut command, log);
     let text = std::fs::read_to_string(log).unwrap_or_default();
     let lines = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
-    let lines = lines.take_while(|line| !line.starts_with("test result")).map(String::from).collect();
+    let lines = lines.take_while(|line| !line.starts_with("test result"));
+    let lines = lines.filter(|line| !line.starts_with("test ")).map(String::from).collect();
     end.map(|()| lines)
 }
 
 /// What the chain costs on the emulated board, against the bars and the table that was written.
-pub fn cycles(log: &Path) -> Result<Result<(), String>, String> {
+pub fn cycles(log: &Path) -> End {
     install::emulator()?;
-    let mut build = firmware::bench_command(&Toolchain::find()?);
-    if let Err(why) = process::run_into(build.arg("--locked"), log) {
+    let toolchain = Toolchain::find()?;
+    if let Err(why) = process::run_into(firmware::bench_command(&toolchain).arg("--locked"), log) {
         return Ok(Err(why));
     }
-    Ok(process::run_into(measuring().arg("--check"), log))
+    Ok(process::run_into(measuring(&toolchain)?.arg("--check"), log))
 }
 
 /// `cargo xtask cycles`: the table of what the chain costs on the emulated board.
 pub fn show_cycles(args: &[String]) -> Result<(), String> {
     install::emulator()?;
-    process::run(&mut firmware::bench_command(&Toolchain::find()?))?;
-    process::run(measuring().args(args))
+    let toolchain = Toolchain::find()?;
+    process::run(&mut firmware::bench_command(&toolchain))?;
+    process::run(measuring(&toolchain)?.args(args))
 }
 
 /// The program that measures, up to its own options.
-fn measuring() -> Command {
+pub fn measuring(toolchain: &Toolchain) -> Result<Command, String> {
     let mut command = test_target("cycles");
-    let image = firmware::bench_elf();
-    if let Some(compiler) = std::fs::read(&image).ok().as_deref().and_then(elf::compiler) {
-        command.env("TAXEL_COMPILER", compiler);
-    }
+    let image = firmware::bench_elf(toolchain);
+    command.env("TAXEL_COMPILER", firmware::compiler(&image, toolchain)?);
     command.arg("--").env("TAXEL_BENCH_ELF", image);
-    command
+    Ok(command)
 }
 
-/// Recordings as Python's readers find them; what was measured is shown.
-pub fn record_python(log: &Path) -> Result<Result<(), String>, String> {
-    let end = read_by_python(log, &[])?;
-    Ok(end.map(|lines| lines.iter().filter(|line| !line.is_empty()).for_each(|line| println!("  {line}"))))
+/// Files and lines of the program as Python finds them; what was measured is shown.
+pub fn python(log: &Path) -> End {
+    shown(read_by_python(&[], log, &[])?)
 }
 
-/// What the readers of Python found.
-pub fn read_by_python(log: &Path, variables: &[(&str, &str)]) -> Result<Result<Vec<String>, String>, String> {
-    let python = install::python()?;
-    if let Err(why) = process::run_into(&mut cargo(&["build", "--package", "taxel"], paths::root()), log) {
-        return Ok(Err(why));
-    }
-    let program = paths::target().join("debug/taxel").with_extension(std::env::consts::EXE_EXTENSION);
-    let [python, program] = [python, program].map(|path| path.to_string_lossy().into_owned());
-    let given = [("TAXEL_PYTHON", python.as_str()), ("TAXEL_PROGRAM", program.as_str())];
-    Ok(printed("record_python", log, &[variables, given.as_slice()].concat()))
+/// What Python found.
+pub fn read_by_python(names: &[&str], log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
+    let python = install::python()?.to_string_lossy().into_owned();
+    let variables = [variables, &[("TAXEL_PYTHON", python.as_str())]].concat();
+    Ok(printed("python", names, log, &variables))
 }
 
-/// Recordings through the pipeline.
-pub fn recorded(log: &Path) -> Result<Result<(), String>, String> {
+/// Recordings through the pipeline, and recorded touches, recognised with people and days kept apart.
+pub fn recorded(log: &Path) -> End {
     recordings()?;
     Ok(process::run_into(&mut test_target("recorded"), log))
 }
 
-/// Recorded touches, recognised with people and days kept apart.
-pub fn touch_recorded(log: &Path) -> Result<Result<(), String>, String> {
+/// Recordings on the emulated board and on this machine.
+pub fn emulator_recorded(log: &Path) -> End {
     recordings()?;
-    Ok(process::run_into(&mut test_target("touch_recorded"), log))
+    on_emulator("recorded", log)
 }
 
 /// `cargo xtask recorded`: the recordings through the pipeline, in the open.
 pub fn feed_recordings(args: &[String]) -> Result<(), String> {
     recordings()?;
     let mut command = test_target("recorded");
-    command.args(["--", "--nocapture"]);
+    command.args(["--", "--nocapture", "frames::"]);
     match args {
         [] => {}
         [all] if all == "--all" => _ = command.env("TAXEL_RECORDED", "all"),
@@ -174,18 +128,14 @@ pub fn peers(args: &[String]) -> Result<(), String> {
     process::run(command.args(args))
 }
 
-/// One of the test targets that a plain `cargo test` leaves out.
-fn test_target(name: &str) -> Command {
-    let mut command = cargo(&["test", "--package", "taxel-tests", "--test", name], paths::root());
-    command.env("TAXEL_DATA", paths::recorded_data());
-    command
+/// One of the workspace's test targets.
+pub fn test_target(name: &str) -> Command {
+    cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root())
 }
 
-/// Whether the recordings are there.
+/// Whether recordings are at hand.
 fn recordings() -> Result<(), String> {
-    let data = paths::recorded_data();
-    if data.is_dir() {
-        return Ok(());
-    }
-    Err(format!("no recorded data in {} (TAXEL_DATA names another folder)", data.display()))
+    let listed = std::env::var_os("TAXEL_DATA").ok_or("TAXEL_DATA lists no folders of recordings")?;
+    let missing = std::env::split_paths(&listed).find(|folder| !folder.is_dir());
+    missing.map_or(Ok(()), |folder| Err(format!("TAXEL_DATA: there is no folder {}", folder.display())))
 }

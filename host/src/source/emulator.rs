@@ -14,7 +14,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 /// The program of the harness.
 const PROGRAM: &str = "emulator.mjs";
 /// Where the image lies in cargo's target folder.
-const IMAGE: &str = "firmware/thumbv6m-none-eabi/release/taxel-firmware";
+const IMAGE: &str = "thumbv6m-none-eabi/release/taxel-firmware";
 /// Code of a pin where no taxel is wired.
 const IDLE: &str = "90";
 
@@ -101,9 +101,11 @@ fn image(harness: &Path) -> Result<PathBuf> {
     let told = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let repository = harness.ancestors().nth(2).map(|root| root.join("target"));
     let built = |path: &PathBuf| path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
-    told.into_iter()
-        .chain(repository)
-        .map(|target| target.join(IMAGE))
+    // Each way of having a compiler has a folder of its own.
+    let ways =
+        told.into_iter().chain(repository).filter_map(|target| target.join("firmware").read_dir().ok());
+    ways.flatten()
+        .filter_map(|way| Some(way.ok()?.path().join(IMAGE)))
         .filter(|path| path.is_file())
         .max_by_key(built)
         .ok_or_else(|| anyhow!("there is no firmware image: build it with `cargo xtask firmware`"))

@@ -1,8 +1,8 @@
 //! Lines and inputs that break while the board runs: it finds them by itself, and tells of them as it does at the start.
 
-use crate::faults::pin_faults;
 use super::scripts::varied;
 use super::worn::{FRAME_S, TAXELS};
+use crate::faults::pin_faults;
 use taxel::sim::{PINS, Script, SimBoard, SimClock};
 use taxel_core::acquire::{Clock, MuxScan};
 use taxel_core::board::{Board, BoardInfo, Saved, Settings};

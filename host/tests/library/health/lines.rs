@@ -1,8 +1,8 @@
 //! Lines and inputs at fault, and what a self-test says of them.
 
-use crate::faults::{examine, pin_faults};
 use super::scripts::all_pressed;
 use super::worn::Worn;
+use crate::faults::{examine, pin_faults};
 use taxel::sim::{Script, Stuck, rewire};
 use taxel_core::board::{Input, Job};
 use taxel_core::format::Micros;
