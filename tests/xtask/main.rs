@@ -39,7 +39,7 @@ usage: cargo xtask COMMAND
                         every check, two at a time; one that cannot run fails the run, unless it is named as one that may be missing;
                         --recorded, or TAXEL_DATA set to folders of recordings: and those that need recordings
 
-TAXEL_CROSS chooses the compiler for the board: rust-src, debian or target (see docs/contributing.md)
+TAXEL_CROSS chooses the compiler for the board: rust-src, debian or target
 ";
 
 /// Builds the firmware, says how large it is, and writes that down if it is asked to.
