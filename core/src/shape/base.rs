@@ -12,7 +12,7 @@
 //! | | 4 x 16 | 16 x 16 | 32 x 64 |
 //! |---|--:|--:|--:|
 //! | reference set, learned from (in five folds by shape: 71, 77, 89 %) | 71 % | 79 % | 89 % |
-//! | drawn by `tests/shapes.rs`, from codes to class | 86 % | 96 % | 89 % |
+//! | drawn by `host/tests/library/shapes.rs`, from codes to class | 86 % | 96 % | 89 % |
 //!
 //! On a grid of 4 x 16 a shape is some 12 taxels, and what goes wrong is mostly square against round; on finer grids, short fingers
 //! against rectangles.

@@ -12,7 +12,7 @@
 //! | the same, difference: at rest / moving 6 / 59 taxels a second (195 frames/s) | 297 / 313 / 510 |
 //! | most, see [`image_bound`] | 4,122 |
 //!
-//! The table is asserted by `tests/wire.rs`.
+//! The table is asserted by `core/tests/core/wire.rs`.
 
 use super::encoder::RUN;
 use core::{fmt, slice};
