@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 #[path = "../library/drawn.rs"]
 mod drawn;
+#[cfg(feature = "foxglove")]
 mod foxglove;
 mod live;
 mod reference;

@@ -65,13 +65,10 @@ fn kill(said: &Said, path: &Path, after: Duration) -> usize {
 }
 
 fn wire(path: &Path) -> Vec<Vec<u8>> {
-    let mut messages = Messages::open(path).unwrap();
+    let mut messages = Messages::of_topic(path, WIRE).unwrap();
     let mut all = Vec::new();
-    while let Some(message) = messages.next() {
-        let message = message.unwrap();
-        if messages.topic(message.header.channel_id) == Some(WIRE) {
-            all.push(message.data);
-        }
+    while let Some(message) = messages.next_message().unwrap() {
+        all.push(message.data.to_vec());
     }
     all
 }

@@ -42,11 +42,12 @@ fn messages_are_as_their_schemas_say() {
 /// Every JSON message of a file; their topics are added to `checked`.
 fn check(path: &Path, checked: &mut BTreeSet<String>) {
     let summary = mcap::Summary::read(&std::fs::read(path).unwrap()).unwrap().unwrap();
-    for message in Messages::open(path).unwrap().map(Result::unwrap) {
+    let mut messages = Messages::open(path).unwrap();
+    while let Some(message) = messages.next_message().unwrap() {
         let channel = &summary.channels[&message.header.channel_id];
         let Some(schema) = &channel.schema else { continue };
         let schema: Value = serde_json::from_slice(&schema.data).unwrap();
-        let value: Value = serde_json::from_slice(&message.data).unwrap();
+        let value: Value = serde_json::from_slice(message.data).unwrap();
         conforms(&value, &schema, &channel.topic);
         assert_eq!(value["host_time_us"].as_u64().unwrap() * 1000, message.header.log_time);
         assert_eq!(value["time_us"].as_u64().unwrap() * 1000, message.header.publish_time);
