@@ -7,7 +7,7 @@
 //! | latency | none |
 //! | RAM | [`ReactState`]: 16 bytes a reaction |
 
-use crate::format::{Invalid, Micros, Name, Q15};
+use crate::format::{Invalid, InvalidRow, Micros, Name, Q15};
 use crate::garment::{Layout, Line};
 use crate::intent::{Leading, Map, Meaning};
 use crate::symbol::RegionState;
@@ -105,32 +105,17 @@ impl ReactState {
 
 impl Reactions {
     /// Checks the table against the regions of a garment and the concepts of a map.
-    pub fn build(rows: &[ReactionConfig], layout: &Layout, map: Option<&Map>) -> Result<Reactions, Invalid> {
-        let refuse = |parameter, must| Err(Invalid { parameter, must });
+    pub fn build(
+        rows: &[ReactionConfig],
+        layout: &Layout,
+        map: Option<&Map>,
+    ) -> Result<Reactions, InvalidRow> {
         let mut reactions = Reactions { rows: Vec::new() };
-        for row in rows {
-            if row.hysteresis < 0 || row.hysteresis > row.level.max(0) {
-                return refuse("react.hysteresis", "must be 0 to level");
-            }
-            let region = match layout.regions().iter().position(|r| *r == row.region) {
-                Some(region) => Some(region as u8),
-                None if row.region.is_empty() => None,
-                None => return refuse("react.region", "must be a region of the garment, or empty"),
-            };
-            let watch = match &row.cause {
-                Cause::Concept(name) => match map.and_then(|map| map.find(name)) {
-                    Some(concept) => Watch::Concept(concept),
-                    None => return refuse("react.cause.concept", "must be a concept of the map"),
-                },
-                Cause::Leading(_) if map.is_none() => {
-                    return refuse("react.cause.leading", "needs a map, and the scene has none");
-                }
-                Cause::Leading(leading) => Watch::Leading(*leading),
-                cause => Watch::Region(cause.clone(), region),
-            };
-            if reactions.rows.push((row.clone(), watch)).is_err() {
-                return refuse("react", "must not have more than 8 rows");
-            }
+        for (index, row) in rows.iter().enumerate() {
+            let at = |invalid| InvalidRow { list: "react", index, invalid };
+            let watch = watch(row, layout, map).map_err(at)?;
+            let full = Invalid { parameter: "name", must: "must be one of 8 rows at most" };
+            reactions.rows.push((row.clone(), watch)).map_err(|_| at(full))?;
         }
         Ok(reactions)
     }
@@ -179,6 +164,30 @@ impl Reactions {
     pub fn outputs(&self) -> impl Iterator<Item = Line> + '_ {
         self.rows.iter().filter_map(|(row, _)| row.output)
     }
+}
+
+/// What a checked row looks at.
+fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<Watch, Invalid> {
+    let refuse = |parameter, must| Err(Invalid { parameter, must });
+    if row.hysteresis < 0 || row.hysteresis > row.level.max(0) {
+        return refuse("hysteresis", "must be 0 to level");
+    }
+    let region = match layout.regions().iter().position(|r| *r == row.region) {
+        Some(region) => Some(region as u8),
+        None if row.region.is_empty() => None,
+        None => return refuse("region", "must be a region of the garment, or empty"),
+    };
+    Ok(match &row.cause {
+        Cause::Concept(name) => match map.and_then(|map| map.find(name)) {
+            Some(concept) => Watch::Concept(concept),
+            None => return refuse("cause.concept", "must be a concept of the map"),
+        },
+        Cause::Leading(_) if map.is_none() => {
+            return refuse("cause.leading", "needs a map, and the scene has none");
+        }
+        Cause::Leading(leading) => Watch::Leading(*leading),
+        cause => Watch::Region(cause.clone(), region),
+    })
 }
 
 fn of_regions(cause: &Cause, region: Option<u8>, regions: &[RegionState]) -> i32 {

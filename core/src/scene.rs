@@ -4,8 +4,8 @@ use crate::acquire::Plan;
 use crate::condition::{ConditionConfig, Filter};
 use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
-use crate::format::{Name, name};
-use crate::garment::{Line, PANELS};
+use crate::format::{Invalid, InvalidRow, Name, name};
+use crate::garment::{Layout, Line, PANELS};
 use crate::intent::{Input, IntentConfig, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
 use crate::shape::ShapeConfig;
@@ -22,6 +22,9 @@ pub struct Friendliness {
     /// -100 ..= 100 percent.
     pub percent: i8,
 }
+
+/// Regions that the scene that ships speaks of: any scene may, whether or not the garment covers them.
+const USUAL_REGIONS: [(&str, i8); 4] = [("chest", 20), ("back", 60), ("left arm", 40), ("right arm", 40)];
 
 /// What is streamed, and at most how often (0: never; 65535: with every scan).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -111,7 +114,6 @@ impl Scene {
 
     /// The scene that ships: everything on, limits for 12 bit and 1000 counts per newton.
     pub fn shipped() -> Scene {
-        let friendly = |region, percent| Friendliness { region: name(region), percent };
         let reaction = |text, cause, level, hysteresis, pin| ReactionConfig {
             name: name(text),
             cause,
@@ -131,14 +133,10 @@ impl Scene {
             shape: Some(ShapeConfig::default()),
             symbol: SymbolConfig::default(),
             intent: Some(IntentConfig::new(tactile())),
-            friendliness: [
-                friendly("chest", 20),
-                friendly("back", 60),
-                friendly("left arm", 40),
-                friendly("right arm", 40),
-            ]
-            .into_iter()
-            .collect(),
+            friendliness: USUAL_REGIONS
+                .into_iter()
+                .map(|(region, percent)| Friendliness { region: name(region), percent })
+                .collect(),
             joints: [name("left_elbow"), name("right_elbow")].into_iter().collect(),
             react: [
                 reaction("over-pressure", Cause::Pressure, 3_600, 400, 18),
@@ -148,6 +146,31 @@ impl Scene {
             .collect(),
             stream: StreamConfig::default(),
         }
+    }
+
+    /// Checks the names of joints, and of regions of the garment that the scene is for.
+    pub fn check_names(&self, layout: &Layout) -> Result<(), InvalidRow> {
+        let refuse = |list, index, parameter, must| {
+            Err(InvalidRow { list, index, invalid: Invalid { parameter, must } })
+        };
+        for (index, Friendliness { region, .. }) in self.friendliness.iter().enumerate() {
+            let usual = USUAL_REGIONS.iter().any(|(usual, _)| *usual == region.as_str());
+            if !usual && !layout.regions().contains(region) {
+                return refuse("friendliness", index, "region", "must be a region of the garment");
+            }
+            if self.friendliness.iter().take(index).any(|other| other.region == *region) {
+                return refuse("friendliness", index, "region", "must not be given twice");
+            }
+        }
+        for (index, joint) in self.joints.iter().enumerate() {
+            if joint.is_empty() {
+                return refuse("joints", index, "", "must not be empty");
+            }
+            if self.joints.iter().take(index).any(|other| other == joint) {
+                return refuse("joints", index, "", "must not be given twice");
+            }
+        }
+        Ok(())
     }
 
     /// The same for codes with a Gaussian noise of that many counts (standard deviation): noise alone begins no contact for

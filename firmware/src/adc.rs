@@ -8,11 +8,6 @@ use taxel_core::format::Celsius;
 /// GPIO number of the converter's first input.
 pub const FIRST_INPUT: u8 = 26;
 
-/// GPIO numbers of so many inputs, as a mask.
-pub const fn mask(inputs: usize) -> u64 {
-    ((1 << inputs) - 1) << FIRST_INPUT
-}
-
 /// The converter with the inputs that the board brings out, beginning with GPIO 26.
 pub struct Converter<const INPUTS: usize> {
     // These keep the converter on and the pins analog; the samples are taken past them, see `read`.

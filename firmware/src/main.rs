@@ -18,17 +18,14 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, MuxScan};
-use taxel_core::board::{Board, BoardInfo, SetupError};
-use taxel_core::garment::{Garment, Pins};
+use taxel_core::board::{Board, SetupError};
+use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 
 /// Taxels, runs of touched taxels in a row, and parts of contacts that the memory holds.
 const TAXELS: usize = 2048;
 const RUNS: usize = TAXELS / 2;
 const PARTS: usize = TAXELS / 4;
-
-/// Largest code of the converter.
-const FULL_SCALE: u16 = 4095;
 
 /// Bits of a byte on the line: one start bit, eight of data, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
@@ -67,17 +64,12 @@ async fn main(_spawner: Spawner) {
     let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
     let mut platform = platform::Board::start(watchdog, led, flash);
     let lines = LINES.init_with(|| Lines::new(lines));
-    let info = BoardInfo {
-        firmware: concat!("taxel ", env!("CARGO_PKG_VERSION")),
-        pins: Pins { outputs: lines.mask(), inputs: adc::mask(board::INPUTS) },
-        full_scale: FULL_SCALE,
-        link_bytes_per_s: link::uart::BAUD / BITS_PER_BYTE,
-    };
+    const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = SCANNER.init_with(|| {
         let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
         scan::Scanner::new(processor, chain)
     });
-    let mut board = Board::bare(info);
+    let mut board = Board::bare(board::INFO);
     ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

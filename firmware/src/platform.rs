@@ -7,7 +7,7 @@ use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
 use taxel_core::{
-    acquire::Clock,
+    acquire::{Clock, WATCHDOG_MS},
     board::{self, Saved, Settings},
     format::Micros,
     pipeline::{Probe, Stage},
@@ -15,8 +15,9 @@ use taxel_core::{
 };
 use taxel_store::StoreError;
 
-/// The board restarts when the loop has not come round for this long.
-pub const WATCHDOG: Duration = Duration::from_millis(1000);
+/// The board restarts when the loop has not come round for this long. The core refuses garments and scenes whose frames take
+/// nearly as long.
+pub const WATCHDOG: Duration = Duration::from_millis(WATCHDOG_MS as u64);
 
 /// The LED changes this often, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;

@@ -3,6 +3,7 @@
 //! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
 //! board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a [`Ring`].
 
+mod duration;
 mod lines;
 mod mux;
 mod plan;
@@ -10,12 +11,15 @@ mod ring;
 mod rounds;
 mod sweep;
 
+pub use duration::{
+    LONGEST_MS, TooLong, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
+};
 pub use lines::{Lines, Pad, Pull, PulledAdc};
 pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
-pub use sweep::{SWEEP_INPUTS, Stretch, Sweep, Unfit};
+pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, Stretch, Sweep, Unfit};
 
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;

@@ -92,6 +92,14 @@ const fn ns(clocks: u64) -> u64 {
 /// A garment whose wiring the chain cannot follow (see [`super::Unfit`]) is read by the processor, which waits for the exact
 /// settling time and takes 2.2 us for a sample and some more for an address: up to a third longer at short settling.
 pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
+    let (addresses, inputs) = read_by(circuit, plan);
+    let rounds = Rounds::of(inputs, circuit.settle_ns());
+    let clocks = rounds.address_clocks() * addresses * u64::from(plan.depth.scans());
+    ns(clocks) / 1000
+}
+
+/// Addresses of a frame, and inputs that are converted at each.
+pub(super) fn read_by(circuit: &Circuit, plan: &Plan) -> (u64, usize) {
     let mut inputs = 0u64;
     let mut addresses = 0u64;
     for sites in circuit.selects() {
@@ -100,9 +108,7 @@ pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
         addresses += most(|site| site.rows) * most(|site| site.columns);
         inputs = read().fold(inputs, |inputs, site| inputs | 1 << (site.input & 63));
     }
-    let rounds = Rounds::of(inputs.count_ones() as usize, circuit.settle_ns());
-    let clocks = rounds.address_clocks() * addresses * u64::from(plan.depth.scans());
-    ns(clocks) / 1000
+    (addresses, inputs.count_ones() as usize)
 }
 
 #[cfg(test)]

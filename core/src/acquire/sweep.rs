@@ -9,6 +9,9 @@ use heapless::Vec;
 /// Most converter inputs of a sweep.
 pub const SWEEP_INPUTS: usize = 4;
 
+/// Most addresses of a sweep of a board that ships: as many as 2,048 taxels take on four inputs.
+pub const SWEEP_ADDRESSES: usize = 512;
+
 /// Taxels that a sweep reads at one address, by the position of their input in [`Sweep::inputs`].
 type Read = [Option<u16>; SWEEP_INPUTS];
 

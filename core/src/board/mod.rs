@@ -4,6 +4,7 @@
 mod budget;
 mod doubt;
 mod examining;
+mod info;
 mod lost;
 mod outbox;
 mod outputs;
@@ -17,8 +18,9 @@ mod setup;
 mod under_way;
 mod wellness;
 
+pub use info::BoardInfo;
 pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
-pub use setup::{BoardInfo, Setup, SetupError};
+pub use setup::{Setup, SetupError};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::condition::{Certificate, Tare};

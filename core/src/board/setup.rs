@@ -1,23 +1,12 @@
 //! Garment, scene, and what is built of them; changed as a whole or not at all.
 
-use crate::format::Invalid;
-use crate::garment::{Circuit, Garment, GarmentError, Layout, Pins};
+use super::info::BoardInfo;
+use crate::acquire::{TooLong, check_duration};
+use crate::format::{Invalid, InvalidRow};
+use crate::garment::{Circuit, Garment, GarmentError, Layout};
 use crate::pipeline::{Pipeline, SceneError};
 use crate::scene::Scene;
 use core::fmt;
-
-/// What is fixed by the board itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BoardInfo {
-    /// Name and version of the firmware.
-    pub firmware: &'static str,
-    /// Pins that it brings out.
-    pub pins: Pins,
-    /// Largest code of its converter.
-    pub full_scale: u16,
-    /// What its link carries, bytes a second.
-    pub link_bytes_per_s: u32,
-}
 
 /// A checked garment and scene; at first neither.
 #[derive(Debug, Clone)]
@@ -41,6 +30,8 @@ pub enum SetupError {
     Garment(GarmentError),
     /// The scene is wrong.
     Scene(SceneError),
+    /// The garment with this scene keeps the board from its watchdog.
+    Slow(TooLong),
 }
 
 impl fmt::Display for SetupError {
@@ -48,6 +39,7 @@ impl fmt::Display for SetupError {
         match self {
             SetupError::Garment(error) => write!(f, "garment: {error}"),
             SetupError::Scene(error) => write!(f, "scene: {error}"),
+            SetupError::Slow(error) => error.fmt(f),
         }
     }
 }
@@ -57,6 +49,12 @@ impl core::error::Error for SetupError {}
 impl From<GarmentError> for SetupError {
     fn from(error: GarmentError) -> Self {
         SetupError::Garment(error)
+    }
+}
+
+impl From<TooLong> for SetupError {
+    fn from(error: TooLong) -> Self {
+        SetupError::Slow(error)
     }
 }
 
@@ -109,6 +107,7 @@ impl Setup {
         let layout = Layout::build(&garment, capacity, u16::MAX)?;
         let circuit = Circuit::build(&garment, &layout, info.pins)?;
         check(info, &self.scene, &circuit)?;
+        check_duration(&circuit, &self.scene.plan)?;
         self.pipeline.fit(&self.scene, &layout)?;
         (self.garment, self.layout, self.circuit) = (garment, layout, circuit);
         Ok(())
@@ -119,6 +118,8 @@ impl Setup {
     #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Result<(), SetupError> {
         check(info, scene, &self.circuit)?;
+        check_duration(&self.circuit, &scene.plan)?;
+        scene.check_names(&self.layout).map_err(SceneError::Row)?;
         let done = self.pipeline.fill(scene, &self.layout);
         if done.is_err() {
             // It is the scene that was there: nothing is wrong with it.
@@ -146,13 +147,16 @@ fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), Scene
     }
     for (index, row) in scene.react.iter().enumerate() {
         let Some(line) = row.output else { continue };
-        let parameter = "react.output.pin";
-        if line.pin >= 64 || info.pins.outputs >> line.pin & 1 == 0 {
-            return Err(Invalid { parameter, must: "must be a free output of this board" }.into());
+        let refuse = |must| {
+            let invalid = Invalid { parameter: "output.pin", must };
+            Err(InvalidRow { list: "react", index, invalid }.into())
+        };
+        if !info.pins.is_output(line.pin) {
+            return refuse("must be a free output of this board");
         }
         let others = scene.react.iter().take(index).filter_map(|row| row.output);
         if circuit.lines().contains(&line.pin) || others.into_iter().any(|other| other.pin == line.pin) {
-            return Err(Invalid { parameter, must: "must not be used twice" }.into());
+            return refuse("must not be used twice");
         }
     }
     Ok(())

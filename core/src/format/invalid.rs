@@ -18,3 +18,24 @@ impl fmt::Display for Invalid {
 }
 
 impl core::error::Error for Invalid {}
+
+/// Why a row of a list is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InvalidRow {
+    /// Name of the list as the author writes it: `react`.
+    pub list: &'static str,
+    /// Index of the row, from 0.
+    pub index: usize,
+    /// The parameter within the row, and what it must be; without a name it is the row itself.
+    pub invalid: Invalid,
+}
+
+impl fmt::Display for InvalidRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let InvalidRow { list, index, invalid } = self;
+        let dot = if invalid.parameter.is_empty() { "" } else { "." };
+        write!(f, "{list}[{index}]{dot}{invalid}")
+    }
+}
+
+impl core::error::Error for InvalidRow {}

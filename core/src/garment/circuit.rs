@@ -4,21 +4,8 @@ use super::area::{Area, Place};
 use super::config::{BLOCKS, Block, Coding, Garment, Group, LINES, Line};
 use super::error::GarmentError;
 use super::layout::Layout;
+use super::pins::Pins;
 use heapless::Vec;
-
-/// The pins that a board brings out, as bit masks over GPIO numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pins {
-    /// Free to drive select lines and reactions.
-    pub outputs: u64,
-    /// Converter inputs.
-    pub inputs: u64,
-}
-
-impl Pins {
-    /// No restriction: for simulations and recordings.
-    pub const ANY: Pins = Pins { outputs: u64::MAX, inputs: u64::MAX };
-}
 
 /// Most lines of a circuit, all groups and enables together.
 pub const CIRCUIT_LINES: usize = 32;
@@ -92,6 +79,9 @@ impl Circuit {
             circuit.add_block(index, block, garment, layout, pins)?;
         }
         check_cover(garment, layout)?;
+        if circuit.sites.is_empty() {
+            return Err(GarmentError::NoBlock);
+        }
         in_order_of_scan(&mut circuit.sites);
         for pair in circuit.sites.windows(2) {
             if let [a, b] = pair
@@ -106,8 +96,8 @@ impl Circuit {
 
     fn add_lines(&mut self, lines: &[Line], pins: Pins) -> Result<(), GarmentError> {
         for line in lines {
-            if line.pin >= 64 || pins.outputs >> line.pin & 1 == 0 {
-                return Err(GarmentError::NoOutput(line.pin));
+            if !pins.is_output(line.pin) {
+                return Err(GarmentError::NoOutput { pin: line.pin, why: pins.why_no_output(line.pin) });
             }
             if self.lines.contains(&line.pin) {
                 return Err(GarmentError::PinTwice(line.pin));
@@ -115,8 +105,7 @@ impl Circuit {
             if line.inverted {
                 self.inverted |= 1 << self.lines.len();
             }
-            // A garment with more lines than a word has bits uses some pin twice on any board with 32 outputs or fewer.
-            self.lines.push(line.pin).map_err(GarmentError::NoOutput)?;
+            self.lines.push(line.pin).map_err(|_| GarmentError::TooManyLines)?;
         }
         Ok(())
     }
@@ -130,8 +119,8 @@ impl Circuit {
         pins: Pins,
     ) -> Result<(), GarmentError> {
         let area = layout.area_of("block", index, block.panel)?;
-        if block.input >= 64 || pins.inputs >> block.input & 1 == 0 {
-            return Err(GarmentError::NoAdc { block: index, pin: block.input });
+        if !pins.is_input(block.input) {
+            return Err(GarmentError::NoAdc { block: index, pin: block.input, inputs: pins.inputs });
         }
         if self.lines.contains(&block.input) {
             return Err(GarmentError::PinTwice(block.input));

@@ -15,11 +15,14 @@ pub const SEAMS: usize = 8;
 /// Most rectangles of absent taxels.
 pub const ABSENT: usize = 32;
 
+/// Smallest and largest distance of taxel centres that is known, micrometres.
+pub const PITCH_UM: [u32; 2] = [500, 200_000];
+
 /// A whole garment: panels of taxels, the blocks that tile them, seams, gaps and wiring.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Garment {
-    /// What people call it.
+    /// What people call it; not empty.
     pub name: Name,
     /// How the multiplexers and the converter are connected.
     pub wiring: Wiring,
@@ -39,7 +42,7 @@ pub struct Garment {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Panel {
-    /// Unique name.
+    /// Unique name; not empty, nor are link and region.
     pub name: Name,
     /// The link of the robot's description (URDF) that wears it.
     pub link: Name,
@@ -49,7 +52,7 @@ pub struct Panel {
     pub rows: u16,
     /// Columns (x).
     pub columns: u16,
-    /// Distance of taxel centres along x and along y in micrometres; 0 where it is not known.
+    /// Distance of taxel centres along x and along y in micrometres, within [`PITCH_UM`]; both 0 where they are not known.
     #[serde(default)]
     pub pitch_um: [u32; 2],
 }
@@ -165,7 +168,8 @@ pub struct Wiring {
     /// Lines that are asserted for the whole scan.
     #[serde(default)]
     pub enable: Vec<Line, 4>,
-    /// Time from a change of the select lines to the sample, in nanoseconds.
+    /// Time from a change of the select lines to the sample, in nanoseconds. A board refuses a time at which
+    /// a frame takes longer than [`LONGEST_MS`](crate::acquire::LONGEST_MS).
     pub settle_ns: u32,
     /// Pressure lowers the code instead of raising it.
     #[serde(default)]

@@ -1,14 +1,34 @@
 //! What can be wrong with a garment; every error names the place in the author's words.
 
-use super::config::Side;
+use super::circuit::CIRCUIT_LINES;
+use super::config::{PITCH_UM, Side};
+use super::pins::{NotFree, PinList};
 use crate::format::Name;
 use core::fmt;
 
 /// Why a garment is refused.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GarmentError {
+    /// It has no name.
+    NoName,
     /// It has no panel.
     Empty,
+    /// A panel without a name, a link or a region.
+    Nameless {
+        /// index of the panel
+        panel: usize,
+        /// "name", "link" or "region"
+        key: &'static str,
+    },
+    /// A pitch out of range.
+    Pitch {
+        /// the panel
+        panel: Name,
+        /// the pitch, um
+        um: u32,
+    },
+    /// A pitch that is known along one axis only.
+    HalfPitch(Name),
     /// A panel without rows or without columns.
     EmptyPanel(Name),
     /// Two panels of one name.
@@ -54,6 +74,10 @@ pub enum GarmentError {
         /// the side
         side: Side,
     },
+    /// A seam that sews taxels to themselves.
+    SelfSewn(usize),
+    /// It has no block: nothing can be scanned.
+    NoBlock,
     /// Two blocks cover the same taxel.
     Overlap(usize, usize),
     /// A taxel that is not absent lies in no block.
@@ -81,13 +105,22 @@ pub enum GarmentError {
     /// A pin used twice.
     PinTwice(u8),
     /// A select line on a pin that the board does not bring out as an output.
-    NoOutput(u8),
+    NoOutput {
+        /// GPIO number
+        pin: u8,
+        /// what it is instead
+        why: NotFree,
+    },
+    /// More select and enable lines than a garment may have.
+    TooManyLines,
     /// An input that is no converter pin of the board.
     NoAdc {
         /// index of the block
         block: usize,
         /// GPIO number
         pin: u8,
+        /// converter inputs of the board, bit `n` for GPIO `n`
+        inputs: u64,
     },
 }
 
@@ -95,9 +128,15 @@ impl fmt::Display for GarmentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         use GarmentError::*;
         match self {
+            NoName => write!(f, "name: the garment has none"),
             Empty => write!(f, "panels: the garment has none"),
             EmptyPanel(p) => write!(f, "panel {p}: rows and columns must be at least 1"),
             DuplicatePanel(p) => write!(f, "panel {p}: the name is used twice"),
+            Nameless { panel, key } => write!(f, "panel {panel}: its {key} is empty"),
+            Pitch { panel, um } => pitch(f, panel, *um),
+            HalfPitch(panel) => {
+                write!(f, "panel {panel}: pitch_um is 0 along one axis: it is known along both or none")
+            }
             TooLarge { taxels, capacity } => {
                 write!(f, "panels: {taxels} taxels, but only {capacity} fit")
             }
@@ -114,6 +153,8 @@ impl fmt::Display for GarmentError {
             OutsideSide { seam, panel, side } => {
                 write!(f, "seam {seam}: it is empty or leaves the {side:?} side of panel {panel}")
             }
+            SelfSewn(seam) => write!(f, "seam {seam}: it sews taxels of a panel to themselves"),
+            NoBlock => write!(f, "blocks: the garment has none"),
             Overlap(a, b) => write!(f, "blocks {a} and {b}: they cover the same taxel"),
             Uncovered { panel, row, column } => {
                 write!(f, "panel {panel}: row {row}, column {column} lies in no block and is not absent")
@@ -124,12 +165,23 @@ impl fmt::Display for GarmentError {
                 "block {block}: {group} code {code} does not fit the {codes} codes of the {group} lines"
             ),
             PinTwice(pin) => write!(f, "wiring: pin {pin} is used twice"),
-            NoOutput(pin) => write!(f, "wiring: pin {pin} is no free output of this board"),
-            NoAdc { block, pin } => {
-                write!(f, "block {block}: pin {pin} is no converter input of this board")
-            }
+            NoOutput { pin, why } => write!(f, "wiring: pin {pin} is no free output of this board: {why}"),
+            TooManyLines => write!(f, "wiring: it has more than {CIRCUIT_LINES} lines"),
+            NoAdc { block, pin, inputs } => write!(
+                f,
+                "block {block}: input {pin} is no converter input of this board, which has {}",
+                PinList(*inputs)
+            ),
         }
     }
+}
+
+/// A pitch out of range; one that is given in mm, or in nm, is told in um.
+fn pitch(f: &mut fmt::Formatter<'_>, panel: &Name, um: u32) -> fmt::Result {
+    let [least, most] = PITCH_UM;
+    write!(f, "panel {panel}: pitch_um is {um}, outside {least} to {most}")?;
+    let meant = if um < least { um.saturating_mul(1000) } else { um / 1000 };
+    if (least..=most).contains(&meant) { write!(f, ": did you mean {meant}?") } else { Ok(()) }
 }
 
 impl core::error::Error for GarmentError {}

@@ -1,7 +1,7 @@
 //! The checked geometry of a garment.
 
 use super::area::{Area, Place};
-use super::config::{ABSENT, Absent, Garment, PANELS, SEAMS};
+use super::config::{ABSENT, Absent, Garment, PANELS, PITCH_UM, Panel, SEAMS};
 use super::error::GarmentError;
 use super::seam::Joint;
 use crate::format::Name;
@@ -31,6 +31,9 @@ impl Layout {
             absent: garment.absent.clone(),
             taxels: 0,
         };
+        if garment.name.is_empty() {
+            return Err(GarmentError::NoName);
+        }
         layout.number_panels(garment, capacity)?;
         for (index, gap) in garment.absent.iter().enumerate() {
             let area = layout.area_of("absent", index, gap.panel)?;
@@ -64,7 +67,8 @@ impl Layout {
             return Err(GarmentError::TooLarge { taxels: total, capacity });
         }
         let mut first_row = 0;
-        for panel in &garment.panels {
+        for (index, panel) in garment.panels.iter().enumerate() {
+            check_panel(index, panel)?;
             if panel.rows == 0 || panel.columns == 0 {
                 return Err(GarmentError::EmptyPanel(panel.name.clone()));
             }
@@ -176,4 +180,22 @@ impl Layout {
             })
         })
     }
+}
+
+/// Names, and the pitch where it is known.
+fn check_panel(index: usize, panel: &Panel) -> Result<(), GarmentError> {
+    for (key, name) in [("name", &panel.name), ("link", &panel.link), ("region", &panel.region)] {
+        if name.is_empty() {
+            return Err(GarmentError::Nameless { panel: index, key });
+        }
+    }
+    let [least, most] = PITCH_UM;
+    let wrong = panel.pitch_um.iter().find(|um| **um != 0 && !(least..=most).contains(*um));
+    if let Some(um) = wrong {
+        return Err(GarmentError::Pitch { panel: panel.name.clone(), um: *um });
+    }
+    if panel.pitch_um.contains(&0) && panel.pitch_um != [0, 0] {
+        return Err(GarmentError::HalfPitch(panel.name.clone()));
+    }
+    Ok(())
 }

@@ -10,16 +10,18 @@ mod circuit;
 mod config;
 mod error;
 mod layout;
+mod pins;
 mod presets;
 mod seam;
 
 pub use area::{Area, Place, Rect};
-pub use circuit::{CIRCUIT_LINES, Circuit, Pins, Site};
+pub use circuit::{CIRCUIT_LINES, Circuit, Site};
 pub use config::{
-    Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, Panel, SEAMS,
-    Seam, Side, Wiring,
+    Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, PITCH_UM, Panel,
+    SEAMS, Seam, Side, Wiring,
 };
 pub use error::GarmentError;
 pub use layout::Layout;
+pub use pins::{NotFree, PinList, Pins};
 pub(crate) use seam::signed;
 pub use seam::{Joint, Stretch, Transform};

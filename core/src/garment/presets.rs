@@ -161,11 +161,10 @@ mod tests {
 
     #[test]
     fn every_preset_builds_for_the_reference_board() {
-        let pins = Pins { outputs: 0x1fcc, inputs: 0xf << 26 };
         for preset in Garment::PRESETS {
             let garment = Garment::preset(preset).unwrap();
             let layout = Layout::build(&garment, 2048, 4095).unwrap();
-            let circuit = Circuit::build(&garment, &layout, pins).unwrap();
+            let circuit = Circuit::build(&garment, &layout, Pins::FEATHER).unwrap();
             assert_eq!(garment.name.as_str(), preset);
             let read: usize =
                 circuit.sites().iter().map(|s| usize::from(s.rows) * usize::from(s.columns)).sum();

@@ -106,6 +106,11 @@ impl Joint {
     pub(super) fn build(index: usize, seam: &Seam, a: &Area, b: &Area) -> Result<Joint, GarmentError> {
         let (edge_a, a_out) = stretch(index, &seam.a, seam.length, a)?;
         let (mut edge_b, b_out) = stretch(index, &seam.b, seam.length, b)?;
+        let (from, to) = (u32::from(seam.a.start), u32::from(seam.b.start));
+        let same = (seam.a.panel, seam.a.side) == (seam.b.panel, seam.b.side);
+        if same && from.abs_diff(to) < u32::from(seam.length) {
+            return Err(GarmentError::SelfSewn(index));
+        }
         if seam.reversed {
             edge_b.first = edge_b.at(i32::from(seam.length) - 1);
             edge_b.along = (-edge_b.along.0, -edge_b.along.1);

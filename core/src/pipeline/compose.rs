@@ -3,7 +3,7 @@
 use super::error::SceneError;
 use crate::condition::Condition;
 use crate::contact::Contacts;
-use crate::format::Invalid;
+use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Layout, PANELS};
 use crate::gesture::Gestures;
 use crate::intent::Intent;
@@ -86,11 +86,12 @@ impl Pipeline {
 }
 
 /// How friendly it is to touch each region of a garment, percent.
-fn friendliness(scene: &Scene, layout: &Layout) -> Result<[i8; PANELS], Invalid> {
+fn friendliness(scene: &Scene, layout: &Layout) -> Result<[i8; PANELS], InvalidRow> {
     let mut friendliness = [0; PANELS];
-    for entry in &scene.friendliness {
+    for (index, entry) in scene.friendliness.iter().enumerate() {
         if !(-100..=100).contains(&entry.percent) {
-            return Err(Invalid { parameter: "friendliness.percent", must: "must be -100 to 100" });
+            let invalid = Invalid { parameter: "percent", must: "must be -100 to 100" };
+            return Err(InvalidRow { list: "friendliness", index, invalid });
         }
         // A scene may speak of regions that this garment does not cover.
         let region = layout.regions().iter().position(|region| *region == entry.region);

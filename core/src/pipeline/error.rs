@@ -1,6 +1,6 @@
 //! Why a scene is refused.
 
-use crate::format::Invalid;
+use crate::format::{Invalid, InvalidRow};
 use crate::intent::MapError;
 use core::fmt;
 
@@ -9,6 +9,8 @@ use core::fmt;
 pub enum SceneError {
     /// A parameter is out of its range.
     Invalid(Invalid),
+    /// A row of a list has a parameter that is out of its range.
+    Row(InvalidRow),
     /// The map is wrong.
     Map(MapError),
 }
@@ -17,6 +19,7 @@ impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SceneError::Invalid(invalid) => invalid.fmt(f),
+            SceneError::Row(row) => row.fmt(f),
             SceneError::Map(map) => write!(f, "intent.map: {map}"),
         }
     }
@@ -27,6 +30,12 @@ impl core::error::Error for SceneError {}
 impl From<Invalid> for SceneError {
     fn from(invalid: Invalid) -> Self {
         SceneError::Invalid(invalid)
+    }
+}
+
+impl From<InvalidRow> for SceneError {
+    fn from(row: InvalidRow) -> Self {
+        SceneError::Row(row)
     }
 }
 

@@ -1,12 +1,12 @@
 //! The board as a list of inputs: requests, refusals, what goes first, what is thinned, and what never is.
 
 use std::collections::BTreeMap;
-use taxel_core::acquire::{Scan, ScanError, ScanReport};
+use taxel_core::acquire::{Depth, Scan, ScanError, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job, Saved};
 use taxel_core::contact::Phase;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros, Q15, name};
-use taxel_core::garment::{Garment, Pins};
+use taxel_core::garment::Garment;
 use taxel_core::intent::Feed;
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::Scene;
@@ -25,8 +25,7 @@ struct Bench {
 }
 
 fn info() -> BoardInfo {
-    let pins = Pins { outputs: 0x031c_1fcc, inputs: 0xf << 26 };
-    BoardInfo { firmware: "test 1.0", pins, full_scale: 4095, link_bytes_per_s: 92_160 }
+    BoardInfo::feather("test 1.0")
 }
 
 impl Bench {
@@ -179,13 +178,40 @@ fn a_scene_that_exceeds_the_link_or_a_pin_is_refused_by_name() {
     let why = refused(&|scene| scene.stream.contacts_hz = 1000);
     assert_eq!(why, "scene: stream.contacts_hz must be lower: five contacts at this rate exceed the link");
     let why = refused(&|scene| scene.react[1].output = scene.react[0].output);
-    assert_eq!(why, "scene: react.output.pin must not be used twice");
+    assert_eq!(why, "scene: react[1].output.pin must not be used twice");
     let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 9);
-    assert_eq!(why, "scene: react.output.pin must not be used twice");
+    assert_eq!(why, "scene: react[0].output.pin must not be used twice");
     let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 26);
-    assert_eq!(why, "scene: react.output.pin must be a free output of this board");
+    assert_eq!(why, "scene: react[0].output.pin must be a free output of this board");
+    let why = refused(&|scene| scene.friendliness[1].region = name("tail"));
+    assert_eq!(why, "scene: friendliness[1].region must be a region of the garment");
+    let why = refused(&|scene| scene.joints[1] = scene.joints[0].clone());
+    assert_eq!(why, "scene: joints[1] must not be given twice");
     let why = refused(&|scene| scene.react[0].cause = Cause::Concept(name("joy")));
-    assert_eq!(why, "scene: react.cause.concept must be a concept of the map");
+    assert_eq!(why, "scene: react[0].cause.concept must be a concept of the map");
+}
+
+#[test]
+fn a_frame_that_outlasts_the_watchdog_is_refused_with_the_garment_and_with_the_scene() {
+    let mut bench = Bench::new(Scene::shipped());
+    let mut garment = Garment::block();
+    let mut scene = Scene::shipped();
+    let bytes = |garment: &Garment| postcard::to_allocvec(garment).unwrap();
+    // 64 addresses of one input, eight times for a mean of 8.
+    garment.wiring.settle_ns = 500_000;
+    assert_eq!(bench.answer(&Request::SetGarment(&bytes(&garment))), None);
+    scene.plan.depth = Depth::MeanOf8;
+    assert_eq!(bench.answer(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap())), None);
+    garment.wiring.settle_ns = 1_000_000;
+    let why = bench.answer(&Request::SetGarment(&bytes(&garment))).unwrap();
+    let asked = "lower wiring.settle_ns (1000000) or plan.depth (mean of 8)";
+    assert_eq!(why, format!("a frame takes 514 ms, at most 500: {asked}"));
+    scene.plan.depth = Depth::Twelve;
+    assert_eq!(bench.answer(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap())), None);
+    assert_eq!(bench.answer(&Request::SetGarment(&bytes(&garment))), None);
+    scene.plan.depth = Depth::MeanOf8;
+    let why = bench.answer(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap())).unwrap();
+    assert_eq!(why, format!("a frame takes 514 ms, at most 500: {asked}"));
 }
 
 #[test]

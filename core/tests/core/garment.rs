@@ -4,8 +4,6 @@ use taxel_core::garment::{
     Absent, Block, Circuit, Coding, Edge, Garment, Layout, Line, Orientation, Pins, Place, Seam, Side,
 };
 
-const FEATHER: Pins = Pins { outputs: 0x031c_1fcc, inputs: 0xf << 26 };
-
 /// Why the garment is refused after `edit`.
 fn refused(mut garment: Garment, edit: impl Fn(&mut Garment)) -> String {
     edit(&mut garment);
@@ -13,7 +11,7 @@ fn refused(mut garment: Garment, edit: impl Fn(&mut Garment)) -> String {
         Ok(layout) => layout,
         Err(error) => return error.to_string(),
     };
-    Circuit::build(&garment, &layout, FEATHER).expect_err("it is refused").to_string()
+    Circuit::build(&garment, &layout, Pins::FEATHER).expect_err("it is refused").to_string()
 }
 
 #[test]
@@ -46,8 +44,33 @@ fn what_cannot_be_is_named() {
             "block 0: column code 15 does not fit the 8 codes of the column lines",
         ),
         (block(|g| g.wiring.row.lines[1].pin = 12), "wiring: pin 12 is used twice"),
-        (block(|g| g.wiring.row.lines[1].pin = 13), "wiring: pin 13 is no free output of this board"),
-        (block(|g| g.blocks[0].input = 25), "block 0: pin 25 is no converter input of this board"),
+        (
+            block(|g| g.wiring.row.lines[1].pin = 13),
+            "wiring: pin 13 is no free output of this board: the heartbeat LED is there",
+        ),
+        (
+            block(|g| g.wiring.row.lines[1].pin = 40),
+            "wiring: pin 40 is no free output of this board: the chip ends at GP29",
+        ),
+        (
+            block(|g| g.blocks[0].input = 25),
+            "block 0: input 25 is no converter input of this board, which has GP26 to GP29",
+        ),
+        (block(|g| g.name.clear()), "name: the garment has none"),
+        (whole(|g| g.panels[2].region.clear()), "panel 2: its region is empty"),
+        (
+            block(|g| g.panels[0].pitch_um = [10, 10]),
+            "panel mat: pitch_um is 10, outside 500 to 200000: did you mean 10000?",
+        ),
+        (
+            block(|g| g.panels[0].pitch_um = [10_000, 400_000_000]),
+            "panel mat: pitch_um is 400000000, outside 500 to 200000",
+        ),
+        (
+            block(|g| g.panels[0].pitch_um = [0, 10_000]),
+            "panel mat: pitch_um is 0 along one axis: it is known along both or none",
+        ),
+        (whole(|g| g.seams[0].b = g.seams[0].a), "seam 0: it sews taxels of a panel to themselves"),
     ];
     for (said, expected) in cases {
         assert_eq!(said, expected);
@@ -82,7 +105,7 @@ fn absent_taxels_need_no_block() {
     garment.blocks.remove(9);
     garment.absent.push(Absent { panel: 1, row: 4, column: 0, rows: 4, columns: 16 }).expect("there is room");
     let layout = Layout::build(&garment, 2048, 4095).expect("it is checked");
-    Circuit::build(&garment, &layout, FEATHER).expect("the gap needs no block");
+    Circuit::build(&garment, &layout, Pins::FEATHER).expect("the gap needs no block");
     assert!(layout.is_absent(1, 4, 0) && layout.is_absent(1, 7, 15) && !layout.is_absent(1, 8, 0));
     for taxel in 0..layout.taxels() {
         let place = layout.place(taxel).expect("every taxel has a place");
@@ -102,7 +125,7 @@ fn a_turned_block_reads_every_taxel_once() {
             if orientation.transposed { (16, 4) } else { (4, 16) };
         garment.blocks[0] = Block { orientation, ..garment.blocks[0].clone() };
         let layout = Layout::build(&garment, 64, 4095).expect("it is checked");
-        let circuit = Circuit::build(&garment, &layout, FEATHER).expect("it is checked");
+        let circuit = Circuit::build(&garment, &layout, Pins::FEATHER).expect("it is checked");
         let site = circuit.sites()[0];
         let mut read: Vec<usize> = (0..64).map(|k| site.taxel(k / 16, k % 16)).collect();
         read.sort_unstable();
@@ -117,7 +140,7 @@ fn words_of_binary_and_one_hot_lines_with_their_polarity() {
     garment.wiring.row.lines[0].inverted = true;
     garment.wiring.enable.push(Line { pin: 18, inverted: true }).expect("there is room");
     let layout = Layout::build(&garment, 64, 4095).expect("it is checked");
-    let circuit = Circuit::build(&garment, &layout, FEATHER).expect("it is checked");
+    let circuit = Circuit::build(&garment, &layout, Pins::FEATHER).expect("it is checked");
     assert_eq!(circuit.lines(), [2, 3, 6, 7, 9, 10, 11, 12, 18]);
     assert_eq!(circuit.idle_word(), 0b1_0000_0001);
     // The inverted enable is low while asserted; row 0 is low while chosen.

@@ -25,12 +25,24 @@ use embassy_rp::{
     watchdog::Watchdog,
 };
 use static_cell::ConstStaticCell;
+use taxel_core::board::BoardInfo;
 
-/// Converter inputs.
-pub const INPUTS: usize = 4;
+/// What garments and scenes are checked against, on the board as on a host.
+pub const INFO: BoardInfo = BoardInfo::feather(concat!("taxel ", env!("CARGO_PKG_VERSION")));
+
+/// Converter inputs, from GP26 on.
+pub const INPUTS: usize = INFO.pins.inputs.count_ones() as usize;
 
 /// Pins for select lines and reactions.
-pub const LINES: usize = 14;
+pub const LINES: usize = INFO.pins.outputs.count_ones() as usize;
+
+/// Takes pins as lines. They are those that garments are checked against, or it does not compile.
+macro_rules! lines {
+    ($p:ident: $($pin:ident = $gpio:literal),* $(,)?) => {{
+        const { assert!(INFO.pins.outputs == 0 $(| 1 << $gpio)*) };
+        [$(Line::new($p.$pin.into())),*]
+    }};
+}
 
 bind_interrupts!(struct Interrupts {
     PIO0_IRQ_0 => Begun;
@@ -42,22 +54,22 @@ bind_interrupts!(struct Interrupts {
 pub fn take() -> Parts {
     let p = embassy_rp::init(Default::default());
     Parts {
-        lines: [
-            Line::new(p.PIN_2.into()),
-            Line::new(p.PIN_3.into()),
-            Line::new(p.PIN_6.into()),
-            Line::new(p.PIN_7.into()),
-            Line::new(p.PIN_8.into()),
-            Line::new(p.PIN_9.into()),
-            Line::new(p.PIN_10.into()),
-            Line::new(p.PIN_11.into()),
-            Line::new(p.PIN_12.into()),
-            Line::new(p.PIN_18.into()),
-            Line::new(p.PIN_19.into()),
-            Line::new(p.PIN_20.into()),
-            Line::new(p.PIN_24.into()),
-            Line::new(p.PIN_25.into()),
-        ],
+        lines: lines!(p:
+            PIN_2 = 2,
+            PIN_3 = 3,
+            PIN_6 = 6,
+            PIN_7 = 7,
+            PIN_8 = 8,
+            PIN_9 = 9,
+            PIN_10 = 10,
+            PIN_11 = 11,
+            PIN_12 = 12,
+            PIN_18 = 18,
+            PIN_19 = 19,
+            PIN_20 = 20,
+            PIN_24 = 24,
+            PIN_25 = 25,
+        ),
         converter: Converter::new(
             adc::Adc::new_blocking(p.ADC, adc::Config::default()),
             [

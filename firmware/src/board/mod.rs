@@ -2,7 +2,7 @@
 
 mod feather;
 
-pub use feather::{INPUTS, LINES, take};
+pub use feather::{INFO, INPUTS, LINES, take};
 
 use crate::{adc::Converter, link::Wire, pins::Line, scan::Chain, store::Flash};
 use embassy_rp::{gpio::Output, watchdog::Watchdog};

@@ -3,10 +3,10 @@
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
-use taxel_core::acquire::{PLACES, SWEEP_INPUTS, Sweep};
+use taxel_core::acquire::{PLACES, SWEEP_ADDRESSES, SWEEP_INPUTS, Sweep};
 
-/// Addresses of the longest sweep: as many as 2,048 taxels take on four inputs.
-pub const ADDRESSES: usize = 512;
+/// Addresses of the longest sweep.
+pub const ADDRESSES: usize = SWEEP_ADDRESSES;
 /// Stretches of a sweep: one for each row of 16 blocks.
 pub const STRETCHES: usize = 64;
 /// Codes without a taxel in a stretch: as many as a block's row or column has.

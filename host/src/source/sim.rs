@@ -90,7 +90,7 @@ fn info(garment: &Garment) -> BoardInfo {
         garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
     BoardInfo {
         firmware: concat!("taxel-sim ", env!("CARGO_PKG_VERSION")),
-        pins: Pins { outputs: !inputs, inputs },
+        pins: Pins { outputs: !inputs, inputs, ..Pins::ANY },
         full_scale: FULL_SCALE,
         link_bytes_per_s: LINK,
     }

@@ -1,7 +1,7 @@
 //! The most urgent message, encoded.
 
-use super::super::setup::{BoardInfo, Setup};
 use super::super::under_way::UnderWay;
+use super::super::{BoardInfo, Setup};
 use super::{About, Outbox, Waiting};
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};

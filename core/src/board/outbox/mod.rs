@@ -5,8 +5,8 @@ mod noting;
 
 use super::pace::{Pace, Rates};
 use super::refusal::Refusal;
-use super::setup::{BoardInfo, Setup};
 use super::under_way::UnderWay;
+use super::{BoardInfo, Setup};
 use super::{Codes, Sentence};
 use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros};

@@ -6,7 +6,7 @@ use crate::bounds::nmi::contact;
 use crate::bounds::table::bound;
 use taxel_core::body::Placed;
 use taxel_core::format::Fixed16;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::{Garment, Layout, PITCH_UM};
 use taxel_core::shape::Shape;
 
 fn told(pitch_um: [u32; 2], vx: i32, vy: i32) -> u32 {
@@ -39,10 +39,12 @@ fn speed_is_within_its_bound() {
 
 #[test]
 fn speed_outside_its_range_is_held() {
-    // A velocity at its end, over a pitch that is held at 655.3 mm.
-    let end = 6553 << 15;
-    assert_eq!(told([u32::MAX; 2], i32::MIN, i32::MIN), end + end / 2);
-    assert_eq!(told([655_300, 655_300], i32::MIN, i32::MIN), end + end / 2);
-    assert_eq!(told([99, 99], 1 << 16, 0), 1, "a pitch below 0.1 mm is 0.1 mm");
+    // A velocity at its end, over the largest pitch and over the smallest.
+    let [least, most] = PITCH_UM;
+    for pitch in [least, most] {
+        let end = pitch / 100 << 15;
+        assert_eq!(told([pitch; 2], i32::MIN, i32::MIN), end + end / 2);
+    }
+    assert_eq!(told([most; 2], i32::MIN, i32::MIN), 98_304_000);
     assert_eq!(told([0, 0], 1 << 16, 0), 100, "10 mm are assumed");
 }
