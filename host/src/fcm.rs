@@ -28,6 +28,7 @@ pub mod touches;
 pub mod unite;
 pub mod weight;
 pub mod why;
+pub mod wrong;
 
 use crate::fault::Fault;
 use anyhow::{Result, bail};

@@ -86,6 +86,12 @@ impl ExportArgs {
 
 /// Runs the command.
 pub fn run(args: ExportArgs) -> Result<()> {
+    ensure!(
+        cfg!(feature = "lerobot") || args.to != Form::Lerobot,
+        Fault::usage(
+            "this program was built without LeRobot: `cargo run --release --features lerobot -- export ...` builds it in"
+        )
+    );
     ensure!(!args.touched || args.to == Form::Csv, Fault::usage("--touched is for --to csv"));
     let in_units = matches!(args.to, Form::Csv | Form::Lerobot);
     ensure!(
@@ -102,6 +108,7 @@ pub fn run(args: ExportArgs) -> Result<()> {
     let frames = |file| Frames::new(file, args.every, args.counts || !in_units);
     let recordings = args.files.iter().map(|file| frames(file)).collect::<Result<Vec<_>>>()?;
     let done = match (args.to, recordings.as_slice()) {
+        #[cfg(feature = "lerobot")]
         (Form::Lerobot, all) => lerobot(all, &args),
         (Form::Csv, [one]) => {
             csv::Table { touched: args.touched, reference: args.reference }.write(one, &args.output)
@@ -121,9 +128,4 @@ pub fn run(args: ExportArgs) -> Result<()> {
 #[cfg(feature = "lerobot")]
 fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
     lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, &args.output)
-}
-
-#[cfg(not(feature = "lerobot"))]
-fn lerobot(_: &[Frames<'_>], _: &ExportArgs) -> Result<u64> {
-    bail!("this program was built without LeRobot: cargo run --release --features lerobot -- export ...")
 }

@@ -5,6 +5,7 @@ use super::decimal::Decimal;
 use super::load;
 use super::map::MapFile;
 use super::sweep::{Sweep, sweep};
+use super::wrong;
 use crate::client::scene_bytes;
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
@@ -34,12 +35,13 @@ pub struct Findings {
 
 /// Runs the command.
 pub fn run(args: CheckArgs) -> Result<()> {
-    let map = load::map(&args.map)?;
-    let found = check(&map)?;
+    let text = load::text(&args.map)?;
+    let map = load::parse(&text, &args.map)?;
+    let found = check(&map).map_err(|error| wrong::located(error, &text, &args.map))?;
     if args.json {
         println!("{}", report(&map, &found));
     } else {
-        print!("{}", text(&map, &found));
+        print!("{}", in_words(&map, &found));
     }
     match found.faults.first() {
         Some(fault) => bail!("{}: {fault}", args.map),
@@ -180,7 +182,7 @@ pub fn report(map: &MapFile, found: &Findings) -> Value {
 }
 
 /// The readable form.
-pub fn text(map: &MapFile, found: &Findings) -> String {
+pub fn in_words(map: &MapFile, found: &Findings) -> String {
     let Findings { faults, warnings, sweep } = found;
     let mut text = format!(
         "map {}: {} concepts, {} edges, {} inputs\n",

@@ -3,6 +3,7 @@
 use super::aggregate::Aggregation;
 use super::board::BoardMap;
 use super::load;
+use super::map::MapFile;
 use super::unite::{Shared, United, unite};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -53,7 +54,9 @@ pub fn merge(args: MergeArgs) -> Result<()> {
 }
 
 fn write(paths: &[String], output: &Path, shared: Shared, as_json: bool) -> Result<()> {
-    let maps = paths.iter().map(|path| load::map(path)).collect::<Result<Vec<_>>>()?;
+    // Told apart by their files: what experts draw of one thing mostly has one name.
+    let named = |path: &String| Ok(MapFile { name: path.clone(), ..load::map(path)? });
+    let maps = paths.iter().map(named).collect::<Result<Vec<_>>>()?;
     let name = output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
     let united = unite(&maps, name, shared)?;
     BoardMap::build(&united.map)?;

@@ -4,6 +4,8 @@ use super::map::{ConceptFile, EdgeFile, MapFile};
 use super::member::InputFile;
 use super::steps::{decimal, steps};
 use super::weight::Weight;
+use super::wrong::wrong;
+use crate::words::Step::{self, At, Key};
 use anyhow::{Result, anyhow, bail};
 use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};
@@ -13,13 +15,19 @@ impl MapFile {
     pub fn to_config<const N: usize, const E: usize>(&self) -> Result<Box<MapConfig<N, E>>> {
         self.check_numbers()?;
         let decimals = self.decimals();
-        let place = |error: anyhow::Error| anyhow!("map {}: {error}", self.name);
+        let at = |at: &'static [Step<'static>]| {
+            move |why: anyhow::Error| wrong(at, format!("map {}: {why}", self.name))
+        };
+        let inside = |list: &'static str, index: usize, key: Option<&'static str>| {
+            let steps: Vec<_> = [Key(list), At(index)].into_iter().chain(key.map(Key)).collect();
+            move |why: anyhow::Error| wrong(&steps, format!("map {}: {why}", self.name))
+        };
         let mut config = Box::new(MapConfig {
-            name: fitting(&self.name, "name")?,
+            name: fitting(&self.name, "name").map_err(|why| wrong(&[Key("name")], why))?,
             decimals: decimals as u8,
             rule: self.rule,
             transfer: self.transfer,
-            lambda: decimal(self.lambda, 3, "lambda").map_err(place)? as u16,
+            lambda: decimal(self.lambda, 3, "lambda").map_err(at(&[Key("lambda")]))? as u16,
             threshold: steps(self.threshold, decimals, || "threshold".into())?,
             held: self.held,
             ..MapConfig::default()
@@ -27,13 +35,13 @@ impl MapFile {
         let full = |what: &str, found, room| {
             anyhow!("map {}: {found} {what}, and there is room for {room}", self.name)
         };
-        for (at, concept) in self.concept.iter().enumerate() {
-            let short = fitting(&concept.name, "concept").map_err(place)?;
+        for (number, concept) in self.concept.iter().enumerate() {
+            let short = fitting(&concept.name, "concept").map_err(inside("concept", number, Some("name")))?;
             config.concepts.push(short).map_err(|_| full("concepts", self.concept.len(), N))?;
             if let Some(own) = concept.threshold {
                 let value = steps(own, decimals, || format!("threshold of {}", concept.name))?;
-                let own = Threshold { concept: u8::try_from(at)?, value };
-                config.thresholds.push(own).map_err(|_| full("thresholds", at, N))?;
+                let own = Threshold { concept: u8::try_from(number)?, value };
+                config.thresholds.push(own).map_err(|_| full("thresholds", number, N))?;
             }
         }
         for edge in &self.edge {
@@ -42,9 +50,11 @@ impl MapFile {
             let edge = Edge { from: number(&edge.from)?, to: number(&edge.to)?, weight };
             config.edges.push(edge).map_err(|_| full("edges", self.edge.len(), E))?;
         }
-        for input in &self.input {
-            let concept = u8::try_from(self.index(&input.concept, "an input")?)?;
-            for ramp in input.inputs(concept, decimals).map_err(place)? {
+        for (number, input) in self.input.iter().enumerate() {
+            let known = self.index(&input.concept, "an input");
+            let concept =
+                u8::try_from(known.map_err(|why| wrong(&[Key("input"), At(number), Key("concept")], why))?)?;
+            for ramp in input.inputs(concept, decimals).map_err(inside("input", number, None))? {
                 config.inputs.push(ramp).map_err(|_| full("inputs", self.input.len(), N))?;
             }
         }

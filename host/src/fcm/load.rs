@@ -2,8 +2,11 @@
 
 use super::decimal::Decimal;
 use super::map::MapFile;
+use super::wrong;
+use crate::fault::Fault;
 use crate::words;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// The maps that ship.
@@ -12,20 +15,30 @@ pub const SHIPPED: [(&str, &str); 2] =
 
 /// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place and the value.
 pub fn map(name_or_path: &str) -> Result<MapFile> {
+    parse(&text(name_or_path)?, name_or_path)
+}
+
+/// The text of a map: a shipped one by its name, else a file.
+pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
+    let names = SHIPPED.map(|(name, _)| name);
     if let Some((_, text)) = SHIPPED.iter().find(|(name, _)| *name == name_or_path) {
-        return parse(text, name_or_path);
+        return Ok(Cow::Borrowed(text));
     }
-    let text = std::fs::read_to_string(name_or_path).with_context(|| {
-        let names: Vec<&str> = SHIPPED.iter().map(|(name, _)| *name).collect();
+    // What is no path can only be a name.
+    if !name_or_path.contains(['.', '/', '\\']) && !Path::new(name_or_path).exists() {
+        let known = words::unknown("map", name_or_path, names);
+        bail!(Fault::usage(format!("{known}, or give a .toml file")));
+    }
+    let read = std::fs::read_to_string(name_or_path).map(Cow::Owned);
+    read.with_context(|| {
         format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))
-    })?;
-    parse(&text, name_or_path)
+    })
 }
 
 /// Reads the text of a map from `place`.
 pub fn parse(text: &str, place: &str) -> Result<MapFile> {
     let map: MapFile = toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, place)))?;
-    map.check_numbers().with_context(|| place.to_string())?;
+    map.check_numbers().map_err(|error| wrong::located(error, text, place))?;
     Ok(map)
 }
 

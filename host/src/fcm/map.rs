@@ -5,8 +5,11 @@ use super::engine::{Problem, Settings};
 use super::member::InputFile;
 use super::steps::steps;
 use super::weight::Weight;
-use anyhow::{Context, Result, anyhow, bail};
+use super::wrong::wrong;
+use crate::words::Step::{self, At, Key};
+use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 use taxel_core::intent::{Rule, Transfer};
 
 /// The version of the format that this program reads and writes.
@@ -172,33 +175,46 @@ impl MapFile {
 
     /// Whether every number is one, within its range, and every concept is named once.
     pub fn check_numbers(&self) -> Result<()> {
+        let wrong = |at: &[Step<'static>], why: &dyn Display| wrong(at, format!("map {}: {why}", self.name));
         if self.version != VERSION {
-            bail!("map {}: version {} is not known, this program reads {VERSION}", self.name, self.version);
+            let why = format!("version {} is not known, this program reads {VERSION}", self.version);
+            return Err(wrong(&[Key("version")], &why));
         }
         if self.concept.is_empty() {
             bail!("map {}: it has no concept", self.name);
         }
-        let place = |error: anyhow::Error| anyhow!("map {}: {error}", self.name);
         for (at, concept) in self.concept.iter().enumerate() {
             let name = &concept.name;
             if self.find(name) != Some(at) {
-                bail!("map {}: concept {name} is named twice", self.name);
+                let why = format!("concept {name} is named twice");
+                return Err(wrong(&[Key("concept"), At(at), Key("name")], &why));
             }
             let own = concept.threshold.unwrap_or(0.0);
-            steps(own, 4, || format!("threshold of {name}")).map_err(place)?;
+            steps(own, 4, || format!("threshold of {name}"))
+                .map_err(|why| wrong(&[Key("concept"), At(at), Key("threshold")], &why))?;
         }
-        steps(self.threshold, 4, || "threshold".into()).map_err(place)?;
+        steps(self.threshold, 4, || "threshold".into()).map_err(|why| wrong(&[Key("threshold")], &why))?;
         if !(0.001..=65.535).contains(&self.lambda) {
-            bail!("map {}: lambda = {} is outside 0.001 ..= 65.535", self.name, self.lambda);
+            let why = format!("lambda = {} is outside 0.001 ..= 65.535", self.lambda);
+            return Err(wrong(&[Key("lambda")], &why));
         }
-        for (at, edge) in self.edge.iter().enumerate() {
-            let EdgeFile { from, to, .. } = edge;
-            self.index(from, "an edge")?;
-            self.index(to, "an edge")?;
-            steps(edge.weight.value(), 4, || format!("W[{from}][{to}]")).map_err(place)?;
-            if self.edge[..at].iter().any(|other| other.from == *from && other.to == *to) {
-                bail!("map {}: edge {from} -> {to} is given twice", self.name);
+        self.edge.iter().enumerate().try_for_each(|(at, edge)| self.check_edge(at, edge))
+    }
+
+    fn check_edge(&self, at: usize, edge: &EdgeFile) -> Result<()> {
+        let EdgeFile { from, to, weight, .. } = edge;
+        let wrong = |key: &[Step<'static>], why: &dyn Display| {
+            wrong(&[&[Key("edge"), At(at)], key].concat(), format!("map {}: {why}", self.name))
+        };
+        for (key, concept) in [("from", from), ("to", to)] {
+            if self.find(concept).is_none() {
+                return Err(wrong(&[Key(key)], &format!("an edge names the unknown concept {concept}")));
             }
+        }
+        steps(weight.value(), 4, || format!("W[{from}][{to}]"))
+            .map_err(|why| wrong(&[Key("weight")], &why))?;
+        if self.edge[..at].iter().any(|other| other.from == *from && other.to == *to) {
+            return Err(wrong(&[], &format!("edge {from} -> {to} is given twice")));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Panels as maps of pressure, two pixels in a character cell.
 
-use super::ramp::{Rgb, color, mix, pressure};
+use super::ramp::{Paint, Rgb, color, glyph, mix, pressure};
 use crate::client::Client;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -99,14 +99,14 @@ impl Grid {
         Zoom::fit(area, width.saturating_sub(1), height.saturating_sub(1) * 2)
     }
 
-    /// Draws all panels.
-    pub fn draw(&self, client: &Client, top: u16, space: Rect, buffer: &mut Buffer) {
+    /// Draws all panels, on a scale that ends at `top` counts.
+    pub fn draw(&self, client: &Client, (top, paint): (u16, Paint), space: Rect, buffer: &mut Buffer) {
         let Some(layout) = client.layout() else { return };
         let [width, height] = self.cell;
         for (index, area) in layout.areas().iter().enumerate() {
             let (column, row) = (index as u16 % self.across, index as u16 / self.across);
             let place = Rect::new(space.x + column * width, space.y + row * height, width - 1, height);
-            let panel = Panel { client, layout, area, index: index as u8, top };
+            let panel = Panel { client, layout, area, index: index as u8, top, paint };
             panel.draw(self.zoom(area), place, buffer);
         }
     }
@@ -118,6 +118,7 @@ struct Panel<'a> {
     area: &'a Area,
     index: u8,
     top: u16,
+    paint: Paint,
 }
 
 impl Panel<'_> {
@@ -129,12 +130,18 @@ impl Panel<'_> {
         for y in 0..height.div_ceil(2) {
             for x in 0..width {
                 let Some(cell) = buffer.cell_mut((place.x + x, place.y + 1 + y)) else { continue };
-                cell.set_char('▀').set_fg(color(self.color(zoom, x, 2 * y)));
-                cell.set_bg(if 2 * y + 1 < height {
-                    color(self.color(zoom, x, 2 * y + 1))
-                } else {
-                    Color::Reset
-                });
+                let lower = Some(2 * y + 1).filter(|lower| *lower < height);
+                match self.paint {
+                    Paint::Colours => {
+                        cell.set_char('▀').set_fg(color(self.color(zoom, x, 2 * y)));
+                        cell.set_bg(lower.map_or(Color::Reset, |lower| color(self.color(zoom, x, lower))));
+                    }
+                    Paint::Glyphs => {
+                        let values = [Some(2 * y), lower].map(|y| self.value(zoom, x, y?));
+                        let most = values.into_iter().flatten().max();
+                        cell.set_char(most.map_or(' ', |value| glyph(value, self.top)));
+                    }
+                }
             }
         }
         let below = Rect { y: place.y + 1, height: place.height - 1, ..place };
@@ -186,7 +193,11 @@ impl Panel<'_> {
             let within =
                 |at: f64, start: u16, room: u16| start + (at.max(0.0) as u16).min(room.saturating_sub(1));
             let (x, y) = (within(x, place.x, place.width), within(y, place.y, place.height));
-            let style = Style::new().fg(Color::White).bg(Color::Black).add_modifier(Modifier::BOLD);
+            let style = Style::new().add_modifier(Modifier::BOLD);
+            let style = match self.paint {
+                Paint::Colours => style.fg(Color::White).bg(Color::Black),
+                Paint::Glyphs => style.add_modifier(Modifier::REVERSED),
+            };
             buffer.set_stringn(x, y, id, usize::from(place.right().saturating_sub(x)), style);
         }
     }

@@ -1,4 +1,5 @@
-//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind.
+//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind; and as characters that
+//! grow in weight, where no colour is wanted.
 
 use ratatui::style::Color;
 
@@ -16,13 +17,46 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xfd, 0xe7, 0x25],
 ];
 
+/// Characters that grow in weight; the first is a taxel without pressure.
+pub const GLYPHS: [char; 10] = ['.', ':', '-', '=', '+', 'o', '*', '#', '%', '@'];
+
+/// How pressure is drawn.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Paint {
+    /// Two pixels in a character, by their colours.
+    #[default]
+    Colours,
+    /// A character of [`GLYPHS`] for two pixels, the greater pressure of both.
+    Glyphs,
+}
+
+impl Paint {
+    /// As the user wants it: `NO_COLOR` that is set and not empty is for characters (<https://no-color.org>).
+    pub fn wanted() -> Paint {
+        match std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty()) {
+            true => Paint::Glyphs,
+            false => Paint::Colours,
+        }
+    }
+}
+
 /// A colour as its parts.
 pub type Rgb = [u8; 3];
 
-/// The colour of a pressure on a scale that ends at `top` counts. The scale is that of the root, so that a light touch
-/// beside a hard one is seen.
+/// The colour of a pressure on a scale that ends at `top` counts.
 pub fn pressure(value: u16, top: u16) -> Rgb {
-    ramp((f32::from(value) / f32::from(top.max(1))).min(1.0).sqrt())
+    ramp(part(value, top))
+}
+
+/// The character of a pressure on that scale; any pressure is heavier than none.
+pub fn glyph(value: u16, top: u16) -> char {
+    let steps = GLYPHS.len() - 1;
+    GLYPHS[((part(value, top) * steps as f32).ceil() as usize).min(steps)]
+}
+
+/// The part of the scale, 0 ..= 1. The scale is that of the root, so that a light touch beside a hard one is seen.
+fn part(value: u16, top: u16) -> f32 {
+    (f32::from(value) / f32::from(top.max(1))).min(1.0).sqrt()
 }
 
 /// The colour at a part, 0 ..= 1, of the ramp.
@@ -56,5 +90,14 @@ mod tests {
         assert_eq!(pressure(0, 400), VIRIDIS[0]);
         assert_eq!(pressure(4095, 400), VIRIDIS[9]);
         assert_eq!(pressure(1, 0), VIRIDIS[9]);
+    }
+
+    #[test]
+    fn glyphs_grow_with_pressure() {
+        let all: Vec<char> = (0..=400).map(|value| glyph(value, 400)).collect();
+        let mut steps = all.clone();
+        steps.dedup();
+        assert_eq!(steps, GLYPHS);
+        assert_eq!((all[0], all[1], glyph(4095, 400), glyph(1, 0)), ('.', ':', '@', '@'));
     }
 }

@@ -1,5 +1,6 @@
 //! The picture in a terminal, and its keys.
 
+use super::ramp::Paint;
 use super::{Show, View, lines};
 use crate::client::{Client, Event};
 use anyhow::Result;
@@ -29,7 +30,7 @@ impl Screen {
     pub fn open(view: View) -> Result<Screen> {
         Ok(Screen {
             terminal: ratatui::try_init()?,
-            view,
+            view: view.painted(Paint::wanted()),
             drawn: None,
             asked: Instant::now(),
             token: 0,

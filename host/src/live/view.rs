@@ -3,7 +3,7 @@
 use super::map::Grid;
 use super::narrate::{Narrator, region_name};
 use super::panes;
-use super::ramp::{color, ramp};
+use super::ramp::{GLYPHS, Paint, color, ramp};
 use super::rate::Rate;
 use crate::client::{Client, Event};
 use crate::source::Source;
@@ -32,8 +32,9 @@ pub struct View {
     top: u16,
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
-    /// What is shown instead of what comes.
-    paused: Option<Box<Client>>,
+    paint: Paint,
+    /// What is shown instead of what comes: the client and the view when the user stopped it.
+    paused: Option<Box<(Client, View)>>,
 }
 
 impl View {
@@ -46,8 +47,14 @@ impl View {
             rate: Rate::default(),
             top: TOP,
             latency: None,
+            paint: Paint::Colours,
             paused: None,
         }
+    }
+
+    /// The same, painted like this.
+    pub fn painted(self, paint: Paint) -> View {
+        View { paint, ..self }
     }
 
     /// Takes an event.
@@ -56,33 +63,52 @@ impl View {
             self.rate.add(*time);
         }
         for line in self.narrator.tell(client, event) {
-            self.say(line);
+            self.note(line);
         }
     }
 
-    /// Adds a line to the log.
+    /// Answers a key in the log, also where it stands still.
     pub fn say(&mut self, line: String) {
+        if let Some((_, view)) = self.paused.as_deref_mut() {
+            view.note(line.clone());
+        }
+        self.note(line);
+    }
+
+    fn note(&mut self, line: String) {
         self.log.push_front(line);
         self.log.truncate(LOG);
     }
 
-    /// Stands still, or goes on.
+    /// Stands still, with its clock and its log, or goes on.
     pub fn pause(&mut self, client: &Client) {
-        self.paused = if self.paused.is_some() { None } else { Some(Box::new(client.clone())) };
+        self.paused = match self.paused {
+            Some(_) => None,
+            None => Some(Box::new((client.clone(), self.clone()))),
+        };
     }
 
     /// Doubles the end of the scale, or halves it.
     pub fn zoom(&mut self, up: bool) {
         self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(25, 51_200);
+        if let Some((_, view)) = self.paused.as_deref_mut() {
+            view.top = self.top;
+        }
     }
 
     /// Draws everything.
     pub fn draw(&self, client: &Client, buffer: &mut Buffer) {
-        let client = self.paused.as_deref().unwrap_or(client);
+        match self.paused.as_deref() {
+            Some((client, view)) => view.paint(client, true, buffer),
+            None => self.paint(client, false, buffer),
+        }
+    }
+
+    fn paint(&self, client: &Client, paused: bool, buffer: &mut Buffer) {
         let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1), Constraint::Length(1)]);
         let [header, body, footer] = rows.areas(buffer.area);
         self.header(client, header, buffer);
-        self.footer(footer, buffer);
+        self.footer(paused, footer, buffer);
         let body = Rect {
             y: body.y + u16::from(body.height > 12),
             height: body.height - u16::from(body.height > 12),
@@ -112,7 +138,7 @@ impl View {
     /// Draws the maps: the width that they take.
     fn maps(&self, client: &Client, space: Rect, buffer: &mut Buffer) -> u16 {
         let Some(grid) = client.layout().and_then(|layout| Grid::fit(layout, space)) else { return 0 };
-        grid.draw(client, self.top, space, buffer);
+        grid.draw(client, (self.top, self.paint), space, buffer);
         grid.width()
     }
 
@@ -172,17 +198,23 @@ impl View {
     }
 
     /// Keys and the scale.
-    fn footer(&self, space: Rect, buffer: &mut Buffer) {
+    fn footer(&self, paused: bool, space: Rect, buffer: &mut Buffer) {
         let mut keys = String::from("q quit  space pause  t tare  +/- scale   0 ");
-        if self.paused.is_some() {
+        if paused {
             keys = format!("PAUSED  {keys}");
         }
         let (mut x, y) = buffer.set_stringn(space.x, space.y, keys, usize::from(space.width), Style::new());
-        for step in 0..16u8 {
-            if let Some(cell) = buffer.cell_mut((x, y)).filter(|_| x < space.right()) {
-                cell.set_char(' ').set_bg(color(ramp(f32::from(step) / 15.0)));
-                x += 1;
-            }
+        let steps = match self.paint {
+            Paint::Colours => 16,
+            Paint::Glyphs => GLYPHS.len(),
+        };
+        for step in 0..steps {
+            let Some(cell) = buffer.cell_mut((x, y)).filter(|_| x < space.right()) else { break };
+            match self.paint {
+                Paint::Colours => cell.set_char(' ').set_bg(color(ramp(step as f32 / 15.0))),
+                Paint::Glyphs => cell.set_char(GLYPHS[step]),
+            };
+            x += 1;
         }
         let left = usize::from(space.right().saturating_sub(x));
         buffer.set_stringn(x, y, format!(" {} counts", self.top), left, Style::new());
@@ -191,4 +223,80 @@ impl View {
 
 fn ms(us: u32) -> f64 {
     f64::from(us) / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::{self, SourceOptions};
+
+    /// A terminal before which a box is pressed on the chest for a second.
+    struct Seat {
+        source: Source,
+        client: Client,
+        view: View,
+    }
+
+    impl Seat {
+        fn take(paint: Paint) -> Seat {
+            let source = source::open(&"sim:box".parse().unwrap(), &SourceOptions::default()).unwrap();
+            let mut client = Client::new();
+            client.start(source.tare).unwrap();
+            let view = View::new(&source).painted(paint);
+            Seat { source, client, view }
+        }
+
+        /// Goes on until a frame of that time, us.
+        fn until(&mut self, time_us: u64) {
+            let mut buffer = [0; 512];
+            self.source.port.write(&self.client.take_requests()).unwrap();
+            while self.view.rate.last().is_none_or(|last| last.0 < time_us) {
+                let count = self.source.port.read(&mut buffer).unwrap().expect("the scene lasts longer");
+                for byte in &buffer[..count] {
+                    if let Some(event) = self.client.push(*byte) {
+                        self.view.event(&self.client, &event);
+                    }
+                }
+            }
+        }
+
+        fn picture(&self) -> Vec<String> {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 120, 40));
+            self.view.draw(&self.client, &mut buffer);
+            let row = |y| (0..120).map(|x| buffer.cell((x, y)).unwrap().symbol()).collect::<String>();
+            (0..40).map(row).collect()
+        }
+    }
+
+    #[test]
+    fn without_colour_pressure_is_read_by_the_weight_of_characters() {
+        let mut seat = Seat::take(Paint::Glyphs);
+        seat.until(100_000);
+        let count = |picture: &[String], glyph| picture.iter().flat_map(|row| row.matches(glyph)).count();
+        let rest = seat.picture();
+        assert!(!rest.iter().any(|row| row.contains('▀')), "{rest:#?}");
+        // All 1,024 pairs of taxels are drawn, and the scale once.
+        assert!(count(&rest, '.') > 900 && count(&rest, '#') + count(&rest, '%') <= 2, "{rest:#?}");
+        seat.until(600_000);
+        let pressed = seat.picture();
+        let heavy = |picture: &[String]| {
+            ['*', '#', '%', '@'].map(|glyph| count(picture, glyph)).iter().sum::<usize>()
+        };
+        assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
+        assert!(pressed[39].contains(".:-=+o*#%@ 400 counts"), "{}", pressed[39]);
+    }
+
+    #[test]
+    fn a_paused_picture_stands_still_with_its_clock_and_its_log() {
+        let mut seat = Seat::take(Paint::Colours);
+        seat.until(250_000);
+        seat.view.pause(&seat.client);
+        let still = seat.picture();
+        assert!(still[39].starts_with("PAUSED"), "{}", still[39]);
+        seat.until(1_000_000);
+        assert_eq!(seat.picture(), still);
+        seat.view.pause(&seat.client);
+        let on = seat.picture();
+        assert!(on[1] != still[1] && !on[39].starts_with("PAUSED"), "{}", on[1]);
+    }
 }

@@ -2,6 +2,8 @@
 
 use super::train::Known;
 use super::view::View;
+use crate::fault::Fault;
+use crate::words;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -115,6 +117,12 @@ impl Base {
             ensure!(size <= LONGEST, "is no base of shapes: it has {size} bytes, expected at most {LONGEST}");
             Base::parse(&std::fs::read_to_string(name).context("cannot be read")?)
         };
+        // What is no path can only be a name.
+        let said = name.to_str().filter(|said| !name.exists() && !said.contains(['.', '/', '\\']));
+        if let Some(said) = said {
+            let known = words::unknown("base", said, shipped_names());
+            bail!(Fault::usage(format!("{known}, or give a .json file")));
+        }
         read().with_context(|| name.display().to_string())
     }
 
@@ -149,8 +157,8 @@ impl Base {
             None => bail!("is no base of shapes: it has no `kind`"),
         }
         check_sizes(&value)?;
-        let base: Base =
-            serde_json::from_value(value).map_err(|error| anyhow!("is no base of shapes: {error}"))?;
+        let base: Base = serde_json::from_value(value)
+            .map_err(|error| anyhow!("is no base of shapes: {}", words::cause(&error)))?;
         ensure!(base.measures == MEASURE_NAMES, "was made for other measures than this program has");
         base.gallery.check().map_err(|invalid| anyhow!("{invalid}"))?;
         let classes = base.gallery.names.len();

@@ -56,11 +56,8 @@ pub fn load(name_or_path: &str) -> Result<Script> {
         return Script::parse(text, &format!("{name}.toml"));
     }
     if !is_file(name_or_path) {
-        let names: Vec<_> = SCENES.iter().map(|(name, _)| *name).collect();
-        let names = names.join(", ");
-        bail!(Fault::usage(format!(
-            "there is no scene \"{name_or_path}\"; known are {names}, or give a .toml file"
-        )));
+        let known = words::unknown("scene", name_or_path, SCENES.map(|(name, _)| name));
+        bail!(Fault::usage(format!("{known}, or give a .toml file")));
     }
     Script::parse(&read(name_or_path)?, name_or_path)
 }
@@ -71,10 +68,8 @@ pub fn garment(name_or_path: &str) -> Result<Garment> {
         return Ok(garment);
     }
     if !is_file(name_or_path) {
-        let names = Garment::PRESETS.join(", ");
-        bail!(Fault::usage(format!(
-            "there is no garment \"{name_or_path}\"; known are {names}, or give a .toml file"
-        )));
+        let known = words::unknown("garment", name_or_path, Garment::PRESETS);
+        bail!(Fault::usage(format!("{known}, or give a .toml file")));
     }
     let text = read(name_or_path)?;
     toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, name_or_path)))

@@ -5,11 +5,13 @@
 //! key. What nobody has put into words on its way up is translated where the program prints it, by [`sentence`].
 
 mod json;
+mod meant;
 mod place;
 mod serde;
 mod toml;
 
 pub use self::json::json;
+pub use self::meant::{meant, unknown};
 pub use self::place::{Step, line_of};
 pub use self::serde::plain;
 pub use self::toml::toml;

@@ -59,9 +59,17 @@ fn name(message: &str) -> Option<String> {
     };
     let (unknown, known) = rest.split_once(", ").unwrap_or((&rest, ""));
     let known = known.strip_prefix("expected ").map(|known| known.strip_prefix("one of ").unwrap_or(known));
-    Some(match known {
+    Some(match known.map(|known| known.replace("` or `", "`, `")) {
         Some(known) => {
-            format!("{unknown} is no {what} that is known here: {}", known.replace("` or `", "`, `"))
+            let names = known.split(", ").map(|name| name.trim_matches('`'));
+            match super::meant(unknown.trim_matches('`'), names) {
+                Some(name) => {
+                    format!(
+                        "{unknown} is no {what} that is known here, did you mean `{name}`? Known are {known}"
+                    )
+                }
+                None => format!("{unknown} is no {what} that is known here: {known}"),
+            }
         }
         None => format!("{unknown} is no {what} that is known here"),
     })
@@ -150,9 +158,9 @@ mod tests {
             ("duplicate field `at`", "`at` is given twice"),
             (
                 "unknown field `lo`, expected one of `low`, `high`",
-                "`lo` is no key that is known here: `low`, `high`",
+                "`lo` is no key that is known here, did you mean `low`? Known are `low`, `high`",
             ),
-            ("unknown variant `a`, expected `b` or `c`", "`a` is no name that is known here: `b`, `c`"),
+            ("unknown variant `xyz`, expected `b` or `c`", "`xyz` is no name that is known here: `b`, `c`"),
             ("unknown field `a`, there are no fields", "`a` is no key that is known here"),
             ("must be a number or [length, width]", "must be a number or [length, width]"),
         ] {

@@ -53,7 +53,10 @@ mod tests {
             "{missing}"
         );
         let unknown = told("row = 1\n[[pins]]\npin = 3\nkinds = 3\n");
-        assert_eq!(unknown, "a.toml, line 4: `kinds` is no key that is known here: `pin`, `kind`");
+        assert_eq!(
+            unknown,
+            "a.toml, line 4: `kinds` is no key that is known here, did you mean `kind`? Known are `pin`, `kind`"
+        );
         assert!(told("row = = 1").starts_with("a.toml, line 1"));
     }
 }

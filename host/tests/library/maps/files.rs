@@ -116,14 +116,26 @@ fn a_bad_file_is_refused_in_one_sentence() {
         format!("{error:#}")
     };
     for (from, to, message) in [
-        ("version = 1", "version = 2", "map.toml: map whole: version 2 is not known, this program reads 1"),
-        ("weight = 0.5", "weight = 2.0", "map.toml: map whole: W[gentle][kindness] = 2 is outside [-1, 1]"),
+        (
+            "version = 1",
+            "version = 2",
+            "map.toml, line 2, `version`: map whole: version 2 is not known, this program reads 1",
+        ),
+        (
+            "weight = 0.5",
+            "weight = 2.0",
+            "map.toml, line 37, `weight`: map whole: W[gentle][kindness] = 2 is outside [-1, 1]",
+        ),
         (
             "weight = 0.5",
             "weight = nan",
-            "map.toml: map whole: W[gentle][kindness] = NaN is not a number of at most 4 decimals",
+            "map.toml, line 37, `weight`: map whole: W[gentle][kindness] = NaN is not a number of at most 4 decimals",
         ),
-        ("weight = 0.5", "weight = inf", "map.toml: map whole: W[gentle][kindness] = inf is outside [-1, 1]"),
+        (
+            "weight = 0.5",
+            "weight = inf",
+            "map.toml, line 37, `weight`: map whole: W[gentle][kindness] = inf is outside [-1, 1]",
+        ),
         (
             "strong -",
             "strongish -",
@@ -132,21 +144,33 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "lambda",
             "lamda",
-            "map.toml, line 7: `lamda` is no key that is known here: `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
+            "map.toml, line 7: `lamda` is no key that is known here, did you mean `lambda`? Known are `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
         ),
-        ("lambda = 2.5", "lambda = 0", "map.toml: map whole: lambda = 0 is outside 0.001 ..= 65.535"),
+        (
+            "lambda = 2.5",
+            "lambda = 0",
+            "map.toml, line 7, `lambda`: map whole: lambda = 0 is outside 0.001 ..= 65.535",
+        ),
         (
             "lambda = 2.5",
             "lambda = 2.51234",
             "map whole: lambda = 2.51234 is not a number of at most 3 decimals",
         ),
-        ("to = \"kindness\"", "to = \"joy\"", "map.toml: map whole: an edge names the unknown concept joy"),
+        (
+            "to = \"kindness\"",
+            "to = \"joy\"",
+            "map.toml, line 30, `to`: map whole: an edge names the unknown concept joy",
+        ),
         (
             "from = \"gentle\"",
             "from = \"press\"",
-            "map.toml: map whole: edge press -> kindness is given twice",
+            "map.toml, line 34, `edge`: map whole: edge press -> kindness is given twice",
         ),
-        ("name = \"gentle\"", "name = \"press\"", "map.toml: map whole: concept press is named twice"),
+        (
+            "name = \"gentle\"",
+            "name = \"press\"",
+            "map.toml, line 14, `name`: map whole: concept press is named twice",
+        ),
         (
             "name = \"whole\"",
             "name = \"a map with a long name\"",
@@ -162,7 +186,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "threshold = -0.25",
             "threshold = -1.25",
-            "map.toml: map whole: threshold of kindness = -1.25 is outside [-1, 1]",
+            "map.toml, line 17, `threshold`: map whole: threshold of kindness = -1.25 is outside [-1, 1]",
         ),
     ] {
         assert_eq!(refused(from, to), message);

@@ -1,0 +1,20 @@
+//! `taxel foxglove` in a program that was built without it.
+
+use crate::fault::Fault;
+use anyhow::{Result, bail};
+use std::ffi::OsString;
+
+/// Whatever the command would take.
+#[derive(Debug, Clone, clap::Args)]
+pub struct FoxgloveArgs {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    args: Vec<OsString>,
+}
+
+/// Says how the command is built in.
+pub fn run(args: FoxgloveArgs) -> Result<()> {
+    let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
+    bail!(Fault::usage(format!(
+        "this program was built without Foxglove: `cargo run --release --features foxglove -- foxglove{asked}` builds it in"
+    )))
+}

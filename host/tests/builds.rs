@@ -1,0 +1,39 @@
+//! What a program says of the parts that it was built without, and completions for shells.
+
+use std::process::{Command, Output};
+
+fn taxel(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_taxel")).args(args).output().unwrap()
+}
+
+#[test]
+#[cfg(not(feature = "foxglove"))]
+fn a_build_without_foxglove_says_how_to_build_it() {
+    let output = taxel(&["foxglove", "--source", "sim:pat", "--port", "0"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    let how = "`cargo run --release --features foxglove -- foxglove --source sim:pat --port 0`";
+    assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
+}
+
+#[test]
+#[cfg(not(feature = "lerobot"))]
+fn a_build_without_lerobot_says_how_to_build_it() {
+    let output = taxel(&["export", "no-such.mcap", "--to", "lerobot", "-o", "no-such-folder"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    let how = "`cargo run --release --features lerobot -- export ...`";
+    assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
+}
+
+#[test]
+fn shells_complete_subcommands_and_options() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = taxel(&["completions", shell]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && text.contains("taxel"), "{shell}");
+        for word in ["live", "calibrate", "foxglove", "garment", "verbose"] {
+            assert!(text.contains(word), "{shell}: {word}");
+        }
+    }
+    let wrong = taxel(&["completions", "basch"]);
+    assert_eq!(wrong.status.code(), Some(2));
+}
