@@ -3,9 +3,9 @@
 
 use crate::board::Emulated;
 use serde_json::Value;
-use taxel_core::acquire::Depth;
+use taxel_core::acquire::{Depth, Plan, frame_us};
 use taxel_core::format::name;
-use taxel_core::garment::Garment;
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::{Report, Request, decode_image};
 
@@ -201,4 +201,68 @@ fn a_wiring_that_no_chain_follows_is_scanned_by_the_processor() {
     assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
     // 2,048 conversions of 2 us and 512 times 3 us of settling.
     assert!(spent.scan as f64 > 5.632e-3 * CLOCK);
+}
+
+/// Time from frame to frame that a board shows, us: over so many frames, none of them missed.
+fn period_us(board: &mut Emulated, frames: u32) -> f64 {
+    let mut first = None;
+    loop {
+        let message = board.receive();
+        let Report::Raw(raw) = message.report() else { continue };
+        let (frame, time) = *first.get_or_insert((raw.frame, raw.time.0));
+        if raw.frame >= frame + frames {
+            return (raw.time.0 - time) as f64 / f64::from(raw.frame - frame);
+        }
+    }
+}
+
+/// What a garment asks for, what a scene asks for, and what a frame then takes, within 0.5 % of the one model.
+#[test]
+fn a_frame_takes_what_the_model_says() {
+    const SETTLING: [u32; 8] = [500, 3_000, 4_000, 8_000, 15_000, 34_000, 60_000, 100_000];
+    const DEPTHS: [Depth; 5] = [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8];
+    // A block's frame may be shorter than what the board does with it: some scans are missed then.
+    const WHAT_ELSE_US: u64 = 1_000;
+    let mut scene = Scene::shipped();
+    scene.stream = StreamConfig { frames_hz: 0, raw_hz: u16::MAX, ..StreamConfig::default() };
+    for mut garment in [Garment::reference(), Garment::mat(), Garment::block()] {
+        let layout = Layout::build(&garment, TAXELS, 4095).unwrap();
+        let codes: Vec<u16> = (0..layout.taxels()).map(|taxel| 100 + (taxel % 900) as u16).collect();
+        let mut board = Emulated::start(&garment, &codes, 0, &["--loop"]);
+        board.receive();
+        board.play();
+        for settle_ns in SETTLING {
+            garment.wiring.settle_ns = settle_ns;
+            let circuit = Circuit::build(&garment, &layout, Pins::ANY).unwrap();
+            if frame_us(&circuit, &Plan::default()) < WHAT_ELSE_US {
+                continue;
+            }
+            board.obey(&Request::SetGarment(&postcard::to_allocvec(&garment).unwrap()));
+            let mut worst = (0.0, 0.0, 0.0);
+            for depth in DEPTHS {
+                scene.plan.depth = depth;
+                board.obey(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
+                board.obey(&Request::Start);
+                let want = frame_us(&circuit, &scene.plan) as f64;
+                let have = period_us(&mut board, 4);
+                let off = have / want - 1.0;
+                assert!(
+                    off.abs() < 0.005,
+                    "{}, {settle_ns} ns, {depth:?}: {have} us, not {want}",
+                    garment.name
+                );
+                if f64::abs(off) >= f64::abs(worst.0) {
+                    worst = (off, have, want);
+                }
+            }
+            let (off, have, want) = worst;
+            println!(
+                "{:>10} {settle_ns:>6} ns: {have:.1} us a frame, model {want:.0}: {:+.3} % at worst of {} depths",
+                garment.name.as_str(),
+                100.0 * off,
+                DEPTHS.len()
+            );
+        }
+        board.end();
+    }
 }

@@ -19,7 +19,7 @@ pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
-pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, Stretch, Sweep, Unfit};
+pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, SWEEP_STRETCHES, Stretch, Sweep, Unfit};
 
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;

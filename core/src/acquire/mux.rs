@@ -74,7 +74,7 @@ where
     }
 
     /// Lines, delay and converter, for something else than a scan: what the lines show afterwards is not known.
-    pub(crate) fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A) {
+    pub fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A) {
         self.driven = None;
         (self.lines, &mut self.delay, &mut self.adc)
     }

@@ -9,8 +9,10 @@ use heapless::Vec;
 /// Most converter inputs of a sweep.
 pub const SWEEP_INPUTS: usize = 4;
 
-/// Most addresses of a sweep of a board that ships: as many as 2,048 taxels take on four inputs.
+/// Addresses for which the reference board has room: as many as 2,048 taxels take on four inputs.
 pub const SWEEP_ADDRESSES: usize = 512;
+/// Stretches for which it has room: one for each row of 16 blocks.
+pub const SWEEP_STRETCHES: usize = 64;
 
 /// Taxels that a sweep reads at one address, by the position of their input in [`Sweep::inputs`].
 type Read = [Option<u16>; SWEEP_INPUTS];

@@ -3,12 +3,9 @@
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
-use taxel_core::acquire::{PLACES, SWEEP_ADDRESSES, SWEEP_INPUTS, Sweep};
+pub use taxel_core::acquire::{SWEEP_ADDRESSES as ADDRESSES, SWEEP_STRETCHES as STRETCHES};
+use taxel_core::acquire::{PLACES, SWEEP_INPUTS, Sweep};
 
-/// Addresses of the longest sweep.
-pub const ADDRESSES: usize = SWEEP_ADDRESSES;
-/// Stretches of a sweep: one for each row of 16 blocks.
-pub const STRETCHES: usize = 64;
 /// Codes without a taxel in a stretch: as many as a block's row or column has.
 const SPARE: usize = 256;
 

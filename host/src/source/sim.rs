@@ -2,12 +2,12 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
-use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, PINS, Script, SimBoard, SimClock, SimFlash};
+use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
-use taxel_core::acquire::{Clock, MuxScan};
+use taxel_core::acquire::Clock;
 use taxel_core::board::{Board, BoardInfo, Saved, Settings};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};
@@ -113,7 +113,7 @@ impl Play {
                 flash: &mut flash,
                 origin: self.realtime.then_some(&mut origin),
             };
-            let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock.clone());
+            let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
             let mut ends = &link;
             block_on(run(&mut scan, &mut ends, &mut platform, board));
             offset_us = clock.now().0;
