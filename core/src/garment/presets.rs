@@ -113,9 +113,9 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
 /// GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
 ///
 /// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds): a conditioned line
-/// with a time constant of 240 ns (3 kOhm and 80 pF, or an amplifier with 10 kOhm and 22 pF in its feedback) keeps 0.98
-/// counts of a full-scale step then (`taxel bench acquisition`). A slower line needs a longer time, and a frame takes
-/// 512 times as much longer.
+/// with a time constant of 240 ns (3 kOhm and 80 pF) keeps 0.98 counts of a full-scale step then (`taxel bench acquisition`). A
+/// slower line needs a longer time, and a frame takes 512 times as much longer or a little more (`acquire::Rounds`). An amplifier
+/// that is quick enough: `taxel bench amplifier`.
 fn reference_wiring() -> Wiring {
     Wiring {
         block: lines(&[2, 3, 6]),

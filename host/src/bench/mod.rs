@@ -1,6 +1,7 @@
 //! `taxel bench`: speed against error, as a text table, as JSON and as a chart.
 
 pub mod acquisition;
+pub mod amplifier;
 pub mod chart;
 pub mod nmi;
 mod outline;
@@ -33,6 +34,9 @@ enum Table {
     /// Frames a second against the error of a taxel, over settling, source resistance, bits and averaging
     #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
     Acquisition(Output),
+    /// Settling of the garment's amplifier over its gain-bandwidth product
+    #[command(after_help = "Example:\n  taxel bench amplifier --json")]
+    Amplifier(Output),
     /// Spread of the NMI and its forms under rotation, scale, shift and pressure
     #[command(after_help = "Example:\n  taxel bench nmi --json")]
     Nmi(Output),
@@ -68,6 +72,7 @@ pub fn run(args: BenchArgs) -> Result<()> {
     match args.table.unwrap_or(Table::Stages(args.output)) {
         Table::Stages(output) => output.put(&stages::report()?),
         Table::Acquisition(output) => output.put(&acquisition::report()),
+        Table::Amplifier(output) => output.put(&amplifier::report()),
         Table::Nmi(output) => output.put(&nmi::report()?),
         Table::Record(args) => record::run(&args),
     }

@@ -4,13 +4,15 @@ use super::search::{Scanner, Settled, settle};
 use crate::fault::Fault;
 use crate::garments;
 use crate::raw::RawBoard;
-use crate::sim::{self, Timing};
+use crate::sim::{self, FULL_SCALE};
 use crate::source::SourceSpec;
 use anyhow::{Result, bail};
 use clap::Args;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
-use taxel_core::garment::Garment;
+use taxel_core::acquire::{Plan, Rounds, frame_us};
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::wire::Request;
 
 /// Frames after a change of settling that may still be of the old one.
@@ -84,7 +86,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     if args.save {
         board.ask(&Request::Save)?;
     }
-    tell(args, before_ns, &settled);
+    tell(args, before_ns, &settled, &garment)?;
     if args.json && args.output.is_none() {
         return Ok(());
     }
@@ -95,23 +97,32 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     garments::write(&garment, &comment, args.output.as_deref())
 }
 
-fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled) {
-    let slots_ns = Timing::REFERENCE.settling_ns(settled.settle_ns);
+/// `garment` has the settling that was found.
+fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment) -> Result<()> {
+    let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)?;
+    let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
+    let inputs: BTreeSet<u8> = circuit.sites().iter().map(|site| site.input).collect();
+    let given_ns = Rounds::of(inputs.len(), settled.settle_ns).settling_ns();
     if args.json {
         let line = json!({
-            "type": "settled", "settle_ns": settled.settle_ns, "before_ns": before_ns, "in_slots_ns": slots_ns,
+            "type": "settled", "settle_ns": settled.settle_ns, "before_ns": before_ns, "in_slots_ns": given_ns,
             "residue_counts": settled.residue_counts, "error_counts": settled.error_counts, "slow_ns": settled.slow_ns,
             "measured": settled.measured, "unmeasured": settled.unmeasured,
         });
-        return println!("{line}");
+        println!("{line}");
+        return Ok(());
     }
     println!(
         "Settling: {} ns (before: {before_ns}). It leaves {:.1} +- {:.1} counts of a full-scale step.",
         settled.settle_ns, settled.residue_counts, settled.error_counts
     );
-    println!("A board that scans by DMA settles in whole slots of 2,000 ns, and takes {slots_ns} ns.");
+    println!(
+        "A board that scans by DMA drops whole conversions meanwhile: it gives {given_ns} ns, and {:.1} frames/s.",
+        1e6 / frame_us(&circuit, &Plan::default()) as f64
+    );
     if !settled.unmeasured.is_empty() {
         let pins: Vec<_> = settled.unmeasured.iter().map(|pin| format!("GP{pin}")).collect();
         println!("Not measured, because nothing with an edge lay there: {}.", pins.join(", "));
     }
+    Ok(())
 }

@@ -4,20 +4,18 @@ use super::noise::{UNIT_NOISE_RMS, unit_noise};
 use super::script::{Converter, WiringEffects};
 use super::signal::FULL_SCALE;
 use super::wiring::{Line, uneven};
-use taxel_core::acquire::Depth;
+use taxel_core::acquire::{Depth, Rounds};
 
 /// How a garment of several converter inputs is read: each address is applied, waited for, and read on every input in
-/// turn, so that the first input has the least time to settle.
+/// turn, so that the first input has the least time to settle. What is converted meanwhile, and dropped, takes its time.
 #[derive(Debug, Clone)]
 pub struct Chain {
     /// What the wiring does.
     pub wiring: WiringEffects,
     /// What the converter does; its noise stands for all noise of a sample.
     pub converter: Converter,
-    /// From a change of the address to the first sample, ns.
-    pub settle_ns: u32,
-    /// One conversion, ns.
-    pub conversion_ns: u32,
+    /// When the inputs are converted.
+    pub rounds: Rounds,
     /// Converter inputs.
     pub inputs: usize,
     /// Bits of a sample that are kept.
@@ -27,7 +25,7 @@ pub struct Chain {
 impl Chain {
     /// Time of a scan over that many addresses, ns.
     pub fn scan_ns(&self, addresses: usize) -> u64 {
-        (u64::from(self.settle_ns) + self.inputs as u64 * u64::from(self.conversion_ns)) * addresses as u64
+        self.rounds.address_ns() * addresses as u64
     }
 
     /// Scans signals (counts, by address, then by input) `scans` times, one scan after the other, and hands over the codes
@@ -42,15 +40,16 @@ impl Chain {
                 signals.chunks(self.inputs).zip(frame.chunks_mut(self.inputs)).enumerate()
             {
                 let changed = now;
-                now += u64::from(self.settle_ns);
+                now += self.rounds.settling_ns();
                 for (input, ((signal, code), line)) in signals.iter().zip(frame).zip(&mut lines).enumerate() {
                     let settled = self.settled(line, *signal, changed, now);
                     let key = (address * self.inputs + input) as u64;
                     let noisy =
                         settled + noise * unit_noise(key.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1, now);
                     *code = self.depth.keep(self.code(noisy));
-                    now += u64::from(self.conversion_ns);
+                    now += self.rounds.period_ns();
                 }
+                now = changed + self.rounds.address_ns();
             }
             codes(&frame);
         }
@@ -72,10 +71,9 @@ mod tests {
     use super::*;
 
     const IDEAL: Chain = Chain {
+        rounds: Rounds::of(4, 2_000),
         wiring: WiringEffects { source_kohm: 0.0, line_pf: 0.0, crosstalk: 0.0, passive: false },
         converter: Converter { dnl: false, noise_counts: 0.0 },
-        settle_ns: 2_000,
-        conversion_ns: 2_000,
         inputs: 4,
         depth: Depth::Twelve,
     };

@@ -1,15 +1,15 @@
 //! The frames of a scene without pins: for benchmarks, campaigns and the emulator of the real board.
 
 use super::decode::Decoder;
-use super::hardware::Timing;
 use super::script::Script;
 use super::signal::World;
 use super::wiring::Line;
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
+use taxel_core::acquire::Rounds;
 use taxel_core::garment::{Circuit, Garment, Layout};
 
-/// Time from frame to frame on the reference board, us: 195 frames per second, see [`Timing::REFERENCE`].
+/// Time from frame to frame on the reference board, us: 195 frames per second, see [`Rounds`].
 pub const FRAME_PERIOD_US: u64 = 5_128;
 
 /// Most select lines of a garment in the emulator, whose table has an entry for every word.
@@ -34,35 +34,25 @@ struct Sample {
 }
 
 impl Player {
-    /// A script on a garment, read with the timing of the reference board.
+    /// A script on a garment, read as the reference board does.
     pub fn new(script: &Script, garment: &Garment) -> Result<Player> {
-        Player::with_timing(script, garment, Timing::REFERENCE)
-    }
-
-    /// The same with another timing.
-    pub fn with_timing(script: &Script, garment: &Garment, timing: Timing) -> Result<Player> {
         ensure!(
             !garment.blocks.is_empty(),
             "garment {}: it has no blocks, so it cannot be scanned",
             garment.name
         );
         let decoder = Decoder::build(garment);
+        let rounds = Rounds::of(decoder.inputs().len(), garment.wiring.settle_ns);
         let mut samples = Vec::new();
-        let mut now = 0;
+        let mut changed_ns = 0;
         for address in decoder.addresses() {
-            let changed_ns = now;
-            now += u64::from(timing.settling_ns(garment.wiring.settle_ns));
             for input in 0..decoder.inputs().len() {
                 if let Some(taxel) = decoder.taxel(address, input) {
-                    samples.push(Sample {
-                        taxel: taxel as u16,
-                        input: input as u8,
-                        changed_ns,
-                        sampled_ns: now,
-                    });
-                    now += u64::from(timing.conversion_ns);
+                    let sampled_ns = changed_ns + rounds.settling_ns() + input as u64 * rounds.period_ns();
+                    samples.push(Sample { taxel: taxel as u16, input: input as u8, changed_ns, sampled_ns });
                 }
             }
+            changed_ns += rounds.address_ns();
         }
         let lines = vec![Line::default(); decoder.inputs().len()];
         Ok(Player { world: World::build(script, garment)?, samples, lines })

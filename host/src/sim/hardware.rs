@@ -13,19 +13,18 @@ use taxel_core::selftest::PinFault;
 /// Pins that the simulated board may have: GPIO 0 to 63.
 pub const PINS: usize = 64;
 
-/// How long the board's steps take.
+/// How long the steps take where the processor scans. Where a chain does, [`taxel_core::acquire::Rounds`] says it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Timing {
     /// One conversion, ns. The input is sampled at its start.
     pub conversion_ns: u32,
-    /// The garment's settling time is spent in whole conversions (rounded down, at least one), as in the reference
-    /// board's chain of DMA and PIO; otherwise it is waited for exactly.
+    /// The garment's settling time is spent in whole conversions (rounded down, at least one); otherwise it is waited for exactly.
     pub in_slots: bool,
 }
 
 impl Timing {
-    /// The reference board: 500 kS/s, settling in slots. The reference garment takes 512 (1 + 4) conversions = 5.12 ms: 195
-    /// frames per second, simulated, each taxel off by 2.8 counts rms at lines of 3 kOhm (`taxel bench acquisition`).
+    /// As quick as the reference board's chain at its shipped settling: 500 kS/s, settling in slots. The reference garment
+    /// takes 512 (1 + 4) conversions = 5.12 ms: 195 frames per second.
     pub const REFERENCE: Timing = Timing { conversion_ns: 2_000, in_slots: true };
     /// A loop that waits: 512 (3 us + 4 conversions) = 5.632 ms for the reference garment.
     pub const LOOP: Timing = Timing { conversion_ns: 2_000, in_slots: false };

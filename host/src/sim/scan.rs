@@ -3,6 +3,7 @@
 
 use super::board::SimAdc;
 use super::hardware::{PINS, SimDelay, SimPin};
+use super::signal::FULL_SCALE;
 use taxel_core::acquire::{
     Acquire, Adc, Clock, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan, ScanError,
     ScanReport, Sweep,
@@ -25,7 +26,7 @@ pub struct SimScan<'l, C> {
     /// The taxel of each input at each address; empty where no chain can read them.
     taxels: Vec<Option<u16>>,
     codes: Vec<Code>,
-    scans: usize,
+    scans: u32,
     /// A select line showed another level than it was driven to.
     misled: bool,
 }
@@ -70,41 +71,57 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         }
     }
 
-    /// One scan after the other, as many as the depth asks for: their sums.
+    /// One scan after the other, as many as the depth asks for: their mean.
     fn run(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
         let rounds = Rounds::of(self.sweep.inputs().len(), circuit.settle_ns());
-        let lines = circuit.lines().iter().fold(0u64, |lines, pin| lines | 1 << (pin & 63));
-        let bus = &self.delay.bus;
-        let (_, _, adc) = self.processor.parts();
-        self.taxels.iter().flatten().filter_map(|t| self.codes.get_mut(usize::from(*t))).for_each(|c| c.0 = 0);
-        // The golden ratio's multiples are spread evenly: each scan looks at the lines at another address.
+        let lines = circuit.lines().iter().fold(0, |lines, pin| lines | 1 << (pin & 63));
+        self.each_read(|code| code.0 = 0);
+        // The multiples of this number are spread evenly, and so are their digits: each scan looks at the lines somewhere else.
         self.scans = self.scans.wrapping_add(1);
-        let look = self.scans.wrapping_mul(317) % self.sweep.levels().len().max(1);
+        let spread = self.scans.wrapping_mul(0xb529_7a4d);
+        let look = (u64::from(spread) * self.sweep.levels().len() as u64 >> 32) as usize;
         for _ in 0..plan.depth.scans() {
-            let addresses = self.sweep.levels().iter().zip(self.taxels.chunks(self.sweep.inputs().len().max(1)));
-            for (address, (levels, taxels)) in addresses.enumerate() {
-                let levels = u64::from(*levels);
-                bus.act(|drive| {
-                    drive.on |= lines;
-                    drive.high = drive.high & !lines | levels;
-                });
-                self.misled |= address == look && (bus.levels.get() ^ levels) & lines != 0;
-                let changed = bus.now_ns.get();
-                for (turn, (input, taxel)) in self.sweep.inputs().iter().zip(taxels).enumerate() {
-                    bus.now_ns.set(changed + rounds.settling_ns() + turn as u64 * rounds.period_ns());
-                    let code = adc.read(*input);
-                    let Some(taxel) = *taxel else { continue };
-                    let code = code.map_err(|_| ScanError::Converter { input: *input, taxel })?;
-                    if let Some(sum) = self.codes.get_mut(usize::from(taxel)) {
-                        sum.0 += code.min(4095);
-                    }
-                }
-                bus.now_ns.set(changed + rounds.address_ns());
+            for address in 0..self.sweep.levels().len() {
+                self.read(address, lines, rounds, address == look)?;
             }
         }
-        let taxels = self.taxels.iter().flatten();
-        taxels.filter_map(|t| self.codes.get_mut(usize::from(*t))).for_each(|c| c.0 = plan.depth.mean(c.0));
+        self.each_read(|code| code.0 = plan.depth.mean(code.0));
         Ok(())
+    }
+
+    /// Every input at an address, whose codes are added up.
+    fn read(&mut self, address: usize, lines: u64, rounds: Rounds, look: bool) -> Result<(), ScanError> {
+        let inputs = self.sweep.inputs();
+        let levels = self.sweep.levels().get(address).map_or(0, |levels| u64::from(*levels));
+        let taxels = self.taxels.iter().skip(address * inputs.len());
+        let bus = &self.delay.bus;
+        bus.act(|drive| {
+            drive.on |= lines;
+            drive.high = drive.high & !lines | levels;
+        });
+        self.misled |= look && (bus.levels.get() ^ levels) & lines != 0;
+        let (_, _, adc) = self.processor.parts();
+        let begun = bus.now_ns.get();
+        for (turn, (input, taxel)) in (0..).zip(inputs.iter().zip(taxels)) {
+            bus.now_ns.set(begun + rounds.settling_ns() + turn * rounds.period_ns());
+            let code = adc.read(*input);
+            let Some(taxel) = *taxel else { continue };
+            let code = code.map_err(|_| ScanError::Converter { input: *input, taxel })?;
+            if let Some(sum) = self.codes.get_mut(usize::from(taxel)) {
+                sum.0 += code.min(FULL_SCALE);
+            }
+        }
+        bus.now_ns.set(begun + rounds.address_ns());
+        Ok(())
+    }
+
+    /// Does something to the code of every taxel that is read.
+    fn each_read(&mut self, change: impl Fn(&mut Code)) {
+        for taxel in self.taxels.iter().flatten() {
+            if let Some(code) = self.codes.get_mut(usize::from(*taxel)) {
+                change(code);
+            }
+        }
     }
 }
 
@@ -139,5 +156,110 @@ impl<C: Clock + Clone> Examine for SimScan<'_, C> {
 
     fn is_misled(&mut self) -> bool {
         std::mem::take(&mut self.misled) || self.taxels.is_empty() && self.processor.is_misled()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Player, Script, SimBoard};
+    use super::*;
+    use taxel_core::acquire::{Depth, frame_us};
+    use taxel_core::garment::{Garment, Layout, Pins};
+    use taxel_core::run::block_on;
+
+    fn circuit(garment: &Garment) -> Circuit {
+        let layout = Layout::build(garment, TAXELS, FULL_SCALE).unwrap();
+        Circuit::build(garment, &layout, Pins::ANY).unwrap()
+    }
+
+    fn script(text: &str) -> Script {
+        Script::parse(&format!("duration_s = 9\n{text}"), "test.toml").unwrap()
+    }
+
+    /// Durations (us) and codes of some frames of a plan.
+    fn scan(garment: &Garment, script: &Script, plan: &Plan, frames: usize) -> Vec<(u32, Vec<u16>)> {
+        let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
+        let mut scan = SimScan::new(&mut lines, delay, adc, &clock);
+        let mut frame = || {
+            let scan = block_on(scan.scan(&circuit(garment), plan)).unwrap();
+            (scan.report.duration_us, scan.codes.iter().map(|code| code.0).collect())
+        };
+        (0..frames).map(|_| frame()).collect()
+    }
+
+    #[test]
+    fn a_frame_takes_what_the_model_says() {
+        let script = script("");
+        for mut garment in [Garment::reference(), Garment::mat(), Garment::block()] {
+            for settle_ns in [0, 3_000, 4_000, 8_000, 15_000, 34_000, 100_000] {
+                garment.wiring.settle_ns = settle_ns;
+                for depth in [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8] {
+                    for panels in [0b1111, 0b0101] {
+                        let plan = Plan { depth, panels, ..Plan::default() };
+                        let want = frame_us(&circuit(&garment), &plan) as f64;
+                        let have = f64::from(scan(&garment, &script, &plan, 1)[0].0);
+                        let name = &garment.name;
+                        assert!(
+                            (have / want - 1.0).abs() < 0.005,
+                            "{name}, {settle_ns} ns: {have}, not {want}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// A script's frames without pins are those that the board reads, over lines that do not settle, too.
+    #[test]
+    fn the_player_reads_what_the_board_reads() {
+        let ball = "[[touch]]\npanel = \"chest\"\nshape = \"ball\"\nat = [8, 16]\nforce_n = 60\nstart_s = 0\n\
+                    rise_s = 0\nhold_s = 5\n[idle]\nnoise_counts = 0\n[wiring]\nsource_kohm = 30\nline_pf = 80\n";
+        let script = script(ball);
+        for settle_ns in [3_000, 15_000] {
+            let mut garment = Garment::reference();
+            garment.wiring.settle_ns = settle_ns;
+            let mut player = Player::new(&script, &garment).unwrap();
+            let mut now = 0;
+            for (duration_us, codes) in scan(&garment, &script, &Plan::default(), 3) {
+                let mut played = vec![0; TAXELS];
+                player.frame(now, &mut played);
+                let differ = codes.iter().zip(&played).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+                assert_eq!(differ, 0, "{settle_ns} ns");
+                assert!(codes.iter().max() > Some(&1000));
+                now += u64::from(duration_us);
+            }
+        }
+    }
+
+    /// What a plan leaves out keeps its code, and what no chain can read is read by the processor.
+    #[test]
+    fn the_rest_of_the_garment() {
+        let mut garment = Garment::reference();
+        let script = script("[idle]\nbase_code = 100\nspread_counts = 0\nnoise_counts = 0\n");
+        let plan = Plan { panels: 0b0010, ..Plan::default() };
+        let codes = &scan(&garment, &script, &plan, 2)[1].1;
+        assert!(
+            codes.iter().enumerate().all(|(taxel, code)| *code == if taxel / 512 == 1 { 100 } else { 0 })
+        );
+        garment.blocks.iter_mut().filter(|b| b.panel == 3).for_each(|b| b.orientation.mirror_x = true);
+        let codes = &scan(&garment, &script, &Plan::default(), 1)[0].1;
+        assert!(codes.iter().all(|code| *code == 100));
+    }
+
+    /// A line that is stuck in use is seen within some scans, and a sound one never.
+    #[test]
+    fn a_stuck_line_is_seen() {
+        let garment = Garment::reference();
+        for (fault, seen) in [("", false), ("[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]\n", true)]
+        {
+            let script = script(fault);
+            let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+            let mut scan = SimScan::new(&mut lines, delay, adc, &clock);
+            let misled = (0..8).any(|_| {
+                block_on(scan.scan(&circuit(&garment), &Plan::default())).unwrap();
+                scan.is_misled()
+            });
+            assert_eq!(misled, seen);
+        }
     }
 }

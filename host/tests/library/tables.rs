@@ -1,7 +1,7 @@
 //! The tables and charts in docs/bench are what the program prints. Refreshed with TAXEL_BLESS=1 before this test.
 
 use std::path::Path;
-use taxel::bench::{Report, acquisition, nmi};
+use taxel::bench::{Report, acquisition, amplifier, nmi};
 
 /// Compares a table and its chart with the files, or writes them.
 fn check(name: &str, report: &Report) {
@@ -23,6 +23,11 @@ fn check(name: &str, report: &Report) {
 #[test]
 fn acquisition_is_as_checked_in() {
     check("acquisition", &acquisition::report());
+}
+
+#[test]
+fn amplifier_is_as_checked_in() {
+    check("amplifier", &amplifier::report());
 }
 
 #[test]
