@@ -66,7 +66,7 @@ enum Command {
     /// Record a board's stream for Foxglove, Rerun, Python and ROS 2
     #[command(after_help = RECORD)]
     Record(RecordArgs),
-    /// Show a recording's contents; repair a truncated one
+    /// Show a recording's contents; repair a damaged or truncated one
     #[command(after_help = INFO)]
     Info(InfoArgs),
     /// Play a recording as if its board were connected

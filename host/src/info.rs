@@ -1,9 +1,10 @@
-//! `taxel info`: what is in a recording; and the end for one that has none.
+//! `taxel info`: what is in a recording.
 
 use crate::client::Counts;
 use crate::record::Play;
 use crate::recording::{self, ChannelInfo, Scan};
-use anyhow::{Context, Result, bail};
+use crate::repair::{RepairArgs, found};
+use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -16,27 +17,15 @@ pub struct InfoArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
-    /// Add the end that a kill or a power cut has kept from being written
-    #[arg(long)]
-    pub repair: bool,
-    /// With --repair: leave the file as it is and repair a copy
-    #[arg(short, long, value_name = "FILE", requires = "repair")]
-    pub output: Option<PathBuf>,
+    /// The repair.
+    #[command(flatten)]
+    pub repair: RepairArgs,
 }
 
 /// Runs the command.
 pub fn run(args: InfoArgs) -> Result<()> {
-    let mut file = args.file;
-    if let Some(copy) = args.output {
-        if copy.exists() {
-            bail!("{} is there already: give another name", copy.display());
-        }
-        // Only what is a recording is copied.
-        recording::scan(&file)?;
-        std::fs::copy(&file, &copy).with_context(|| format!("{} cannot be copied", file.display()))?;
-        file = copy;
-    }
-    let repaired = args.repair && recording::repair(&file)?;
+    let file = if args.repair.repair { args.repair.run(&args.file)? } else { args.file };
+    let repaired = args.repair.repair;
     let found = Found::of(&file, repaired)?;
     if args.json {
         println!("{}", found.json());
@@ -96,6 +85,10 @@ impl Found<'_> {
             "whole": self.scan.whole,
             "repaired": self.repaired,
             "torn_bytes": self.scan.torn,
+            "has_end": self.scan.ended,
+            "damaged_chunks": self.scan.damaged().0,
+            "damaged_bytes": self.scan.damaged().1,
+            "unread_chunks": self.scan.foreign,
             "start_us": first / 1000,
             "end_us": last / 1000,
             "seconds": self.seconds(),
@@ -113,11 +106,8 @@ impl Found<'_> {
 
     fn table(&self) -> String {
         let Counts { frames, lost, thinned, restarts, .. } = &self.line;
-        let state = match (self.scan.whole, self.repaired) {
-            (true, true) => "repaired".to_string(),
-            (true, false) => "whole".into(),
-            (false, _) => format!("without its end, {} bytes torn: --repair completes it", self.scan.torn),
-        };
+        let advice = if self.scan.whole { "" } else { ": --repair writes what can be read to another file" };
+        let state = format!("{}{advice}", found(&self.scan));
         let mut text = format!("{}: {:.2} MB, {state}\n", self.file.display(), self.bytes as f64 / 1e6);
         for metadata in &self.scan.metadata {
             for (name, value) in metadata.metadata.iter().filter(|(_, value)| !value.is_empty()) {

@@ -32,6 +32,7 @@ pub mod process;
 pub mod raw;
 pub mod record;
 pub mod recording;
+pub mod repair;
 pub mod replay;
 pub mod report;
 pub mod save;

@@ -49,6 +49,12 @@ impl Output {
         }
     }
 
+    /// A file that the command has read and writes again as the user asked: with more in it, or repaired.
+    pub fn update(name: &Path) -> Result<Output> {
+        let none: [&Path; 0] = [];
+        Output::file(name, Force { force: true }, none)
+    }
+
     /// The name as the user wrote it.
     pub fn name(&self) -> &Path {
         &self.name

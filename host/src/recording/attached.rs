@@ -1,7 +1,7 @@
 //! Files that are attached to a recording.
 
 use super::records::Records;
-use super::repair::Scan;
+use super::scan::Scan;
 use anyhow::{Context, Result};
 use mcap::parse_record;
 use mcap::records::Record;

@@ -9,7 +9,12 @@ use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
 /// How chunks are compressed, in MCAP's words.
-const LZ4: &str = "lz4";
+pub const LZ4: &str = "lz4";
+/// Whether chunks that are compressed in this way can be read.
+pub fn is_known(compression: &str) -> bool {
+    matches!(compression, "" | LZ4)
+}
+
 /// Largest chunk that is read, bytes: a claim beyond it is no reason to ask for memory.
 const LARGEST: u64 = 1 << 30;
 

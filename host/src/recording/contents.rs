@@ -1,7 +1,7 @@
 //! What is in a recording: told at its end, so that a reader need not go through it.
 
 use super::append::{HEAD, append, sized, write};
-use super::chunk::Closed;
+use super::chunk::{Closed, is_known};
 use anyhow::Result;
 use mcap::MAGIC;
 use mcap::records::{
@@ -110,7 +110,11 @@ impl Contents {
             append(&mut out, op::CHANNEL, channel, &[])?;
         }
         from = group(&mut out, op::CHANNEL, from);
-        append(&mut out, op::STATISTICS, &self.statistics(), &[])?;
+        // Of a chunk that cannot be read, only its index tells how many messages it holds.
+        let is_counted = |chunk: &Closed| !chunk.counts.is_empty() || is_known(&chunk.index.compression);
+        if self.chunks.iter().all(is_counted) {
+            append(&mut out, op::STATISTICS, &self.statistics(), &[])?;
+        }
         from = group(&mut out, op::STATISTICS, from);
         for chunk in &self.chunks {
             append(&mut out, op::CHUNK_INDEX, &chunk.index, &[])?;

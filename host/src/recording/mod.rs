@@ -1,8 +1,8 @@
 //! A recording: one [MCAP](https://mcap.dev/spec) file, which Foxglove, Rerun, Python's `mcap` and ROS 2 read.
 //!
 //! The records are those of the crate `mcap`; they are put together here, and not by its writer, for three reasons: a chunk is
-//! written whole or not at all, so that a kill or a full disk leaves nothing half in the middle; a file whose end is missing
-//! is completed where it lies, without a copy; and chunks are compressed (LZ4) without a C library.
+//! written whole or not at all, so that a kill or a full disk leaves nothing half in the middle; a damaged file can be read
+//! as far as it is sound; and chunks are compressed (LZ4) without a C library.
 //!
 //! | file | holds |
 //! |---|---|
@@ -17,17 +17,22 @@
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
 //! | `summary.rs` | the summary, read |
 //! | `attached.rs` | files that are attached to it |
-//! | `repair.rs` | a file without its end, completed |
+//! | `salvage/` | the records of a file that may be damaged |
+//! | `scan.rs`, `found.rs` | what is in a file, found by going through it |
+//! | `repair.rs` | a file that is damaged or has no end, written anew |
 
 mod append;
 mod attached;
 mod chunk;
 mod contents;
 mod damage;
+mod found;
 mod lz4;
 mod messages;
 mod records;
 mod repair;
+mod salvage;
+mod scan;
 mod store;
 mod summary;
 mod writer;
@@ -39,7 +44,9 @@ pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use messages::{Message, Messages};
 pub use records::{Head, Inside, RawRecord, Records};
-pub use repair::{Scan, repair, scan};
+pub use repair::repair;
+pub use salvage::Damage;
+pub use scan::{Scan, scan};
 pub use store::Store;
 pub use summary::{Summary, chunk_indexes, footer, summary};
 pub use writer::{Format, Writer};

@@ -1,162 +1,172 @@
-//! A recording without its end, after a kill or a power cut: what is whole is kept, and the end is added.
+//! A damaged recording, or one without its end, written anew: all that can be read, and an end.
+//!
+//! Chunks are copied as they are compressed, others' compressions and records that are not known here included. What is
+//! left out is what no reader could read: chunks that do not fit their checksum, and bytes that are no record.
 
-use super::chunk::{self, Closed, Index};
+use super::append::{append, sized};
+use super::chunk::{Closed, Index};
 use super::contents::Contents;
-use super::records::{Inside, RawRecord, Records};
-use super::store::Store;
-use anyhow::{Context, Result};
-use mcap::records::{AttachmentIndex, MessageIndexEntry, MetadataIndex, Record, op};
-use mcap::{MAGIC, parse_record};
-use std::fs::OpenOptions;
+use super::salvage::{Kind, Opened, Piece, Step, Walk};
+use super::scan::Scan;
+use anyhow::Result;
+use binrw::BinWrite;
+use mcap::MAGIC;
+use mcap::records::{Channel, ChunkHeader, Header, SchemaHeader, op};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::Path;
 
-/// What is in a file, found by going through it.
-#[derive(Debug)]
-pub struct Scan {
-    /// What is whole.
-    pub contents: Contents,
-    /// The file has its end.
-    pub whole: bool,
-    /// Bytes behind what is whole; 0 where the file has its end.
-    pub torn: u64,
-    /// Where the end is to be added.
+/// Writes what can be read of the file that was scanned; the bytes that were written.
+pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
+    let mut walk = Walk::open(path)?;
+    let (schemas, channels) = (scan.contents.schemas.clone(), scan.contents.channels.clone());
+    let contents = Contents { schemas, channels, ..Contents::default() };
+    let told = Told::default();
+    let mut rebuilt = Rebuilt { out, length: 0, contents, told, follows_foreign: false };
+    rebuilt.begin(scan)?;
+    while let Some(step) = walk.next_step()? {
+        match step {
+            Step::Piece(piece) => rebuilt.take(piece)?,
+            Step::Damage(_) => rebuilt.follows_foreign = false,
+        }
+    }
+    let end = rebuilt.contents.end(rebuilt.length)?;
+    rebuilt.put(&end)?;
+    Ok(rebuilt.length)
+}
+
+/// Numbers of schemas and channels that stand in the new file already.
+#[derive(Debug, Default)]
+struct Told {
+    schemas: BTreeSet<u16>,
+    channels: BTreeSet<u16>,
+}
+
+/// The new file.
+struct Rebuilt<'a, W> {
+    out: &'a mut W,
     length: u64,
-    /// Message indexes of the last chunk, which were not written with it.
-    missing: Vec<u8>,
-    /// Words of the file by name.
-    pub metadata: Vec<mcap::records::Metadata>,
-    /// Library and profile.
-    pub header: Option<mcap::records::Header>,
+    /// What is in it; all schemas and channels of the old one.
+    contents: Contents,
+    told: Told,
+    /// The record before is a chunk of a compression that is not known here, or an index of its messages.
+    follows_foreign: bool,
 }
 
-/// Goes through a file.
-pub fn scan(path: &Path) -> Result<Scan> {
-    let mut records = Records::open(path)?;
-    let mut scan = Scan {
-        contents: Contents::default(),
-        whole: false,
-        torn: 0,
-        length: MAGIC.len() as u64,
-        missing: Vec::new(),
-        metadata: Vec::new(),
-        header: None,
-    };
-    // One buffer serves all chunks.
-    let mut plain = Vec::new();
-    while let Some(record) = records.next_record()? {
-        if record.op == op::DATA_END {
-            scan.whole = has_end(&mut records)?;
-            break;
+impl<W: Write> Rebuilt<'_, W> {
+    fn begin(&mut self, scan: &Scan) -> Result<()> {
+        self.put(MAGIC)?;
+        let library = concat!("taxel ", env!("CARGO_PKG_VERSION"));
+        let lost = || Header { profile: String::new(), library: library.into() };
+        self.record(op::HEADER, &scan.header.clone().unwrap_or_else(lost), &[])?;
+        if scan.foreign > 0 && !scan.damage.is_empty() {
+            // What was told in a chunk that is lost may be needed by one that cannot be looked into.
+            let channels: Vec<_> = self.contents.channels.keys().copied().collect();
+            channels.into_iter().try_for_each(|channel| self.channel(channel))?;
         }
-        // Zeros of a power cut (no record has that number), or what else is no record: the end is here.
-        if record.op == 0 || scan.take(&record, &mut plain).is_err() {
-            break;
-        }
-    }
-    let length = records.length();
-    scan.torn = if scan.whole { 0 } else { length.saturating_sub(scan.length) };
-    Ok(scan)
-}
-
-/// Whether a footer and the last bytes follow.
-fn has_end(records: &mut Records) -> Result<bool> {
-    while let Some(record) = records.next_record()? {
-        if record.op == op::FOOTER {
-            return Ok(records.rest(MAGIC.len() as u64)? == MAGIC);
-        }
-    }
-    Ok(false)
-}
-
-impl Scan {
-    fn take(&mut self, record: &RawRecord<'_>, plain: &mut Vec<u8>) -> Result<()> {
-        if record.op != op::MESSAGE_INDEX && !self.missing.is_empty() {
-            self.forget_missing();
-        }
-        let Scan { contents, missing, .. } = self;
-        let (offset, length) = (record.offset, record.end() - record.offset);
-        match parse_record(record.op, record.body)? {
-            Record::Header(header) => self.header = Some(header),
-            Record::Schema { header, data } => {
-                _ = contents.schemas.insert(header.id, (header, data.into_owned()))
-            }
-            Record::Channel(channel) => _ = contents.channels.insert(channel.id, channel),
-            Record::Chunk { header, data } => {
-                chunk::plain(&header, &data, plain)?;
-                let messages = self.look_into(plain)?;
-                self.missing.clear();
-                let closed = Closed::indexed(&header, &messages, offset, length, &mut self.missing)?;
-                self.contents.chunks.push(closed);
-            }
-            // What is rebuilt is what was written: it is there as far as the file goes.
-            Record::MessageIndex(_) => {
-                let written = (length as usize).min(missing.len());
-                missing.drain(..written);
-            }
-            Record::Message { header, .. } => contents.count_loose(header.channel_id, header.log_time),
-            Record::Attachment { header, data, .. } => contents.attachments.push(AttachmentIndex {
-                offset,
-                length,
-                log_time: header.log_time,
-                create_time: header.create_time,
-                data_size: data.len() as u64,
-                name: header.name,
-                media_type: header.media_type,
-            }),
-            Record::Metadata(metadata) => {
-                contents.metadata.push(MetadataIndex { offset, length, name: metadata.name.clone() });
-                self.metadata.push(metadata);
-            }
-            _ => {}
-        }
-        self.length = record.end();
         Ok(())
     }
 
-    /// Other programs may leave message indexes out: where something else follows a chunk, it has none.
-    fn forget_missing(&mut self) {
-        self.missing.clear();
-        if let Some(last) = self.contents.chunks.last_mut() {
-            last.index.message_index_offsets.clear();
-            last.index.message_index_length = 0;
-        }
-    }
-
-    /// Where the messages of a chunk lie; schemas and channels in it are taken along.
-    fn look_into(&mut self, plain: &[u8]) -> Result<Index> {
-        let mut messages = Index::new();
-        for record in Inside::of(plain, 0) {
-            match parse_record(record.op, record.body)? {
-                Record::Message { header, .. } => {
-                    let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };
-                    messages.entry(header.channel_id).or_default().push(entry);
-                }
-                Record::Schema { header, data } => {
-                    self.contents.schemas.insert(header.id, (header, data.into_owned()));
-                }
-                Record::Channel(channel) => _ = self.contents.channels.insert(channel.id, channel),
-                _ => {}
+    fn take(&mut self, piece: Piece) -> Result<()> {
+        let follows_foreign = std::mem::take(&mut self.follows_foreign);
+        match piece.kind {
+            Kind::Schema(header, _) => self.schema(header.id)?,
+            Kind::Channel(channel) => self.channel(channel.id)?,
+            Kind::Message(header) => {
+                self.channel(header.channel_id)?;
+                self.raw(piece.op, &piece.body)?;
+                self.contents.count_loose(header.channel_id, header.log_time);
             }
+            Kind::Chunk(header, Some(inside)) => self.chunk(&header, &inside, &piece.body)?,
+            Kind::Chunk(header, None) => {
+                let (offset, length) = self.raw(piece.op, &piece.body)?;
+                self.contents.chunk(&header, &Index::new(), offset, length);
+                self.follows_foreign = true;
+            }
+            Kind::Index(index) if follows_foreign => {
+                let (offset, length) = self.raw(piece.op, &piece.body)?;
+                self.contents.message_index(&index, offset, length);
+                self.follows_foreign = true;
+            }
+            Kind::Attachment(header, size) => {
+                let (offset, length) = self.raw(piece.op, &piece.body)?;
+                self.contents.attachment(header, size, offset, length);
+            }
+            Kind::Metadata(metadata) => {
+                let (offset, length) = self.raw(piece.op, &piece.body)?;
+                self.contents.words(&metadata.name, offset, length);
+            }
+            Kind::Unknown => _ = self.raw(piece.op, &piece.body)?,
+            // Written anew.
+            Kind::Header(_) | Kind::BadChunk | Kind::Index(_) | Kind::Summary | Kind::Footer => {}
         }
-        Ok(messages)
+        Ok(())
     }
-}
 
-/// Completes a file where it lies; false: it was whole.
-pub fn repair(path: &Path) -> Result<bool> {
-    let scan = scan(path)?;
-    if scan.whole {
-        return Ok(false);
+    /// A chunk, with what its messages need to be read, and its indexes.
+    fn chunk(&mut self, header: &ChunkHeader, inside: &Opened, body: &[u8]) -> Result<()> {
+        self.told.schemas.extend(inside.schemas.iter().map(|(header, _)| header.id));
+        for channel in &inside.channels {
+            self.schema(channel.schema_id)?;
+            self.told.channels.insert(channel.id);
+        }
+        inside.index.keys().try_for_each(|channel| self.channel(*channel))?;
+        let (offset, length) = self.raw(op::CHUNK, body)?;
+        let mut indexes = Vec::new();
+        let closed = Closed::indexed(header, &inside.index, offset, length, &mut indexes)?;
+        self.contents.chunks.push(closed);
+        self.put(&indexes)
     }
-    let place = || format!("{} cannot be repaired", path.display());
-    let mut file = OpenOptions::new().write(true).open(path).with_context(place)?;
-    let mut end = scan.missing;
-    let length = scan.length + end.len() as u64;
-    end.extend(scan.contents.end(length)?);
-    file.cut(scan.length)
-        .and_then(|()| file.write_all(&end))
-        .and_then(|()| file.keep())
-        .with_context(place)?;
-    Ok(true)
+
+    /// Tells a channel where it has not been told. One that is lost gets a name that says so.
+    fn channel(&mut self, id: u16) -> Result<()> {
+        if !self.told.channels.insert(id) {
+            return Ok(());
+        }
+        let lost = || Channel {
+            id,
+            schema_id: 0,
+            topic: format!("/lost/{id}"),
+            message_encoding: String::new(),
+            metadata: BTreeMap::new(),
+        };
+        let channel = self.contents.channels.entry(id).or_insert_with(lost).clone();
+        self.schema(channel.schema_id)?;
+        self.record(op::CHANNEL, &channel, &[])
+    }
+
+    /// Tells a schema where it has not been told. One that is lost is empty.
+    fn schema(&mut self, id: u16) -> Result<()> {
+        // Number 0 stands for no schema.
+        if id == 0 || !self.told.schemas.insert(id) {
+            return Ok(());
+        }
+        let lost = || (SchemaHeader { id, name: format!("lost/{id}"), encoding: String::new() }, Vec::new());
+        let (header, data) = self.contents.schemas.entry(id).or_insert_with(lost).clone();
+        self.record(op::SCHEMA, &header, &sized(&data))
+    }
+
+    fn record<F>(&mut self, number: u8, fields: &F, data: &[u8]) -> Result<()>
+    where
+        F: for<'a> BinWrite<Args<'a> = ()>,
+    {
+        let mut bytes = Vec::new();
+        append(&mut bytes, number, fields, data)?;
+        self.put(&bytes)
+    }
+
+    /// Copies a record; where it lies, and its bytes.
+    fn raw(&mut self, number: u8, body: &[u8]) -> Result<(u64, u64)> {
+        let offset = self.length;
+        self.put(&[number])?;
+        self.put(&(body.len() as u64).to_le_bytes())?;
+        self.put(body)?;
+        Ok((offset, self.length - offset))
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> Result<()> {
+        self.out.write_all(bytes)?;
+        self.length += bytes.len() as u64;
+        Ok(())
+    }
 }

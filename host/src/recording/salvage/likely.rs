@@ -1,0 +1,117 @@
+//! Whether a record begins at a place, as far as its fields tell.
+
+use super::super::append::HEAD;
+use super::opened;
+use super::piece::{Kind, parse};
+use super::source::Source;
+use super::summary::Summary;
+use mcap::records::op;
+use std::collections::BTreeSet;
+use std::io;
+
+/// Bytes of the largest record that is looked into for this; larger ones are judged by their head.
+const LOOK: u64 = 1 << 16;
+/// Bytes of a chunk that hold its fields.
+const FIELDS: u64 = 256;
+/// Bytes of a message's fields.
+const MESSAGE: u64 = 22;
+/// Bytes that are searched at once.
+const BLOCK: u64 = 1 << 16;
+
+/// How sure it is that a record begins at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Trust {
+    No,
+    /// Its head fits into the file, but any bytes might.
+    Head,
+    /// Its fields fill it to the last byte.
+    Fields,
+}
+
+/// What tells records from other bytes.
+#[derive(Debug)]
+pub struct Judge<'a> {
+    /// The file.
+    pub source: &'a mut Source,
+    /// What its end says.
+    pub summary: &'a Summary,
+    /// Channels that were told before.
+    pub channels: &'a BTreeSet<u16>,
+}
+
+impl Judge<'_> {
+    /// Whether a record may begin there, or the file ends.
+    pub fn may_begin(&mut self, at: u64) -> io::Result<bool> {
+        Ok(self.trust(at)?.0 > Trust::No)
+    }
+
+    /// The first place of `from..until` at which a record begins for sure.
+    pub fn search(&mut self, from: u64, until: u64) -> io::Result<Option<u64>> {
+        let told = self.summary.records.range(from..until.max(from)).next().copied();
+        let until = told.unwrap_or(until);
+        let mut block = from;
+        while block < until {
+            let bytes = self.source.read(block, BLOCK.min(until - block))?;
+            for at in
+                (block..).zip(&bytes).filter(|(_, op)| (1..=op::DATA_END).contains(*op)).map(|(at, _)| at)
+            {
+                if self.begins(at)? {
+                    return Ok(Some(at));
+                }
+            }
+            block += BLOCK;
+        }
+        Ok(told)
+    }
+
+    /// Whether a record begins there for sure: by itself, or by what follows it.
+    fn begins(&mut self, at: u64) -> io::Result<bool> {
+        Ok(match self.trust(at)? {
+            (Trust::No, _) => false,
+            (Trust::Fields, _) => true,
+            (Trust::Head, end) => self.trust(end)?.0 > Trust::No,
+        })
+    }
+
+    /// How sure it is that a record begins there, and where it ends.
+    fn trust(&mut self, at: u64) -> io::Result<(Trust, u64)> {
+        let is_known = self.summary.records.contains(&at);
+        if is_known || at == self.source.length() || self.source.is_tail(at)? {
+            return Ok((Trust::Fields, at));
+        }
+        let Some(head) = self.source.head(at)? else { return Ok((Trust::No, at)) };
+        if head.length > self.source.behind(at) {
+            return Ok((Trust::No, at));
+        }
+        let (from, end) = (at + HEAD as u64, at + HEAD as u64 + head.length);
+        let trust = match head.op {
+            0 => Trust::No,
+            op::MESSAGE => self.message(from, head.length)?,
+            op::CHUNK => match opened::header(&self.source.read(from, head.length.min(FIELDS))?) {
+                Some((chunk, used)) if used as u64 + chunk.compressed_size == head.length => Trust::Fields,
+                _ => Trust::No,
+            },
+            number if number > op::DATA_END || head.length > LOOK => Trust::Head,
+            number => match parse(number, &self.source.read(from, head.length)?) {
+                // Few bytes, which others may be by chance.
+                Some((Kind::Summary, true)) => Trust::Head,
+                Some((_, true)) => Trust::Fields,
+                _ => Trust::No,
+            },
+        };
+        Ok((trust, end))
+    }
+
+    /// A message of a channel that is known.
+    fn message(&mut self, from: u64, length: u64) -> io::Result<Trust> {
+        if length < MESSAGE {
+            return Ok(Trust::No);
+        }
+        let bytes = self.source.read(from, 2)?;
+        let channel = bytes.first_chunk().map(|bytes| u16::from_le_bytes(*bytes));
+        let is_known = channel.is_some_and(|channel| {
+            self.channels.contains(&channel) || self.summary.channels.contains_key(&channel)
+        });
+        Ok(if is_known { Trust::Head } else { Trust::No })
+    }
+}

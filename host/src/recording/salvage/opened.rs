@@ -1,0 +1,104 @@
+//! A chunk whose checksum fits, and what is in it.
+
+use super::super::append::write;
+use super::super::chunk::{Index, LZ4};
+use super::super::records::Inside;
+use super::piece::{Kind, fields, parse};
+use lz4_flex::frame::FrameDecoder;
+use mcap::records::{Channel, ChunkHeader, MessageIndexEntry, SchemaHeader, op};
+use std::borrow::Cow;
+use std::io::Read;
+
+/// Largest chunk that is read, bytes.
+const LARGEST: u64 = 1 << 30;
+/// How many times as large as its bytes LZ4 can make a chunk.
+const MOST: u64 = 255;
+
+/// What is in a chunk.
+#[derive(Debug, Default)]
+pub struct Opened {
+    /// Where its messages lie in its plain bytes, by channel.
+    pub index: Index,
+    /// Schemas that are told in it.
+    pub schemas: Vec<(SchemaHeader, Vec<u8>)>,
+    /// Channels that are told in it.
+    pub channels: Vec<Channel>,
+}
+
+/// The fields of a chunk at the beginning of its body, and their bytes.
+pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
+    fields::<ChunkHeader>(body)
+}
+
+/// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right. None: it
+/// does not fit.
+pub fn open(body: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
+    let (told, used) = header(body)?;
+    let data = body.get(used..)?;
+    let named = [told.compression.as_str(), LZ4, ""];
+    let (compression, plain, inside) = named.into_iter().find_map(|compression| {
+        let plain = plain(data, compression)?;
+        let inside = checked(&told, &plain)?;
+        Some((compression.to_string(), plain.len() as u64, inside))
+    })?;
+    let times = || inside.index.values().flatten().map(|entry| entry.log_time);
+    let right = ChunkHeader {
+        message_start_time: times().min().unwrap_or(told.message_start_time),
+        message_end_time: times().max().unwrap_or(told.message_end_time),
+        uncompressed_size: plain,
+        compressed_size: data.len() as u64,
+        compression,
+        ..told
+    };
+    if right != told {
+        let mut corrected = Vec::with_capacity(body.len());
+        write(&mut corrected, &right).ok()?;
+        corrected.extend_from_slice(data);
+        *body = corrected;
+    }
+    Some((right, inside))
+}
+
+/// The records of a chunk, if they fit its checksum; where it has none, if they fill it as it says.
+fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
+    let sum = told.uncompressed_crc;
+    if sum != 0 && sum != crc32fast::hash(plain) {
+        return None;
+    }
+    let (inside, is_whole) = Opened::of(plain);
+    let fits = sum != 0 || (is_whole && told.uncompressed_size == plain.len() as u64);
+    fits.then_some(inside)
+}
+
+fn plain<'a>(data: &'a [u8], compression: &str) -> Option<Cow<'a, [u8]>> {
+    let most = LARGEST.min(data.len() as u64 * MOST);
+    let mut body = Vec::new();
+    match compression {
+        "" => return Some(Cow::Borrowed(data)),
+        LZ4 => _ = FrameDecoder::new(data).take(most + 1).read_to_end(&mut body).ok()?,
+        _ => return None,
+    }
+    (body.len() as u64 <= most).then_some(Cow::Owned(body))
+}
+
+impl Opened {
+    /// Reads the plain bytes of a chunk; also whether they are whole records to their last byte.
+    fn of(plain: &[u8]) -> (Opened, bool) {
+        let (mut inside, mut records) = (Opened::default(), Inside::of(plain, 0));
+        while let Some(record) = records.next() {
+            match parse(record.op, record.body) {
+                Some((Kind::Message(header), _)) => {
+                    let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };
+                    inside.index.entry(header.channel_id).or_default().push(entry);
+                }
+                Some((Kind::Schema(header, data), _)) => inside.schemas.push((header, data)),
+                Some((Kind::Channel(channel), _)) => inside.channels.push(channel),
+                None if matches!(record.op, 0 | op::MESSAGE | op::SCHEMA | op::CHANNEL) => {
+                    return (inside, false);
+                }
+                _ => {}
+            }
+        }
+        (inside, records.offset() == plain.len())
+    }
+}

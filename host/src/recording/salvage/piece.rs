@@ -1,0 +1,105 @@
+//! One record of a file that may be damaged.
+
+use super::opened::Opened;
+use binrw::BinRead;
+use mcap::records::{
+    AttachmentHeader, AttachmentIndex, Channel, ChunkHeader, ChunkIndex, DataEnd, Footer, Header,
+    MessageHeader, MessageIndex, Metadata, MetadataIndex, SchemaHeader, Statistics, SummaryOffset, op,
+};
+use std::io::Cursor;
+
+/// A record that was read.
+#[derive(Debug)]
+pub struct Piece {
+    /// Where it begins in the file.
+    pub offset: u64,
+    /// Where the next begins.
+    pub end: u64,
+    /// Its number.
+    pub op: u8,
+    /// What it holds. What is known to be wrong in a chunk's fields is right here.
+    pub body: Vec<u8>,
+    /// What it says.
+    pub kind: Kind,
+}
+
+/// What a record says.
+#[derive(Debug)]
+pub enum Kind {
+    /// Library and profile.
+    Header(Header),
+    /// How messages are to be read, with the schema's own bytes.
+    Schema(SchemaHeader, Vec<u8>),
+    /// What messages are about.
+    Channel(Channel),
+    /// A message outside of a chunk.
+    Message(MessageHeader),
+    /// A chunk; none: of a compression that is not known here.
+    Chunk(ChunkHeader, Option<Opened>),
+    /// A chunk that does not fit its checksum.
+    BadChunk,
+    /// Where messages of a channel lie in the chunk before.
+    Index(MessageIndex),
+    /// An attached file, and its bytes.
+    Attachment(AttachmentHeader, u64),
+    /// Words by name.
+    Metadata(Metadata),
+    /// The end of the records, or what the summary says of them.
+    Summary,
+    /// The last record.
+    Footer,
+    /// A record that is not known here.
+    Unknown,
+}
+
+/// Reads a record; also whether its fields end where it ends. None: it is no such record. Chunks are read by
+/// [`Opened`].
+pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
+    let exact = |used: usize| used == body.len();
+    let told = |used: usize| Some((Kind::Summary, exact(used)));
+    Some(match number {
+        op::HEADER => fields(body).map(|(header, used)| (Kind::Header(header), exact(used)))?,
+        op::SCHEMA => schema(body)?,
+        op::CHANNEL => fields(body).map(|(channel, used)| (Kind::Channel(channel), exact(used)))?,
+        op::MESSAGE => fields(body).map(|(message, _)| (Kind::Message(message), false))?,
+        op::MESSAGE_INDEX => fields(body).map(|(index, used)| (Kind::Index(index), exact(used)))?,
+        op::ATTACHMENT => attachment(body)?,
+        op::METADATA => fields(body).map(|(words, used)| (Kind::Metadata(words), exact(used)))?,
+        op::FOOTER => fields(body).map(|(_, used): (Footer, _)| (Kind::Footer, exact(used)))?,
+        op::CHUNK_INDEX => fields::<ChunkIndex>(body).and_then(|(_, used)| told(used))?,
+        op::ATTACHMENT_INDEX => fields::<AttachmentIndex>(body).and_then(|(_, used)| told(used))?,
+        op::METADATA_INDEX => fields::<MetadataIndex>(body).and_then(|(_, used)| told(used))?,
+        op::STATISTICS => fields::<Statistics>(body).and_then(|(_, used)| told(used))?,
+        op::SUMMARY_OFFSET => fields::<SummaryOffset>(body).and_then(|(_, used)| told(used))?,
+        op::DATA_END => fields::<DataEnd>(body).and_then(|(_, used)| told(used))?,
+        // Zeros, which a power cut can leave, are no record.
+        0 | op::CHUNK => return None,
+        _ => (Kind::Unknown, false),
+    })
+}
+
+/// The fields at the beginning of a body, and their bytes.
+pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(body: &[u8]) -> Option<(T, usize)> {
+    let mut cursor = Cursor::new(body);
+    let fields = T::read_le(&mut cursor).ok()?;
+    Some((fields, cursor.position() as usize))
+}
+
+fn schema(body: &[u8]) -> Option<(Kind, bool)> {
+    let (header, used) = fields::<SchemaHeader>(body)?;
+    let (length, rest) = body.get(used..)?.split_first_chunk()?;
+    let data = rest.get(..u32::from_le_bytes(*length) as usize)?;
+    // Number 0 stands for no schema.
+    (header.id != 0).then(|| (Kind::Schema(header, data.to_vec()), data.len() == rest.len()))
+}
+
+fn attachment(body: &[u8]) -> Option<(Kind, bool)> {
+    let (header, used) = fields::<AttachmentHeader>(body)?;
+    let (length, rest) = body.get(used..)?.split_first_chunk()?;
+    let length = u64::from_le_bytes(*length);
+    let (_, crc) = rest.split_at_checked(usize::try_from(length).ok()?)?;
+    let sum = u32::from_le_bytes(*crc.first_chunk()?);
+    let summed = body.get(..body.len() - crc.len())?;
+    let fits = sum == 0 || sum == crc32fast::hash(summed);
+    fits.then_some((Kind::Attachment(header, length), crc.len() == size_of::<u32>()))
+}

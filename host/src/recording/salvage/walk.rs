@@ -1,0 +1,225 @@
+//! The records of a file that may be damaged, one after the other.
+
+use super::super::append::HEAD;
+use super::super::chunk::{Index, is_known};
+use super::likely::Judge;
+use super::opened;
+use super::piece::{Kind, Piece, fields, parse};
+use super::source::{Head, Source};
+use super::summary::Summary;
+use anyhow::{Context, Result, bail};
+use mcap::MAGIC;
+use mcap::records::{MessageIndex, op};
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Bytes of the largest record that is read without a look at what follows it.
+const LARGE: u64 = 1 << 26;
+
+/// Goes through the records.
+#[derive(Debug)]
+pub struct Walk {
+    source: Source,
+    path: PathBuf,
+    /// What the file's end says.
+    pub summary: Summary,
+    at: u64,
+    /// Channels that were told so far.
+    channels: BTreeSet<u16>,
+    /// What the message indexes say that follow, if they are those of a chunk that was read.
+    index: Index,
+}
+
+/// What comes next in a file.
+#[derive(Debug)]
+pub enum Step {
+    /// A record.
+    Piece(Piece),
+    /// Bytes that are none.
+    Damage(Damage),
+}
+
+/// Bytes that cannot be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Damage {
+    /// The first of them.
+    pub offset: u64,
+    /// How many.
+    pub length: u64,
+    /// Chunks among them.
+    pub chunks: usize,
+}
+
+impl Walk {
+    /// Begins with the first record.
+    pub fn open(path: &Path) -> Result<Walk> {
+        let mut source = Source::open(path)?;
+        let place = || format!("{} cannot be read", path.display());
+        let summary = Summary::read(&mut source).with_context(place)?;
+        let (index, channels) = (Index::new(), BTreeSet::new());
+        let mut walk = Walk { source, path: path.into(), summary, at: 0, channels, index };
+        let begin = MAGIC.len() as u64;
+        let has_magic = walk.source.read(0, begin).with_context(place)? == MAGIC;
+        if has_magic {
+            walk.at = begin;
+        } else if !walk.summary.is_sound && !walk.begins_with_header(begin).with_context(place)? {
+            bail!("{} is no MCAP file", path.display());
+        }
+        Ok(walk)
+    }
+
+    fn begins_with_header(&mut self, at: u64) -> io::Result<bool> {
+        let Some(Head { op: op::HEADER, length }) = self.source.head(at)? else { return Ok(false) };
+        let body = self.source.read(at + HEAD as u64, length)?;
+        Ok(matches!(parse(op::HEADER, &body), Some((Kind::Header(_), true))))
+    }
+
+    /// Bytes of the file.
+    pub fn length(&self) -> u64 {
+        self.source.length()
+    }
+
+    /// The next record, or bytes that are none; none: the file is over.
+    pub fn next_step(&mut self) -> Result<Option<Step>> {
+        self.step().with_context(|| format!("{} cannot be read", self.path.display()))
+    }
+
+    fn step(&mut self) -> io::Result<Option<Step>> {
+        let at = self.at;
+        if at >= self.length() || self.source.is_tail(at)? {
+            return Ok(None);
+        }
+        let found = self.piece(at)?;
+        self.at = match &found {
+            Some(piece) => piece.end,
+            None => {
+                let length = self.length();
+                self.judge().search(at + 1, length)?.unwrap_or(length)
+            }
+        };
+        let piece = match found {
+            Some(piece) if !matches!(piece.kind, Kind::BadChunk) => piece,
+            _ => return self.damage(at).map(|damage| Some(Step::Damage(damage))),
+        };
+        match &piece.kind {
+            Kind::Chunk(_, Some(inside)) => {
+                self.index = inside.index.clone();
+                self.channels.extend(inside.channels.iter().map(|channel| channel.id));
+            }
+            Kind::Channel(channel) => _ = self.channels.insert(channel.id),
+            Kind::Index(_) => {}
+            _ => self.index.clear(),
+        }
+        Ok(Some(Step::Piece(piece)))
+    }
+
+    fn judge(&mut self) -> Judge<'_> {
+        Judge { source: &mut self.source, summary: &self.summary, channels: &self.channels }
+    }
+
+    fn damage(&mut self, offset: u64) -> io::Result<Damage> {
+        self.index.clear();
+        let told = self.summary.chunks.range(offset..self.at).count();
+        let is_chunk = self.source.head(offset)?.is_some_and(|head| head.op == op::CHUNK);
+        let chunks = if self.summary.chunks.is_empty() { usize::from(is_chunk) } else { told };
+        Ok(Damage { offset, length: self.at - offset, chunks })
+    }
+
+    /// The record that begins there; none: there is none.
+    fn piece(&mut self, at: u64) -> io::Result<Option<Piece>> {
+        let Some(head) = self.source.head(at)? else { return Ok(None) };
+        if let Some(chunk) = self.chunk(at, head)? {
+            return Ok(Some(chunk));
+        }
+        if head.op == 0 || head.length > self.source.behind(at) {
+            return Ok(None);
+        }
+        let end = at + HEAD as u64 + head.length;
+        if head.length > LARGE && !self.ends(at, end)? {
+            return Ok(None);
+        }
+        let body = self.source.read(at + HEAD as u64, head.length)?;
+        let piece = |number, kind, body| Some(Piece { offset: at, end, op: number, body, kind });
+        if let Some(index) = self.follows_chunk(&body) {
+            return Ok(piece(op::MESSAGE_INDEX, Kind::Index(index), body));
+        }
+        if let Some((number, kind)) = disguised(head.op, &body) {
+            return Ok(piece(number, kind, body));
+        }
+        Ok(match parse(head.op, &body) {
+            Some((kind, true)) if !self.swallows(at, end) => piece(head.op, kind, body),
+            Some((kind, _)) if self.ends(at, end)? => piece(head.op, kind, body),
+            _ => None,
+        })
+    }
+
+    /// A chunk. Where its record's length is wrong, that of its fields may be right; and where the record's number is
+    /// wrong, the place is that of a chunk if the summary says so.
+    fn chunk(&mut self, at: u64, head: Head) -> io::Result<Option<Piece>> {
+        if head.op != op::CHUNK && !self.summary.chunks.contains(&at) {
+            return Ok(None);
+        }
+        let (from, behind) = (at + HEAD as u64, self.source.behind(at));
+        let Some((told, used)) = opened::header(&self.source.read(from, behind.min(256))?) else {
+            return Ok(None);
+        };
+        let by_fields = (used as u64).saturating_add(told.compressed_size);
+        let piece =
+            |length, body, kind| Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind });
+        // The shorter first: what follows a compressed chunk would not be missed by its checksum.
+        let mut lengths = vec![by_fields, head.length];
+        lengths.sort();
+        lengths.dedup();
+        for length in lengths.into_iter().filter(|length| *length <= behind) {
+            let mut body = self.source.read(from, length)?;
+            if let Some((header, inside)) = opened::open(&mut body) {
+                return Ok(piece(length, body, Kind::Chunk(header, Some(inside))));
+            }
+        }
+        let end = from.saturating_add(head.length);
+        if by_fields != head.length || end > self.length() || !self.ends(at, end)? {
+            return Ok(None);
+        }
+        Ok(if !is_known(&told.compression) {
+            piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told, None))
+        } else {
+            piece(head.length, Vec::new(), Kind::BadChunk)
+        })
+    }
+
+    /// Whether a record that says so of itself ends there: another begins there, or at least none inside it.
+    fn ends(&mut self, at: u64, end: u64) -> io::Result<bool> {
+        if self.swallows(at, end) {
+            return Ok(false);
+        }
+        Ok(self.judge().may_begin(end)? || self.judge().search(at + 1, end)?.is_none())
+    }
+
+    /// Whether the summary says that another record begins inside this one.
+    fn swallows(&self, at: u64, end: u64) -> bool {
+        self.summary.records.range(at + 1..end).next().is_some()
+    }
+
+    /// The message index that a body is, if it says what was found in the chunk before it.
+    fn follows_chunk(&self, body: &[u8]) -> Option<MessageIndex> {
+        if self.index.is_empty() {
+            return None;
+        }
+        let (index, used) = fields::<MessageIndex>(body)?;
+        let is_it = used == body.len() && self.index.get(&index.channel_id) == Some(&index.records);
+        is_it.then_some(index)
+    }
+}
+
+/// What a record is whose number was that of another, and is now that of a message or of none that is known: its fields
+/// fill it to the last byte, which those of a message do not by chance.
+fn disguised(number: u8, body: &[u8]) -> Option<(u8, Kind)> {
+    if number != op::MESSAGE && number <= op::DATA_END {
+        return None;
+    }
+    [op::CHANNEL, op::METADATA_INDEX, op::HEADER].into_iter().find_map(|other| match parse(other, body) {
+        Some((kind, true)) => Some((other, kind)),
+        _ => None,
+    })
+}

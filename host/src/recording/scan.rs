@@ -1,0 +1,95 @@
+//! What is in a file, found by going through it.
+
+use super::chunk::Index;
+use super::contents::Contents;
+use super::salvage::{Damage, Kind, Piece, Step, Walk};
+use anyhow::Result;
+use mcap::records::{Header, Metadata};
+use std::path::Path;
+
+/// What is in a file.
+#[derive(Debug)]
+pub struct Scan {
+    /// What can be read, in the places where it lies.
+    pub contents: Contents,
+    /// The file has its end, and nothing in it is known to be damaged.
+    pub whole: bool,
+    /// The file has its end: a footer, which may be damaged.
+    pub ended: bool,
+    /// Bytes behind what can be read of a file that has no end.
+    pub torn: u64,
+    /// Bytes that cannot be read, those behind what can be read included.
+    pub damage: Vec<Damage>,
+    /// Chunks of compressions that are not known here: no message in them can be read.
+    pub foreign: usize,
+    /// Words of the file by name.
+    pub metadata: Vec<Metadata>,
+    /// Library and profile.
+    pub header: Option<Header>,
+}
+
+/// Goes through a file.
+pub fn scan(path: &Path) -> Result<Scan> {
+    let mut walk = Walk::open(path)?;
+    let ended = walk.summary.is_there;
+    let mut scan = Scan {
+        contents: Contents::default(),
+        whole: false,
+        ended,
+        torn: 0,
+        damage: Vec::new(),
+        foreign: 0,
+        metadata: Vec::new(),
+        header: None,
+    };
+    while let Some(step) = walk.next_step()? {
+        match step {
+            Step::Piece(piece) => scan.take(piece),
+            Step::Damage(damage) => scan.damage.push(damage),
+        }
+    }
+    let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());
+    scan.torn = last.map_or(0, |last| last.length);
+    // The summary's own checksum covers what it says.
+    scan.contents.schemas.append(&mut walk.summary.schemas);
+    scan.contents.channels.append(&mut walk.summary.channels);
+    scan.whole = walk.summary.is_sound && scan.damage.is_empty() && scan.header.is_some();
+    Ok(scan)
+}
+
+impl Scan {
+    /// Chunks that cannot be read, and bytes; those behind what can be read of a file without its end are not counted.
+    pub fn damaged(&self) -> (usize, u64) {
+        let inside = self.damage.iter().take(self.damage.len() - usize::from(self.torn > 0));
+        inside.fold((0, 0), |(chunks, bytes), damage| (chunks + damage.chunks, bytes + damage.length))
+    }
+
+    fn take(&mut self, piece: Piece) {
+        let (offset, length) = (piece.offset, piece.end - piece.offset);
+        let contents = &mut self.contents;
+        match piece.kind {
+            Kind::Header(header) => _ = self.header.get_or_insert(header),
+            // What is told in a chunk has been checked, what is told outside has not.
+            Kind::Schema(header, data) => _ = contents.schemas.entry(header.id).or_insert((header, data)),
+            Kind::Channel(channel) => _ = contents.channels.entry(channel.id).or_insert(channel),
+            Kind::Message(header) => contents.count_loose(header.channel_id, header.log_time),
+            Kind::Chunk(header, Some(inside)) => {
+                let told = inside.schemas.into_iter().map(|(header, data)| (header.id, (header, data)));
+                contents.schemas.extend(told);
+                contents.channels.extend(inside.channels.into_iter().map(|channel| (channel.id, channel)));
+                contents.chunk(&header, &inside.index, offset, length);
+            }
+            Kind::Chunk(header, None) => {
+                self.foreign += 1;
+                contents.chunk(&header, &Index::new(), offset, length);
+            }
+            Kind::Index(index) => contents.message_index(&index, offset, length),
+            Kind::Attachment(header, size) => contents.attachment(header, size, offset, length),
+            Kind::Metadata(metadata) => {
+                contents.words(&metadata.name, offset, length);
+                self.metadata.push(metadata);
+            }
+            Kind::BadChunk | Kind::Summary | Kind::Footer | Kind::Unknown => {}
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! `taxel info --repair`: what can be read of a recording, written to another file.
+
+use crate::output::{Force, Output};
+use crate::recording::{self, Scan};
+use anyhow::{Context, Result};
+use clap::Args;
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What `taxel info` takes for a repair.
+#[derive(Debug, Clone, Default, Args)]
+pub struct RepairArgs {
+    /// Write all that can be read to another file, with an end: after a kill, a power cut or damage
+    #[arg(long)]
+    pub repair: bool,
+    /// With --repair: file to write [default: NAME.repaired.mcap]
+    #[arg(short, long, value_name = "FILE", requires = "repair", conflicts_with = "in_place")]
+    pub output: Option<PathBuf>,
+    /// With --repair: replace the recording itself, when the repaired one is complete
+    #[arg(long, requires = "repair")]
+    pub in_place: bool,
+    /// Whether another file is replaced.
+    #[command(flatten)]
+    pub force: Force,
+}
+
+impl RepairArgs {
+    /// Writes the repaired file, and says so; its name. A whole file stays as it is, and is copied only where a name for
+    /// the copy was given.
+    pub fn run(&self, file: &Path) -> Result<PathBuf> {
+        let scan = recording::scan(file)?;
+        let shown = file.display();
+        if scan.whole && self.output.is_none() {
+            eprintln!("{shown} is whole: there is nothing to repair.");
+            return Ok(file.into());
+        }
+        let beside = || file.with_extension("repaired.mcap");
+        let name = if self.in_place { file.into() } else { self.output.clone().unwrap_or_else(beside) };
+        let output = match self.in_place {
+            true => Output::update(&name)?,
+            false => Output::file(&name, self.force, [file])?,
+        };
+        let mut draft = output.draft()?;
+        if scan.whole {
+            let mut whole = File::open(file).with_context(|| format!("{shown} cannot be read"))?;
+            io::copy(&mut whole, &mut draft)?;
+        } else {
+            recording::repair(file, &scan, &mut draft)?;
+        }
+        draft.keep()?;
+        eprintln!("{shown}: {}; written to {}.", found(&scan), name.display());
+        Ok(name)
+    }
+}
+
+/// What was found in a file, in words.
+pub fn found(scan: &Scan) -> String {
+    let mut words = Vec::new();
+    let (chunks, bytes) = scan.damaged();
+    if chunks > 0 {
+        let s = if chunks == 1 { "" } else { "s" };
+        words.push(format!("{chunks} damaged chunk{s} of {bytes} bytes cannot be read"));
+    } else if bytes > 0 {
+        words.push(format!("{bytes} bytes are damaged"));
+    }
+    if !scan.ended {
+        words.push(format!("without its end, {} bytes torn", scan.torn));
+    }
+    if scan.foreign > 0 {
+        words.push(format!("{} chunks of a compression that is not known here", scan.foreign));
+    }
+    match (words.is_empty(), scan.whole) {
+        (true, true) => "whole".into(),
+        (true, false) => "its summary is damaged".into(),
+        _ => words.join(", "),
+    }
+}

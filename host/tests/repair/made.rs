@@ -1,0 +1,104 @@
+//! Small recordings, and what other programs read of them.
+
+use mcap::records::op;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
+use taxel::recording::{Format, Messages, Writer, repair, scan};
+
+/// A message: topic, log time, data.
+pub type Told = (String, u64, Vec<u8>);
+
+/// A file of a test, removed at its end.
+pub struct Scratch(pub PathBuf);
+
+impl Scratch {
+    pub fn new(bytes: &[u8]) -> Scratch {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("taxel-repair-{}-{number}.mcap", std::process::id()));
+        fs::write(&path, bytes).unwrap();
+        Scratch(path)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        fs::remove_file(&self.0).unwrap();
+    }
+}
+
+/// Three chunks of four messages on two topics, an attached file and words.
+pub fn recording() -> Vec<u8> {
+    let scratch = Scratch::new(b"");
+    let mut writer = Writer::create(File::create(&scratch.0).unwrap(), "").unwrap();
+    let format = Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{}" };
+    let channels = ["/a", "/b"].map(|topic| writer.channel(topic, &format).unwrap());
+    writer.attach("words.txt", "text/plain", b"hello", 1).unwrap();
+    writer.metadata("m", [("k".to_string(), "v".to_string())].into()).unwrap();
+    for time in 0..12u64 {
+        let data = format!("{{\"time\": {time}}}");
+        writer.message(channels[time as usize % 2], 100 + time, time, data.as_bytes()).unwrap();
+        if time % 4 == 3 {
+            writer.flush().unwrap();
+        }
+    }
+    writer.finish().unwrap();
+    fs::read(&scratch.0).unwrap()
+}
+
+/// What can be read of a file, with an end; the file itself must be as it was.
+pub fn repaired(bytes: &[u8]) -> Vec<u8> {
+    let scratch = Scratch::new(bytes);
+    let mut out = Vec::new();
+    let length = repair(&scratch.0, &scan(&scratch.0).unwrap(), &mut out).unwrap();
+    assert_eq!(length, out.len() as u64);
+    assert!(fs::read(&scratch.0).unwrap() == bytes, "the damaged file is as it was");
+    out
+}
+
+/// The messages that are read, and by whose summary they are found: nothing may be wrong, for the crate `mcap` (which is
+/// built without LZ4 here and does not look into chunks) as for us.
+pub fn read(bytes: &[u8]) -> Vec<Told> {
+    let summary = mcap::Summary::read(bytes).unwrap().expect("a summary");
+    for record in mcap::read::LinearReader::new(bytes).unwrap() {
+        record.unwrap();
+    }
+    let scratch = Scratch::new(bytes);
+    let (mut messages, mut all) = (Messages::open(&scratch.0).unwrap(), Vec::new());
+    while let Some(message) = messages.next_message().unwrap() {
+        let (header, data) = (message.header, message.data.to_vec());
+        let topic = messages.topic(header.channel_id).expect("a channel that was told before");
+        let told = summary.channels.get(&header.channel_id).expect("a channel that the summary tells");
+        assert_eq!(told.topic, topic);
+        all.push((topic.to_string(), header.log_time, data));
+    }
+    assert!(messages.skipped().is_none());
+    for index in &summary.chunk_indexes {
+        assert_eq!(bytes[index.chunk_start_offset as usize], op::CHUNK);
+        assert!(index.message_index_offsets.values().all(|at| bytes[*at as usize] == op::MESSAGE_INDEX));
+    }
+    assert_eq!(summary.stats.unwrap().message_count, all.len() as u64);
+    assert!(scan(&scratch.0).unwrap().whole);
+    all
+}
+
+/// A record.
+pub fn record(number: u8, body: &[u8]) -> Vec<u8> {
+    [&[number], &(body.len() as u64).to_le_bytes()[..], body].concat()
+}
+
+/// Where each record lies: its number, its first byte, the byte behind it.
+pub fn records(bytes: &[u8]) -> Vec<(u8, usize, usize)> {
+    let mut found = Vec::new();
+    let mut at = mcap::MAGIC.len();
+    while let Some((head, _)) = bytes[at..].split_first_chunk::<9>() {
+        let length = u64::from_le_bytes(head[1..].try_into().unwrap()) as usize;
+        found.push((head[0], at, at + 9 + length));
+        at += 9 + length;
+        if head[0] == op::FOOTER {
+            break;
+        }
+    }
+    found
+}

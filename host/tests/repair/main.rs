@@ -1,0 +1,6 @@
+//! Damaged recordings: what can be read is never lost, and no input is changed.
+
+mod damaged;
+mod foreign;
+mod made;
+mod program;
