@@ -5,6 +5,7 @@ use super::force::Force;
 use super::part;
 use super::place::Place;
 use super::same::is_same;
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
@@ -29,7 +30,7 @@ impl Output {
         let output = Output::stream(name, force, inputs)?;
         ensure!(
             output.place != Place::Standard,
-            "-o -: this cannot be written to the standard output, name a file"
+            Fault::usage("-o -: this cannot be written to the standard output, name a file")
         );
         Ok(output)
     }
@@ -107,9 +108,11 @@ impl Output {
         let Some(same) = self.inputs.iter().find(|input| is_same(path, input)) else { return Ok(()) };
         let name = self.name.display();
         if *same == self.name {
-            bail!("{name} is read by this command: give another name for the output");
+            bail!(Fault::usage(format!("{name} is read by this command: give another name for the output")));
         }
-        bail!("{name} is the same file as {}, which this command reads: give another name", same.display())
+        let same = same.display();
+        let told = format!("{name} is the same file as {same}, which this command reads: give another name");
+        bail!(Fault::usage(told))
     }
 
     /// Gives the output's name to a temporary file.

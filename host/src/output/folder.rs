@@ -4,6 +4,7 @@ use super::file::folder as parent;
 use super::force::Force;
 use super::part;
 use super::same::is_same;
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
 use std::io::BufWriter;
@@ -34,7 +35,7 @@ impl Folder {
     ) -> Result<Folder> {
         let (shown, place) = (name.display(), || format!("{} cannot be written", name.display()));
         if name == Path::new("-") {
-            bail!("-o -: a folder cannot be written to the standard output, name a folder");
+            bail!(Fault::usage("-o -: a folder cannot be written to the standard output, name a folder"));
         }
         let is_new = !name.exists();
         if is_new {

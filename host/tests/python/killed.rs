@@ -83,7 +83,8 @@ fn a_kill_costs_a_second_at_most() {
         let path: PathBuf = file("killed.mcap");
         let safe = kill(&said, &path, Duration::from_millis(random.u64(1200..2400)));
         torn += usize::from(!taxel::recording::scan(&path).unwrap().whole);
-        let repaired = program().arg("info").arg(&path).args(["--repair", "--in-place", "--json"]).output().unwrap();
+        let repaired =
+            program().arg("info").arg(&path).args(["--repair", "--in-place", "--json"]).output().unwrap();
         assert!(repaired.status.success(), "kill {number}: {}", String::from_utf8_lossy(&repaired.stderr));
         let kept = wire(&path);
         assert!(kept.iter().zip(&said.messages).all(|(kept, (_, sent))| kept == sent), "kill {number}");
