@@ -112,6 +112,7 @@ impl Source {
 
 /// Opens a file. Its first bytes tell what it is, its name only where they do not.
 fn open(path: &Path) -> Result<Source> {
+    crate::verbose::reads(path);
     let file = File::open(path).context("cannot be read")?;
     let mut start = Vec::new();
     (&file).take(8).read_to_end(&mut start).context("cannot be read")?;

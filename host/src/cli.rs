@@ -46,7 +46,7 @@ pub struct Cli {
     /// What to do [default: live]
     #[command(subcommand)]
     command: Option<Command>,
-    /// Tell on the standard error what the program does: sources, boards, files
+    /// Report on the standard error what the program does
     #[arg(short, long, global = true)]
     verbose: bool,
 }

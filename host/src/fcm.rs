@@ -37,7 +37,7 @@ use anyhow::{Result, bail};
 #[derive(Debug, Clone, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct FcmArgs {
-    /// What to do with maps; without it, one is run
+    /// What to do with maps [default: run one]
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
@@ -46,21 +46,21 @@ pub struct FcmArgs {
 
 #[derive(Debug, Clone, clap::Subcommand)]
 enum Command {
-    /// Validate a map: its numbers, what nothing reaches, whether it settles, whether the board holds it
+    /// Check a map: its numbers, unreachable concepts, whether it settles and fits the board
     Check(check::CheckArgs),
-    /// One map of several experts' maps of one thing, with their disagreement
+    /// Combine the maps of several experts into one; report where they disagree
     Combine(combine::CombineArgs),
-    /// One map of maps that share concepts
+    /// Merge maps that share concepts into one
     Merge(combine::MergeArgs),
-    /// What made an activation, and what would change it
+    /// Explain an activation: what caused it, and what would change it
     Why(why::WhyArgs),
-    /// A map in four steps, asked for line by line
+    /// Write a new map in four steps, by answering questions
     New(new::NewArgs),
-    /// Better weights from labelled touches, within the expert's signs
+    /// Learn weights from labelled touches; the expert's signs stay
     Learn(learn::LearnArgs),
-    /// The graph as SVG
+    /// Draw a map as SVG
     Draw(draw::DrawArgs),
-    /// The time of one inference, beside other programs
+    /// Time one inference, beside other programs
     Bench(bench::BenchArgs),
 }
 

@@ -14,10 +14,10 @@ use taxel_core::shape::nmi;
 pub struct FeaturesArgs {
     /// Image or frames: .npy, .npz or .csv
     pub file: PathBuf,
-    /// Which array of an .npz with several
+    /// Array of an .npz that holds several
     #[arg(long, value_name = "NAME")]
     pub array: Option<String>,
-    /// Which frame, from 0
+    /// Number of the frame, from 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame: usize,
     /// Print JSON instead of a table

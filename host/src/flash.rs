@@ -31,6 +31,7 @@ pub struct FlashArgs {
 /// Runs the command.
 pub fn run(args: &FlashArgs) -> Result<()> {
     let name = args.file.display();
+    crate::verbose::reads(&args.file);
     let image = fs::read(&args.file).with_context(|| format!("{name} cannot be read"))?;
     if image.starts_with(b"\x7fELF") {
         return probe(&args.file);

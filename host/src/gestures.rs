@@ -33,15 +33,15 @@ pub struct GesturesArgs {
 enum Command {
     /// Train a model
     Train(TrainArgs),
-    /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
+    /// Evaluate a model; with --cross, train on all groups but one and test on that one, in turn
     Eval {
         #[command(flatten)]
         eval: EvalArgs<Cross>,
-        /// Frames per second, for the times observed
+        /// Frames per second of the recordings
         #[arg(long, value_name = "HZ", default_value_t = 54.0)]
         rate: f64,
     },
-    /// The card of the shipped models: data, split, figures, where they fail
+    /// Print the card of the shipped models: data, split, figures, where they fail
     Card,
 }
 

@@ -39,9 +39,9 @@ pub struct IntentArgs {
 enum Command {
     /// Train a model
     Train(TrainArgs),
-    /// Evaluate a model, or, with --cross, how well one trained on the others does on each group
+    /// Evaluate a model; with --cross, train on all groups but one and test on that one, in turn
     Eval(EvalArgs<Cross>),
-    /// The card of the shipped models: data, split, figures, where they fail
+    /// Print the card of the shipped models: data, split, figures, where they fail
     Card,
 }
 

@@ -26,7 +26,7 @@ type State = PipelineState<TAXELS, { TAXELS / 2 }>;
 pub struct ProcessArgs {
     /// Recorded frames: .npy, .npz ([n, rows, columns] or [rows, columns]) or .csv
     pub file: PathBuf,
-    /// Array of an .npz; without it all that hold frames, one after the other
+    /// Array of an .npz [default: all that hold frames, one after the other]
     #[arg(long, value_name = "NAME")]
     pub array: Option<String>,
     /// Garment whose taxels the frames hold: a preset or a TOML file [default: one panel of the array's size]
@@ -41,7 +41,7 @@ pub struct ProcessArgs {
     /// Take the mean of the first N frames as the baseline
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub tare: u16,
-    /// One JSON object a frame
+    /// Print JSON, one object per frame
     #[arg(long)]
     pub json: bool,
 }

@@ -12,16 +12,16 @@ use std::path::PathBuf;
 pub struct ReplayArgs {
     /// Recording: .mcap
     pub file: PathBuf,
-    /// How many times as fast as it was, or `max` [default: 1 in a terminal, else max]
+    /// Speed as a multiple of the recorded one, or `max` [default: 1 in a terminal, else max]
     #[arg(long, value_name = "N|max")]
     pub speed: Option<Speed>,
-    /// End after N images
+    /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Print messages as JSON, one a line
+    /// Print messages as JSON, one per line
     #[arg(long)]
     pub json: bool,
-    /// With --json: also the pressure of every taxel
+    /// With --json: also print the pressure of every taxel
     #[arg(long, requires = "json")]
     pub pixels: bool,
 }

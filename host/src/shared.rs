@@ -11,7 +11,7 @@ pub struct Shared<T> {
 }
 
 impl<T> Shared<T> {
-    /// Has it alone.
+    /// Locks the value.
     pub fn lock(&self) -> MutexGuard<'_, T> {
         self.value.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -27,7 +27,7 @@ impl<T> Shared<T> {
         self.changed.notify_all();
     }
 
-    /// Gives it away until it may have changed, or for so long.
+    /// Waits for a change or the timeout.
     pub fn wait<'a>(&self, value: MutexGuard<'a, T>, longest: Duration) -> MutexGuard<'a, T> {
         self.changed.wait_timeout(value, longest).unwrap_or_else(PoisonError::into_inner).0
     }

@@ -23,7 +23,7 @@ pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// An error once it was.
+/// Errors if Ctrl-C was pressed.
 pub fn check() -> Result<()> {
     if asked() {
         bail!("ended by Ctrl-C");

@@ -1,6 +1,7 @@
 //! What the program does step by step, told on the standard error where `-v` asks for it.
 
 use std::fmt::Display;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ON: AtomicBool = AtomicBool::new(false);
@@ -15,4 +16,9 @@ pub fn tell(step: impl Display) {
     if ON.load(Ordering::Relaxed) {
         eprintln!("taxel: {step}");
     }
+}
+
+/// Tells that a file is about to be read.
+pub fn reads(file: impl AsRef<Path>) {
+    tell(format_args!("reads {}", file.as_ref().display()));
 }

@@ -31,7 +31,7 @@ enum Table {
     /// Each stage and each variant: time on this machine, error, contacts
     #[command(after_help = "Example:\n  taxel bench stages --svg stages.svg")]
     Stages(Output),
-    /// Frames a second against the error of a taxel, over settling, source resistance, bits and averaging
+    /// Frames per second against the error of a taxel, over settling, source resistance, bits and averaging
     #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
     Acquisition(Output),
     /// Settling of the garment's amplifier over its gain-bandwidth product
@@ -40,7 +40,7 @@ enum Table {
     /// Spread of the NMI and its forms under rotation, scale, shift and pressure
     #[command(after_help = "Example:\n  taxel bench nmi --json")]
     Nmi(Output),
-    /// What recording costs beside perceiving, and how fast a recording is played
+    /// Cost of recording beside perceiving, and speed of replay
     #[command(after_help = "Example:\n  taxel bench record")]
     Record(record::RecordBench),
 }
@@ -51,7 +51,7 @@ pub struct Output {
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
-    /// Draw the chart into a file, too
+    /// Also draw the chart into this file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
 }

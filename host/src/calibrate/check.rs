@@ -20,16 +20,16 @@ use taxel_core::garment::Layout;
 /// What `taxel calibrate check` takes.
 #[derive(Debug, Clone, Args)]
 pub struct CheckArgs {
-    /// The calibration
+    /// Calibration file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// A known weight to be put on a plate that covers the first panel, N
+    /// Also ask for a known weight on a plate that covers the first panel, N
     #[arg(long, value_name = "N")]
     pub press: Option<f64>,
-    /// Look again every S seconds until Ctrl-C, and tell when something has changed: a drift monitor
+    /// Repeat every S seconds until Ctrl-C and report changes
     #[arg(long, value_name = "S", conflicts_with = "press")]
     pub every: Option<f64>,
     /// Days after which a calibration is old

@@ -40,11 +40,11 @@ pub struct CalibrateArgs {
     /// What the plate under the weights covers
     #[arg(long, value_enum, default_value_t = Over::Panel)]
     pub over: Over,
-    /// The weights with what carries them, N, put on one after the other and taken off again
+    /// Weights with their plate, N, put on one after the other and taken off again
     /// [default: 5,10,20,50,100; over a taxel 0.2,0.5,1,2]
     #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
     pub weights: Vec<f64>,
-    /// The weights are in kg
+    /// Weights are in kg
     #[arg(long)]
     pub kg: bool,
     /// Who calibrates [default: the user's name]
@@ -53,23 +53,23 @@ pub struct CalibrateArgs {
     /// Seconds of the board to wait for a weight
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     pub wait: f64,
-    /// Write the calibration there
+    /// File to write
     #[arg(long, short, value_name = "FILE", default_value = "calibration.toml")]
     pub output: PathBuf,
-    /// The board keeps its share over a restart
+    /// Also save the calibration to the board's flash
     #[arg(long)]
     pub save: bool,
-    /// Print the dialogue as JSON, one object a line
+    /// Print the dialogue as JSON, one object per line
     #[arg(long)]
     pub json: bool,
-    /// No board: a garment of that number with 10 % gain spread, 3 % hysteresis, 2 % noise, and somebody who loads it
+    /// Simulate a garment from this seed with 10 % gain spread, 3 % hysteresis and 2 % noise, and a user who loads it
     #[arg(long, value_name = "SEED", conflicts_with = "source")]
     pub simulate: Option<u64>,
 }
 
 #[derive(Debug, Clone, Subcommand)]
 enum Also {
-    /// Whether it is time to calibrate again, and why
+    /// Check whether a calibration still holds, and if not, why
     #[command(
         after_help = "Examples:\n  taxel calibrate check calibration.toml\n  taxel calibrate check calibration.toml --press 20"
     )]

@@ -96,6 +96,7 @@ impl Calibration {
     /// Reads a file and checks it; errors name the file, and line and key where they can.
     pub fn read(file: &Path) -> Result<Calibration> {
         let name = file.display().to_string();
+        crate::verbose::reads(file);
         let text = std::fs::read_to_string(file).with_context(|| format!("{name} cannot be read"))?;
         Calibration::parse(&text, &name)
     }

@@ -16,6 +16,7 @@ const BOARD: (usize, BoardInfo) =
 /// Checks a garment's file, and a scene's; what it is, in a sentence. Errors name file, line and key or place.
 pub fn check(file: &Path, scene: Option<&Path>) -> Result<String> {
     let name = file.display().to_string();
+    crate::verbose::reads(file);
     let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {name}"))?;
     let garment: Garment =
         toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;

@@ -41,28 +41,28 @@ pub struct ExportArgs {
     /// Recording: .mcap; for LeRobot one or more
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// What it is to become
+    /// Format to write
     #[arg(long, value_name = "FORM")]
     pub to: Form,
     /// File to write; for images and LeRobot the folder
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Table: only taxels with pressure
+    /// CSV: only taxels with pressure
     #[arg(long)]
     pub touched: bool,
-    /// Table, LeRobot: counts also where the recording says what a newton shows
+    /// CSV, LeRobot: write counts even where newtons are known
     #[arg(long)]
     pub counts: bool,
-    /// Table: reference of the converter, V
+    /// CSV: reference voltage of the converter, V
     #[arg(long, value_name = "V", default_value_t = 3.3)]
     pub reference: f64,
-    /// LeRobot: rows a second
+    /// LeRobot: rows per second
     #[arg(long, value_name = "N", default_value = "30")]
     pub fps: NonZeroU16,
-    /// LeRobot: what is done in the recordings
+    /// LeRobot: name of the task
     #[arg(long, value_name = "TEXT", default_value = "touch")]
     pub task: String,
-    /// Only each N-th frame
+    /// Only every N-th frame
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroU64,
 }

@@ -5,9 +5,9 @@ use super::terms::Triangle;
 /// How sets become one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Aggregation {
-    /// Memberships are added: each statement counts, also if it repeats another.
+    /// Add memberships: repeated statements count.
     Sum,
-    /// The greatest membership counts: repeating a statement changes nothing.
+    /// Take the greatest membership: repeated statements change nothing.
     Max,
 }
 

@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 /// Arguments of `taxel fcm combine`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct CombineArgs {
-    /// Experts' maps of one thing
+    /// Maps of one thing, each by another expert
     #[arg(required = true, num_args = 2..)]
     pub maps: Vec<String>,
-    /// Where the combined map is written; it is named after the file
+    /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
-    /// How the fuzzy sets of an edge's weights become one, before the centroid is taken
+    /// How the fuzzy sets of an edge's weights are aggregated before the centroid is taken
     #[arg(long, value_enum, default_value = "sum")]
     pub how: Aggregation,
     /// Print JSON instead of a table
@@ -32,10 +32,10 @@ pub struct MergeArgs {
     /// Maps of different things that share concepts
     #[arg(required = true, num_args = 2..)]
     pub maps: Vec<String>,
-    /// Where the merged map is written; it is named after the file
+    /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Make one weight of those that differ, instead of refusing them
+    /// Aggregate weights that differ, instead of refusing them
     #[arg(long, value_enum)]
     pub combine: Option<Aggregation>,
     /// Print JSON instead of a table

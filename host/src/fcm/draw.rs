@@ -17,7 +17,7 @@ pub struct DrawArgs {
     /// TOML file, or the name of a shipped map
     #[arg(required_unless_present = "source")]
     pub map: Option<String>,
-    /// Where the SVG is written
+    /// File to write (.svg)
     #[arg(short, long)]
     pub output: PathBuf,
     /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn

@@ -9,6 +9,7 @@ use std::path::Path;
 /// Reads a JSON map. Every error is a sentence with the file, the field and the value.
 pub fn read(path: &Path) -> Result<Problem> {
     let file = path.display();
+    crate::verbose::reads(path);
     let text = std::fs::read_to_string(path).with_context(|| format!("{file}: cannot be read"))?;
     parse(&text).map_err(|error| anyhow!("{file}: {error}"))
 }

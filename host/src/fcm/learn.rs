@@ -17,7 +17,7 @@ pub struct LearnArgs {
     /// CSV file: a column for each input concept (activations), `label` (an intention, or none), perhaps `group`
     #[arg(long)]
     pub touches: PathBuf,
-    /// Where the map with the new weights is written
+    /// File to write
     #[arg(short, long)]
     pub output: PathBuf,
     /// Parts of the cross-validation: groups, if the file has them

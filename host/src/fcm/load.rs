@@ -29,6 +29,7 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
         let known = words::unknown("map", name_or_path, names);
         bail!(Fault::usage(format!("{known}, or give a .toml file")));
     }
+    crate::verbose::reads(name_or_path);
     let read = std::fs::read_to_string(name_or_path).map(Cow::Owned);
     read.with_context(|| {
         format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))

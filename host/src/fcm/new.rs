@@ -15,7 +15,7 @@ use taxel_core::intent::Source;
 /// Arguments of `taxel fcm new`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct NewArgs {
-    /// Where the map is written; it is named after the file
+    /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
 }

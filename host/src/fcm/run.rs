@@ -18,16 +18,16 @@ pub struct RunArgs {
     /// Activation of a concept at the start, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
-    /// What is summed: kosko, mkosko or rescaled [as the file says, else kosko]
+    /// What is summed: kosko, mkosko or rescaled [default: as in the file, else kosko]
     #[arg(long, value_parser = rule)]
     pub rule: Option<Rule>,
-    /// What the sum becomes: bivalent, trivalent, sigmoid or tanh [as the file says, else tanh]
+    /// What the sum becomes: bivalent, trivalent, sigmoid or tanh [default: as in the file, else tanh]
     #[arg(long, value_parser = transfer)]
     pub transfer: Option<Transfer>,
-    /// Steepness of sigmoid and tanh [as the file says, else 1]
+    /// Steepness of sigmoid and tanh [default: as in the file, else 1]
     #[arg(long, value_parser = lambda, allow_negative_numbers = true)]
     pub lambda: Option<f64>,
-    /// Level that every sum is measured from, -1 ..= 1 [as the file says, else 0]
+    /// Level that every sum is measured from, -1 ..= 1 [default: as in the file, else 0]
     #[arg(long, value_parser = threshold, allow_negative_numbers = true)]
     pub threshold: Option<Decimal>,
     /// Let concepts without an incoming edge follow the rule, instead of keeping their value

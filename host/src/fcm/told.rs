@@ -15,17 +15,17 @@ use taxel_core::wire::IntentReport;
 /// What commands take that show a map as a board has it.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ToldArgs {
-    /// In place of a map: a board or a recording, whose first announced intention is shown: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`,
+    /// In place of a map: a board or a recording, of which the first announced intention is shown: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`,
     /// `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
-    /// With --source: what was told last in the first S seconds, announced or not
+    /// With --source: show the last state of the first S seconds, announced or not
     #[arg(long, value_name = "S", value_parser = live::seconds, requires = "source")]
     pub at: Option<f64>,
-    /// With --source: the scene that the board is used for, a TOML file
+    /// With --source: scene to send to the board, a TOML file
     #[arg(long, value_name = "FILE", requires = "source")]
     pub scene: Option<PathBuf>,
-    /// With --source: value of a concept that the host feeds, as for `taxel live`
+    /// With --source: set a concept, as in `taxel live`
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = live::feed, requires = "source")]
     pub feed: Vec<Feed>,
 }

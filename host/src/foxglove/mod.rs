@@ -44,7 +44,7 @@ pub fn run(args: FoxgloveArgs) -> Result<()> {
     let port = serve(listener, hub.clone(), &source.label)?;
     println!("{} at ws://127.0.0.1:{port} (Ctrl-C ends)", source.label);
     live::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;
-    println!("Nothing more comes; what came last is kept for who comes later (Ctrl-C ends).");
+    println!("Stream ended; new clients get the last messages (Ctrl-C ends).");
     loop {
         std::thread::park();
     }

@@ -1,4 +1,4 @@
-//! Cross-validation: who is tested when.
+//! Cross-validation: stratified k-fold assignment.
 
 /// Deals units out to `folds` folds, the classes evenly and in an order that the seed draws: the fold of each unit. Units are
 /// given by their class.

@@ -17,31 +17,31 @@ pub struct BoardArgs {
     /// Garment that a real or emulated board is to wear: a preset or a TOML file
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
-    /// Scene that the board is used for: a TOML file; what it does not say is as shipped
+    /// Scene to send to the board: a TOML file; keys that it leaves out keep the shipped values
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
-    /// Calibration that the board is to have, for forces in newtons: a file of `taxel calibrate`
+    /// Calibration to send to the board, for forces in newtons: a file written by `taxel calibrate`
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
-    /// Take the mean of the first N frames as the baseline [default: as a simulated scene asks, else 0]
+    /// Take the mean of the first N frames as the baseline [default: what a simulated scene says, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
-    /// How many times a second the board reports where its time goes; 65535: for each frame [default: 1]
+    /// Timing reports of the board per second; 65535: one for each frame [default: 1]
     #[arg(long, value_name = "HZ")]
     pub budget: Option<u16>,
-    /// The board recognises what goes on by a model that it holds
+    /// Gesture model to run on the board
     #[arg(long, value_name = "MODEL", value_enum)]
     pub gestures: Option<GestureModel>,
-    /// With --gestures: counts of the model's sheet per count of the garment [default: 1]
+    /// With --gestures: scale factor from the garment's counts to those that the model was trained on [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
-    /// Value of a concept that the host feeds: -1 to 1, its age, from which age on it no longer counts [default: never], and what counts then [default: 0]
+    /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default: never]; the value that counts then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
-    /// The board recognises shapes by a base that it is taught: a file, or the name of one that is shipped
+    /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[arg(long, value_name = "BASE")]
     pub shapes: Option<PathBuf>,
-    /// Seed of a simulation
+    /// Seed of the simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
 }
@@ -80,25 +80,25 @@ pub struct LiveArgs {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
-    /// End after N images
+    /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// End after S seconds of the board
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal's picture repeats it]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// Print messages as JSON, one a line
+    /// Print messages as JSON, one per line
     #[arg(long)]
     pub json: bool,
-    /// With --json: also the pressure of every taxel
+    /// With --json: also print the pressure of every taxel
     #[arg(long, requires = "json")]
     pub pixels: bool,
-    /// Keep the bytes that come, for --source file:FILE
+    /// Also save the received bytes, for --source file:FILE
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
-    /// A simulation is not faster than time
+    /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
     /// Write the terminal's last picture as SVG

@@ -49,7 +49,7 @@ pub trait Show {
         Ok(true)
     }
 
-    /// Nothing more comes.
+    /// The stream has ended.
     fn end(&mut self, _client: &Client) -> Result<()> {
         Ok(())
     }

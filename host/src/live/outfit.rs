@@ -4,6 +4,7 @@ use crate::client::Client;
 use crate::fault::Blame;
 use crate::sim;
 use crate::source::read_scene;
+use crate::verbose;
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;
@@ -20,6 +21,7 @@ pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
         .and_then(|layout| Circuit::build(&garment, &layout, Pins::ANY));
     checked.with_context(|| name_or_path.to_string())?;
     let bytes = postcard::to_allocvec(&garment).context("the garment cannot be written")?;
+    verbose::tell(format_args!("garment {} is sent, {} bytes", garment.name, bytes.len()));
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
@@ -33,6 +35,7 @@ pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let mut elsewhere = scene.clone();
     elsewhere.react.iter_mut().for_each(|row| row.region.clear());
     Pipeline::build(&elsewhere, &layout).with_context(place)?;
+    verbose::tell(format_args!("scene {} is sent", scene.name));
     client.use_for(&scene).with_context(place)
 }
 

@@ -1,5 +1,6 @@
 //! A source is read until it ends, or until enough has come.
 
+use super::narrate::request_name;
 use super::{BoardArgs, LiveArgs, Show, outfit};
 use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews};
@@ -8,6 +9,7 @@ use crate::fault::{Blame, Fault};
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
 use crate::source::Source;
+use crate::verbose;
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
@@ -53,6 +55,7 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         for byte in &buffer[..count] {
             taken += 1;
             let Some(event) = client.push(*byte) else { continue };
+            tell(&client, &event);
             show.event(&client, &event)?;
             if limits.reached(&event) {
                 break;
@@ -70,6 +73,27 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     match client.worn() {
         Some(_) => Ok(()),
         None => Err(silent(&source, client.counts().bytes)),
+    }
+}
+
+/// What `-v` tells of a board.
+fn tell(client: &Client, event: &Event) {
+    match event {
+        Event::Hello => {
+            if let Some(worn) = client.worn() {
+                let (firmware, garment, scene) = (&worn.firmware, &worn.garment.name, &worn.scene.name);
+                verbose::tell(format_args!(
+                    "board {firmware} wears garment {garment} and plays scene {scene}"
+                ));
+            }
+        }
+        Event::Answer { request, refusal: None } => {
+            verbose::tell(format_args!("the board has done {}", request_name(*request)));
+        }
+        Event::Answer { request, refusal: Some(why) } => {
+            verbose::tell(format_args!("the board refuses {}: {why}", request_name(*request)));
+        }
+        _ => {}
     }
 }
 

@@ -3,6 +3,7 @@
 use super::file::{Output, folder};
 use super::part;
 use super::place::Place;
+use crate::verbose;
 use anyhow::{Context, Result};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
@@ -55,6 +56,7 @@ impl Draft {
     /// Gives the content to the output: it is on the disk when this returns.
     pub fn keep(mut self) -> Result<()> {
         self.flush()?;
+        verbose::tell(format_args!("has written {}", self.output.name.display()));
         let Sink::File(file, part) = self.sink else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
         file.get_ref().sync_all().with_context(place)?;

@@ -5,6 +5,7 @@ use super::force::Force;
 use super::part;
 use super::same::is_same;
 use crate::fault::Fault;
+use crate::verbose;
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
 use std::io::BufWriter;
@@ -86,6 +87,7 @@ impl Folder {
             move_into(&entry, &self.path).with_context(place)?;
         }
         part::sync_folder(&self.path).with_context(place)?;
+        verbose::tell(format_args!("has written {}", self.name.display()));
         fs::remove_dir_all(&old).with_context(place)
     }
 }

@@ -20,25 +20,25 @@ pub struct RecordArgs {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
-    /// End after N images
+    /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// End after S seconds of the board [default: a simulation's own end; else Ctrl-C]
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; a board is recorded until Ctrl-C]
     #[arg(long, value_name = "S", value_parser = live::seconds)]
     pub seconds: Option<f64>,
-    /// Also write FILE.ros2.mcap with ROS 2's own messages: images, point clouds, forces, diagnostics
+    /// Also write FILE.ros2.mcap with ROS 2 messages: images, point clouds, forces, diagnostics
     #[arg(long)]
     pub ros2: bool,
-    /// Go on in FILE-0002.mcap and so on after a time or a size: 10min, 1GB
+    /// Start a new file (FILE-0002.mcap, ...) after a time or a size: 10min, 1GB
     #[arg(long, value_name = "LIMIT")]
     pub rotate: Option<Rotate>,
-    /// Write over files that are there
+    /// Overwrite existing files
     #[arg(long)]
     pub force: bool,
-    /// Also record the raw code of every taxel, for volts
+    /// Also record the converter's raw code of every taxel
     #[arg(long)]
     pub raw: bool,
-    /// A simulation is not faster than time
+    /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
 }
@@ -66,11 +66,16 @@ pub fn run(args: RecordArgs) -> Result<()> {
         },
         raw: args.raw,
     })?;
+    let label = source.label.clone();
+    let unlimited = args.frames.is_none() && args.seconds.is_none();
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let done = live::watch(&watched, source, &mut recorder);
     // A source that is gone ends the recording, and not its file.
     let ended = recorder.finish();
     let again = if stderr().is_terminal() { "\r" } else { "" };
     eprintln!("{again}{} ", recorder.progress());
+    if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {
+        eprintln!("{label} is over: a simulated scene is played once, --seconds S records for longer");
+    }
     done.and(ended)
 }

@@ -62,6 +62,7 @@ impl Records {
     /// Of a file.
     pub fn open(path: &Path) -> Result<Records> {
         let place = || format!("{} cannot be read", path.display());
+        crate::verbose::reads(path);
         let file = File::open(path).with_context(place)?;
         if path.is_dir() {
             bail!("{} is a folder", path.display());
@@ -70,7 +71,7 @@ impl Records {
         let mut input = BufReader::new(file);
         let mut magic = [0; MAGIC.len()];
         if input.read_exact(&mut magic).is_err() || magic != MAGIC {
-            bail!("{} is no MCAP file", path.display());
+            bail!("{} is not an MCAP file", path.display());
         }
         Ok(Records { input, offset: MAGIC.len() as u64, length, body: Vec::new() })
     }

@@ -225,7 +225,7 @@ fn a_full_disk_leaves_a_whole_file() {
 #[test]
 fn what_is_no_recording_is_named() {
     let path = file("no", b"hello");
-    assert!(scan(&path).unwrap_err().to_string().ends_with("is no MCAP file"));
+    assert!(scan(&path).unwrap_err().to_string().ends_with("is not an MCAP file"));
     std::fs::remove_file(&path).unwrap();
     assert!(format!("{:#}", scan(&path).unwrap_err()).contains("cannot be read"));
 }

@@ -20,7 +20,7 @@ pub struct ReportArgs {
     /// Page to write (.html)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// End after S seconds of the board; a real board is watched for 10 where nothing is said
+    /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played once]
     #[arg(long, value_name = "S", value_parser = live::seconds)]
     pub seconds: Option<f64>,
 }

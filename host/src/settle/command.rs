@@ -27,13 +27,13 @@ pub struct SettleArgs {
     /// The garment, a preset or a TOML file [default: what the board wears]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
-    /// Counts of 4,095 that a full-scale step from taxel to taxel may leave
+    /// Largest residue of a full-scale step between two taxels, counts of 4,095
     #[arg(long, value_name = "COUNTS", default_value_t = 4.0)]
     pub error: f64,
-    /// Write the garment with its settling there [default: print it]
+    /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Have the board store it with its settings, as `taxel save` does
+    /// Also save it to the board's flash, as `taxel save` does
     #[arg(long)]
     pub save: bool,
     /// Print JSON instead of sentences

@@ -25,20 +25,19 @@ pub struct SetupArgs {
     /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// The garment as it is meant to be, a preset or a TOML file: panels, blocks and pins are taken from it [default: what
-    /// the board wears]
+    /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: what the board wears]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
-    /// Write the garment there [default: print it]
+    /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Seconds of the board to wait for a touch
     #[arg(long, value_name = "S", default_value_t = 20.0)]
     pub wait: f64,
-    /// Print the dialogue as JSON, one object a line
+    /// Print the dialogue as JSON, one object per line
     #[arg(long)]
     pub json: bool,
-    /// No board: a random wiring of that number, and somebody who presses where it is asked
+    /// Simulate a board with random wiring from this seed, and a user who touches as asked
     #[arg(long, value_name = "N", conflicts_with = "source")]
     pub simulate: Option<u64>,
 }
@@ -211,7 +210,7 @@ fn summary(found: &Found) -> String {
     for (panel, input) in &found.dead {
         let name = found.garment.panels.get(*panel).map_or("", |panel| panel.name.as_str());
         text += &format!(
-            "\nPanel {name} gives no sign: GP{input}, which is left over, is taken for its input; look for a broken wire, \
+            "\nPanel {name} gives no signal; assuming GP{input}, the only input left; look for a broken wire, \
              then set up again."
         );
     }

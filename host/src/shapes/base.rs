@@ -112,6 +112,7 @@ impl Base {
         if let Some(shipped) = SHIPPED.iter().find(|shipped| Path::new(shipped.name) == name) {
             return Base::parse(shipped.text).with_context(|| format!("base {}", shipped.name));
         }
+        crate::verbose::reads(name);
         let read = || {
             let size = std::fs::metadata(name).context("cannot be read")?.len();
             ensure!(size <= LONGEST, "is no base of shapes: it has {size} bytes, expected at most {LONGEST}");

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `taxel shapes card`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct CardArgs {
-    /// Base: a file, or the name of one that is shipped
+    /// Base: a file, or the name of a shipped base
     pub base: PathBuf,
 }
 

@@ -19,7 +19,7 @@ pub struct ImagesArgs {
     /// Their classes: CSV with a column `index` and one of names
     #[arg(long, value_name = "CSV")]
     pub labels: Option<PathBuf>,
-    /// Which sets of a file that holds NAME_img and NAME_label; * stands for any text
+    /// Sets to use of a file that holds NAME_img and NAME_label; * stands for any text
     #[arg(long, value_name = "NAME")]
     pub set: Vec<String>,
     /// Classes to keep, as NAME or NAME=GROUP with commas; or one of `three`, `groups`

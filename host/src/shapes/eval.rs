@@ -18,11 +18,11 @@ pub struct EvalArgs {
     /// What to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
-    /// Base: a file, or the name of one that is shipped [default: that of them which knows most of the classes, on such a grid]. With --cross it
-    /// is not asked
+    /// Base: a file, or the name of a shipped base [default: the shipped one that knows most of the classes, for this grid]; unused
+    /// with --cross
     #[arg(long, value_name = "BASE")]
     pub base: Option<PathBuf>,
-    /// Learn from the images themselves, each time without one of so many folds, and recognise that one
+    /// Cross-validate on the images, with this number of folds
     #[arg(long, value_name = "FOLDS", value_parser = clap::value_parser!(u16).range(2..=10_000))]
     pub cross: Option<u16>,
     /// How to learn, with --cross.

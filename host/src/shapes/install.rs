@@ -14,7 +14,7 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel shapes install`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct InstallArgs {
-    /// A base: a file, or the name of one that is shipped
+    /// Base: a file, or the name of a shipped base
     pub base: PathBuf,
     /// The board: as in `taxel live`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]

@@ -6,6 +6,7 @@ use std::path::Path;
 /// Class of each of `count` images: a column `index` (from 0), and the last other column for the name.
 pub fn read(path: &Path, count: usize) -> Result<Vec<String>> {
     let parse = || {
+        crate::verbose::reads(path);
         let text = std::fs::read_to_string(path).context("cannot be read")?;
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let (_, head) = lines.next().context("is empty")?;

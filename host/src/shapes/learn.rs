@@ -15,27 +15,27 @@ use taxel_core::shape::Point;
 /// Arguments of `taxel shapes learn`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct LearnArgs {
-    /// What it is called, at most 16 bytes
+    /// Name of the class, at most 16 bytes
     pub name: String,
-    /// Learn from images or frames of it: .npz, .npy or .csv; without it, from touches of the board
+    /// Learn from images or frames (.npz, .npy or .csv) [default: from touches of the board]
     #[arg(long, value_name = "FILE", conflicts_with = "source")]
     pub images: Option<PathBuf>,
-    /// Which array of an .npz with several
+    /// Array of an .npz that holds several
     #[arg(long, value_name = "NAME", requires = "images")]
     pub array: Option<String>,
     /// The board that it is held against
     #[command(flatten)]
     pub board: BoardArgs,
-    /// How many touches to wait for
+    /// Number of touches to wait for
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub touches: u16,
-    /// Wait for touches no longer than S seconds of the board
+    /// Stop waiting after S seconds of the board's time [default: a simulated scene is played once]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// Base to add it to: a file, or the name of one that is shipped [default: the file to write; if it is not there, an empty base]
+    /// Base to add to: a file, or the name of a shipped base [default: the output file; if it does not exist, an empty base]
     #[arg(long, value_name = "BASE")]
     pub base: Option<PathBuf>,
-    /// Most prototypes to add
+    /// Largest number of prototypes to add
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub prototypes: usize,
     /// File to write
@@ -60,8 +60,8 @@ pub fn run(args: LearnArgs) -> Result<()> {
     base.save(&args.output)?;
     let (file, name) = (args.output.display(), &args.name);
     eprintln!("{file}: {added} prototypes of {name} from {} touches", points.len());
-    if base.card.split == LEFT_OUT {
-        let count = base.gallery.prototypes.len();
+    let count = base.gallery.prototypes.len();
+    if base.card.split == LEFT_OUT && count > 1 {
         eprintln!("{:.0} % of {count} are known by the others", 100.0 * base.card.accuracy);
     }
     Ok(())
@@ -98,6 +98,9 @@ fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
     let watched = LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board.clone()) };
     live::watch(&watched, source, &mut hold)?;
     let points = hold.held;
+    if (1..wanted).contains(&points.len()) {
+        eprintln!("{label} ended after {} of {wanted} touches", points.len());
+    }
     ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
     let fingerprint = match &args.board.source {
         SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Fingerprint::of(path)?.to_string(),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `taxel shapes list`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ListArgs {
-    /// Bases: files, or names of those that are shipped [default: all that are shipped]
+    /// Bases: files, or names of shipped bases [default: all shipped bases]
     pub bases: Vec<PathBuf>,
     /// Print JSON instead of a table
     #[arg(long)]

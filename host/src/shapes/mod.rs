@@ -40,19 +40,19 @@ pub struct ShapesArgs {
 
 #[derive(Debug, Clone, Subcommand)]
 enum Command {
-    /// Make a base from labelled images
+    /// Train a base on labelled images
     Train(train_command::TrainArgs),
-    /// How often a base is right on labelled images
+    /// Evaluate a base on labelled images
     Eval(eval::EvalArgs),
-    /// Teach a base one more class, or more of a class, by touches of a board or by images
+    /// Add a class, or more examples of one, by touching a board or from images
     Learn(Box<learn::LearnArgs>),
-    /// Teach a board a base
+    /// Send a base to a board
     Install(install::InstallArgs),
-    /// Leave out prototypes that decide nothing
+    /// Remove prototypes that decide nothing
     Prune(prune::PruneArgs),
-    /// What a base knows
+    /// List the classes of a base
     List(list::ListArgs),
-    /// Where a base comes from, and where it fails
+    /// Print where a base comes from and where it fails
     Card(card::CardArgs),
 }
 

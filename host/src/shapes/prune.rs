@@ -9,7 +9,7 @@ use taxel_core::shape::{Exemplar, Point};
 /// Arguments of `taxel shapes prune`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct PruneArgs {
-    /// Base: a file, or the name of one that is shipped
+    /// Base: a file, or the name of a shipped base
     pub base: PathBuf,
     /// File to write
     #[arg(short, long, value_name = "BASE")]

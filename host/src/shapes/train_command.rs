@@ -28,7 +28,7 @@ pub struct TrainArgs {
 /// How to learn, on the command line.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RecipeArgs {
-    /// Most prototypes
+    /// Largest number of prototypes
     #[arg(long, value_name = "N", default_value_t = GALLERY_PROTOTYPES as u8, value_parser = clap::value_parser!(u8).range(2..=GALLERY_PROTOTYPES as i64))]
     pub prototypes: u8,
     /// Neighbours that vote
@@ -37,7 +37,7 @@ pub struct RecipeArgs {
     /// How far the scatter within classes is drawn towards that of unrelated measures, 0 to 1: more for fewer images
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, value_parser = share)]
     pub shrinkage: f64,
-    /// Use only measures that help, chosen anew in each fold: for fewer images than some 300
+    /// Use only measures that help, chosen anew in each fold; for fewer than about 300 images
     #[arg(long)]
     pub select: bool,
 }

@@ -6,7 +6,7 @@ use taxel_core::shape::{Descriptor, Patch, descriptor};
 /// As on the command line.
 #[derive(Debug, Default, Clone, clap::Args)]
 pub struct ViewArgs {
-    /// Counts from which a taxel belongs to the touch [default: that of the base, or 1/32 of the full scale]
+    /// Smallest value of a touched taxel, counts [default: that of the base, or 1/32 of the full scale]
     #[arg(long, value_name = "COUNTS")]
     pub threshold: Option<u16>,
     /// Which of these taxels: all, or the connected ones with the greatest total [default: that of the base, or all]

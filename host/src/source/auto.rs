@@ -4,6 +4,7 @@ use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
 use crate::fault::Fault;
+use crate::verbose;
 use anyhow::{Result, bail};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
@@ -24,6 +25,7 @@ pub fn open(options: &SourceOptions) -> Result<Source> {
     let known = known(ports());
     let mut silent = Vec::new();
     for port in &known {
+        verbose::tell(format_args!("{} is listened to for a board", port.port_name));
         match Serial::open(&port.port_name, BAUD) {
             Ok(serial) => {
                 if let Some(serial) = listen(serial) {

@@ -18,6 +18,7 @@ pub use scene::{read_scene, scene_of};
 pub use spec::SourceSpec;
 
 use crate::sim::Script;
+use crate::verbose;
 use anyhow::Result;
 use std::io;
 
@@ -34,7 +35,7 @@ pub trait Port: Send {
 pub struct SourceOptions {
     /// Seed of a simulation in place of its script's.
     pub seed: Option<u64>,
-    /// A simulation is not faster than time.
+    /// Pace simulations to real time.
     pub realtime: bool,
     /// A simulation begins again when its script is over.
     pub repeat: bool,
@@ -85,6 +86,12 @@ pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
 
 /// Opens a source. Errors are one sentence.
 pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
+    let source = opened(spec, options)?;
+    verbose::tell(format_args!("source {} is open", source.label));
+    Ok(source)
+}
+
+fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     match spec {
         SourceSpec::Auto => auto::open(options),
         SourceSpec::Usb => auto::usb(),

@@ -19,6 +19,7 @@ pub fn scene_of(script: &Script) -> Result<Scene> {
 /// Errors name the file, and the line or the section.
 pub fn read_scene(path: &Path) -> Result<Scene> {
     let name = path.display().to_string();
+    crate::verbose::reads(path);
     let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
     let said: toml::Table =
         toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;

@@ -28,7 +28,7 @@ pub struct TrainArgs {
     /// What to learn from
     #[command(flatten)]
     pub files: Files,
-    /// Where to write the model
+    /// File to write
     #[arg(short, long, value_name = "MODEL")]
     pub output: PathBuf,
 }
@@ -39,13 +39,13 @@ pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
     /// What to recognise
     #[command(flatten)]
     pub files: Files,
-    /// The model; without it the shipped one. With --cross it is not asked
+    /// Model to evaluate [default: the shipped one]; unused with --cross
     #[arg(long)]
     pub model: Option<PathBuf>,
-    /// Keep each of these apart in turn
+    /// Cross-validate, leaving out one of these at a time
     #[arg(long, value_name = "GROUPS")]
     pub cross: Option<C>,
-    /// With --cross: choose the settings anew for each group, on the others alone; takes minutes
+    /// With --cross: also choose the settings without the group that is tested; takes minutes
     #[arg(long, requires = "cross")]
     pub nested: bool,
     /// Print JSON

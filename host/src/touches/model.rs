@@ -14,7 +14,7 @@ use taxel_core::gesture::{Cells, Features, Model, SIDE, Sheet, TouchState, Touch
 pub struct Settings {
     /// A cell above this counts as touched.
     pub pressed: u16,
-    /// Whether is learnt from the first and from the second half of a touch, too.
+    /// Also train on each half of a touch.
     pub halves: bool,
     /// Draws weights towards 0.
     pub penalty: f64,
@@ -159,6 +159,7 @@ pub fn decide<'a>(
 
 /// Reads the bytes of a model; the error names the file.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
+    crate::verbose::reads(path);
     let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
     Model::read(&bytes).with_context(|| path.display().to_string())?;
     Ok(bytes)

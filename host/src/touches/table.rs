@@ -13,6 +13,7 @@ pub struct Table {
 impl Table {
     /// Reads a file; every error names it.
     pub fn read(path: &Path) -> Result<Table> {
+        crate::verbose::reads(path);
         let text = std::fs::read_to_string(path).context("cannot be read");
         text.and_then(|text| Table::parse(&text)).with_context(|| path.display().to_string())
     }

@@ -61,7 +61,7 @@ pub fn read(stream: &mut impl Read) -> Option<Result<Request, Refusal>> {
 pub fn parse(bytes: &[u8]) -> Result<Option<Request>, Refusal> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut head = httparse::Request::new(&mut headers);
-    let bad = refusal("400 Bad Request", "this is no request of a browser");
+    let bad = refusal("400 Bad Request", "malformed HTTP request");
     let length = match head.parse(bytes).map_err(|_| bad)? {
         httparse::Status::Complete(length) => length,
         httparse::Status::Partial => return Ok(None),

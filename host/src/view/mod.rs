@@ -62,7 +62,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     }
     let mut viewer = Viewer::new(&source, hub);
     live::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
-    println!("Nothing more comes; what came last is kept on the page (Ctrl-C ends).");
+    println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
         std::thread::park();
     }

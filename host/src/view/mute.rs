@@ -1,4 +1,4 @@
-//! A stream for who only reads.
+//! Read-only stream; discards writes.
 
 use std::io::{self, Read, Write};
 use std::net::TcpStream;

@@ -17,7 +17,7 @@ const REST: Duration = Duration::from_secs(10);
 pub struct RawCodes {
     /// The scene that was in force before.
     own: Option<Scene>,
-    /// Since when it is as it should not be.
+    /// When the mode last became wrong.
     since: Option<Instant>,
 }
 

@@ -34,7 +34,7 @@ pub fn serve(listener: TcpListener, hub: Arc<Hub>) -> Result<u16> {
             }
             let counted = open.clone();
             let spawned = thread::Builder::new().name("page".into()).spawn(move || {
-                // Whoever goes away in the middle is no error of ours.
+                // A disconnect mid-response is not an error.
                 let _ = connection(stream, &hub);
                 counted.fetch_sub(1, Ordering::Relaxed);
             });

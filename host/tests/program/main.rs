@@ -1,5 +1,6 @@
 //! The program and its examples from outside.
 
+mod builds;
 mod cli;
 mod commands;
 #[path = "../library/drawn.rs"]
@@ -7,9 +8,12 @@ mod drawn;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod live;
+mod maps;
 mod reference;
 mod schemas;
 mod start;
+mod status;
+mod steps;
 mod teach;
 mod tools;
 mod version;
