@@ -132,6 +132,11 @@ impl Client {
         Some(event)
     }
 
+    /// Counts from here on: what came before was put together from parts of a recording.
+    pub fn recount(&mut self) {
+        self.counts = Counts::default();
+    }
+
     /// Keeps a byte for [`Client::line`]; of what is longer than any frame, the beginning.
     fn keep(&mut self, byte: u8) {
         if self.line.last() == Some(&0) {

@@ -29,11 +29,12 @@ mod standing;
 mod topics;
 
 pub use command::{RecordArgs, run};
-pub use file::NS;
+pub use file::{NS, RecordingFile};
 pub use limit::Rotate;
 pub use message::json_message;
 pub use play::Play;
-pub use provenance::{CALIBRATION, Origin};
+pub use provenance::{CALIBRATION, Origin, attach};
 pub use recorder::{Plan, Recorder};
-pub use stamps::{Stamp, Stamps};
+pub use stamps::{Stamp, Stamps, time_of};
+pub use standing::{renumbered, sequence};
 pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};

@@ -56,8 +56,8 @@ impl Stamps {
     }
 }
 
-/// The board's time that an event tells of, us.
-fn time_of(client: &Client, event: &Event) -> Option<u64> {
+/// The board's time that an event tells of, us; none: it tells of none.
+pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
     let time = match event {
         Event::Hello => client.worn()?.clock,
         Event::Frame { time, .. }

@@ -40,8 +40,8 @@ pub fn sequence(frame: &[u8]) -> Result<u32, WireError> {
     postcard::take_from_bytes(wire::open(&mut bytes)?).map(|(seq, _)| seq).map_err(|_| WireError::Message)
 }
 
-/// A frame with another number.
-fn renumbered(frame: &[u8], seq: u32) -> Result<Vec<u8>, WireError> {
+/// A frame of the wire, its message under another number.
+pub fn renumbered(frame: &[u8], seq: u32) -> Result<Vec<u8>, WireError> {
     let mut bytes = frame.strip_suffix(&[0]).unwrap_or(frame).to_vec();
     let message = wire::open(&mut bytes)?;
     let (_, report): (u32, Report<'_>) = wire::decode(message)?;

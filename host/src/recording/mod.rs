@@ -16,6 +16,7 @@
 //! | `damage.rs` | what is damaged in the middle of a file, passed over |
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
 //! | `summary.rs` | the summary, read |
+//! | `clips.rs` | the messages of any chunk |
 //! | `attached.rs` | files that are attached to it |
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | what is in a file, found by going through it |
@@ -24,6 +25,7 @@
 mod append;
 mod attached;
 mod chunk;
+mod clips;
 mod contents;
 mod damage;
 mod found;
@@ -40,6 +42,7 @@ mod writer;
 #[cfg(test)]
 mod tests;
 
+pub use clips::{Clips, Piece, Place};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use messages::{Message, Messages};

@@ -118,21 +118,30 @@ pub fn answer(stream: &mut impl Write, kind: &str, more: &str, body: &[u8]) -> i
     send(stream, "200 OK", kind, more, body)
 }
 
+/// Begins an answer whose length nobody knows: its body follows in chunks.
+pub fn begin(stream: &mut impl Write, kind: &str, more: &str) -> io::Result<()> {
+    stream.write_all(head("200 OK", kind, "Transfer-Encoding: chunked", more).as_bytes())
+}
+
 /// Answers with a sentence.
 pub fn refuse(stream: &mut impl Write, refusal: Refusal) -> io::Result<()> {
     send(stream, refusal.status, "text/plain; charset=utf-8", "", format!("{}\n", refusal.why).as_bytes())
 }
 
 fn send(stream: &mut impl Write, status: &str, kind: &str, more: &str, body: &[u8]) -> io::Result<()> {
-    let length = body.len();
-    let head = format!(
-        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\nConnection: close\r\n\
-         Cache-Control: no-cache\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\
-         Referrer-Policy: no-referrer\r\nContent-Security-Policy: {POLICY}\r\n{more}\r\n"
-    );
-    stream.write_all(head.as_bytes())?;
+    let length = format!("Content-Length: {}", body.len());
+    stream.write_all(head(status, kind, &length, more).as_bytes())?;
     stream.write_all(body)?;
     stream.flush()
+}
+
+/// The head of an answer; `length` is the header that says where the body ends.
+fn head(status: &str, kind: &str, length: &str, more: &str) -> String {
+    format!(
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\n{length}\r\nConnection: close\r\n\
+         Cache-Control: no-cache\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\
+         Referrer-Policy: no-referrer\r\nContent-Security-Policy: {POLICY}\r\n{more}\r\n"
+    )
 }
 
 /// Agrees to a WebSocket.

@@ -3,8 +3,15 @@
 use super::mailbox::{Mailbox, Shot};
 use super::message::{self, Wish};
 use super::recent::Recent;
+use super::recorded::Order;
+use super::said::Said;
+use super::tape::{self, Tape};
+use crate::recording::Store;
+use crate::shared;
+use anyhow::{Context, Result};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 use taxel_core::garment::Circuit;
 
 /// Pages at a time.
@@ -13,12 +20,15 @@ pub const PAGES: usize = 16;
 const LOG: usize = 32;
 /// Tares that wait at most: one is under way, and one more may be wanted.
 const TARES: usize = 2;
+/// Orders to the player of a recording that wait at most.
+const ORDERS: usize = 64;
 
 /// What all threads know.
 #[derive(Default)]
 pub struct Hub {
     shared: Mutex<Shared>,
     recent: Mutex<Recent>,
+    orders: shared::Shared<VecDeque<Order>>,
 }
 
 #[derive(Default)]
@@ -29,6 +39,11 @@ struct Shared {
     log: VecDeque<Arc<str>>,
     circuit: Option<Box<Circuit>>,
     tares: VecDeque<u16>,
+    /// The image that holds for who comes later.
+    shown: Option<Shot>,
+    tape: Option<Tape>,
+    /// The part of a recording that is saved, us.
+    range: [u64; 2],
 }
 
 impl Hub {
@@ -50,6 +65,7 @@ impl Hub {
         let page = Arc::new(Mailbox::default());
         shared.known.iter().for_each(|(kind, line)| page.state(kind, line.clone()));
         shared.log.iter().for_each(|line| page.line(line.clone()));
+        shared.shown.iter().for_each(|shot| page.shot(shot));
         shared.pages.push(page.clone());
         Some(page)
     }
@@ -73,9 +89,14 @@ impl Hub {
         shared.known.insert(kind, line);
     }
 
+    /// What was told of that kind holds no more.
+    pub fn forget(&self, kind: &'static str) {
+        self.state(kind, &serde_json::json!({ "type": "none", "of": kind }));
+    }
+
     /// Adds a line to the log.
-    pub fn say(&self, text: &str) {
-        let line: Arc<str> = serde_json::json!({ "type": "say", "text": text }).to_string().into();
+    pub fn say(&self, said: &Said) {
+        let line: Arc<str> = said.message().to_string().into();
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.line(line.clone()));
         shared.log.push_back(line);
@@ -87,6 +108,17 @@ impl Hub {
     /// Shows an image to all pages.
     pub fn shot(&self, shot: &Shot) {
         self.lock().pages.iter().for_each(|page| page.shot(shot));
+    }
+
+    /// Shows an image to all pages, also to those that come before the next.
+    pub fn show(&self, shot: Shot) {
+        self.shot(&shot);
+        self.lock().shown = Some(shot);
+    }
+
+    /// The image that comes next does not follow the one that is shown.
+    pub fn forget_images(&self) {
+        self.lock().pages.iter().for_each(|page| page.forget_images());
     }
 
     /// How the garment that is worn is wired.
@@ -123,6 +155,64 @@ impl Hub {
             }
             Wish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
             Wish::Tare(_) => {}
+            Wish::Player(order) => self.order(order),
+        }
+    }
+
+    /// Keeps an order for the player of a recording.
+    fn order(&self, order: Order) {
+        self.orders.change(|orders| {
+            if orders.back().is_some_and(|waiting| order.replaces(waiting)) {
+                orders.pop_back();
+            }
+            if orders.len() < ORDERS {
+                orders.push_back(order);
+            }
+        });
+    }
+
+    /// Orders that have come, after a wait of so long where there are none.
+    pub fn orders(&self, longest: Duration) -> VecDeque<Order> {
+        let mut orders = self.orders.lock();
+        if orders.is_empty() {
+            orders = self.orders.wait(orders, longest);
+        }
+        std::mem::take(&mut *orders)
+    }
+
+    /// What is saved.
+    pub fn tape(&self, tape: Tape) {
+        self.lock().tape = Some(tape);
+    }
+
+    /// The part of the recording that is saved, us.
+    pub fn cut_at(&self, range: [u64; 2]) {
+        self.lock().range = range;
+    }
+
+    /// Whether there is something to save.
+    pub fn has_tape(&self) -> bool {
+        match &self.lock().tape {
+            Some(Tape::Live(_)) => self.recent().is_readable(),
+            tape => tape.is_some(),
+        }
+    }
+
+    /// Writes what is saved, as a recording.
+    pub fn save<S: Store>(&self, store: S) -> Result<()> {
+        let (tape, range) = {
+            let shared = self.lock();
+            (shared.tape.clone(), shared.range)
+        };
+        match tape.context("nothing is there to save")? {
+            Tape::Live(origin) => {
+                let (bytes, newest) = {
+                    let recent = self.recent();
+                    (recent.recording().context("no image has come")?, recent.newest())
+                };
+                tape::live(&bytes, newest, origin, store)
+            }
+            Tape::Recorded(cut) => cut.write(range, store),
         }
     }
 
@@ -153,10 +243,11 @@ mod tests {
         let hub = Hub::default();
         hub.state("link", &json!(1));
         hub.state("link", &json!(2));
-        (0..100).for_each(|n| hub.say(&n.to_string()));
+        (0..100).for_each(|n| hub.say(&Said::note(n.to_string())));
         let page = hub.join().unwrap();
         assert_eq!(page.next(), Parcel::Line("2".into()));
-        assert_eq!(page.next(), Parcel::Line(r#"{"type":"say","text":"68"}"#.into()));
+        let Parcel::Line(line) = page.next() else { panic!("no line") };
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&line).unwrap()["text"], "68");
         hub.leave(&page);
         assert_eq!(page.next(), Parcel::Closed);
         let many: Vec<_> = std::iter::from_fn(|| hub.join()).take(2 * PAGES).collect();

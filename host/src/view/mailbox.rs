@@ -82,6 +82,29 @@ impl Mailbox {
         self.0.change(|waiting| waiting.take(shot));
     }
 
+    /// What waits of images is of no use any more.
+    pub fn forget_images(&self) {
+        let mut waiting = self.0.lock();
+        waiting.shot = None;
+        waiting.highest.fill(0);
+        waiting.samples.clear();
+    }
+
+    /// A text message that waits.
+    pub fn line_now(&self) -> Option<Parcel> {
+        self.0.lock().line().map(Parcel::Line)
+    }
+
+    /// The page has gone.
+    pub fn is_closed(&self) -> bool {
+        self.0.lock().closed
+    }
+
+    /// The image that waits, at once.
+    pub fn take(&self) -> Option<Parcel> {
+        self.0.lock().image()
+    }
+
     /// The taxel under the pointer.
     pub fn hover(&self, taxel: Option<u16>) {
         self.0.lock().hovered = taxel;
@@ -132,17 +155,27 @@ impl Waiting {
         self.replaced += u64::from(self.shot.replace(shot.clone()).is_some());
     }
 
+    fn line(&mut self) -> Option<Arc<str>> {
+        self.states.pop_first().map(|(_, line)| line).or_else(|| self.lines.pop_front())
+    }
+
     fn due(&mut self, now: Instant) -> Option<Parcel> {
         if self.closed {
             return Some(Parcel::Closed);
         }
-        let line = self.states.pop_first().map(|(_, line)| line).or_else(|| self.lines.pop_front());
-        if let Some(line) = line {
+        if let Some(line) = self.line() {
             return Some(Parcel::Line(line));
         }
-        let due = self.sent.is_none_or(|sent| now >= sent + PERIOD);
-        let shot = self.shot.take_if(|_| due)?;
+        if self.shot.is_none() || self.sent.is_some_and(|sent| now < sent + PERIOD) {
+            return None;
+        }
         self.sent = Some(now);
+        self.image()
+    }
+
+    /// The image that waits, with what was since the one before.
+    fn image(&mut self) -> Option<Parcel> {
+        let shot = self.shot.take()?;
         let samples: Vec<_> = self.samples.drain(..).collect();
         let parcel = message::image(&shot, &self.highest, &samples, self.replaced, self.missed);
         self.highest.fill(0);

@@ -8,9 +8,12 @@
 //! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (places without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
 //! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
 //! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one that all is well) |
-//! | `say` | `text`: a line of the log |
+//! | `say` | a line of the log: `text`; `kind` (`onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`), `time_us` (or null), `said` (the text without its time) |
 //! | `taxel` | of the taxel under the pointer: `taxel`, `code` (raw; null until it comes), `frame`, `block`, `wired_row`, `wired_column` (null where it has no block) |
 //! | `end` | nothing more comes, `text` says why |
+//! | `none` | what was told of the type `of` holds no more |
+//! | `player` | of a recording: `at`, `duration`, `range` (first and last), all s; `speed`, `loop`, `playing`; `seeks`, how often the moment did not follow from the one before |
+//! | `overview` | of a recording, up to `known_us`: `duration_us`; `totals`, the greatest total of each `width_us`; `intentions`, `[at_us, leading]` where another leads; `said`, `[at_us, kind, text]`; `unlisted`, lines of contacts that are too many |
 //!
 //! A binary message is an image, all numbers little-endian:
 //!
@@ -21,15 +24,23 @@
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
 //! | 2 n | the greatest pressure of each since the last image that was sent |
 //!
-//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`; everything else is ignored.
+//! The line of an image of a recording also has `at_us`, its time since the recording began, and `seeks` as above; an image that
+//! was there before the page came has `past`.
+//!
+//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`. Where it shows a recording, it says `{"play": bool}`,
+//! `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range": [from, to]}` (s, or null), and all pages
+//! follow. Everything else is ignored, and so are numbers that are not finite, a speed of 0 or less, a step of 0; a time
+//! beyond the recording is taken for its end.
 
 use super::mailbox::Shot;
+use super::recorded::Order;
 use crate::client::Client;
 use crate::fcm;
 use crate::health::pins;
 use crate::live::message;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use std::time::Duration;
 use taxel_core::garment::Circuit;
 use taxel_core::selftest::Findings;
 
@@ -96,20 +107,43 @@ pub fn taxel(taxel: u16, circuit: Option<&Circuit>, code: Option<(u32, u16)>) ->
     })
 }
 
+/// `link`
+pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize) -> Value {
+    let counts = client.counts();
+    json!({
+        "type": "link",
+        "rate": rate,
+        "frames": counts.frames,
+        "lost": counts.lost,
+        "thinned": counts.thinned,
+        "refused": counts.refused(),
+        "restarts": counts.restarts,
+        "latency_ms": latency.map(|latency| latency.as_secs_f64() * 1e3),
+        "pages": pages,
+    })
+}
+
 /// What a page asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Wish {
     /// The taxel under the pointer.
     Hover(Option<u16>),
     /// A baseline over so many frames.
     Tare(u16),
+    /// Of the player of a recording.
+    #[serde(untagged)]
+    Player(Order),
 }
 
 /// Reads what a page said; none: nothing that is known.
 pub fn wish(text: &str) -> Option<Wish> {
     let wish: Wish = serde_json::from_str(text).ok()?;
-    let known = !matches!(wish, Wish::Tare(frames) if !(1..=4096).contains(&frames));
+    let known = match &wish {
+        Wish::Hover(_) => true,
+        Wish::Tare(frames) => (1..=4096).contains(frames),
+        Wish::Player(order) => order.is_sound(),
+    };
     known.then_some(wish)
 }
 
@@ -122,6 +156,25 @@ mod tests {
         assert_eq!(wish(r#"{"hover": 7}"#), Some(Wish::Hover(Some(7))));
         assert_eq!(wish(r#"{"hover": null}"#), Some(Wish::Hover(None)));
         assert_eq!(wish(r#"{"tare": 32}"#), Some(Wish::Tare(32)));
+        assert_eq!(wish(r#"{"seek": 2.5}"#), Some(Wish::Player(Order::Seek(2.5))));
+        assert_eq!(wish(r#"{"range": null}"#), Some(Wish::Player(Order::Range(None))));
+        assert_eq!(wish(r#"{"range": [1, 2]}"#), Some(Wish::Player(Order::Range(Some([1.0, 2.0])))));
+        assert_eq!(wish(r#"{"step": -1}"#), Some(Wish::Player(Order::Step(-1))));
+        for nonsense in [
+            r#"{"seek": 1e999}"#,
+            r#"{"seek": NaN}"#,
+            r#"{"seek": null}"#,
+            r#"{"speed": 0}"#,
+            r#"{"speed": -2}"#,
+            r#"{"range": [1]}"#,
+            r#"{"range": [1, "x"]}"#,
+            r#"{"step": 0}"#,
+            r#"{"step": 5000}"#,
+            r#"{"step": -2147483648}"#,
+            r#"{"play": 1}"#,
+        ] {
+            assert_eq!(wish(nonsense), None, "{nonsense}");
+        }
         for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
             assert_eq!(wish(nonsense), None, "{nonsense}");
         }

@@ -13,22 +13,33 @@ pub mod message;
 mod mute;
 mod pace;
 mod page;
+mod past;
 mod raw;
 mod recent;
+mod recorded;
+mod said;
 mod server;
+mod tape;
+mod transfer;
 mod viewer;
 
 pub use hub::Hub;
 pub use mailbox::{Mailbox, Parcel, Shot};
 pub use mute::Mute;
 pub use recent::Recent;
+pub use recorded::{Order, Player};
+pub use said::{Kind, Said};
 pub use server::serve;
+pub use tape::Tape;
 pub use viewer::Viewer;
 
 use crate::live::{self, BoardArgs, LiveArgs};
-use crate::source::SourceOptions;
+use crate::calibrate::Calibration;
+use crate::record::Origin;
+use crate::source::{SourceOptions, SourceSpec, Speed};
 use anyhow::{Context, Result};
 use std::net::{Ipv4Addr, TcpListener};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The port where none is given, unless it is taken: T, A, X, L on a telephone.
@@ -37,6 +48,9 @@ const PORT: u16 = 8295;
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
+    /// Recording (.mcap) to open in the page instead of a board: `--source replay:FILE` is the same
+    #[arg(conflicts_with = "source")]
+    pub file: Option<PathBuf>,
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
@@ -48,24 +62,59 @@ pub struct ViewArgs {
     pub open: bool,
 }
 
+impl ViewArgs {
+    /// The recording that is to be shown, and how many times as fast as it was; none: a board.
+    fn recording(&self) -> Option<(PathBuf, f64)> {
+        match (&self.file, &self.board.source) {
+            (Some(file), _) => Some((file.clone(), 1.0)),
+            (None, SourceSpec::Replay { path, speed }) => {
+                let times = match speed {
+                    Speed::AsAsked => 1.0,
+                    Speed::Times(times) => *times,
+                    Speed::Max => f64::INFINITY,
+                };
+                Some((path.clone(), times))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// Runs the command.
 pub fn run(args: ViewArgs) -> Result<()> {
+    if let Some((file, speed)) = args.recording() {
+        return play(&args, &file, speed);
+    }
     let listener = bind(args.port)?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
-    let (source, _) = args.board.open(options)?;
+    let (source, calibration) = args.board.open(options)?;
     let hub = Arc::new(Hub::default());
-    let port = serve(listener, hub.clone())?;
-    let url = format!("http://127.0.0.1:{port}/");
-    println!("{} at {url} (Ctrl-C ends)", source.label);
-    if args.open {
-        browser::open(&url)?;
-    }
+    let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
+    hub.tape(Tape::Live(Origin { label, counts_per_newton, calibration }));
+    announce(&source.label, listener, &hub, args.open)?;
     let mut viewer = Viewer::new(&source, hub);
     live::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
         std::thread::park();
     }
+}
+
+/// Shows a recording.
+fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
+    let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
+    let hub = Arc::new(Hub::default());
+    let player = Player::open(file, speed, calibration, hub.clone())?;
+    announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
+    player.run()
+}
+
+/// Serves the pages, and says where.
+fn announce(what: &str, listener: TcpListener, hub: &Arc<Hub>, open: bool) -> Result<()> {
+    let port = serve(listener, hub.clone())?;
+    let url = format!("http://127.0.0.1:{port}/");
+    println!("{what} at {url} (Ctrl-C ends)");
+    if open { browser::open(&url) } else { Ok(()) }
 }
 
 /// Listens on this machine alone.

@@ -4,6 +4,7 @@ use super::hub::Hub;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
 use super::mute::Mute;
+use super::past::Past;
 use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
@@ -26,7 +27,7 @@ pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Arc<Mailbox>)
             read(reading, rest, hub, mailbox);
             mailbox.close();
         })?;
-        let written = write(stream, mailbox);
+        let written = write(stream, hub, mailbox);
         // Wakes the reader.
         let _ = end.shutdown(Shutdown::Both);
         let _ = reader.join();
@@ -41,16 +42,29 @@ fn config() -> WebSocketConfig {
         .write_buffer_size(0)
 }
 
-fn write(stream: TcpStream, mailbox: &Mailbox) -> io::Result<()> {
+fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
-    loop {
-        let message = match mailbox.next() {
+    let mut send = |parcel| {
+        let message = match parcel {
             Parcel::Line(line) => Message::Text(Utf8Bytes::from(&*line)),
             Parcel::Image(bytes) => Message::Binary(Bytes::from(bytes)),
-            Parcel::Closed => return Ok(()),
+            Parcel::Closed => return Ok(false),
         };
-        socket.send(message).map_err(io::Error::other)?;
+        socket.send(message).map(|()| true).map_err(io::Error::other)
+    };
+    // What is known, then what was before, then what comes.
+    while let Some(line) = mailbox.line_now() {
+        send(line)?;
     }
+    if let Some(bytes) = hub.recording() {
+        for parcel in Past::of(&bytes) {
+            if mailbox.is_closed() || !send(parcel)? {
+                return Ok(());
+            }
+        }
+    }
+    while send(mailbox.next())? {}
+    Ok(())
 }
 
 fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {

@@ -77,6 +77,16 @@ impl Recent {
         }
     }
 
+    /// Whether there is an image that stands alone, and so a recording.
+    pub fn is_readable(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.key)
+    }
+
+    /// Time of the last image.
+    pub fn newest(&self) -> Micros {
+        self.pieces.back().map_or(Micros(0), |piece| piece.time)
+    }
+
     /// A `Hello` and all that came from the first image on that stands alone; none before there is one.
     pub fn recording(&self) -> Option<Vec<u8>> {
         let first = self.pieces.iter().position(|piece| piece.key)?;

@@ -4,7 +4,10 @@ use super::assets;
 use super::http::{self, Refusal};
 use super::hub::{Hub, PAGES};
 use super::page;
+use super::said::Said;
+use super::transfer::Transfer;
 use anyhow::{Context, Result};
+use std::io::BufWriter;
 use std::net::{TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -78,6 +81,19 @@ fn connection(mut stream: TcpStream, hub: &Hub) -> std::io::Result<()> {
             }
             None => http::refuse(&mut stream, missing),
         },
+        ("/recording.mcap", None) if hub.has_tape() => {
+            let name = "Content-Disposition: attachment; filename=\"recording.mcap\"\r\n";
+            http::begin(&mut stream, "application/octet-stream", name)?;
+            let mut transfer = Transfer(BufWriter::new(stream));
+            // Where it fails, the end is missing, and the browser says so.
+            match hub.save(&mut transfer) {
+                Ok(()) => transfer.end(),
+                Err(error) => {
+                    hub.say(&Said::note(format!("the recording could not be saved: {error:#}")));
+                    Ok(())
+                }
+            }
+        }
         (path, None) => match assets::find(path) {
             Some(asset) => http::answer(&mut stream, asset.kind, "", asset.bytes),
             None => http::refuse(&mut stream, missing),

@@ -5,8 +5,8 @@ use super::mailbox::Shot;
 use super::message;
 use super::pace::Pace;
 use super::raw::RawCodes;
+use super::said::{Said, Teller};
 use crate::client::{Client, Event, ImageNews};
-use crate::live::narrate::Narrator;
 use crate::live::rate::Rate;
 use crate::live::{self, Show};
 use crate::source::Source;
@@ -28,7 +28,7 @@ pub struct Viewer {
     hub: Arc<Hub>,
     label: String,
     counts_per_newton: Option<f32>,
-    narrator: Narrator,
+    teller: Teller,
     rate: Rate,
     /// What comes is not live, and is slowed down to the speed of its own time.
     pace: Option<Pace>,
@@ -48,7 +48,7 @@ impl Viewer {
             hub,
             label: source.label.clone(),
             counts_per_newton: source.counts_per_newton,
-            narrator: Narrator::new(source.counts_per_newton),
+            teller: Teller::new(source.counts_per_newton),
             rate: Rate::default(),
             pace: source.label.starts_with("file:").then(Pace::default),
             raw: RawCodes::default(),
@@ -78,18 +78,7 @@ impl Viewer {
     }
 
     fn link(&mut self, client: &Client) {
-        let counts = client.counts();
-        let line = json!({
-            "type": "link",
-            "rate": self.rate.hz(),
-            "frames": counts.frames,
-            "lost": counts.lost,
-            "thinned": counts.thinned,
-            "refused": counts.refused(),
-            "restarts": counts.restarts,
-            "latency_ms": self.latency.map(|latency| latency.as_secs_f64() * 1e3),
-            "pages": self.hub.pages(),
-        });
+        let line = message::link(client, self.rate.hz(), self.latency, self.hub.pages());
         self.hub.state("link", &line);
     }
 }
@@ -117,8 +106,8 @@ impl Show for Viewer {
             }
             _ => {}
         }
-        for line in self.narrator.tell(client, event) {
-            self.hub.say(&line);
+        for said in self.teller.tell(client, event) {
+            self.hub.say(&said);
         }
         Ok(())
     }
@@ -132,7 +121,7 @@ impl Show for Viewer {
         }
         if let Some(frames) = self.hub.tare() {
             client.request(&Request::Tare { frames })?;
-            self.hub.say(&format!("tare over {frames} frames"));
+            self.hub.say(&Said::note(format!("tare over {frames} frames")));
         }
         self.raw.tend(client, self.hub.is_looked_at(), now)?;
         if now.saturating_duration_since(self.told) >= LINK {

@@ -1,0 +1,207 @@
+//! A recording of which any part can be read first: where its chunks lie, and the messages of one of them.
+
+use super::chunk;
+use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
+use super::records::{Head, Inside, Records};
+use anyhow::{Context, Result, bail};
+use mcap::parse_record;
+use mcap::records::{Channel, MessageHeader, Record, op};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Chunks that are kept, plain: the one that is played, and those that a step back needs.
+const HELD: usize = 4;
+/// Longest record beside chunks that is read, bytes.
+const LONGEST: u64 = 1 << 24;
+
+/// Where a chunk lies, and when its messages were written, ns.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    offset: u64,
+    /// Log time of its first message; never before that of the chunk before.
+    pub start: u64,
+    /// Log time of its last message.
+    pub end: u64,
+    /// Channels that it has messages of, as far as its index says.
+    channels: Vec<u16>,
+}
+
+/// One message of the topic.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Piece {
+    /// Channel, order and times (ns).
+    pub header: MessageHeader,
+    /// Its bytes.
+    pub data: Box<[u8]>,
+}
+
+/// A recording that is read chunk by chunk, in any order.
+#[derive(Debug)]
+pub struct Clips {
+    records: Records,
+    path: PathBuf,
+    topic: &'static str,
+    places: Vec<Place>,
+    channels: BTreeMap<u16, Channel>,
+    /// Words of the file by name.
+    pub words: BTreeMap<String, BTreeMap<String, String>>,
+    /// Files that are attached, by name, the newest of each.
+    pub attached: BTreeMap<String, Vec<u8>>,
+    plain: Vec<u8>,
+    held: Vec<(usize, Arc<[Piece]>)>,
+}
+
+impl Clips {
+    /// Of a file; only messages of that topic are read. Bodies of chunks are passed over, so that this takes little time.
+    pub fn open(path: &Path, topic: &'static str) -> Result<Clips> {
+        let mut clips = Clips {
+            records: Records::open(path)?,
+            path: path.into(),
+            topic,
+            places: Vec::new(),
+            channels: BTreeMap::new(),
+            words: BTreeMap::new(),
+            attached: BTreeMap::new(),
+            plain: Vec::new(),
+            held: Vec::new(),
+        };
+        clips.walk().with_context(|| format!("{} cannot be read", path.display()))?;
+        Ok(clips)
+    }
+
+    /// Another reader of the same file.
+    pub fn again(&self) -> Result<Clips> {
+        Clips::open(&self.path, self.topic)
+    }
+
+    /// The chunks, in the order of their times.
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Whether the topic is one of the file's.
+    pub fn has_topic(&self) -> bool {
+        self.channels.values().any(|channel| channel.topic == self.topic)
+    }
+
+    /// The chunks before `end` that have messages of a topic, the last first.
+    pub fn with_topic<'a>(&'a self, topic: &'a str, end: usize) -> impl Iterator<Item = usize> + 'a {
+        let is_of = move |id: &u16| self.channels.get(id).is_some_and(|channel| channel.topic == topic);
+        let before = self.places.iter().take(end).enumerate().rev();
+        before.filter(move |(_, place)| place.channels.iter().any(is_of)).map(|(chunk, _)| chunk)
+    }
+
+    /// Goes from record to record up to the end of the data, or of what can be read.
+    fn walk(&mut self) -> Result<()> {
+        let mut skipped = Skipped::default();
+        loop {
+            let offset = self.records.offset();
+            let damaged = match self.records.next_head()? {
+                None => true,
+                Some(head) if head.op == op::DATA_END && is_end(&self.path, &head)? => return Ok(()),
+                Some(head) if is_known(head.op) || !is_chunk_at(&self.path, &head)? => {
+                    self.step(head)?;
+                    false
+                }
+                Some(_) => true,
+            };
+            if damaged {
+                match Damage::at(offset).pass(&mut self.records, &self.path, &mut skipped)? {
+                    Some(next) => self.records.go_to(next)?,
+                    None => return Ok(()),
+                }
+            }
+        }
+    }
+
+    /// Takes a record, or passes over it.
+    fn step(&mut self, head: Head) -> Result<()> {
+        match head.op {
+            op::CHUNK if head.length >= 16 => {
+                let times = self.records.rest(16)?;
+                let time = |at: usize| times.get(at..)?.first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
+                let (start, end) = (time(0).unwrap_or(0), time(8).unwrap_or(0));
+                // Clocks that were set let no chunk come before the one that was written before it.
+                let start = self.places.last().map_or(start, |before| start.max(before.start));
+                let place = Place { offset: head.offset, start, end: end.max(start), channels: Vec::new() };
+                self.places.push(place);
+            }
+            op::MESSAGE_INDEX if head.length >= 2 => {
+                let id = self.records.rest(2)?;
+                if let (Some(place), [low, high]) = (self.places.last_mut(), id.as_slice()) {
+                    place.channels.push(u16::from_le_bytes([*low, *high]));
+                }
+            }
+            op::CHANNEL | op::METADATA | op::ATTACHMENT if head.length <= LONGEST => {
+                let record = self.records.body(head)?;
+                if let Ok(record) = parse_record(record.op, record.body) {
+                    take(record, &mut self.channels, &mut self.words, &mut self.attached);
+                }
+            }
+            op::MESSAGE => bail!("it has messages outside of chunks, which cannot be gone to"),
+            _ => {}
+        }
+        self.records.go_to(head.end())
+    }
+
+    /// The messages of a chunk. An error: it is damaged.
+    pub fn clip(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {
+        if let Some(at) = self.held.iter().position(|(number, _)| *number == chunk) {
+            let known = self.held.remove(at);
+            self.held.push(known);
+        } else {
+            let read = self.read(chunk);
+            let clip = read.with_context(|| format!("{} is damaged", self.path.display()))?;
+            self.held.push((chunk, clip));
+            if self.held.len() > HELD {
+                self.held.remove(0);
+            }
+        }
+        Ok(self.held.last().map_or_else(|| [].into(), |(_, clip)| clip.clone()))
+    }
+
+    fn read(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {
+        self.records.go_to(self.places.get(chunk).context("there is no such chunk")?.offset)?;
+        let record = self.records.next_record()?.context("a chunk is cut off")?;
+        let Record::Chunk { header, data } = parse_record(record.op, record.body)? else {
+            bail!("something else stands where a chunk was");
+        };
+        chunk::plain(&header, &data, &mut self.plain)?;
+        let mut pieces = Vec::new();
+        for record in Inside::of(&self.plain, 0) {
+            match (record.op, record.body) {
+                (op::MESSAGE, [low, high, ..]) => {
+                    let channel = self.channels.get(&u16::from_le_bytes([*low, *high]));
+                    if channel.is_none_or(|channel| channel.topic != self.topic) {
+                        continue;
+                    }
+                    if let Record::Message { header, data } = parse_record(record.op, record.body)? {
+                        pieces.push(Piece { header, data: data.into() });
+                    }
+                }
+                (op::CHANNEL, body) => {
+                    let record = parse_record(op::CHANNEL, body)?;
+                    take(record, &mut self.channels, &mut self.words, &mut self.attached);
+                }
+                _ => {}
+            }
+        }
+        Ok(pieces.into())
+    }
+}
+
+/// Takes what is neither a chunk nor a message.
+fn take(
+    record: Record<'_>,
+    channels: &mut BTreeMap<u16, Channel>,
+    words: &mut BTreeMap<String, BTreeMap<String, String>>,
+    attached: &mut BTreeMap<String, Vec<u8>>,
+) {
+    match record {
+        Record::Channel(channel) => _ = channels.insert(channel.id, channel),
+        Record::Metadata(told) => _ = words.insert(told.name, told.metadata),
+        Record::Attachment { header, data, .. } => _ = attached.insert(header.name, data.into_owned()),
+        _ => {}
+    }
+}

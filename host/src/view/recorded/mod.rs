@@ -1,0 +1,183 @@
+//! A recording in the page: played, gone through image by image, and cut.
+//!
+//! The player lives in the program, not in a page: all pages show the same moment, and one that comes late is told it whole.
+//! A page asks by [`Order`]s. Two threads read the file. The player decodes from the image that stands alone before the
+//! moment that is asked for. The survey goes once through everything but the images, for the timeline and for
+//! what held when each chunk began, so that the player need not read what came before.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `order.rs` | what a page asks of the player |
+//! | `deck.rs` | time: position, speed, range, loop |
+//! | `reel.rs` | the recording, read from any image on |
+//! | `standing.rs` | what was said and holds |
+//! | `survey.rs` | goes through the recording once |
+//! | `overview.rs` | the recording on one line |
+//! | `screen.rs` | what the pages are told of a moment |
+//! | `cut.rs` | a part of it as a recording of its own |
+
+mod cut;
+mod deck;
+mod order;
+mod overview;
+mod reel;
+mod screen;
+mod standing;
+mod survey;
+
+pub use cut::Cut;
+pub use order::Order;
+
+use super::hub::Hub;
+use super::tape::Tape;
+use crate::calibrate::Calibration;
+use crate::client::Event;
+use crate::record::{CALIBRATION, Origin, WIRE};
+use crate::recording::Clips;
+use anyhow::{Context, Result, bail};
+use deck::{Deck, Go};
+use reel::Reel;
+use screen::Screen;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use survey::{RecordedTime, Survey};
+
+/// Time between two messages about what is played.
+const TOLD: Duration = Duration::from_millis(250);
+/// How long messages are played before pages are asked what they want.
+const TURN: Duration = Duration::from_millis(40);
+/// How far the images may be behind the time at which they are due before time waits for them, us.
+const BEHIND: u64 = 300_000;
+
+/// A recording that is shown to the pages of a hub.
+pub struct Player {
+    hub: Arc<Hub>,
+    deck: Deck,
+    reel: Reel,
+    screen: Screen,
+    told: Instant,
+}
+
+impl Player {
+    /// Opens a recording and shows its first image. `calibration` replaces the one that is attached.
+    pub fn open(path: &Path, speed: f64, calibration: Option<Calibration>, hub: Arc<Hub>) -> Result<Player> {
+        let mut clips = Clips::open(path, WIRE)?;
+        // Channels may be told in the first chunk.
+        let first = (!clips.places().is_empty()).then(|| clips.clip(0)).transpose();
+        if !clips.has_topic() {
+            bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
+        }
+        first?;
+        let origin = origin(&clips, path, calibration)?;
+        let scale = origin.counts_per_newton;
+        let clock = RecordedTime::of(&clips);
+        let survey = Survey::start(clips.again()?, clock, scale, hub.clone())?;
+        let cut = Cut::new(clips.again()?, survey.clone(), origin);
+        hub.tape(Tape::Recorded(Arc::new(cut)));
+        let mut player = Player {
+            deck: Deck::new(clock.duration(), speed, Instant::now()),
+            reel: Reel::new(clips, survey),
+            screen: Screen::new(hub.clone(), path.display().to_string(), scale),
+            told: Instant::now(),
+            hub,
+        };
+        if player.reel.seek(0).map(|(at, event)| player.moment(at, &event)).is_none() {
+            bail!("{} holds no image", path.display());
+        }
+        player.tell();
+        Ok(player)
+    }
+
+    /// Plays, as soon as somebody looks, and does what pages ask for; returns never.
+    pub fn run(mut self) -> Result<()> {
+        while self.hub.pages() == 0 {
+            self.hub.orders(Duration::from_millis(20));
+        }
+        self.obey(&Order::Play(true));
+        loop {
+            self.turn();
+        }
+    }
+
+    /// Waits until something is to be done, and does it.
+    fn turn(&mut self) {
+        let due = self.reel.peek().map(|(at, _)| at);
+        for order in self.hub.orders(self.deck.rest(due, Instant::now())) {
+            self.obey(&order);
+        }
+        let go = self.deck.tick(Instant::now());
+        self.go(go);
+        if self.deck.is_playing() && self.told.elapsed() >= TOLD {
+            self.tell();
+            self.screen.link(self.reel.client());
+        } else if matches!(go, Go::To(_)) || (go != Go::Stay && !self.deck.is_playing()) {
+            self.tell();
+        }
+    }
+
+    fn obey(&mut self, order: &Order) {
+        let go = self.deck.obey(order, Instant::now());
+        self.go(go);
+        self.hub.cut_at(self.deck.range());
+        self.tell();
+    }
+
+    fn go(&mut self, go: Go) {
+        match go {
+            Go::On(until) => self.play(until),
+            Go::To(at) => {
+                if let Some((at, event)) = self.reel.seek(at) {
+                    self.moment(at, &event);
+                }
+            }
+            Go::By(images) => {
+                if let Some((at, event)) = self.reel.step(images) {
+                    self.deck.stand(at);
+                    self.moment(at, &event);
+                }
+            }
+            Go::Stay => {}
+        }
+    }
+
+    fn moment(&mut self, at: u64, event: &Event) {
+        self.screen.moment(self.reel.client(), at, event, self.deck.seeks());
+    }
+
+    /// Plays up to a time.
+    fn play(&mut self, until: u64) {
+        let begun = Instant::now();
+        while let Some((at, _)) = self.reel.peek().filter(|(at, _)| *at <= until) {
+            if let Some(event) = self.reel.play() {
+                self.screen.event(self.reel.client(), at, &event, self.deck.seeks());
+            }
+            if begun.elapsed() > TURN {
+                if until.saturating_sub(at) > BEHIND {
+                    self.deck.hold_back(at, Instant::now());
+                }
+                return;
+            }
+        }
+    }
+
+    fn tell(&mut self) {
+        self.told = Instant::now();
+        self.hub.state("player", &self.deck.message(self.told));
+    }
+}
+
+/// Where a recording comes from, and what a newton is in it.
+fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Result<Origin> {
+    let name = format!("{CALIBRATION} of {}", path.display());
+    let attached = clips.attached.get(CALIBRATION).map(|bytes| {
+        let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is no text"))?;
+        Calibration::parse(text, &name)
+    });
+    let calibration = calibration.or(attached.transpose()?);
+    let words = clips.words.get("taxel");
+    let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
+    let told = word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
+    let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(told);
+    Ok(Origin { label: word("source"), counts_per_newton, calibration })
+}

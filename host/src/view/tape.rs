@@ -1,0 +1,84 @@
+//! What a page can save: the last half minute of a board, or a part of a recording, as a recording.
+
+use super::recorded::Cut;
+use crate::client::{Client, Event, Worn};
+use crate::clock::SteadyTime;
+use crate::record::{NS, Origin, RecordingFile, Stamp, attach, time_of};
+use crate::recording::Store;
+use anyhow::Result;
+use std::sync::Arc;
+use taxel_core::format::Micros;
+
+/// Time of the messages of a chunk, us.
+const CHUNK_US: u64 = 1_000_000;
+
+/// Where it comes from.
+#[derive(Clone)]
+pub enum Tape {
+    /// A board.
+    Live(Origin),
+    /// A recording.
+    Recorded(Arc<Cut>),
+}
+
+/// A recording that is written frame by frame.
+pub struct Copy<S: Store> {
+    file: RecordingFile<S>,
+    client: Client,
+    origin: Origin,
+    worn: Option<Worn>,
+    chunk_us: u64,
+}
+
+impl<S: Store> Copy<S> {
+    /// Begins it.
+    pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
+        let file = RecordingFile::create(store, None)?;
+        Ok(Copy { file, client: Client::new(), origin, worn: None, chunk_us: 0 })
+    }
+
+    /// Takes a frame of the wire.
+    pub fn take(&mut self, stamp: Stamp, frame: &[u8]) -> Result<()> {
+        let client = &mut self.client;
+        match frame.iter().find_map(|byte| client.push(*byte)) {
+            Some(event) => self.keep(stamp, &event),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes what the client has just told.
+    fn keep(&mut self, stamp: Stamp, event: &Event) -> Result<()> {
+        self.client.take_requests();
+        if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
+            self.worn = self.client.worn().cloned();
+            if let Some(worn) = &self.worn {
+                attach(&mut self.file.writer, worn, &self.origin, stamp.host_us * NS)?;
+            }
+        }
+        if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
+            self.chunk_us = stamp.board_us;
+            self.file.close()?;
+        }
+        self.file.wire(stamp, self.client.line())?;
+        self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)
+    }
+
+    /// Writes the end.
+    pub fn finish(self) -> Result<()> {
+        self.file.finish().map(drop)
+    }
+}
+
+/// Bytes that a board has sent up to now, the last image of which is of the time `newest`, as a recording.
+pub fn live<S: Store>(bytes: &[u8], newest: Micros, origin: Origin, store: S) -> Result<()> {
+    let mut copy = Copy::begin(store, origin)?;
+    let now = SteadyTime::start().now_us();
+    let mut board_us = newest.0;
+    for byte in bytes {
+        let Some(event) = copy.client.push(*byte) else { continue };
+        board_us = time_of(&copy.client, &event).unwrap_or(board_us);
+        let host_us = now.saturating_sub(newest.0.saturating_sub(board_us));
+        copy.keep(Stamp { board_us, host_us, uncertainty_us: None }, &event)?;
+    }
+    copy.finish()
+}
