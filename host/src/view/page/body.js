@@ -1,6 +1,7 @@
 // The panels laid out on the outline of a body, seen from the front and from the back.
 
 import { colour, fit, make } from "./dom.js";
+import { opacity } from "./afterglow.js";
 import { Raster } from "./raster.js";
 import { label } from "./marks.js";
 
@@ -27,6 +28,7 @@ export class Body {
     this.canvas = make("canvas", { role: "img", "aria-label": "Panels on the body, front and back" });
     root.append(this.canvas);
     this.raster = new Raster();
+    this.glow = new Raster();
   }
 
   draw(store, settings) {
@@ -51,6 +53,7 @@ export class Body {
       context.fillText(name, middles[figure], top - 2);
     });
     const image = settings.held ? store.held : shown.image;
+    const glow = settings.glow && !settings.held ? store.glowing() : null;
     const { garment } = store;
     const places = placesOf(garment);
     garment.panels.forEach((panel, index) => {
@@ -59,6 +62,7 @@ export class Body {
       const box = [left, upper, w * unit, h * unit];
       context.imageSmoothingEnabled = settings.smooth;
       context.drawImage(this.raster.paint(image, panel, { ...settings, absent: garment.absent }), ...box);
+      if (glow) context.drawImage(this.glow.shine(glow, image, panel, settings.top, opacity), ...box);
       context.strokeStyle = colour("quiet");
       context.lineWidth = 1;
       context.strokeRect(...box);

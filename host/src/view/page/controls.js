@@ -1,6 +1,8 @@
 // Views, layers, theme and keys.
 
 import { $, forgetColours, make } from "./dom.js";
+import { Follow } from "./follow.js";
+import { KEYS as RECORDED_KEYS } from "./recorder.js";
 import { toggleUnit } from "./units.js";
 
 /** Name, label and key of each view. */
@@ -17,16 +19,21 @@ const LAYERS = [
   ["contours", "Contours", "c", "Lines between the bands of pressure"],
   ["contacts", "Contacts", "e", "Ellipses with id, axis and arrow"],
   ["peaks", "Peaks", "p", "Every local maximum"],
+  ["glow", "Afterglow", "g", "What was felt a moment ago, in red, fades within a second"],
   ["held", "Hold", "h", "The highest pressure since it was cleared (x)"],
 ];
-/** Keys besides those of views and layers. */
-const KEYS = [
+/** Keys of the live half minute. */
+const LIVE_KEYS = [
   ["space", "pause, go on"],
   ["← →", "one image back, forward; with shift one second"],
+  ["t", "tare over 32 frames"],
+];
+/** Keys besides these, and those of views and layers. */
+const KEYS = [
   ["+ −", "scale"],
+  ["a", "the scale follows what is shown"],
   ["u", "kPa or counts"],
   ["x", "clear what is held"],
-  ["t", "tare over 32 frames"],
   ["s", "save"],
   ["d", "light or dark"],
   ["?", "these keys"],
@@ -39,14 +46,17 @@ const TARE = 32;
 export class Controls {
   constructor(store, ask, changed) {
     Object.assign(this, { store, ask, changed });
+    this.follow = new Follow();
     this.settings = {
       view: "panels",
       smooth: false,
       contours: true,
       contacts: true,
       peaks: true,
+      glow: true,
       held: false,
       top: 200,
+      auto: false,
       theme: null,
     };
     try {
@@ -76,16 +86,33 @@ export class Controls {
     const layer = ([name, text, key, title]) =>
       make("button", { id: `layer-${name}`, title: `${title} (${key})`, click: () => this.toggle(name) }, text);
     $("layers").replaceChildren(...LAYERS.map(layer));
-    const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t" };
+    const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t", auto: "a" };
     for (const [id, key] of Object.entries(acts)) $(id).addEventListener("click", () => this.key({ key }));
+  }
+
+  /** Every key, those of what is shown among them. */
+  keys() {
     const rows = [
       ...VIEWS.map(([, text, key]) => [key, text]),
+      ...(this.store.recorded ? RECORDED_KEYS : LIVE_KEYS),
       ...LAYERS.map(([, , key, title]) => [key, title]),
       ...KEYS,
     ];
     $("keys")
       .querySelector("dl")
       .replaceChildren(...rows.flatMap(([key, what]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]));
+    $("keys").showModal();
+  }
+
+  /** The scale follows what is shown, where that is asked for. */
+  scale() {
+    const { settings, store } = this;
+    const shown = settings.auto && store.shown();
+    if (!shown) return;
+    const image = settings.held ? store.held : shown.image;
+    const greatest = image.reduce((most, value) => Math.max(most, value), 0);
+    const top = this.follow.next(settings.top, greatest, performance.now());
+    if (top !== settings.top) this.set({ top });
   }
 
   toggle(name) {
@@ -106,6 +133,7 @@ export class Controls {
       $(`view-${name}`).hidden = !chosen;
     }
     for (const [name] of LAYERS) $(`layer-${name}`).setAttribute("aria-pressed", String(settings[name]));
+    $("auto").setAttribute("aria-pressed", String(settings.auto));
     const pressed = !["map", "health"].includes(settings.view);
     $("layers").hidden = $("scale").hidden = !pressed;
     try {
@@ -117,7 +145,7 @@ export class Controls {
   }
 
   zoom(factor) {
-    this.set({ top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
+    this.set({ auto: false, top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
   }
 
   /** Whether a key was meant for this. */
@@ -128,9 +156,10 @@ export class Controls {
       "-": () => this.zoom(0.5),
       u: () => this.set({}, toggleUnit()),
       x: () => this.set({}, this.store.clearHeld()),
-      t: () => this.ask({ tare: TARE }),
+      a: () => this.toggle("auto"),
+      t: () => this.store.recorded || this.ask({ tare: TARE }),
       d: () => this.set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }),
-      "?": () => $("keys").showModal(),
+      "?": () => this.keys(),
     };
     for (const [name, , its] of VIEWS) acts[its] = () => this.set({ view: name });
     for (const [name, , its] of LAYERS) acts[its] = () => this.toggle(name);

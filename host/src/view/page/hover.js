@@ -58,10 +58,11 @@ export class Hover {
     const taxel = place.panel.base + place.row * place.panel.columns + place.column;
     const told = states.taxel?.taxel === taxel ? states.taxel : {};
     const counts = shown.image[taxel];
+    const waits = store.recorded ? "not recorded" : "waiting …";
     const rows = [
       ["pressure", pressure(garment, counts)],
       ["counts", String(counts)],
-      ["raw code", store.paused ? "live only" : (told.code ?? "waiting …")],
+      ["raw code", !store.recorded && store.paused ? "live only" : (told.code ?? waits)],
       ["health", store.ill().get(taxel) ?? "good"],
       ["highest", pressure(garment, store.held[taxel])],
       ["wired", told.block == null ? "–" : `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`],

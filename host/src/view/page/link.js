@@ -1,12 +1,44 @@
 // Who is there, and how well it comes through.
 
-import { make, say } from "./dom.js";
+import { $, make, say } from "./dom.js";
+import { absence, agoText } from "./presence.js";
 import { provenance } from "./units.js";
 
 /** The figures at the top. */
 export class Link {
   constructor(list, source, note) {
-    Object.assign(this, { list, source, note, cells: new Map(), images: [], connected: false });
+    Object.assign(this, { list, source, note, cells: new Map(), images: [] });
+    Object.assign(this, { connected: false, heard: null, lost: null, told: null });
+  }
+
+  /** The connection stands, or has gone. */
+  connection(connected) {
+    if (this.connected && !connected) this.lost = Date.now();
+    this.connected = connected;
+  }
+
+  /** A message has come. */
+  hear() {
+    this.heard = Date.now();
+  }
+
+  /** Why what is shown is not live; null: it is. */
+  absence(store) {
+    const quiet = Boolean(store.recorded) || Boolean(store.states.end);
+    return absence({ ...this, quiet }, Date.now());
+  }
+
+  /** Says so, and since when; the seconds that pass are not read out. */
+  presence(store) {
+    const gone = this.absence(store);
+    document.body.classList.toggle("gone", gone !== null);
+    $("absence").hidden = gone === null;
+    if (!gone) return;
+    const { since, text, again } = gone;
+    const clock = since === null ? "" : ` since ${new Date(since).toLocaleTimeString()}`;
+    say($("absence-what"), text + clock);
+    const ago = since === null ? "" : ` (${agoText(Date.now() - since)})`;
+    say($("absence-ago"), `${ago}${again ? " — trying again …" : ""}`);
   }
 
   /** An image has been drawn. */
@@ -22,12 +54,18 @@ export class Link {
     const about =
       garment &&
       `${garment.label} · ${garment.garment}, ${garment.taxels} taxels · scene ${garment.scene} · ${garment.firmware}`;
-    const closed = this.connected ? "" : "The program has gone; trying again … ";
-    say(this.source, closed + (end ? `${end.text} · ` : "") + (about ?? "waiting for a board …"));
+    say(this.source, (end ? `${end.text} · ` : "") + (about ?? "waiting for a board …"));
+    this.source.title = about ?? "";
     if (garment) say(this.note, provenance(garment));
+    this.presence(store);
     if (!link) return;
+    if (this.absence(store) || end) {
+      for (const cell of this.cells.values()) say(cell, "–");
+      return;
+    }
     this.set("board", `${link.rate.toFixed(1)} /s`, "Images a second of the board");
     this.set("page", `${this.images.length} /s`, "Images a second that this page draws; it draws the newest");
+    if (store.recorded) return;
     this.set("lost", String(link.lost), "Messages that the board sent and that did not come", link.lost > 0);
     this.set("thinned", String(link.thinned), "Images that the board left out, because the line had no room");
     const missed = latest?.head.missed ?? 0;

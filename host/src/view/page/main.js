@@ -32,12 +32,16 @@ const change =
 const socket = connect({
   image: change((message) => store.image(message)),
   line: change((line) => store.line(line)),
-  connected: change((connected) => (link.connected = connected)),
+  connected: change((connected) => {
+    link.connection(connected);
+    if (connected) store.connected();
+  }),
+  heard: () => link.hear(),
 });
 const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
-const player = new Player(store, changed);
+const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
 const views = {
   panels: new Panels($("view-panels"), hover),
@@ -50,9 +54,11 @@ const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) }
 
 let [told, drawn] = [null, null];
 function log() {
-  if (told === store.log[0] && $("log").childElementCount) return;
-  told = store.log[0];
-  $("log").replaceChildren(...store.log.map((text) => make("li", {}, text)));
+  const lines = store.lines();
+  const key = lines.join("\n");
+  if (told === key) return;
+  told = key;
+  $("log").replaceChildren(...lines.map((text) => make("li", {}, text)));
 }
 
 function draw() {
@@ -62,7 +68,8 @@ function draw() {
   const { settings } = controls;
   if (store.latest !== drawn) link.drawn();
   drawn = store.latest;
-  $("empty").hidden = Boolean(store.latest);
+  $("empty").hidden = Boolean(store.shown());
+  controls.scale();
   views[settings.view].draw(store, settings);
   scale.draw(store, settings);
   player.draw();
@@ -71,16 +78,18 @@ function draw() {
   concepts.draw(store);
   contacts($("contacts"), $("contact-count"), store);
   ranges.draw($("ranges"), store, settings);
-  strips.draw($("strips"), store);
+  if (!store.recorded) strips.draw($("strips"), store);
   log();
 }
 requestAnimationFrame(draw);
 
 window.addEventListener("resize", changed);
+// That nothing comes must be seen though nothing comes.
+setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
   const typed =
-    target.matches("input") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
+    target.matches("input, select") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
   if (typed || ctrlKey || altKey || metaKey) return;
   if (key === "s") save.toggle();
   else if (!player.key(event) && !controls.key(event)) return;
@@ -88,4 +97,4 @@ window.addEventListener("keydown", (event) => {
 });
 
 // For tests and the curious.
-window.taxel = { store, settings: controls.settings, changed };
+window.taxel = { store, settings: controls.settings, changed, ask };

@@ -7,6 +7,7 @@ import { Raster } from "./raster.js";
 import { trace } from "./contours.js";
 import { maxima } from "./peaks.js";
 import * as marks from "./marks.js";
+import { opacity } from "./afterglow.js";
 
 const GAP = 8;
 const CAPTION = 20;
@@ -18,6 +19,7 @@ export class Panels {
     this.hover = hover;
     this.key = "";
     this.raster = new Raster();
+    this.glow = new Raster();
   }
 
   draw(store, settings) {
@@ -28,9 +30,10 @@ export class Panels {
     if (!shown) return;
     const image = settings.held ? store.held : shown.image;
     const { contacts } = shown.head.frame;
+    const glow = settings.glow && !settings.held ? store.glowing() : null;
     for (const { panel, canvas, note } of this.parts) {
       const own = contacts.filter((touch) => touch.panel === panel.index);
-      this.panel(canvas, panel, image, settings.held ? [] : own, garment, settings);
+      this.panel(canvas, panel, image, settings.held ? [] : own, garment, settings, glow);
       const total = own.reduce((sum, touch) => sum + touch.total, 0);
       say(note, settings.held ? "highest since cleared" : own.length ? force(garment, total) : "");
     }
@@ -63,7 +66,7 @@ export class Panels {
     this.root.replaceChildren(...this.parts.map(figure));
   }
 
-  panel(canvas, panel, image, contacts, garment, settings) {
+  panel(canvas, panel, image, contacts, garment, settings, glow) {
     const context = fit(canvas);
     if (!context) return;
     const { clientWidth: width, clientHeight: height } = canvas;
@@ -72,6 +75,7 @@ export class Panels {
     context.clearRect(0, 0, width, height);
     context.imageSmoothingEnabled = smooth;
     context.drawImage(this.raster.paint(image, panel, { top, smooth, absent: garment.absent }), 0, 0, width, height);
+    if (glow) context.drawImage(this.glow.shine(glow, image, panel, top, opacity), 0, 0, width, height);
     if (settings.contours) contours(context, image, panel, top, sx, sy);
     if (settings.peaks) for (const peak of maxima(image, panel, garment.low)) marks.peak(context, peak, sx, sy);
     if (settings.contacts) for (const touch of contacts) marks.contact(context, touch, sx, sy);

@@ -1,6 +1,7 @@
-// Pause, and the way back through the last half minute.
+// Pause, and the way back: through the live half minute, or through a recording.
 
 import { $, say } from "./dom.js";
+import { Recorder } from "./recorder.js";
 import { KEPT_S } from "./store.js";
 import { seconds } from "./units.js";
 
@@ -9,14 +10,20 @@ const SECOND = 60;
 
 /** The buttons below the picture. */
 export class Player {
-  constructor(store, changed) {
+  constructor(store, ask, changed) {
     Object.assign(this, { store, changed });
+    this.recorder = new Recorder(store, ask);
     $("seek").min = -KEPT_S;
-    const on = (id, act) => $(id).addEventListener("click", (event) => this.do(() => act(event)));
-    on("pause", () => store.pause());
-    on("back", (event) => store.step(event.shiftKey ? -SECOND : -1));
-    on("forth", (event) => store.step(event.shiftKey ? SECOND : 1));
+    const on = (id, key) => $(id).addEventListener("click", ({ shiftKey }) => this.key({ key, shiftKey }));
+    on("pause", " ");
+    on("back", "ArrowLeft");
+    on("forth", "ArrowRight");
     $("seek").addEventListener("input", ({ target }) => this.do(() => store.seek(-Number(target.value))));
+    $("strips").addEventListener("pointerdown", (event) => {
+      if (store.recorded) return;
+      const { left, width } = $("strips").getBoundingClientRect();
+      this.do(() => store.seek(KEPT_S * (1 - (event.clientX - left) / width)));
+    });
   }
 
   do(act) {
@@ -25,7 +32,9 @@ export class Player {
   }
 
   /** Whether a key was meant for this. */
-  key({ key, shiftKey }) {
+  key(event) {
+    const { key, shiftKey } = event;
+    if (this.store.recorded) return this.recorder.key(event);
     const far = shiftKey ? SECOND : 1;
     const acts = {
       " ": () => this.store.pause(),
@@ -38,6 +47,14 @@ export class Player {
   }
 
   draw() {
+    const { store } = this;
+    const recorded = Boolean(store.recorded);
+    document.body.classList.toggle("recorded", recorded);
+    if (recorded) this.recorder.draw();
+    else this.live();
+  }
+
+  live() {
     const { store } = this;
     const shown = store.shown();
     say($("pause"), store.paused ? "Go on" : "Pause");

@@ -4,6 +4,8 @@ import { PIXELS, stepOf } from "./colours.js";
 
 /** Pixels between two taxels where it is interpolated. */
 const FINE = 6;
+/** The colour of what was felt a moment ago, which is none of the scale (ABGR without A): #ff6f91. */
+const GLOW = 0x916fff;
 
 /** Draws panels into a small canvas of its own, which is then enlarged. */
 export class Raster {
@@ -28,6 +30,17 @@ export class Raster {
     if (smooth) interpolate(this.pixels, image, panel, top);
     else for (let at = 0; at < rows * columns; at += 1) this.pixels[at] = PIXELS[stepOf(image[base + at], top)];
     this.clear(panel, absent, fine);
+    this.canvas.getContext("2d").putImageData(this.data, 0, 0);
+    return this.canvas;
+  }
+
+  /** The canvas with what glows above the pressure that is there; clear elsewhere. */
+  shine(glow, image, { rows, columns, base }, top, opacity) {
+    this.size(columns, rows);
+    for (let at = 0; at < rows * columns; at += 1) {
+      const alpha = Math.round(opacity(glow[base + at], image[base + at], top) * 255);
+      this.pixels[at] = ((alpha << 24) | GLOW) >>> 0;
+    }
     this.canvas.getContext("2d").putImageData(this.data, 0, 0);
     return this.canvas;
   }

@@ -1,4 +1,4 @@
-// What is seen, as a file: a picture, this moment's numbers, or the bytes of the board's last half minute.
+// What is seen, as a file: a picture, this moment's numbers, or a recording: of the live half minute, or of the range that is played.
 
 import { $, colour, make } from "./dom.js";
 
@@ -22,7 +22,7 @@ export class Save {
       const kind = target.dataset.save;
       if (kind === "png") picture(context.view()).then((url) => download(url, "taxel.png"));
       if (kind === "json") download(moment(context.store), "taxel.json");
-      if (kind === "taxel") download("recording.taxel", "recording.taxel");
+      if (kind === "mcap") download("recording.mcap", "recording.mcap");
     });
   }
 }

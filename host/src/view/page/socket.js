@@ -11,7 +11,7 @@ export function decode(buffer) {
   return { ...head, image: values.subarray(0, taxels), highest: values.subarray(taxels) };
 }
 
-/** Connects, and connects again. `on` has image(message), line(object) and connected(boolean). */
+/** Connects, and connects again. `on` has image(message), line(object), connected(boolean) and heard(). */
 export function connect(on) {
   let socket = null;
   const open = () => {
@@ -23,6 +23,7 @@ export function connect(on) {
       setTimeout(open, AGAIN_MS);
     };
     socket.onmessage = ({ data }) => {
+      on.heard();
       if (typeof data === "string") on.line(JSON.parse(data));
       else on.image(decode(data));
     };

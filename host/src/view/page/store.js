@@ -1,11 +1,17 @@
 // What the page knows: the garment, the newest messages, and the last half minute of images in places that are made once.
 
+import { afterglow, FADE_S } from "./afterglow.js";
 import { garmentOf } from "./garment.js";
+import { logAt } from "./timeline.js";
 
 /** Seconds that can be stepped back: 30, or as the address says (`/?keep=5`). */
 export const KEPT_S = Math.max(1, Math.min(120, Number(new URLSearchParams(location.search).get("keep")) || 30));
 /** Images a second that come at most. */
 const RATE = 62;
+/** Images of which the greatest pressure since the one before is kept: all that may still glow. */
+const GLOWING = 64;
+/** How much earlier than the newest an image may be that was sent twice, us. */
+const TWICE = 500_000;
 
 /** All that is shown. `shown()` is the image at the cursor, or the newest. */
 export class Store {
@@ -13,24 +19,36 @@ export class Store {
     this.garment = null;
     this.states = {};
     this.log = [];
+    this.marks = [];
+    this.seeks = null;
     this.size = KEPT_S * RATE;
     this.forget();
   }
 
   forget() {
-    this.count = 0;
     this.cursor = null;
-    this.heads = new Array(this.size).fill(null);
+    this.still = null;
     this.images = null;
     this.held = null;
-    this.latest = null;
+    this.forgetImages();
+  }
+
+  /** The connection is a new one: everything is told again. */
+  connected() {
+    this.log = [];
+    this.marks = [];
   }
 
   /** Takes a text message. */
   line(line) {
+    if (line.type === "none") {
+      delete this.states[line.of];
+      return;
+    }
     if (line.type === "say") {
       this.log.unshift(line.text);
       this.log.length = Math.min(this.log.length, 60);
+      if (line.time_us !== null) this.mark(line);
       return;
     }
     this.states[line.type] = line;
@@ -41,16 +59,24 @@ export class Store {
       this.forget();
       this.images = new Uint16Array(this.size * garment.taxels);
       this.held = new Uint16Array(garment.taxels);
+      this.highest = new Uint16Array(GLOWING * garment.taxels);
+      this.glow = new Float32Array(garment.taxels);
     }
     this.garment = garment;
   }
 
+  /** Keeps a line of the live log for the timeline, as long as its time is on it. */
+  mark({ time_us: time, kind, said }) {
+    if (time < this.marks.at(-1)?.[0]) this.marks = [];
+    this.marks.push([time, kind, said]);
+    const oldest = time - 2 * KEPT_S * 1e6;
+    while (this.marks[0][0] < oldest) this.marks.shift();
+  }
+
   /** Takes an image. Going on while the page stands still, so that it can be stepped through. */
   image({ image, highest, ...head }) {
-    const { garment } = this;
-    if (!garment || image.length !== garment.taxels) return;
-    const newest = this.latest?.head.frame.time_us;
-    if (head.frame.time_us < newest) this.forgetImages();
+    const { garment, latest } = this;
+    if (!garment || image.length !== garment.taxels || !this.follows(head.frame, latest?.head.frame.time_us)) return;
     for (let taxel = 0; taxel < highest.length; taxel += 1) {
       if (highest[taxel] > this.held[taxel]) this.held[taxel] = highest[taxel];
     }
@@ -58,15 +84,30 @@ export class Store {
     if (this.cursor !== null && this.count - this.cursor >= this.size) this.cursor += 1;
     const slot = this.count % this.size;
     this.images.set(image, slot * garment.taxels);
+    this.highest.set(highest, (this.count % GLOWING) * garment.taxels);
     this.heads[slot] = head;
     this.count += 1;
     this.latest = this.at(this.count - 1);
   }
 
+  /** Whether an image is taken; what does not lead to it is forgotten. */
+  follows({ time_us: time, seeks = null, past }, newest) {
+    const sought = seeks !== this.seeks;
+    if (sought) {
+      // Another moment of a recording: nothing of the one before is held.
+      this.seeks = seeks;
+      this.clearHeld();
+    } else if (time <= newest && (past || newest - time < TWICE)) return false;
+    if (sought || time < newest) this.forgetImages();
+    return true;
+  }
+
+  /** Forgets the images; what a paused page shows stays. */
   forgetImages() {
     this.count = 0;
-    this.cursor = null;
-    this.heads.fill(null);
+    this.heads = new Array(this.size).fill(null);
+    this.latest = null;
+    if (this.cursor !== null) this.cursor = 0;
   }
 
   /** Numbers of the images that are kept: first, and one past the last. */
@@ -85,18 +126,39 @@ export class Store {
     return { number, head: this.heads[slot], image: this.images.subarray(slot * taxels, (slot + 1) * taxels) };
   }
 
+  /** The player of a recording; null: a board is watched. */
+  get recorded() {
+    return this.states.player ?? null;
+  }
+
   /** The image at which the page stands, or the newest; null before there is one. */
   shown() {
-    return this.cursor === null || !this.count ? this.latest : this.at(this.cursor);
+    return this.still ?? this.latest;
+  }
+
+  /** Time of the right end of the live half minute, us: it stands while the page does. */
+  end() {
+    return this.still ? this.still.end : this.latest.head.frame.time_us;
   }
 
   get paused() {
-    return this.cursor !== null;
+    return this.recorded ? !this.recorded.playing : this.still !== null;
+  }
+
+  /** Stands still at an image, which stays though others come and take its place. */
+  stand(number) {
+    const { head, image } = this.at(number);
+    const time = head.frame.time_us;
+    const end = Math.max(time, this.still?.end ?? this.latest.head.frame.time_us);
+    this.cursor = number;
+    this.still = { number, head, image: image.slice(), end, glow: this.glowing().slice() };
+    if (time !== this.latest.head.frame.time_us) this.still.glow = this.glowAt(number).slice();
   }
 
   /** Stands still at the newest image, or goes on. */
   pause(still = !this.paused) {
-    this.cursor = still && this.count ? this.count - 1 : null;
+    if (still && this.count) this.stand(this.count - 1);
+    else if (!still) this.cursor = this.still = null;
   }
 
   /** Goes so many images forward or back. */
@@ -104,23 +166,62 @@ export class Store {
     if (!this.count) return;
     const [first, end] = this.span();
     const from = this.cursor ?? end - 1;
-    this.cursor = Math.max(first, Math.min(end - 1, from + images));
+    this.stand(Math.max(first, Math.min(end - 1, from + images)));
   }
 
-  /** Stands at the image nearest to `seconds` before the newest. */
+  /** Stands at the image nearest to `seconds` before the end of the half minute. */
   seek(seconds) {
     if (!this.count) return;
     const [first, end] = this.span();
-    const wanted = this.latest.head.frame.time_us - seconds * 1e6;
+    const wanted = this.end() - seconds * 1e6;
     let number = end - 1;
     while (number > first && this.at(number).head.frame.time_us > wanted) number -= 1;
-    this.cursor = number;
+    this.stand(number);
   }
 
-  /** Seconds between the image that is shown and the newest. */
+  /** Seconds between the image that is shown and the end of the half minute. */
   behind() {
     const shown = this.shown();
-    return shown ? (this.latest.head.frame.time_us - shown.head.frame.time_us) / 1e6 : 0;
+    return shown ? (this.end() - shown.head.frame.time_us) / 1e6 : 0;
+  }
+
+  /** What glows at the image that is shown. */
+  glowing() {
+    if (this.still) return this.still.glow;
+    return this.count ? this.glowAt(this.count - 1) : this.glow;
+  }
+
+  /** What glows at an image: of what was felt in the last second. A recording that is played faster glows as long. */
+  glowAt(number) {
+    const { taxels } = this.garment;
+    const { time_us: now } = this.at(number).head.frame;
+    const slow = 1e6 * Math.max(1, this.recorded?.speed ?? 1);
+    const images = [];
+    for (let at = number; at >= Math.max(0, this.count - this.size); at -= 1) {
+      const age = (now - this.at(at).head.frame.time_us) / slow;
+      if (age > FADE_S) break;
+      const slot = at % GLOWING;
+      const recent = this.count - at <= GLOWING;
+      images.push([recent ? this.highest.subarray(slot * taxels, (slot + 1) * taxels) : this.at(at).image, age]);
+    }
+    return afterglow(images, this.glow);
+  }
+
+  /** Lines of the log, the newest first; of a recording those up to the moment that is shown. */
+  lines() {
+    const { overview } = this.states;
+    if (!this.recorded || !overview) return this.log;
+    return logAt(overview.said, this.moment() * 1e6).map(([at, , text]) => `${(at / 1e6).toFixed(3)} s  ${text}`);
+  }
+
+  /** Seconds from the beginning of a recording to what is shown. */
+  moment() {
+    const { playing, at, seeks } = this.recorded;
+    const shown = this.latest?.head.frame.at_us;
+    if (shown === undefined) return at;
+    if (seeks !== this.seeks) return shown / 1e6;
+    // While it is played, images come more often than the player is told of; where none comes, only the player goes on.
+    return playing ? Math.max(shown / 1e6, at) : at;
   }
 
   /** Nothing has been pressed yet. */

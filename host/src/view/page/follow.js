@@ -1,0 +1,38 @@
+// A scale that follows what is shown: it grows at once, and becomes smaller after a while.
+
+/** Ends of the scale, counts: each twice the one before. */
+const [LEAST, MOST] = [25, 51_200];
+/** Milliseconds for which less is felt before the scale becomes smaller. */
+export const PATIENCE_MS = 2000;
+
+/** The smallest end at or above the greatest pressure. */
+export function endFor(greatest) {
+  let end = LEAST;
+  while (end < greatest && end < MOST) end *= 2;
+  return end;
+}
+
+/** Remembers how long less has been felt. */
+export class Follow {
+  constructor() {
+    this.since = null;
+    this.most = 0;
+  }
+
+  /** The end of the scale at `now` ms, from the one before and the greatest pressure that is shown. At rest it stays. */
+  next(top, greatest, now) {
+    const wanted = endFor(greatest);
+    if (greatest <= 0 || wanted >= top) {
+      this.since = null;
+      this.most = 0;
+      return greatest > 0 ? Math.max(top, wanted) : top;
+    }
+    this.most = Math.max(this.most, wanted);
+    this.since ??= now;
+    if (now - this.since < PATIENCE_MS) return top;
+    const next = this.most;
+    this.since = null;
+    this.most = 0;
+    return next;
+  }
+}

@@ -1,0 +1,74 @@
+// Total force, leading intentions and marks over a stretch of time.
+
+import { colour } from "./dom.js";
+import { marks } from "./events.js";
+
+/** Height of the ribbon of intentions, of the lane of marks, and of the line of times below them. */
+export const RIBBON = 18;
+export const LANE = 13;
+export const TIMES = 15;
+/** Okabe and Ito's colours; the name stands in the ribbon besides. */
+const INTENTIONS = { kindness: "#0072b2", threat: "#e69f00", attack: "#d55e00" };
+const INK = { kindness: "#fff", threat: "#000", attack: "#fff" };
+
+/** The greatest total of each pixel as an area; columns below 0 are not known. `floor` is its lower edge. */
+export function area(context, columns, highest, floor, head = 18) {
+  context.beginPath();
+  let last = null;
+  columns.forEach((total, column) => {
+    if (total < 0) return;
+    const y = floor - (total / highest) * (floor - head);
+    if (last === null) context.moveTo(column, floor);
+    context.lineTo(column, y);
+    last = column;
+  });
+  context.lineTo(last ?? 0, floor);
+  context.closePath();
+  context.globalAlpha = 0.25;
+  context.fillStyle = colour("accent");
+  context.fill();
+  context.globalAlpha = 1;
+  context.strokeStyle = colour("accent");
+  context.lineWidth = 1.5;
+  context.stroke();
+}
+
+/** Stretches [from, to, leading], each with its name where there is room. */
+export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  for (const [from, to, leading] of stretches) {
+    const [left, right] = [x(from), x(to)];
+    context.fillStyle = INTENTIONS[leading] ?? colour("quiet");
+    context.fillRect(left, top, Math.max(1.5, right - left), height);
+    context.fillStyle = INK[leading] ?? colour("card");
+    const from_edge = Math.max(left, 0);
+    if (height > 10 && context.measureText(leading).width + 8 < right - from_edge)
+      context.fillText(leading, from_edge + 4, top + height / 2 + 0.5);
+  }
+}
+
+/** Lines at times, with their names below. `lines` are [x, name, align]. */
+export function ruler(context, lines, height) {
+  context.textBaseline = "bottom";
+  for (const [at, name, align] of lines) {
+    context.fillStyle = colour("grid");
+    context.fillRect(Math.round(at) - 0.5, 0, 1, height - TIMES);
+    context.fillStyle = colour("quiet");
+    context.textAlign = align;
+    context.fillText(name, at, height);
+  }
+}
+
+/** The moment that is shown. */
+export function cursor(context, at, height) {
+  context.fillStyle = colour("ink");
+  context.fillRect(Math.round(at) - 1, 0, 2, height);
+  context.beginPath();
+  context.moveTo(at - 5, 0);
+  context.lineTo(at + 5, 0);
+  context.lineTo(at, 7);
+  context.fill();
+}
+
+export { marks };

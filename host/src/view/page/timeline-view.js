@@ -1,0 +1,211 @@
+// The timeline of a recording: all of it below, the half minute about the moment above. Both are clicked and dragged; the ends
+// of the range are dragged on the lower one.
+
+import { $, colour, fit, make, say } from "./dom.js";
+import * as strip from "./strip.js";
+import { columns, moved, nearest, rulerStep, stretches, timeText, windowAbout } from "./timeline.js";
+import { force } from "./units.js";
+
+/** Pixels about a mark within which the pointer is on it. */
+const REACH = 5;
+
+/** Both lines. `ask` tells the program. */
+export class Timeline {
+  constructor(store, ask) {
+    Object.assign(this, { store, ask, tip: $("tip") });
+    this.whole = $("whole");
+    this.near = $("strips");
+    this.watch(this.whole, () => [0, this.duration]);
+    this.watch(this.near, () => this.window);
+    this.ends = ["range-from", "range-to"].map((id) => $(id));
+    this.ends.forEach((end, which) => this.handle(end, which));
+  }
+
+  get duration() {
+    return Math.max(this.store.recorded?.duration ?? 0, 0.001);
+  }
+
+  /** Seconds that the upper line shows: they stay while the pointer is down on them. */
+  get window() {
+    if (this.held === this.near) return this.frozen;
+    this.frozen = windowAbout(this.store.moment(), this.duration);
+    return this.frozen;
+  }
+
+  /** Seconds at a place of a line. */
+  at(canvas, event, [from, to]) {
+    const { left, width } = canvas.getBoundingClientRect();
+    const share = Math.max(0, Math.min(1, (event.clientX - left) / width));
+    return from + share * (to - from);
+  }
+
+  watch(canvas, span) {
+    const seek = (event) => this.ask({ seek: this.at(canvas, event, span()) });
+    canvas.addEventListener("pointerdown", (event) => {
+      if (!this.store.recorded || event.button !== 0) return;
+      canvas.setPointerCapture(event.pointerId);
+      this.held = canvas;
+      const on = this.under(canvas, event, span());
+      if (on) this.ask({ seek: on[0] / 1e6 });
+      else seek(event);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!this.store.recorded) return;
+      if (this.held === canvas) seek(event);
+      this.hint(canvas, event, span());
+    });
+    const release = () => (this.held = null);
+    canvas.addEventListener("pointerup", release);
+    canvas.addEventListener("pointercancel", release);
+    canvas.addEventListener("pointerleave", () => (this.tip.hidden = true));
+  }
+
+  /** The marked line under the pointer. */
+  under(canvas, event, [from, to]) {
+    const { overview } = this.store.states;
+    const reach = ((to - from) / canvas.clientWidth) * REACH * 1e6;
+    return overview ? nearest(overview.said, this.at(canvas, event, [from, to]) * 1e6, reach) : null;
+  }
+
+  /** The time under the pointer, and what was said there. */
+  hint(canvas, event, span) {
+    const on = this.under(canvas, event, span);
+    const at = on ? on[0] / 1e6 : this.at(canvas, event, span);
+    this.tip.replaceChildren(make("b", {}, `${timeText(at)} s`), on ? ` ${on[2]}` : "");
+    this.tip.hidden = false;
+    const { left, top } = canvas.getBoundingClientRect();
+    const room = innerWidth - this.tip.offsetWidth - 6;
+    const x = Math.max(4, Math.min(room, event.clientX - this.tip.offsetWidth / 2));
+    this.tip.style.transform = `translate(${x}px, ${top - this.tip.offsetHeight - 4}px)`;
+    canvas.style.cursor = on ? "pointer" : "";
+    return left;
+  }
+
+  /** An end of the range: dragged, or moved by the arrow keys. */
+  handle(end, which) {
+    const move = (to) => this.ask({ range: moved(this.store.recorded.range, which, to, this.duration) });
+    end.addEventListener("pointerdown", (event) => {
+      end.setPointerCapture(event.pointerId);
+      event.preventDefault();
+      end.focus();
+    });
+    end.addEventListener("pointermove", (event) => {
+      if (end.hasPointerCapture(event.pointerId)) move(this.at(this.whole, event, [0, this.duration]));
+    });
+    end.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!way) return;
+      event.preventDefault();
+      event.stopPropagation();
+      move(this.store.recorded.range[which] + way * (event.shiftKey ? 1 : 0.1));
+    });
+  }
+
+  draw() {
+    const { recorded, states } = this.store;
+    if (!recorded || !this.store.garment) return;
+    const { overview } = states;
+    const span = this.window;
+    this.line(this.near, overview, span, this.duration > span[1] - span[0] ? "about this moment" : "");
+    this.line(this.whole, overview, [0, this.duration], "");
+    const { range } = recorded;
+    this.ends.forEach((end, which) => {
+      end.style.left = `${(range[which] / this.duration) * 100}%`;
+      end.setAttribute("aria-valuemax", this.duration.toFixed(2));
+      end.setAttribute("aria-valuenow", range[which].toFixed(2));
+      end.setAttribute("aria-valuetext", `${timeText(range[which])} s`);
+    });
+  }
+
+  line(canvas, overview, [from, to], about) {
+    const context = fit(canvas);
+    if (!context) return;
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const whole = canvas === this.whole;
+    const x = (us) => ((us / 1e6 - from) / (to - from)) * width;
+    const bottom = height - strip.TIMES;
+    context.clearRect(0, 0, width, height);
+    context.font = "11px system-ui, sans-serif";
+    strip.ruler(context, ruler(from, to, width), height);
+    if (overview) {
+      const shown = columns(overview, [from, to], width);
+      this.unknown(context, overview, x, shown, bottom);
+      const highest = shown.reduce((most, total) => Math.max(most, total), 1000);
+      const floor = bottom - strip.LANE - strip.RIBBON;
+      strip.area(context, shown, highest, floor, whole ? 4 : 18);
+      strip.ribbon(context, visible(overview, from, to), x, floor + 3);
+      strip.marks(context, within(overview.said, from, to), x, bottom - strip.LANE / 2);
+      if (!whole) this.caption(context, `total force, up to ${force(this.store.garment, highest)}`, about, width);
+    }
+    this.shade(context, x, whole, width, bottom);
+    strip.cursor(context, x(this.store.moment() * 1e6), bottom);
+  }
+
+  caption(context, left, right, width) {
+    context.fillStyle = colour("quiet");
+    context.textBaseline = "top";
+    context.textAlign = "left";
+    context.fillText(left, 4, 2);
+    context.textAlign = "right";
+    context.fillText(right, width - 4, 2);
+  }
+
+  /** What has not been read yet. */
+  unknown(context, { known_us: known }, x, shown, bottom) {
+    const edge = Math.max(0, x(known));
+    if (edge >= shown.length - 1) return;
+    for (let column = Math.ceil(edge); column < shown.length; column += 1) shown[column] = -1;
+    context.fillStyle = colour("grid");
+    context.fillRect(edge, 0, shown.length - edge, bottom);
+    context.fillStyle = colour("quiet");
+    context.textBaseline = "middle";
+    context.textAlign = "left";
+    context.fillText("reading …", edge + 6, bottom / 2);
+  }
+
+  /** Outside of the range; and on the whole the part that the other line shows. */
+  shade(context, x, whole, width, bottom) {
+    const [from, to] = this.store.recorded.range.map((end) => x(end * 1e6));
+    context.fillStyle = colour("shade");
+    if (from > 0) context.fillRect(0, 0, Math.min(width, from), bottom);
+    if (to < width) context.fillRect(Math.max(0, to), 0, width, bottom);
+    if (!whole) return;
+    const near = this.window.map((end) => x(end * 1e6));
+    context.strokeStyle = colour("quiet");
+    context.lineWidth = 1;
+    if (near[1] - near[0] < width - 1)
+      context.strokeRect(near[0] + 0.5, 0.5, Math.max(2, near[1] - near[0] - 1), bottom - 1);
+  }
+}
+
+/** Lines at round times. */
+function ruler(from, to, width) {
+  const step = rulerStep(to - from, width);
+  const lines = [];
+  for (let at = Math.ceil(from / step) * step; at <= to + 1e-9; at += step) {
+    const place = ((at - from) / (to - from)) * width;
+    const align = place < 20 ? "left" : place > width - 20 ? "right" : "center";
+    lines.push([place, `${timeText(at, step < 0.1 ? 2 : step < 1 ? 1 : 0)}${at < 60 ? " s" : ""}`, align]);
+  }
+  return lines;
+}
+
+const within = (said, from, to) => said.filter(([at]) => at >= from * 1e6 - 1e5 && at <= to * 1e6 + 1e5);
+
+const visible = (overview, from, to) =>
+  stretches(overview.intentions, overview.known_us).filter(([start, end]) => end >= from * 1e6 && start <= to * 1e6);
+
+/** Says what the marks are. */
+export function legend(element, names, draw) {
+  element.replaceChildren(
+    ...Object.entries(names).map(([kind, name]) => {
+      const canvas = make("canvas", { width: 14, height: 14, "aria-hidden": "true" });
+      draw(canvas.getContext("2d"), kind, 7, 7);
+      const item = make("span", {}, canvas);
+      const text = make("span");
+      say(text, name);
+      item.append(text);
+      return item;
+    }),
+  );
+}

@@ -1,0 +1,110 @@
+// A recording on a line: what lies where, without drawing. Times of the overview are microseconds, those of the player seconds.
+
+/** Speeds that are offered. */
+export const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+/** Seconds of the strip that follows the moment. */
+export const NEAR_S = 30;
+
+/** The next speed up (+1) or down (-1) of those that are offered. */
+export function nextSpeed(speed, way) {
+  const further = SPEEDS.filter((other) => (way > 0 ? other > speed * 1.001 : other < speed * 0.999));
+  return (way > 0 ? further[0] : further.at(-1)) ?? speed;
+}
+
+/** "0.05×", "1×" */
+export const speedText = (speed) => `${Number(speed.toPrecision(3))}×`;
+
+/** "7.25", "1:07.25", "1:02:07.25"; with as many decimals. */
+export function timeText(seconds, decimals = 2) {
+  const scale = 10 ** decimals;
+  const ticks = Math.round(Math.max(0, seconds) * scale);
+  const whole = Math.floor(ticks / scale);
+  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
+  const rest = decimals ? `.${String(ticks % scale).padStart(decimals, "0")}` : "";
+  const two = (number) => String(number).padStart(2, "0");
+  if (h) return `${h}:${two(m)}:${two(s)}${rest}`;
+  return m ? `${m}:${two(s)}${rest}` : `${s}${rest}`;
+}
+
+/** Seconds between two lines of a ruler, so that `width` pixels of `seconds` have one each 80 pixels at most. */
+export function rulerStep(seconds, width) {
+  const least = (seconds * 80) / Math.max(width, 1);
+  const steps = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200];
+  return steps.find((step) => step >= least) ?? Math.ceil(least / 3600) * 3600;
+}
+
+/** The window of `length` seconds about a moment, within the recording where that is longer. */
+export function windowAbout(at, duration, length = NEAR_S) {
+  if (duration <= length) return [0, Math.max(duration, 0.01)];
+  const from = Math.max(0, Math.min(duration - length, at - length / 2));
+  return [from, from + length];
+}
+
+/** The greatest total of each pixel of a window [from, to] s, counts. */
+export function columns({ totals, width_us: place }, [from, to], width) {
+  const found = new Float64Array(Math.max(1, Math.ceil(width)));
+  const of = (x) => ((from + ((to - from) * x) / found.length) * 1e6) / place;
+  for (let x = 0; x < found.length; x += 1) {
+    const first = Math.max(0, Math.floor(of(x)));
+    const last = Math.min(totals.length - 1, Math.max(first, Math.ceil(of(x + 1)) - 1));
+    for (let at = first; at <= last; at += 1) found[x] = Math.max(found[x], totals[at]);
+  }
+  return found;
+}
+
+/** How many of a list that is sorted by its first field lie at `at` or before it. */
+export function countUntil(list, at) {
+  let [low, high] = [0, list.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (list[middle][0] <= at) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The last lines that were said up to `at` us, the newest first. */
+export const logAt = (said, at, lines = 60) => {
+  const end = countUntil(said, at);
+  return said.slice(Math.max(0, end - lines), end).reverse();
+};
+
+/** The intention that leads at `at` us. */
+export const leadingAt = (intentions, at) => intentions[countUntil(intentions, at) - 1]?.[1] ?? "none";
+
+/** Stretches [from, to, leading] in which some intention leads, us. */
+export function stretches(intentions, end) {
+  return intentions
+    .map(([from, leading], index) => [from, intentions[index + 1]?.[0] ?? end, leading])
+    .filter(([, , leading]) => leading !== "none");
+}
+
+/** Kinds that have a mark: their order is that in which they are drawn, the most important last. */
+export const MARKED = ["note", "onset", "gesture", "intention", "reaction", "gap"];
+
+/** The marked line nearest to `at` within `reach` us, the most important of those that are as near; null: there is none. */
+export function nearest(said, at, reach) {
+  let best = null;
+  for (let index = countUntil(said, at - reach); index < said.length && said[index][0] <= at + reach; index += 1) {
+    const [time, kind] = said[index];
+    if (!MARKED.includes(kind)) continue;
+    const rank = [Math.abs(time - at), -MARKED.indexOf(kind)];
+    const nearer = !best || rank[0] < best.rank[0] || (rank[0] === best.rank[0] && rank[1] < best.rank[1]);
+    if (nearer) best = { rank, line: said[index] };
+  }
+  return best?.line ?? null;
+}
+
+/** The next (+1) or last (-1) marked line that is not at `at` us, which is known to a millisecond; null: there is none. */
+export function neighbour(said, at, way) {
+  const marked = (line) => MARKED.includes(line[1]) && line[1] !== "note";
+  if (way > 0) return said.slice(countUntil(said, at + 1000)).find(marked) ?? null;
+  return said.slice(0, countUntil(said, at - 1000)).findLast(marked) ?? null;
+}
+
+/** The range after one of its ends was moved to `to` seconds; the ends never meet. */
+export function moved([from, end], which, to, duration) {
+  const least = Math.min(0.05, duration);
+  const at = Math.max(0, Math.min(duration, to));
+  return which === 0 ? [Math.min(at, end - least), end] : [from, Math.max(at, from + least)];
+}
