@@ -97,15 +97,12 @@ export class Chromium {
     }
   }
 
-  /** Moves the pointer. */
+  /** Moves the pointer, presses or releases its button. */
   pointer(x, y, type = "mouseMoved") {
-    return this.send("Input.dispatchMouseEvent", {
-      type,
-      x,
-      y,
-      button: type === "mouseMoved" ? "none" : "left",
-      clickCount: 1,
-    });
+    if (type !== "mouseMoved") this.pressed = type === "mousePressed";
+    const button = type === "mouseMoved" && !this.pressed ? "none" : "left";
+    const buttons = this.pressed ? 1 : 0;
+    return this.send("Input.dispatchMouseEvent", { type, x, y, button, buttons, clickCount: 1 });
   }
 
   /** Presses a key. */

@@ -33,8 +33,8 @@ pub use server::serve;
 pub use tape::Tape;
 pub use viewer::Viewer;
 
-use crate::live::{self, BoardArgs, LiveArgs};
 use crate::calibrate::Calibration;
+use crate::live::{self, BoardArgs, LiveArgs};
 use crate::record::Origin;
 use crate::source::{SourceOptions, SourceSpec, Speed};
 use anyhow::{Context, Result};

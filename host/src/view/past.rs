@@ -30,7 +30,12 @@ impl<'a> Past<'a> {
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         let mut line = live::message(&self.client, event);
         line["past"] = json!(true);
-        self.mailbox.shot(&Shot { line: line.to_string().into(), image: image.into(), time_us: time.0, total });
+        self.mailbox.shot(&Shot {
+            line: line.to_string().into(),
+            image: image.into(),
+            time_us: time.0,
+            total,
+        });
         let due = self.last.is_none_or(|last| time.since(last) >= PERIOD || *time < last);
         if due {
             self.last = Some(*time);

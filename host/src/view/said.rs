@@ -47,7 +47,8 @@ impl Said {
 
     /// The sentence behind the board's time, as the log shows it.
     pub fn line(&self) -> String {
-        self.time_us.map_or_else(|| self.text.clone(), |time| format!("{} {}", seconds(Micros(time)), self.text))
+        self.time_us
+            .map_or_else(|| self.text.clone(), |time| format!("{} {}", seconds(Micros(time)), self.text))
     }
 
     /// The message `say`.
@@ -107,7 +108,8 @@ fn kinds(event: &Event) -> Vec<Kind> {
     match event {
         Event::Symbols(list) => {
             let told = list.events.iter().filter(|symbol| symbol.phase != Phase::Held);
-            told.map(|symbol| if symbol.phase == Phase::Released { Kind::Release } else { Kind::Onset }).collect()
+            told.map(|symbol| if symbol.phase == Phase::Released { Kind::Release } else { Kind::Onset })
+                .collect()
         }
         Event::Intent(_) => vec![Kind::Intention],
         Event::Reaction(_) => vec![Kind::Reaction],

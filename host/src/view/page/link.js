@@ -63,7 +63,8 @@ export class Link {
       for (const cell of this.cells.values()) say(cell, "–");
       return;
     }
-    this.set("board", `${link.rate.toFixed(1)} /s`, "Images a second of the board");
+    const rate = store.recorded && store.paused ? "–" : `${link.rate.toFixed(1)} /s`;
+    this.set("board", rate, "Images a second of the board");
     this.set("page", `${this.images.length} /s`, "Images a second that this page draws; it draws the newest");
     if (store.recorded) return;
     this.set("lost", String(link.lost), "Messages that the board sent and that did not come", link.lost > 0);

@@ -70,9 +70,10 @@ function draw() {
   drawn = store.latest;
   $("empty").hidden = Boolean(store.shown());
   controls.scale();
+  // First, since it says how much room is left.
+  player.draw();
   views[settings.view].draw(store, settings);
   scale.draw(store, settings);
-  player.draw();
   hover.draw(store);
   link.draw(store);
   concepts.draw(store);

@@ -2,8 +2,8 @@
 
 /** Speeds that are offered. */
 export const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
-/** Seconds of the strip that follows the moment. */
-export const NEAR_S = 30;
+/** Seconds of the strip that follows the moment, of a recording so long; at most half a minute. */
+export const nearOf = (duration) => Math.max(2, Math.min(30, duration / 6));
 
 /** The next speed up (+1) or down (-1) of those that are offered. */
 export function nextSpeed(speed, way) {
@@ -34,7 +34,7 @@ export function rulerStep(seconds, width) {
 }
 
 /** The window of `length` seconds about a moment, within the recording where that is longer. */
-export function windowAbout(at, duration, length = NEAR_S) {
+export function windowAbout(at, duration, length = nearOf(duration)) {
   if (duration <= length) return [0, Math.max(duration, 0.01)];
   const from = Math.max(0, Math.min(duration - length, at - length / 2));
   return [from, from + length];

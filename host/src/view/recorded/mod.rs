@@ -38,6 +38,7 @@ use anyhow::{Context, Result, bail};
 use deck::{Deck, Go};
 use reel::Reel;
 use screen::Screen;
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -91,10 +92,12 @@ impl Player {
 
     /// Plays, as soon as somebody looks, and does what pages ask for; returns never.
     pub fn run(mut self) -> Result<()> {
+        let mut orders = VecDeque::new();
         while self.hub.pages() == 0 {
-            self.hub.orders(Duration::from_millis(20));
+            orders = self.hub.orders(Duration::from_millis(20));
         }
         self.obey(&Order::Play(true));
+        orders.iter().for_each(|order| self.obey(order));
         loop {
             self.turn();
         }
@@ -177,7 +180,8 @@ fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Resul
     let calibration = calibration.or(attached.transpose()?);
     let words = clips.words.get("taxel");
     let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
-    let told = word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
+    let told =
+        word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
     let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(told);
     Ok(Origin { label: word("source"), counts_per_newton, calibration })
 }

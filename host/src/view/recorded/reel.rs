@@ -167,7 +167,8 @@ impl Reel {
                 with_report(piece, |seq, report| _ = standing.take(seq, report, &piece.data));
             }
         }
-        standing
+        // Without an index, nothing is known before the survey comes.
+        if standing.is_empty() { self.survey.standing(end) } else { standing }
     }
 
     /// Messages from the beginning of the chunk of `key` up to an image, without images that nothing needs.

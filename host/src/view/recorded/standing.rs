@@ -45,7 +45,8 @@ impl Standing {
             Report::Budget(_) => Report::BUDGET,
             Report::HealthMap(map) => {
                 let told = map.first..map.end;
-                self.parts.retain(|(number, first), _| *number != Report::HEALTH_MAP || !told.contains(first));
+                self.parts
+                    .retain(|(number, first), _| *number != Report::HEALTH_MAP || !told.contains(first));
                 return Some((Report::HEALTH_MAP, map.first));
             }
             Report::Temperature(_) => Report::TEMPERATURE,
@@ -54,6 +55,11 @@ impl Standing {
             _ => return None,
         };
         Some((number, 0))
+    }
+
+    /// Nothing has been said that lasts.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
     }
 
     /// The frames, in the order in which they came.

@@ -27,7 +27,12 @@ struct Found {
 
 impl Survey {
     /// Begins, in a thread of its own.
-    pub fn start(clips: Clips, clock: RecordedTime, scale: Option<f32>, hub: Arc<Hub>) -> anyhow::Result<Arc<Survey>> {
+    pub fn start(
+        clips: Clips,
+        clock: RecordedTime,
+        scale: Option<f32>,
+        hub: Arc<Hub>,
+    ) -> anyhow::Result<Arc<Survey>> {
         let survey = Arc::new(Survey::default());
         let mut surveyor = Surveyor {
             clips,

@@ -1,0 +1,119 @@
+//! What the page saves is a recording for every other command, newtons and all.
+
+use super::stage::{PROGRAM, View, file, moments, recorded};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::Command;
+use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
+use taxel_core::condition::UNITY;
+use taxel_core::garment::{Garment, Layout};
+
+/// A box on a mat of one block.
+const SCENE: &str = r#"
+duration_s = 5
+garment = "block-4x16"
+[[touch]]
+panel = "mat"
+shape = "box"
+force_n = 5
+at = [7.5, 1.5]
+size_mm = 22
+start_s = 0.5
+rise_s = 0.2
+hold_s = 4
+"#;
+
+fn info(path: &Path) -> Value {
+    let output = Command::new(PROGRAM).args(["info", "--json"]).arg(path).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn a_range_is_saved_to_the_image_and_every_command_reads_it() {
+    let path = recorded("range.mcap", "sim:pat", 8, &[]);
+    let (all, view) = (moments(&path), View::start(&[path.to_str().unwrap()]));
+    let mut page = view.page();
+    page.stand();
+    // Amid the second pat.
+    page.ask(json!({ "range": [0.55, 6.25] }));
+    page.line("player", |line| line["range"] == json!([0.55, 6.25]));
+    let saved = view.save("saved.mcap");
+    let first = all.iter().rposition(|moment| moment.at <= 550_000).unwrap();
+    let wanted: Vec<_> = all[first..].iter().take_while(|moment| moment.at <= 6_250_000).collect();
+    let found = moments(&saved);
+    assert_eq!(found.len(), wanted.len());
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert_eq!(found.image, wanted.image);
+        assert_eq!(found.line["time_us"], wanted.line["time_us"]);
+        assert_eq!(found.line["contacts"], wanted.line["contacts"]);
+        assert_eq!(found.line["intent"], wanted.line["intent"]);
+    }
+    let told = info(&saved);
+    assert_eq!((&told["whole"], &told["lost"], &told["undecoded"]), (&json!(true), &json!(0), &json!(0)));
+    assert_eq!(told["metadata"]["taxel"]["counts_per_newton"], "1000");
+    let (first, of) = (&told["start_us"], &info(&path)["start_us"]);
+    let later = first.as_u64().unwrap() - of.as_u64().unwrap();
+    assert!((540_000..=550_000).contains(&later), "it begins {later} us later");
+    for arguments in [
+        vec!["replay", saved.to_str().unwrap(), "--json"],
+        vec!["report", saved.to_str().unwrap(), "-o", file("saved.html").to_str().unwrap()],
+        vec!["export", saved.to_str().unwrap(), "--to", "csv", "-o", file("saved.csv").to_str().unwrap()],
+    ] {
+        let output = Command::new(PROGRAM).args(&arguments).output().unwrap();
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn the_calibration_stays_with_what_is_saved() {
+    let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
+    let fitted = Fitted {
+        gains: vec![UNITY; 64],
+        curves: vec![Some(Curve::new(vec![[16_000, 1_000_000], [24_000, 2_000_000]]).unwrap())],
+        silent: Vec::new(),
+        residuals: Residuals { error: 0.0125, worst: 0.03, hysteresis: 0.02, noise: 0.015, rest: 0.0 },
+        weights: Vec::new(),
+    };
+    let rest = Rest { codes: vec![300.0; 64], noise: 2.0 };
+    let made = Calibration::of(fitted, &layout, &rest, ["block-4x16", "Anna", "plates of 5 N", "sim"]);
+    let (scene, certificate) = (file("block.toml"), file("block.calibration.toml"));
+    std::fs::write(&scene, SCENE).unwrap();
+    made.write(&certificate).unwrap();
+    let calibration = ["--calibration", certificate.to_str().unwrap()];
+    let source = format!("sim:{}", scene.display());
+    let path = recorded("calibrated.mcap", &source, 4, &calibration);
+    // Cut from a recording, and of a live board.
+    let view = View::start(&[path.to_str().unwrap()]);
+    let mut page = view.page();
+    page.stand();
+    page.ask(json!({ "range": [1, 2] }));
+    page.line("player", |line| line["range"] == json!([1.0, 2.0]));
+    let cut = view.save("cut.mcap");
+    let live = View::start(&["--source", &source, calibration[0], calibration[1]]);
+    live.page().image(|line| line["time_us"].as_u64().is_some_and(|time| time > 1_500_000));
+    let kept = live.save("kept.mcap");
+    for (index, saved) in [cut, kept].iter().enumerate() {
+        let told = info(saved);
+        let words = &told["metadata"]["taxel"];
+        assert_eq!((&words["calibration_by"], &told["lost"]), (&json!("Anna"), &json!(0)), "{told}");
+        assert!(told["attachments"].as_array().unwrap().contains(&json!("calibration.toml")));
+        assert!(told["frames"].as_u64().is_some_and(|frames| frames > 100), "{told}");
+        let table = file(&format!("kept-{index}.csv"));
+        let mut export = Command::new(PROGRAM);
+        export.args(["export", "--to", "csv", "-o"]).arg(&table).arg(saved);
+        let output = export.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(std::fs::read_to_string(&table).unwrap().contains("kPa"));
+    }
+}
+
+#[test]
+fn only_the_page_may_save() {
+    let path = recorded("guarded.mcap", "sim:idle", 1, &[]);
+    let view = View::start(&[path.to_str().unwrap()]);
+    let (head, _) = view.get("/recording.mcap", "Origin: http://evil.example\r\n");
+    assert!(head.starts_with("HTTP/1.1 403"), "{head}");
+    let (head, _) = view.get("/recording.mcap?x=../y", "");
+    assert!(head.starts_with("HTTP/1.1 200"), "{head}");
+}

@@ -1,0 +1,141 @@
+// Modules of the page that need no browser: the line of time, the afterglow, the scale that follows, and who is there.
+
+import { test } from "node:test";
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+
+/** A module of the page that imports no other. */
+async function load(name) {
+  const text = await readFile(new URL(`../../host/src/view/page/${name}.js`, import.meta.url), "utf8");
+  return import(`data:text/javascript,${encodeURIComponent(text)}`);
+}
+const [timeline, glow, follow, presence] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence"].map(load),
+);
+
+test("times are read as on a clock", () => {
+  const { timeText } = timeline;
+  assert.equal(timeText(7.254), "7.25");
+  assert.equal(timeText(59.999, 2), "1:00.00");
+  assert.equal(timeText(67.25, 1), "1:07.3");
+  assert.equal(timeText(3727, 0), "1:02:07");
+  assert.equal(timeText(-1), "0.00");
+});
+
+test("a line of a ruler has room, whatever the width", () => {
+  for (const seconds of [0.5, 12, 1800, 86_400]) {
+    for (const width of [200, 1200]) {
+      const step = timeline.rulerStep(seconds, width);
+      assert.ok((step / seconds) * width >= 79, `${step} s of ${seconds} s in ${width}`);
+    }
+  }
+});
+
+test("the strip about a moment stays within the recording", () => {
+  assert.deepEqual(timeline.windowAbout(900, 1800), [885, 915]);
+  assert.deepEqual(timeline.windowAbout(3, 1800), [0, 30]);
+  assert.deepEqual(timeline.windowAbout(1799, 1800), [1770, 1800]);
+  assert.deepEqual(timeline.windowAbout(0.5, 1), [0, 1]);
+});
+
+test("the shortest touch is seen on a line of any width", () => {
+  const totals = new Array(16_384).fill(0);
+  totals[9_000] = 4_000;
+  const overview = { totals, width_us: 109_864 };
+  for (const width of [300, 865, 1_700]) {
+    const columns = timeline.columns(overview, [0, 1_800], width);
+    assert.equal(columns.length, width);
+    assert.ok(columns.some((total) => total === 4_000), `${width} pixels`);
+  }
+  const near = timeline.columns(overview, [980, 990], 500);
+  const wide = near.filter((total) => total === 4_000).length;
+  assert.ok(Math.abs(wide - 5.5) <= 1.5, `${wide} pixels of 0.11 s`);
+});
+
+const SAID = [
+  [100_000, "onset", "a"],
+  [161_000, "release", "b"],
+  [161_000, "intention", "c"],
+  [900_000, "note", "d"],
+  [2_000_000, "reaction", "e"],
+];
+
+test("the log is that of the moment, the newest first", () => {
+  assert.deepEqual(timeline.logAt(SAID, 99_999), []);
+  assert.deepEqual(timeline.logAt(SAID, 161_000).map((line) => line[2]), ["c", "b", "a"]);
+  assert.deepEqual(timeline.logAt(SAID, 9e9, 2).map((line) => line[2]), ["e", "d"]);
+});
+
+test("marks are found beside the pointer, and from one to the next", () => {
+  assert.equal(timeline.nearest(SAID, 120_000, 30_000)[2], "a");
+  assert.equal(timeline.nearest(SAID, 500_000, 30_000), null);
+  assert.equal(timeline.nearest(SAID, 170_000, 30_000)[2], "c");
+  assert.equal(timeline.neighbour(SAID, 100_000, 1)[2], "c");
+  assert.equal(timeline.neighbour(SAID, 161_000, 1)[2], "e");
+  assert.equal(timeline.neighbour(SAID, 2_000_000, -1)[2], "c");
+  assert.equal(timeline.neighbour(SAID, 2_000_000, 1), null);
+});
+
+test("intentions last until another leads", () => {
+  const changes = [
+    [5, "kindness"],
+    [9, "none"],
+    [20, "attack"],
+  ];
+  assert.deepEqual(timeline.stretches(changes, 30), [
+    [5, 9, "kindness"],
+    [20, 30, "attack"],
+  ]);
+  assert.deepEqual([4, 5, 9, 25].map((at) => timeline.leadingAt(changes, at)), ["none", "kindness", "none", "attack"]);
+});
+
+test("ends of a range never meet nor leave the recording", () => {
+  assert.deepEqual(timeline.moved([1, 5], 0, 9, 10), [4.95, 5]);
+  assert.deepEqual(timeline.moved([1, 5], 1, 0, 10), [1, 1.05]);
+  assert.deepEqual(timeline.moved([1, 5], 1, 99, 10), [1, 10]);
+  assert.deepEqual(timeline.moved([1, 5], 0, -3, 10), [0, 5]);
+});
+
+test("speeds go up and down one at a time, and end", () => {
+  assert.equal(timeline.nextSpeed(1, 1), 2);
+  assert.equal(timeline.nextSpeed(3, -1), 2);
+  assert.equal(timeline.nextSpeed(16, 1), 16);
+  assert.equal(timeline.nextSpeed(0.05, -1), 0.05);
+  assert.equal(timeline.speedText(0.25), "0.25×");
+});
+
+test("a touch of 61 ms glows for most of a second, and no longer", () => {
+  const into = new Float32Array(2);
+  const lash = Uint16Array.of(0, 400);
+  const rest = Uint16Array.of(0, 0);
+  const seen = (ms) => glow.afterglow([[rest, 0], [lash, ms / 1000]], into)[1];
+  assert.equal(seen(0), 400);
+  assert.ok(seen(61) > 360 && seen(400) > 150 && seen(700) > 20);
+  assert.equal(seen(1000), 0);
+  assert.equal(glow.opacity(seen(700), 0, 200) > 0.3, true);
+  // Nothing glows above a pressure that is still there.
+  assert.equal(glow.opacity(400, 400, 200), 0);
+  assert.equal(into[0], 0);
+});
+
+test("the scale grows at once, becomes smaller after a while, and stays at rest", () => {
+  const scale = new follow.Follow();
+  assert.equal(scale.next(200, 1_500, 0), 1_600);
+  assert.equal(scale.next(1_600, 0, 60_000), 1_600);
+  assert.equal(scale.next(1_600, 90, 70_000), 1_600);
+  assert.equal(scale.next(1_600, 300, 71_000), 1_600);
+  assert.equal(scale.next(1_600, 90, 72_500), 400);
+  assert.equal(follow.endFor(1e9), 51_200);
+});
+
+test("who is not there is said to be away, and since when", () => {
+  const { absence, agoText } = presence;
+  const here = { connected: true, heard: 1_000, lost: null };
+  assert.equal(absence(here, 2_000), null);
+  assert.equal(absence(here, 5_000).since, 1_000);
+  assert.equal(absence({ ...here, quiet: true }, 50_000), null);
+  const gone = absence({ connected: false, heard: 1_000, lost: 1_200 }, 9_000);
+  assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_000, true]);
+  assert.equal(absence({ connected: false, heard: null, lost: null }, 9_000).since, null);
+  assert.deepEqual([5_900, 130_000, 8_000_000].map(agoText), ["5 s", "2 min", "2 h"]);
+});
