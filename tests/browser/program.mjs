@@ -7,9 +7,10 @@ const PROGRAM = process.env.TAXEL_PROGRAM ?? "taxel";
 
 /** A running `taxel view`. */
 export class View {
-  /** Starts it with options; it finds a port itself. */
+  /** Starts it with options; where they name no port, it finds one itself. */
   static async start(...options) {
-    const program = spawn(PROGRAM, ["view", "--port", "0", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+    const port = options.includes("--port") ? [] : ["--port", "0"];
+    const program = spawn(PROGRAM, ["view", ...port, ...options], { stdio: ["ignore", "pipe", "inherit"] });
     const url = await new Promise((done, fail) => {
       let said = "";
       program.once("error", fail).once("exit", (code) => fail(new Error(`${PROGRAM} ended with ${code}`)));

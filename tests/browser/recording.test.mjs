@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { box, drawn, page, screen, show } from "./page.fixture.mjs";
+import { View } from "./program.mjs";
 
 const run = promisify(execFile);
 const folder = await mkdtemp(join(tmpdir(), "taxel-recording-"));
@@ -160,12 +161,14 @@ test("a telephone has room for all of it", async () => {
 
 test("the page has complained of nothing", () => assert.deepEqual(both.browser.complaints, []));
 
-test("a page whose program has gone does not look live", async () => {
+test("a page whose program has gone does not look live, and comes back by itself", async () => {
   const { browser, view } = both;
   assert.equal(await browser.value("document.getElementById('absence').hidden"), true);
   await view.stop();
-  both.view = null;
   await browser.until("document.body.classList.contains('gone')");
   assert.match(await browser.value("document.getElementById('absence').textContent"), /^Disconnected since .*again/);
   assert.match(await browser.value("getComputedStyle(document.querySelector('main')).filter"), /grayscale/);
+  both.view = await View.start("--port", String(view.port), file);
+  await browser.until("!document.body.classList.contains('gone') && document.getElementById('absence').hidden");
+  await browser.until(`${moment} > 0.1`);
 });

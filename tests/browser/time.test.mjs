@@ -75,10 +75,26 @@ test("what is kept has an end", async () => {
   assert.ok(end - first <= (await browser.value("taxel.store.size")));
   await browser.key(" ");
   await browser.value("taxel.store.step(-1e6)");
-  // Standing at the oldest image: the ones before it go, and the page moves on with what is left.
-  const count = await browser.value("taxel.store.count");
+  // Standing at the oldest image, which others replace: what is shown stays, and steps go on from what is left.
+  const [count, still] = await browser.value("[taxel.store.count, taxel.store.shown().head.frame.time_us]");
+  const image = await browser.value("[...taxel.store.shown().image]");
   await browser.until(`taxel.store.count > ${count + 20}`);
-  assert.ok(await browser.value("taxel.store.shown().head !== null && taxel.store.behind() <= 9"));
+  assert.equal(await time(browser), still);
+  assert.deepEqual(await browser.value("[...taxel.store.shown().image]"), image);
+  await browser.key("ArrowRight");
+  assert.ok((await time(browser)) > still);
+  await browser.key(" ");
+});
+
+test("a page that is loaded again steps back through what was before", async () => {
+  const { browser, view } = both;
+  const before = await browser.value("taxel.store.latest.head.frame.time_us");
+  await browser.open(`${view.url}?keep=8`);
+  const kept = "taxel.store.latest.head.frame.time_us - taxel.store.at(taxel.store.span()[0]).head.frame.time_us";
+  await browser.until(`taxel.store.latest.head.frame.time_us > ${before} && ${kept} > 7e6`, 6);
+  await browser.value("taxel.store.seek(4)");
+  assert.ok((await time(browser)) < before);
+  assert.ok(await browser.value("taxel.store.marks.some(([, kind]) => kind === 'onset')"));
   await browser.key(" ");
 });
 

@@ -10,7 +10,7 @@ use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::live::{LiveArgs, Show, watch};
 use taxel::source::{self, SourceOptions};
-use taxel::view::{Hub, Shot, Viewer, serve};
+use taxel::view::{Hub, Said, Shot, Viewer, serve};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
@@ -235,12 +235,12 @@ fn the_board_sends_raw_codes_while_a_pointer_is_on_a_taxel() {
 fn a_page_that_says_too_much_goes_and_the_others_stay() {
     let (hub, port) = served();
     let (mut bad, mut good) = (page(port), page(port));
-    hub.say("here");
+    hub.say(&Said::note("here"));
     line(&mut bad, "say", |_| true);
     line(&mut good, "say", |_| true);
     let _ = bad.send(Message::Text("x".repeat(100_000).into()));
     while bad.read().is_ok() {}
-    hub.say("still here");
+    hub.say(&Said::note("still here"));
     line(&mut good, "say", |line| line["text"] == "still here");
     // Its threads end a moment after it is told so.
     let gone = (0..2000).any(|_| {
