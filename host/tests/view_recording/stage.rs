@@ -6,7 +6,7 @@ use std::net::{Ipv4Addr, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
-use taxel::client::{Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews};
 use taxel::live;
 use taxel::record::{Play, WIRE};
 use taxel::recording::Clips;
@@ -50,14 +50,19 @@ pub fn moments(path: &Path) -> Vec<Moment> {
     while let Some((header, event)) = play.next_event().unwrap() {
         let client = play.client();
         if matches!(event, Event::Health(_)) {
-            health = Some(live::message(client, &event));
+            health = Some(told(client, &event));
         }
         if let (Event::Frame { image: ImageNews::Whole, .. }, Some((_, image))) = (&event, client.image()) {
-            let (at, line) = ((header.log_time - start) / 1000, live::message(client, &event));
+            let (at, line) = ((header.log_time - start) / 1000, told(client, &event));
             found.push(Moment { at, line, image: image.into(), health: health.clone() });
         }
     }
     found
+}
+
+/// An event as a page reads it: numbers go through text on their way.
+fn told(client: &Client, event: &Event) -> Value {
+    serde_json::from_str(&live::message(client, event).to_string()).unwrap()
 }
 
 /// A running `taxel view`.
