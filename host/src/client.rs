@@ -66,6 +66,8 @@ pub struct Client {
     told: bool,
     regions: Vec<RegionState>,
     intention: Option<IntentReport>,
+    /// The last report in which the announced intention led.
+    led: Option<IntentReport>,
     health: Option<Health>,
     budget: Option<Budget>,
     celsius: Option<Celsius>,
@@ -102,6 +104,7 @@ impl Client {
             told: false,
             regions: Vec::new(),
             intention: None,
+            led: None,
             health: None,
             budget: None,
             celsius: None,
@@ -170,7 +173,7 @@ impl Client {
         self.regions.clear();
         self.ill.clear();
         self.self_test = None;
-        self.intention = None;
+        (self.intention, self.led) = (None, None);
     }
 
     fn take(&mut self, report: Report<'_>) -> Event {
@@ -183,6 +186,9 @@ impl Client {
                 Event::Symbols(Box::new(list))
             }
             Report::Intent(report) => {
+                if self.leads(&report) {
+                    self.led = Some(report.clone());
+                }
                 self.intention = Some(report.clone());
                 Event::Intent(Box::new(report))
             }

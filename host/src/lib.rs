@@ -29,6 +29,7 @@ pub mod live;
 pub mod output;
 pub mod ports;
 pub mod process;
+pub mod progress;
 pub mod raw;
 pub mod record;
 pub mod recording;

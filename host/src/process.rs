@@ -4,10 +4,11 @@ use crate::arrays::{self, Frames};
 use crate::fault::Fault;
 use crate::growths::Growths;
 use crate::json;
+use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde_json::{Value, json};
-use std::io::{BufWriter, IsTerminal, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use taxel_core::body::Placed;
 use taxel_core::condition::Tare;
@@ -93,7 +94,7 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     if args.tare > 0 {
         replay.state.condition.tare(args.tare);
     }
-    let progress = std::io::stderr().is_terminal();
+    let mut progress = Progress::of(place(), Unit::Frames, Some(frames.count as u64));
     for (number, frame) in frames.iter().enumerate() {
         let time = Micros((number as f64 * 1e6 / args.rate).round() as u64);
         let mut object = replay.frame(frame, time);
@@ -106,12 +107,10 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
         } else {
             writeln!(out, "{}", line(&object))?;
         }
-        if progress && number % 100 == 99 {
-            eprint!("\r{}{}: {} of {} frames", args.file.display(), array_of(name), number + 1, frames.count);
-        }
+        progress.at(number as u64 + 1);
     }
-    let again = if progress { "\r" } else { "" };
-    eprintln!("{again}{}{}: {} frames", args.file.display(), array_of(name), frames.count);
+    progress.clear();
+    eprintln!("{}: {} frames", place(), frames.count);
     Ok(())
 }
 

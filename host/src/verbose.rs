@@ -11,6 +11,11 @@ pub fn on() {
     ON.store(true, Ordering::Relaxed);
 }
 
+/// Whether somebody wants to be told.
+pub fn is_on() -> bool {
+    ON.load(Ordering::Relaxed)
+}
+
 /// Tells a step: `garment block-4x16 sent`.
 pub fn tell(step: impl Display) {
     if ON.load(Ordering::Relaxed) {

@@ -8,7 +8,7 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base, Class};
 use taxel_core::symbol::RegionState;
-use taxel_core::wire::{Budget, Health, SelfTestReport};
+use taxel_core::wire::{Budget, Health, IntentReport, SelfTestReport};
 
 impl Client {
     /// What was counted on the line.
@@ -77,6 +77,25 @@ impl Client {
         let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
         all.resize(self.concepts().len(), Q15(0));
         all
+    }
+
+    /// Activation of each of the concepts at the last moment at which the announced intention led: what is drawn under its
+    /// name. A board announces an intention a moment longer than the touch activates it.
+    pub fn activations_of_leading(&self) -> Vec<Q15> {
+        let mut all = self.led.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
+        all.resize(self.concepts().len(), Q15(0));
+        all
+    }
+
+    /// Whether the announced intention is the most active, or none is announced.
+    pub(super) fn leads(&self, report: &IntentReport) -> bool {
+        let of = |leading: Leading| {
+            let at = self.concepts().iter().position(|name| name.as_str() == leading.as_str())?;
+            report.concepts.get(at).copied()
+        };
+        let own = of(report.leading);
+        let most = Leading::INTENTIONS.into_iter().filter_map(of).max();
+        report.leading == Leading::None || own.is_none() || (own == most && own > Some(Q15(0)))
     }
 
     /// The taxels that are ill, by number, as told last.

@@ -7,18 +7,21 @@
 //! | `x`, `y` | on its panel, mm from the first taxel; empty where the pitch is unknown |
 //! | `link` | of the robot |
 //! | `X`, `Y`, `Z` | in the link's frame, m; empty: a garment does not say yet how a panel lies on its link |
-//! | `volts` | at the converter; where raw codes of the scan were recorded (`taxel record --raw`) |
+//! | `volts` | at the converter; empty where no raw codes of the scan were recorded (`taxel record --raw`) |
 //! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel where the pitch is unknown, `counts` where nothing says what a newton shows |
+//!
+//! A row is put together of texts that are made once: what a taxel's rows begin with, each voltage, each pressure.
 
-use super::frames::{self, Frame, Frames};
-use anyhow::{Context, Result};
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use super::frames::{self, Frame, Frames, Worn};
+use anyhow::Result;
+use std::io::Write;
+use std::rc::Rc;
 use taxel_core::garment::Area;
 
 /// The converter's largest code, whatever the bits that are kept: fewer bits are spread over the same range.
 const GREATEST: f64 = 4095.0;
+/// Bytes that are written at a time.
+const PIECE: usize = 1 << 16;
 
 /// What the table holds.
 #[derive(Debug, Clone, Copy)]
@@ -30,47 +33,109 @@ pub struct Table {
 }
 
 impl Table {
-    /// Writes the table; the number of frames.
-    pub fn write(&self, frames: &Frames<'_>, path: &Path) -> Result<u64> {
-        let mut out = BufWriter::new(File::create(path).context("it cannot be written")?);
-        writeln!(out, "time,panel,row,column,x,y,link,X,Y,Z,volts,pressure,unit")?;
-        let count = frames.each(|frame| {
-            let mut areas = frame.worn.layout.areas().iter().enumerate();
-            areas.try_for_each(|(panel, area)| self.panel(&mut out, frame, panel, area))
+    /// Writes the table; the number of frames, and of those with volts.
+    pub fn write(&self, frames: &Frames<'_>, out: &mut impl Write) -> Result<[u64; 2]> {
+        let mut texts = Texts::default();
+        texts.buffer.extend(b"time,panel,row,column,x,y,link,X,Y,Z,volts,pressure,unit\n");
+        let mut with_volts = 0;
+        let count = frames.each("exporting", |frame| {
+            with_volts += u64::from(!frame.codes.is_empty());
+            self.frame(frame, &mut texts, out)
         })?;
-        out.flush()?;
-        Ok(count)
+        out.write_all(&texts.buffer)?;
+        Ok([count, with_volts])
     }
 
-    fn panel(&self, out: &mut impl Write, frame: &Frame, panel: usize, area: &Area) -> Result<()> {
-        let time = frame.board_us as f64 / 1e6;
-        let (name, link) = (quoted(&area.name), quoted(&area.link));
-        let units = &frame.worn.units;
-        let unit = units.name(panel);
-        let [x, y] = area.pitch_um.map(|um| f64::from(um) / 1000.0);
-        let place = |index: u16, pitch: f64| {
-            if pitch > 0.0 { format!("{:.3}", f64::from(index) * pitch) } else { String::new() }
-        };
-        let cells = (0..area.rows).flat_map(|row| (0..area.columns).map(move |column| (row, column)));
-        let taxels = usize::from(area.base)..;
-        for ((row, column), (taxel, counts)) in cells.zip(taxels.zip(frames::panel(area, &frame.values))) {
-            if self.touched && *counts == 0 {
-                continue;
+    fn frame(&self, frame: &Frame, texts: &mut Texts, out: &mut impl Write) -> Result<()> {
+        let time = time(frame.board_us);
+        let worn = &frame.worn;
+        for (panel, area) in worn.layout.areas().iter().enumerate() {
+            let values = frames::panel(area, &frame.values);
+            let codes = frames::panel(area, &frame.codes);
+            if texts.panels.len() == panel {
+                texts.panels.push(Panel::of(area));
             }
-            let volts = frame
-                .codes
-                .get(taxel)
-                .map_or(String::new(), |code| format!("{:.4}", f64::from(*code) * self.reference / GREATEST));
-            let value = units.value(panel, *counts);
-            let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
-            let (x, y) = (place(column, x), place(row, y));
-            writeln!(out, "{time:.6},{name},{row},{column},{x},{y},{link},,,,{volts},{pressure},{unit}")?;
+            let Texts { buffer, panels, volts } = texts;
+            let Panel { heads, tails } = &mut panels[panel];
+            for (index, (counts, head)) in values.iter().zip(heads).enumerate() {
+                if self.touched && *counts == 0 {
+                    continue;
+                }
+                buffer.extend_from_slice(time.as_bytes());
+                buffer.extend_from_slice(head.as_bytes());
+                if let Some(code) = codes.get(index) {
+                    volts.put(*code, buffer, || {
+                        format!("{:.4}", f64::from(*code) * self.reference / GREATEST)
+                    });
+                }
+                tails.put(*counts, buffer, || tail(worn, panel, *counts));
+            }
+            if buffer.len() >= PIECE {
+                out.write_all(buffer)?;
+                buffer.clear();
+            }
         }
         Ok(())
     }
 }
 
+/// What a row ends with: pressure and unit.
+fn tail(worn: &Rc<Worn>, panel: usize, counts: u16) -> String {
+    let (unit, value) = (worn.units.name(panel), worn.units.value(panel, counts));
+    let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
+    format!(",{pressure},{unit}\n")
+}
+
+/// The texts of a recording, and rows that are not written yet.
+#[derive(Default)]
+struct Texts {
+    buffer: Vec<u8>,
+    panels: Vec<Panel>,
+    volts: Memo,
+}
+
+/// What the rows of each taxel begin with behind the time, and what those of each pressure end with.
+struct Panel {
+    heads: Vec<String>,
+    tails: Memo,
+}
+
+impl Panel {
+    fn of(area: &Area) -> Panel {
+        let [x, y] = area.pitch_um.map(|um| f64::from(um) / 1000.0);
+        let place = |index: u16, pitch: f64| {
+            if pitch > 0.0 { format!("{:.3}", f64::from(index) * pitch) } else { String::new() }
+        };
+        let (name, link) = (quoted(&area.name), quoted(&area.link));
+        let cells = (0..area.rows).flat_map(|row| (0..area.columns).map(move |column| (row, column)));
+        let head = |(row, column)| {
+            format!(",{name},{row},{column},{},{},{link},,,,", place(column, x), place(row, y))
+        };
+        Panel { heads: cells.map(head).collect(), tails: Memo::default() }
+    }
+}
+
+/// Texts by number, each made once.
+#[derive(Default)]
+struct Memo(Vec<Option<Box<str>>>);
+
+impl Memo {
+    fn put(&mut self, number: u16, out: &mut Vec<u8>, make: impl FnOnce() -> String) {
+        let index = usize::from(number);
+        if self.0.len() <= index {
+            self.0.resize(index + 1, None);
+        }
+        let text = self.0[index].get_or_insert_with(|| make().into());
+        out.extend_from_slice(text.as_bytes());
+    }
+}
+
+/// A time in us as seconds.
+pub fn time(us: u64) -> String {
+    format!("{}.{:06}", us / 1_000_000, us % 1_000_000)
+}
+
 /// A name as a field.
-fn quoted(name: &str) -> String {
+pub fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
 }

@@ -2,9 +2,11 @@
 
 use super::units::{Scale, Units};
 use crate::client::{Client, Event, ImageNews};
+use crate::progress::{Progress, Unit};
 use crate::record::Play;
-use crate::recording::scan;
+use crate::recording::{Overview, Skipped};
 use anyhow::{Result, bail};
+use std::cell::Cell;
 use std::num::NonZeroU64;
 use std::path::Path;
 use std::rc::Rc;
@@ -19,6 +21,8 @@ pub struct Frames<'a> {
     every: NonZeroU64,
     /// None: counts.
     scale: Option<Scale>,
+    /// What was damaged when it was gone through last.
+    skipped: Cell<Skipped>,
 }
 
 /// What holds for all images.
@@ -58,47 +62,52 @@ pub struct Frame {
 impl<'a> Frames<'a> {
     /// Each N-th image of a file; in counts, or in the unit that the file knows.
     pub fn new(file: &'a Path, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
-        let scale = if counts { None } else { Some(Scale::of(&scan(file)?, file)?) };
-        Ok(Frames { file, every, scale })
+        let scale = if counts { None } else { Some(Scale::of(&Overview::of(file)?, file)?) };
+        Ok(Frames { file, every, scale, skipped: Cell::default() })
     }
 
     /// The recording.
-    #[cfg(feature = "lerobot")]
     pub fn file(&self) -> &Path {
         self.file
     }
 
-    /// Goes through them; their number. What is changed on the way is refused: the forms have one garment, one map
-    /// and one unit.
-    pub fn each(&self, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
+    /// What was damaged when it was gone through last.
+    pub fn skipped(&self) -> Skipped {
+        self.skipped.get()
+    }
+
+    /// Goes through them, as `what`; their number. What is changed on the way is refused: the forms have one garment, one
+    /// map and one unit. Memory is that of one image, whatever the recording's length.
+    pub fn each(&self, what: &str, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
         let mut play = Play::open(self.file)?;
+        let total = play.passed()[1];
+        let mut progress = Progress::of(format!("{what} {}", self.file.display()), Unit::Bytes, Some(total));
         let (mut seen, mut count) = (0u64, 0);
-        let mut known: Option<Rc<Worn>> = None;
-        // Codes come after their image, if they come.
-        let mut waiting: Option<Frame> = None;
+        let mut current = Current::default();
         while let Some((header, event)) = play.next_event()? {
             let client = play.client();
             match event {
                 Event::Raw { frame, whole: true, .. } => {
-                    if let Some(mut image) = waiting.take_if(|waiting| waiting.number == frame) {
-                        image.codes = client.raw().to_vec();
-                        take(&image)?;
+                    if let Some(image) = current.waiting().filter(|image| image.number == frame) {
+                        image.codes.extend_from_slice(client.raw());
+                        current.give(&mut take)?;
                     }
                 }
                 Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
-                    waiting.take().map_or(Ok(()), |image| take(&image))?;
-                    let Some(worn) = self.worn(client, known.as_ref(), frame)? else { continue };
-                    known = Some(worn.clone());
+                    current.give(&mut take)?;
+                    let Some(worn) = self.worn(client, current.worn(), frame)? else { continue };
                     seen += 1;
                     if (seen - 1) % self.every == 0 {
                         count += 1;
-                        waiting = Some(image(client, worn, frame, [time.0, header.log_time / 1000]));
+                        current.put(client, worn, frame, [time.0, header.log_time / 1000]);
+                        progress.at(play.passed()[0]);
                     }
                 }
                 _ => {}
             }
         }
-        waiting.take().map_or(Ok(()), |image| take(&image))?;
+        current.give(&mut take)?;
+        self.skipped.set(play.skipped());
         if count == 0 {
             bail!("{} holds no image", self.file.display());
         }
@@ -125,16 +134,47 @@ impl<'a> Frames<'a> {
     }
 }
 
-fn image(client: &Client, worn: Rc<Worn>, number: u32, [board_us, host_us]: [u64; 2]) -> Frame {
-    Frame {
-        number,
-        board_us,
-        host_us,
-        worn,
-        values: client.image().map_or(Vec::new(), |(_, values)| values.to_vec()),
-        codes: Vec::new(),
-        contacts: client.contacts().to_vec(),
-        activations: client.activations(),
+/// The image that is put together, in memory that serves all of them. Codes come after their image, if they come.
+#[derive(Default)]
+struct Current {
+    image: Option<Frame>,
+    waits: bool,
+}
+
+impl Current {
+    fn worn(&self) -> Option<&Rc<Worn>> {
+        self.image.as_ref().map(|image| &image.worn)
+    }
+
+    /// The image whose codes may come.
+    fn waiting(&mut self) -> Option<&mut Frame> {
+        self.image.as_mut().filter(|_| self.waits)
+    }
+
+    fn give(&mut self, take: &mut impl FnMut(&Frame) -> Result<()>) -> Result<()> {
+        let waits = std::mem::take(&mut self.waits);
+        self.image.as_ref().filter(|_| waits).map_or(Ok(()), take)
+    }
+
+    fn put(&mut self, client: &Client, worn: Rc<Worn>, number: u32, [board_us, host_us]: [u64; 2]) {
+        let image = self.image.get_or_insert_with(|| Frame {
+            number,
+            board_us,
+            host_us,
+            worn,
+            values: Vec::new(),
+            codes: Vec::new(),
+            contacts: Vec::new(),
+            activations: Vec::new(),
+        });
+        (image.number, image.board_us, image.host_us) = (number, board_us, host_us);
+        image.values.clear();
+        image.values.extend_from_slice(client.image().map_or(&[], |(_, values)| values));
+        image.codes.clear();
+        image.contacts.clear();
+        image.contacts.extend_from_slice(client.contacts());
+        image.activations = client.activations();
+        self.waits = true;
     }
 }
 

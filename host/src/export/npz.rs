@@ -6,21 +6,19 @@
 //! | `frame` | u32 \[n\] | number of the scan |
 //! | `time_us`, `host_time_us` | u64 \[n\] | its start, the board's time and the host's |
 //! | `intent` | f64 \[n, concepts\] | activation of each concept of the scene's map, -1 ..= 1; where there is one |
+//! | `concepts` | text \[concepts\] | what the columns of `intent` are called |
 //! | `contact_frame` | u32 \[m\] | the scan of each contact; a contact has an entry for each frame in which it is |
 //! | `contact_id`, `_panel`, `_total`, `_peak`, `_area` | u32 \[m\] | |
 //! | `contact_x`, `_y`, `_azimuth`, `_nmi` | f64 \[m\] | taxels, taxels, rad (NaN: none), 1 |
 
-use super::frames::{self, Frames};
+use super::frames::{self, Frame, Frames, Worn};
+use super::npy::{Array, Number};
 use anyhow::{Context, Result};
-use npyz::{AutoSerialize, WriterBuilder};
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{Seek, Write};
 use std::path::Path;
+use std::rc::Rc;
 use taxel_core::body::Placed;
 use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
-
-type Archive = ZipWriter<BufWriter<File>>;
 
 /// An array's name, and its value for a contact.
 type Column<T> = (&'static str, fn(&Placed) -> T);
@@ -40,61 +38,98 @@ const REAL: [Column<f64>; 4] = [
     ("contact_nmi", |placed| placed.shape.nmi.to_f64()),
 ];
 
-/// Writes the archive; the number of frames. It goes through the recording once for what is small, and once for each panel.
-pub fn write(frames: &Frames<'_>, path: &Path) -> Result<u64> {
-    let mut archive = Archive::new(BufWriter::new(File::create(path).context("it cannot be written")?));
-    let mut areas = Vec::new();
-    let (mut numbers, mut times, mut host_times) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut of, mut contacts, mut intent) = (Vec::new(), Vec::new(), Vec::new());
-    let mut concepts = 0;
-    let count = frames.each(|frame| {
-        areas = frame.worn.layout.areas().to_vec();
-        numbers.push(frame.number);
-        times.push(frame.board_us);
-        host_times.push(frame.host_us);
-        of.extend(frame.contacts.iter().map(|_| frame.number));
-        contacts.extend_from_slice(&frame.contacts);
-        concepts = frame.worn.concepts.len() as u64;
-        intent.extend(frame.activations.iter().map(|activation| activation.to_f64()));
+/// Writes the archive to `out`, which is at `output`; the number of frames. It goes through the recording twice: arrays
+/// begin with their sizes.
+pub fn write(frames: &Frames<'_>, output: &Path, out: impl Write + Seek) -> Result<u64> {
+    let (mut contacts, mut worn) = (0, None);
+    let count = frames.each("counting", |frame| {
+        contacts += frame.contacts.len() as u64;
+        worn.get_or_insert_with(|| frame.worn.clone());
         Ok(())
     })?;
-    for area in &areas {
-        let shape = [count, area.rows.into(), area.columns.into()];
-        let mut array = begin::<u16>(&mut archive, &area.name, &shape)?;
-        frames.each(|frame| Ok(array.extend(frames::panel(area, &frame.values).iter().copied())?))?;
-        array.finish()?;
-    }
-    list(&mut archive, "frame", numbers)?;
-    list(&mut archive, "time_us", times)?;
-    list(&mut archive, "host_time_us", host_times)?;
-    if concepts > 0 {
-        let mut array = begin::<f64>(&mut archive, "intent", &[count, concepts])?;
-        array.extend(intent)?;
-        array.finish()?;
-    }
-    list(&mut archive, "contact_frame", of)?;
-    for (name, value) in WHOLE {
-        list(&mut archive, name, contacts.iter().map(value).collect())?;
-    }
-    for (name, value) in REAL {
-        list(&mut archive, name, contacts.iter().map(value).collect())?;
-    }
+    let worn = worn.context("it holds no image")?;
+    let mut arrays = Arrays::begin(output, &worn, [count, contacts])?;
+    frames.each("exporting", |frame| arrays.take(frame))?;
+    let mut archive = ZipWriter::new(out);
+    arrays.finish(&mut archive)?;
     archive.finish()?.flush()?;
     Ok(count)
 }
 
-fn begin<'a, T: AutoSerialize>(
-    archive: &'a mut Archive,
-    name: &str,
-    shape: &[u64],
-) -> Result<npyz::NpyWriter<T, &'a mut Archive>> {
-    let options = SimpleFileOptions::default().large_file(true);
-    archive.start_file(format!("{name}.npy"), options)?;
-    Ok(npyz::WriteOptions::<T>::new().default_dtype().shape(shape).writer(archive).begin_nd()?)
+/// All arrays of a recording.
+struct Arrays {
+    panels: Vec<Array>,
+    numbers: Array,
+    times: Array,
+    host_times: Array,
+    /// Activations, and the concepts' names.
+    intent: Option<[Array; 2]>,
+    of: Array,
+    whole: Vec<Array>,
+    real: Vec<Array>,
 }
 
-fn list<T: AutoSerialize>(archive: &mut Archive, name: &str, values: Vec<T>) -> Result<()> {
-    let mut array = begin::<T>(archive, name, &[values.len() as u64])?;
-    array.extend(values)?;
-    Ok(array.finish()?)
+impl Arrays {
+    /// Of so many frames and contacts.
+    fn begin(output: &Path, worn: &Rc<Worn>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
+        let list = |name: &str, kind: &str, size: u64| Array::begin(output, name, kind, &[size]);
+        let panel = |area: &taxel_core::garment::Area| {
+            let shape = [count, area.rows.into(), area.columns.into()];
+            Array::begin(output, &area.name, u16::KIND, &shape)
+        };
+        let concepts = worn.concepts.len() as u64;
+        let intent = || -> Result<[Array; 2]> {
+            let activations = Array::begin(output, "intent", f64::KIND, &[count, concepts])?;
+            Ok([activations, names(output, worn)?])
+        };
+        Ok(Arrays {
+            panels: worn.layout.areas().iter().map(panel).collect::<Result<_>>()?,
+            numbers: list("frame", u32::KIND, count)?,
+            times: list("time_us", u64::KIND, count)?,
+            host_times: list("host_time_us", u64::KIND, count)?,
+            intent: (concepts > 0).then(intent).transpose()?,
+            of: list("contact_frame", u32::KIND, contacts)?,
+            whole: WHOLE.iter().map(|(name, _)| list(name, u32::KIND, contacts)).collect::<Result<_>>()?,
+            real: REAL.iter().map(|(name, _)| list(name, f64::KIND, contacts)).collect::<Result<_>>()?,
+        })
+    }
+
+    fn take(&mut self, frame: &Frame) -> Result<()> {
+        for (array, area) in self.panels.iter_mut().zip(frame.worn.layout.areas()) {
+            array.put(frames::panel(area, &frame.values).iter().copied())?;
+        }
+        self.numbers.put([frame.number])?;
+        self.times.put([frame.board_us])?;
+        self.host_times.put([frame.host_us])?;
+        if let Some([activations, _]) = &mut self.intent {
+            activations.put(frame.activations.iter().map(|activation| activation.to_f64()))?;
+        }
+        self.of.put(frame.contacts.iter().map(|_| frame.number))?;
+        for (array, (_, value)) in self.whole.iter_mut().zip(WHOLE) {
+            array.put(frame.contacts.iter().map(value))?;
+        }
+        for (array, (_, value)) in self.real.iter_mut().zip(REAL) {
+            array.put(frame.contacts.iter().map(value))?;
+        }
+        Ok(())
+    }
+
+    fn finish(self, archive: &mut ZipWriter<impl Write + Seek>) -> Result<()> {
+        let Arrays { panels, numbers, times, host_times, intent, of, whole, real } = self;
+        let first = panels.into_iter().chain([numbers, times, host_times]);
+        let second = intent.into_iter().flatten().chain([of]).chain(whole).chain(real);
+        first.chain(second).try_for_each(|array| array.finish(archive))
+    }
+}
+
+/// The concepts' names as NumPy has texts: all of one length, four bytes a character.
+fn names(output: &Path, worn: &Worn) -> Result<Array> {
+    let names = worn.concepts.iter().map(|name| name.chars().map(u32::from).collect::<Vec<_>>());
+    let longest = names.clone().map(|name| name.len()).max().unwrap_or(0).max(1);
+    let mut array = Array::begin(output, "concepts", &format!("<U{longest}"), &[worn.concepts.len() as u64])?;
+    for mut name in names {
+        name.resize(longest, 0);
+        array.put(name)?;
+    }
+    Ok(array)
 }

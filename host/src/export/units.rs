@@ -2,7 +2,7 @@
 
 use crate::calibrate::{Calibration, Forces};
 use crate::record::CALIBRATION;
-use crate::recording::Scan;
+use crate::recording::Overview;
 use anyhow::{Context, Result};
 use std::path::Path;
 use taxel_core::garment::Layout;
@@ -16,19 +16,14 @@ pub struct Scale {
 
 impl Scale {
     /// The calibration that is attached, else the counts of a newton that its source knew.
-    pub fn of(scan: &Scan, path: &Path) -> Result<Scale> {
-        let attached = scan.attached(path, CALIBRATION)?;
+    pub fn of(overview: &Overview, path: &Path) -> Result<Scale> {
+        let attached = overview.attached(CALIBRATION)?;
         let name = format!("{CALIBRATION} of {}", path.display());
         let parsed = attached.map(|bytes| {
             let text = String::from_utf8(bytes).with_context(|| format!("{name} is no text"))?;
             Calibration::parse(&text, &name)
         });
-        let words = scan.metadata.iter().rfind(|metadata| metadata.name == "taxel");
-        let counts = words.and_then(|words| words.metadata.get("counts_per_newton")?.parse::<f64>().ok());
-        Ok(Scale {
-            calibration: parsed.transpose()?,
-            counts_per_newton: counts.filter(|counts| counts.is_finite() && *counts > 0.0),
-        })
+        Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton() })
     }
 
     /// For a garment whose board names this calibration.
@@ -80,6 +75,11 @@ impl Units {
     /// Of a panel.
     pub fn name(&self, panel: usize) -> &'static str {
         self.panels.get(panel).unwrap_or(&COUNTS).name
+    }
+
+    /// A sum of counts in newtons; none where no one number of counts is a newton.
+    pub fn newtons(&self, total: u32) -> Option<f64> {
+        self.counts_per_newton.map(|per_newton| f64::from(total) / per_newton)
     }
 
     /// What a taxel of a panel shows, in its unit.

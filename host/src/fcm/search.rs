@@ -9,6 +9,7 @@ use super::board::BoardMap;
 use super::map::MapFile;
 use super::touches::{Labelled, NONE, Touches};
 use super::weight::Weight;
+use crate::progress::{Progress, Unit};
 use anyhow::Result;
 
 /// Lead that is asked for.
@@ -79,11 +80,15 @@ pub fn search(file: &MapFile, touches: &Touches, is_taken: impl Fn(usize) -> boo
         let judged = judge(&with(file, weights, &expert), &touches.classes, taken.iter().copied())?;
         Ok(judged.loss + PULL * moved as f64 / 100.0)
     };
+    let mut progress = Progress::of("learning", Unit::Steps("weights tried"), None);
+    let mut tried = 0;
     let mut least = cost(&now)?;
     for size in MOVES {
         for _ in 0..ROUNDS {
             let before = least;
             for at in &free {
+                tried += 1;
+                progress.at(tried);
                 let sign = expert[*at].signum();
                 for moved in [now[*at] + size, now[*at] - size] {
                     let kept = std::mem::replace(&mut now[*at], sign * (sign * moved).clamp(1, 100));

@@ -73,7 +73,7 @@ pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
     let (x, _) = buffer.set_stringn(space.x, space.y, "intention ", usize::from(space.width), bold);
     let room = usize::from(space.right().saturating_sub(x));
     buffer.set_stringn(x, space.y, leading.as_str(), room, bold.fg(color(colour_of(leading))));
-    let activations = client.activations();
+    let activations = client.activations_of_leading();
     for (row, concept) in order(client).into_iter().enumerate().take(usize::from(space.height) - 1) {
         let (Some(name), Some(value)) = (client.concepts().get(concept), activations.get(concept)) else {
             continue;
@@ -114,4 +114,42 @@ fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
     let end = start + room + 1;
     let left = usize::from(space.right().saturating_sub(end));
     buffer.set_stringn(end, space.y, format!("{value:5.2}"), left, Style::new());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::client::Event;
+    use crate::live::{LiveArgs, Show, watch};
+    use crate::source::{SourceOptions, open};
+
+    /// What is drawn at each moment at which an intention is announced: its bar, and what it was as the board told it.
+    #[derive(Default)]
+    struct Bars(Vec<[String; 2]>);
+
+    impl Show for Bars {
+        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+            let Event::Intent(report) = event else { return Ok(()) };
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
+            intention(client, buffer.area, &mut buffer);
+            let row = |y: u16| -> String { (0..40).map(|x| buffer[(x, y)].symbol()).collect() };
+            if report.leading != Leading::None {
+                assert!(row(0).contains(report.leading.as_str()));
+                let at = client.concepts().iter().position(|name| name.as_str() == report.leading.as_str());
+                let told = at.map_or(0.0, |at| report.concepts[at].to_f64());
+                let bar = (1..12).map(row).find(|row| row.starts_with(report.leading.as_str()));
+                self.0.push([bar.unwrap().trim().to_string(), format!("{told:.2}")]);
+            }
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_bars_are_those_of_the_moment_at_which_the_heading_led() {
+        let (spec, mut bars) = ("sim:pat".parse::<crate::source::SourceSpec>().unwrap(), Bars::default());
+        let source = open(&spec, &SourceOptions::default()).unwrap();
+        watch(&LiveArgs::of(spec), source, &mut bars).unwrap();
+        assert!(bars.0.iter().any(|[_, told]| told == "0.00"), "announced a moment longer: {:?}", bars.0);
+        assert!(bars.0.iter().all(|[bar, _]| !bar.ends_with("0.00")), "{:?}", bars.0);
+    }
 }

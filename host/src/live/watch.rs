@@ -70,6 +70,9 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         patience.ask_again(&mut client, &source)?;
     }
     show.end(&client)?;
+    if let Some(remark) = source.port.remark() {
+        eprintln!("{}: {remark}", source.label);
+    }
     match client.worn() {
         Some(_) => Ok(()),
         None => Err(silent(&source, client.counts().bytes)),

@@ -8,7 +8,7 @@ use crate::fault::Fault;
 use crate::verbose;
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// The content of a folder that is being written, in a temporary folder inside it. Dropped without [`Folder::keep`], the
@@ -71,12 +71,32 @@ impl Folder {
         File::create_new(path).map(BufWriter::new).with_context(place)
     }
 
+    /// Makes a folder inside it.
+    pub fn folder(&self, inside: impl AsRef<Path>) -> Result<()> {
+        let place = || format!("{} cannot be written", self.name.join(&inside).display());
+        fs::create_dir_all(self.part.join(&inside)).with_context(place)
+    }
+
+    /// Writes a small file inside it at once; its folder is there.
+    pub fn small_file(&self, inside: impl AsRef<Path>, content: &[u8]) -> Result<()> {
+        let place = || format!("{} cannot be written", self.name.join(&inside).display());
+        let mut file = File::create_new(self.part.join(&inside)).with_context(place)?;
+        file.write_all(content).with_context(place)
+    }
+
     /// Puts the content in its place: it is on the disk when this returns.
     pub fn keep(self) -> Result<()> {
         let place = || format!("{} cannot be written", self.name.display());
         for file in files(&self.part).with_context(place)? {
             File::open(file).and_then(|file| file.sync_all()).with_context(place)?;
         }
+        self.keep_unsynced()
+    }
+
+    /// Puts the content in its place and leaves it to the system when it reaches the disk: for very many small files that
+    /// can be made again, each of which would be waited for.
+    pub fn keep_unsynced(self) -> Result<()> {
+        let place = || format!("{} cannot be written", self.name.display());
         let (_, old) = part::make(&self.path, |old| fs::create_dir(old)).with_context(place)?;
         for entry in entries(&self.path).with_context(place)? {
             if entry != self.part && entry != old {

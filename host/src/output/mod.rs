@@ -13,6 +13,7 @@
 //! | `file.rs` | [`Output`]: a file that is going to be written |
 //! | `draft.rs` | [`Draft`]: its content, before it has the name |
 //! | `folder.rs` | [`Folder`]: a folder that is going to be written |
+//! | `scratch.rs` | [`Scratch`]: a temporary file for what waits for its turn |
 //! | `part.rs` | names of temporary files, and what brings a name to the disk |
 //!
 //! A command flattens [`Force`] into its arguments and asks for the output first:
@@ -53,6 +54,7 @@ mod force;
 mod part;
 mod place;
 mod same;
+mod scratch;
 
 #[cfg(test)]
 mod tests;
@@ -62,3 +64,4 @@ pub use file::Output;
 pub use folder::Folder;
 pub use force::Force;
 pub use same::is_same;
+pub use scratch::Scratch;

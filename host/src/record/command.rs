@@ -8,7 +8,6 @@ use crate::source::SourceOptions;
 use crate::stop;
 use anyhow::Result;
 use clap::Args;
-use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
 
 /// What `taxel record` takes.
@@ -68,12 +67,12 @@ pub fn run(args: RecordArgs) -> Result<()> {
     })?;
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
+    recorder.expect(args.seconds.unwrap_or(0.0));
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let done = live::watch(&watched, source, &mut recorder);
     // A source that is gone ends the recording, and not its file.
     let ended = recorder.finish();
-    let again = if stderr().is_terminal() { "\r" } else { "" };
-    eprintln!("{again}{} ", recorder.progress());
+    eprintln!("{}", recorder.progress());
     if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {
         eprintln!("{label} is over: a simulated scene is played once, --seconds S records for longer");
     }

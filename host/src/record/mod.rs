@@ -8,7 +8,7 @@
 //! | `/taxel/wire` | `taxel-wire` | each frame of the wire as it came: COBS of postcard and CRC-32, then 0x00 |
 //! | `/taxel/requests` | `taxel-wire` | what the host asked, the same way |
 //! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
-//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
+//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
 //!
 //! Attached are `garment.toml`, `scene.json`, `geometry.json` and, where the recorder was given it and the board says that it is in
 //! force, `calibration.toml`; metadata `taxel` names versions, host, board, source and who calibrated when, how and how well.
@@ -26,6 +26,7 @@ mod ros2;
 mod schemas;
 mod stamps;
 mod standing;
+mod tally;
 mod topics;
 
 pub use command::{RecordArgs, run};
@@ -37,4 +38,5 @@ pub use provenance::{CALIBRATION, Origin, attach};
 pub use recorder::{Plan, Recorder};
 pub use stamps::{Stamp, Stamps, time_of};
 pub use standing::{renumbered, sequence};
+pub use tally::{COUNTS, Tally};
 pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};

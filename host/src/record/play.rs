@@ -2,7 +2,7 @@
 
 use super::topics::WIRE;
 use crate::client::{Client, Event};
-use crate::recording::Messages;
+use crate::recording::{Messages, Skipped};
 use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
@@ -23,6 +23,16 @@ impl Play {
     /// What is known after the last event.
     pub fn client(&self) -> &Client {
         &self.client
+    }
+
+    /// What of the file is damaged, so far.
+    pub fn skipped(&self) -> Skipped {
+        self.messages.skipped()
+    }
+
+    /// Bytes of the file so far, and of all.
+    pub fn passed(&self) -> [u64; 2] {
+        self.messages.passed()
     }
 
     /// The next event, with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there are no more.

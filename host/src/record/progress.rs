@@ -2,7 +2,6 @@
 
 use crate::client::{Client, Event};
 use std::fmt::Write;
-use std::io::{IsTerminal, stderr};
 use std::path::Path;
 
 /// What is told of a recording while it goes on.
@@ -40,14 +39,14 @@ impl Progress {
         self.ended(bytes);
     }
 
-    /// Whether somebody sees it.
-    pub fn is_shown(&self) -> bool {
-        stderr().is_terminal()
+    /// Time of the board so far, us.
+    pub fn board_us(&self) -> u64 {
+        self.earlier_us + self.passed_us
     }
 
     /// One line; `bytes` are those of the file that is being written.
     pub fn line(&self, path: &Path, bytes: u64) -> String {
-        let seconds = (self.earlier_us + self.passed_us) as f64 / 1e6;
+        let seconds = self.board_us() as f64 / 1e6;
         let megabytes = (self.written + bytes) as f64 / 1e6;
         let mut line = format!(
             "{}: {seconds:.1} s, {} frames, {megabytes:.2} MB, {} lost, {} thinned",

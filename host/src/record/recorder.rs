@@ -7,8 +7,10 @@ use super::progress::Progress;
 use super::provenance::{self, Origin};
 use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
+use super::tally::{COUNTS, Tally};
 use crate::client::{Client, Event, Worn};
 use crate::live::Show;
+use crate::progress::{self, Unit};
 use crate::stop;
 use anyhow::{Context, Result, bail};
 use std::fs::{File, OpenOptions};
@@ -57,6 +59,9 @@ pub struct Recorder {
     chunk_us: u64,
     kept: Instant,
     progress: Progress,
+    shown: progress::Progress,
+    /// What was counted so far, and before the file began.
+    tally: [Tally; 2],
 }
 
 impl Recorder {
@@ -73,8 +78,15 @@ impl Recorder {
             chunk_us: 0,
             kept: Instant::now(),
             progress: Progress::default(),
+            shown: progress::Progress::of("recording", Unit::BoardTime, None),
+            tally: [Tally::default(); 2],
             plan,
         })
+    }
+
+    /// It is going to end after so many seconds of the board.
+    pub fn expect(&mut self, seconds: f64) {
+        self.shown.expect((seconds * 1e6) as u64);
     }
 
     /// What has been recorded so far, in words.
@@ -85,8 +97,12 @@ impl Recorder {
 
     /// Writes the end of the file. Does nothing where it has been written.
     pub fn finish(&mut self) -> Result<()> {
-        let Some(file) = self.file.take() else { return Ok(()) };
-        file.finish().map(|bytes| self.progress.ended(bytes)).with_context(|| self.incomplete())
+        let Some(mut file) = self.file.take() else { return Ok(()) };
+        self.shown.clear();
+        let [now, before] = self.tally;
+        let counted = file.writer.metadata(COUNTS, now.words(before));
+        let ended = file.finish().map(|bytes| self.progress.ended(bytes));
+        ended.and(counted).with_context(|| self.incomplete())
     }
 
     fn incomplete(&self) -> String {
@@ -112,6 +128,7 @@ impl Recorder {
         let stamp = self.stamps.of(client, event);
         self.standing.take(client, event);
         self.rotate(client, event, stamp)?;
+        self.tally[0] = Tally::of(client.counts());
         let began = *self.began_us.get_or_insert(stamp.board_us);
         self.progress.take(client, event, stamp.board_us.saturating_sub(began));
         let Some(file) = &mut self.file else { return Ok(()) };
@@ -141,6 +158,7 @@ impl Recorder {
             return Ok(());
         }
         self.finish()?;
+        self.tally[1] = self.tally[0];
         self.number += 1;
         self.path = numbered(&self.plan.path, self.number);
         self.began_us = None;
@@ -160,9 +178,8 @@ impl Recorder {
             file.flush()?;
         }
         self.kept = Instant::now();
-        if self.progress.is_shown() {
-            eprint!("\r{} ", self.progress());
-        }
+        let line = || self.progress.line(&self.path, self.file.as_ref().map_or(0, |file| file.bytes()));
+        self.shown.told(self.progress.board_us(), line);
         Ok(())
     }
 }

@@ -17,6 +17,7 @@
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
 //! | `summary.rs` | the summary, read |
 //! | `clips.rs` | the messages of any chunk |
+//! | `overview.rs` | what is in a file, by its summary or by going through it |
 //! | `attached.rs` | files that are attached to it |
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | what is in a file, found by going through it |
@@ -31,6 +32,7 @@ mod damage;
 mod found;
 mod lz4;
 mod messages;
+mod overview;
 mod records;
 mod repair;
 mod salvage;
@@ -46,6 +48,7 @@ pub use clips::{Clips, Piece, Place};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use messages::{Message, Messages};
+pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};
 pub use repair::repair;
 pub use salvage::Damage;

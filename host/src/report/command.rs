@@ -1,12 +1,17 @@
 //! The command itself.
 
 use super::{Seen, page};
+use crate::client::Event;
 use crate::fault::Fault;
-use crate::live::{self, LiveArgs};
-use crate::source::{self, SourceOptions, SourceSpec, Speed};
-use anyhow::{Context, Result, bail};
+use crate::live::{self, LiveArgs, Show};
+use crate::output::{Force, Output};
+use crate::progress::{Progress, Unit};
+use crate::record::Play;
+use crate::recording::Overview;
+use crate::source::{self, SourceOptions, SourceSpec};
+use anyhow::{Result, bail};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What `taxel report` takes.
 #[derive(Debug, Clone, Args)]
@@ -17,9 +22,12 @@ pub struct ReportArgs {
     /// In place of a recording: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
     #[arg(long, value_name = "SOURCE")]
     pub source: Option<SourceSpec>,
-    /// Page to write (.html)
+    /// Page to write (.html), `-` for standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// Replace the page.
+    #[command(flatten)]
+    pub force: Force,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played once]
     #[arg(long, value_name = "S", value_parser = live::seconds)]
     pub seconds: Option<f64>,
@@ -30,18 +38,53 @@ const WATCHED: f64 = 10.0;
 
 /// Runs the command.
 pub fn run(args: ReportArgs) -> Result<()> {
-    let spec = match (args.file, args.source) {
-        (Some(path), _) => SourceSpec::Replay { path, speed: Speed::Max },
-        (None, Some(spec)) => spec,
+    let output = Output::stream(&args.output, args.force, &args.file)?;
+    let seen = match (&args.file, args.source) {
+        (Some(path), _) => recorded(path, args.seconds)?,
+        (None, Some(spec)) => watched(spec, args.seconds)?,
         (None, None) => bail!(Fault::usage("give a recording, or a --source")),
     };
-    let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
+    let told = !output.is_standard();
+    output.write(page(&seen)?.as_bytes())?;
+    if told {
+        println!("{}: figures of {}", args.output.display(), seen.label);
+    }
+    if !seen.skipped.is_none() {
+        eprintln!("{}: {}", seen.label, seen.skipped);
+    }
+    Ok(())
+}
+
+/// What a recording shows.
+fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
+    let overview = Overview::of(path)?;
+    let mut play = Play::open(path)?;
+    let mut progress =
+        Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
+    let scale = overview.counts_per_newton().map(|counts| counts as f32);
+    let mut seen = Seen::new(path.display().to_string(), scale);
+    let mut began = None;
+    while let Some((_, event)) = play.next_event()? {
+        seen.event(play.client(), &event)?;
+        if let Event::Frame { time, .. } = event {
+            progress.at(play.passed()[0]);
+            let passed = time.since(*began.get_or_insert(time)) as f64 / 1e6;
+            if seconds.is_some_and(|seconds| passed >= seconds) {
+                break;
+            }
+        }
+    }
+    seen.end(play.client())?;
+    seen.skipped = play.skipped();
+    Ok(seen)
+}
+
+/// What a board shows.
+fn watched(spec: SourceSpec, seconds: Option<f64>) -> Result<Seen> {
+    let options = SourceOptions { seconds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
-    let seconds = args.seconds.or(source.real_time.then_some(WATCHED));
+    let seconds = seconds.or(source.real_time.then_some(WATCHED));
     let mut seen = Seen::new(source.label.clone(), source.counts_per_newton);
     live::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
-    std::fs::write(&args.output, page(&seen)?)
-        .with_context(|| format!("{} cannot be written", args.output.display()))?;
-    println!("{}: figures of {}", args.output.display(), seen.label);
-    Ok(())
+    Ok(seen)
 }

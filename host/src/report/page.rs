@@ -4,7 +4,6 @@ use super::seen::{Moment, Seen, of};
 use super::strips::Strip;
 use super::svg::{escaped, nice_top};
 use super::{plane, ranges, surface, tables};
-use crate::live::narrate;
 use anyhow::{Result, bail};
 use taxel_core::body::Placed;
 use taxel_core::garment::Area;
@@ -45,7 +44,8 @@ pub fn page(seen: &Seen) -> Result<String> {
         });
         format!("<div class=\"panels\">\n{}</div>\n", drawn.collect::<String>())
     };
-    let force = narrate::force(u32::try_from(*total).unwrap_or(u32::MAX), seen.counts_per_newton);
+    let scale = seen.scale();
+    let force = format!("{} {}", scale.told(*total as f64), scale.unit());
     let sections = [
         (
             "Pressure, 2-D",
@@ -59,11 +59,12 @@ pub fn page(seen: &Seen) -> Result<String> {
         (
             "Pressure, 3-D",
             format!(
-                "<p>The same moment; the number on each peak is its pressure in counts. Row 0, column 0 is at the back.</p>\n{}",
-                each(&|area, values, contacts| surface::draw(area, values, contacts, top))
+                "<p>The same moment; the number on each peak is that of its taxel, {}. Row 0, column 0 is at the back.</p>\n{}",
+                scale.unit(),
+                each(&|area, values, contacts| surface::draw(area, values, contacts, top, scale))
             ),
         ),
-        ("Ranges of pressure", ranges::table(image, &seen.hold, top)),
+        ("Ranges of pressure", ranges::table(image, &seen.hold, top, scale)),
         ("Force over time", totals(seen)),
         ("Intention over time", intention(seen)),
         ("Contacts", format!("<div class=\"scroll\">{}</div>\n", tables::contacts(seen))),
@@ -83,9 +84,12 @@ pub fn page(seen: &Seen) -> Result<String> {
 /// What was watched, and for how long.
 fn head(seen: &Seen) -> String {
     let Some(worn) = &seen.worn else { return String::new() };
-    let [first, last] = span(seen);
-    let calibration =
-        if worn.calibration.is_empty() { "none, pressure is in counts" } else { &worn.calibration };
+    let [first, last] = seen.totals.span();
+    let calibration = match (worn.calibration.as_str(), seen.counts_per_newton) {
+        ("", None) => "none, pressure is in counts".into(),
+        ("", Some(counts)) => format!("none, the source knows that {counts} counts are a newton"),
+        (told, _) => told.to_string(),
+    };
     let text = format!(
         "{}; garment {} of {} taxels in {} panels, scene {}; calibration: {calibration}; {:.2} s, {} frames. \
          taxel {}.",
@@ -101,31 +105,22 @@ fn head(seen: &Seen) -> String {
     format!("<p>{}</p>\n", escaped(&text))
 }
 
-/// First and last time of an image, us.
-fn span(seen: &Seen) -> [u64; 2] {
-    let time = |point: Option<&(u64, Vec<u32>)>| point.map_or(0, |(time, _)| *time);
-    [time(seen.totals.first()), time(seen.totals.last())]
-}
-
 fn totals(seen: &Seen) -> String {
-    let (scale, label) = match seen.counts_per_newton {
-        Some(counts) => (f64::from(counts), "force, N"),
-        None => (1.0, "total, counts"),
-    };
-    let values = |totals: &[u32]| totals.iter().map(|total| f64::from(*total) / scale).collect();
+    let scale = seen.scale();
+    let values = |totals: &[f64]| totals.iter().map(|total| scale.value(*total)).collect();
     Strip {
         names: seen.areas().iter().map(|area| area.name.as_str()).collect(),
-        points: seen.totals.iter().map(|(time, totals)| (*time, values(totals))).collect(),
-        label,
+        points: seen.totals.points().iter().map(|(time, totals)| (*time, values(totals))).collect(),
+        label: &format!("total, {}", scale.unit()),
         steps: false,
-        span: span(seen),
+        span: seen.totals.span(),
     }
     .draw()
 }
 
 fn intention(seen: &Seen) -> String {
     let loud = |index: &usize| {
-        let values = seen.activations.iter().filter_map(|(_, values)| values.get(*index));
+        let values = seen.activations.points().iter().filter_map(|(_, values)| values.get(*index));
         values.map(|value| value.abs()).fold(0.0, f64::max) > QUIET
     };
     let shown: Vec<usize> = (0..seen.concepts.len()).filter(loud).collect();
@@ -136,10 +131,10 @@ fn intention(seen: &Seen) -> String {
         |values: &[f64]| shown.iter().map(|index| values.get(*index).copied().unwrap_or(0.0)).collect();
     Strip {
         names: shown.iter().map(|index| seen.concepts[*index].as_str()).collect(),
-        points: seen.activations.iter().map(|(time, values)| (*time, pick(values))).collect(),
+        points: seen.activations.points().iter().map(|(time, values)| (*time, pick(values))).collect(),
         label: "activation",
         steps: true,
-        span: span(seen),
+        span: seen.totals.span(),
     }
     .draw()
 }

@@ -1,5 +1,6 @@
 //! Ranges of pressure: how many taxels lie in which.
 
+use super::scale::Scale;
 use super::svg::colour;
 use std::fmt::Write;
 
@@ -22,17 +23,19 @@ pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
 }
 
 /// The table: a row a range, its colour, taxels then and at their greatest, as bars.
-pub fn table(then: &[u16], hold: &[u16], top: u16) -> String {
+pub fn table(then: &[u16], hold: &[u16], top: u16, scale: Scale) -> String {
     let limits = limits(top);
     let (now, held) = (counts(then, &limits), counts(hold, &limits));
     let most = now.iter().chain(&held).skip(1).copied().max().unwrap_or(0).max(1);
-    let mut html = String::from(
-        "<table><tr><th></th><th>pressure, counts</th><th>taxels at that moment</th><th>at their greatest</th></tr>\n",
+    let mut html = format!(
+        "<table><tr><th></th><th>on a taxel, {}</th><th>taxels at that moment</th><th>at their greatest</th></tr>\n",
+        scale.unit()
     );
     for (index, (now, held)) in now.iter().zip(&held).enumerate() {
         let from = if index == 0 { 0 } else { limits[index - 1] + 1 };
         let to = if index == 0 { 0 } else { limits.get(index).copied().unwrap_or(top) };
-        let range = if index == 0 { "0".to_string() } else { format!("{from} to {to}") };
+        let range =
+            if index == 0 { "0".to_string() } else { format!("{} to {}", scale.told(from), scale.told(to)) };
         let fill = colour(f64::midpoint(f64::from(from), f64::from(to)), top);
         let bar = |count: usize| {
             // Those without pressure are far more than the others.

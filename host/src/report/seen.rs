@@ -1,8 +1,11 @@
 //! What is kept of a stream for its report.
 
+use super::scale::Scale;
+use super::series::Series;
 use crate::client::{Client, Counts, Event, ImageNews, Worn};
 use crate::live::Show;
 use crate::live::narrate::Narrator;
+use crate::recording::Skipped;
 use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
@@ -10,6 +13,8 @@ use taxel_core::garment::Area;
 use taxel_core::health::TaxelHealth;
 use taxel_core::wire::Health;
 
+/// Contacts that are listed: the strongest.
+pub(super) const LISTED: usize = 60;
 /// Most sentences of a report.
 const SENTENCES: usize = 500;
 
@@ -24,20 +29,24 @@ pub struct Seen {
     pub(super) top: Moment,
     /// Greatest pressure of each taxel, counts.
     pub(super) hold: Vec<u16>,
-    /// Total of each panel over time.
-    pub(super) totals: Vec<(u64, Vec<u32>)>,
-    /// Each contact at its greatest total, with its last duration.
+    /// Total of each panel over time, counts.
+    pub(super) totals: Series,
+    /// The strongest contacts and those that are there, each at its greatest total, with its last duration.
     pub(super) contacts: BTreeMap<u32, Placed>,
+    /// All contacts that there were.
+    pub(super) touches: u64,
     /// Names of the shapes that they had.
     pub(super) shapes: BTreeMap<u8, String>,
     /// Activation of each concept over time, -1 ..= 1.
-    pub(super) activations: Vec<(u64, Vec<f64>)>,
+    pub(super) activations: Series,
     pub(super) concepts: Vec<String>,
     pub(super) sentences: Vec<String>,
     /// Sentences that found no place.
     pub(super) unsaid: usize,
     pub(super) health: Option<Health>,
     pub(super) ill: BTreeMap<u16, TaxelHealth>,
+    /// What of a recording is damaged.
+    pub(super) skipped: Skipped,
     narrator: Narrator,
 }
 
@@ -60,17 +69,24 @@ impl Seen {
             counts: Counts::default(),
             top: Moment::default(),
             hold: Vec::new(),
-            totals: Vec::new(),
+            totals: Series::default(),
             contacts: BTreeMap::new(),
+            touches: 0,
             shapes: BTreeMap::new(),
-            activations: Vec::new(),
+            activations: Series::default(),
             concepts: Vec::new(),
             sentences: Vec::new(),
             unsaid: 0,
             health: None,
             ill: BTreeMap::new(),
+            skipped: Skipped::default(),
             narrator: Narrator::new(counts_per_newton),
         }
+    }
+
+    /// The unit of the page.
+    pub(super) fn scale(&self) -> Scale {
+        Scale::of(self.counts_per_newton)
     }
 
     /// The garment's panels.
@@ -83,7 +99,7 @@ impl Seen {
         let sum = |values: &[u16]| values.iter().map(|value| u32::from(*value)).sum::<u32>();
         let totals: Vec<u32> = self.areas().iter().map(|area| sum(of(area, image))).collect();
         let total = totals.iter().map(|total| u64::from(*total)).sum();
-        self.totals.push((time_us, totals));
+        self.totals.push(time_us, totals.iter().map(|total| f64::from(*total)).collect());
         self.hold.resize(image.len(), 0);
         self.hold.iter_mut().zip(image).for_each(|(held, value)| *held = (*held).max(*value));
         if total > self.top.total || self.top.image.is_empty() {
@@ -92,12 +108,27 @@ impl Seen {
     }
 
     fn contact(&mut self, placed: &Placed) {
+        let known = self.contacts.len();
         let kept = self.contacts.entry(placed.contact.id).or_insert_with(|| placed.clone());
         let duration = placed.contact.duration_ms;
         if placed.contact.total > kept.contact.total {
             *kept = placed.clone();
         }
         kept.contact.duration_ms = duration;
+        self.touches += (self.contacts.len() - known) as u64;
+    }
+
+    /// Forgets the weakest of many contacts, but for those that are there.
+    fn forget_weak(&mut self, present: &[Placed]) {
+        if self.contacts.len() < 4 * LISTED {
+            return;
+        }
+        let mut totals: Vec<u32> = self.contacts.values().map(|placed| placed.contact.total).collect();
+        totals.sort_unstable_by_key(|total| std::cmp::Reverse(*total));
+        let least = totals[LISTED - 1];
+        self.contacts.retain(|id, placed| {
+            placed.contact.total >= least || present.iter().any(|placed| placed.contact.id == *id)
+        });
     }
 }
 
@@ -121,10 +152,11 @@ impl Show for Seen {
                     self.shapes.entry(class.0).or_insert_with(|| client.shape_name(class));
                     self.contact(placed);
                 }
+                self.forget_weak(client.contacts());
             }
             Event::Intent(report) => {
                 let values = report.concepts.iter().map(|value| value.to_f64()).collect();
-                self.activations.push((report.time.0, values));
+                self.activations.push(report.time.0, values);
             }
             Event::Health(health) => self.health = Some(*health),
             Event::HealthMap { .. } => self.ill.clone_from(client.ill()),

@@ -6,8 +6,6 @@ use std::fmt::{Result, Write};
 /// The drawing, SVG units, and what the axes leave: left, top, right, bottom.
 const SIZE: [f64; 2] = [780.0, 220.0];
 const FRAME: [f64; 4] = [56.0, 12.0, 640.0, 190.0];
-/// Points of a line: more are drawn as the greatest of each part.
-const POINTS: usize = 580;
 /// Marks of the time axis, at most.
 const MARKS: f64 = 10.0;
 
@@ -47,7 +45,7 @@ impl Strip<'_> {
         let y = |value: f64| FRAME[3] - (value - low) / (top - low) * (FRAME[3] - FRAME[1]);
         writeln!(svg, "<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">", SIZE[0], SIZE[1], SIZE[0])?;
         self.axes(svg, low, top, &y)?;
-        let kept = self.thinned();
+        let kept = &self.points;
         for (index, name) in self.names.iter().enumerate() {
             let ink = LINES[index % LINES.len()];
             // The colours come again, dashed.
@@ -113,18 +111,5 @@ impl Strip<'_> {
             f64::midpoint(FRAME[1], bottom),
             escaped(self.label)
         )
-    }
-
-    /// No more points than can be told apart: of each part the greatest values.
-    fn thinned(&self) -> Vec<(u64, Vec<f64>)> {
-        let size = self.points.len().div_ceil(POINTS).max(1);
-        let greatest = |part: &[(u64, Vec<f64>)]| {
-            let mut all = part[0].clone();
-            for (_, values) in part {
-                all.1.iter_mut().zip(values).for_each(|(kept, value)| *kept = kept.max(*value));
-            }
-            all
-        };
-        self.points.chunks(size).map(greatest).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! A panel as a surface whose height is the pressure, seen from the side and above, with its peaks.
 
+use super::scale::Scale;
 use super::svg::{colour, escaped};
 use std::fmt::{Result, Write};
 use taxel_core::body::Placed;
@@ -18,10 +19,10 @@ const ABOVE: f64 = 0.5;
 const REACH: f64 = 185.0;
 
 /// The drawing; colours and heights end at `top` counts.
-pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16) -> String {
+pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, scale: Scale) -> String {
     let mut svg = String::new();
     // Writing to a string cannot fail.
-    let _ = View::of(area, top).write(&mut svg, area, values, contacts);
+    let _ = View::of(area, top, scale).write(&mut svg, area, values, contacts);
     svg
 }
 
@@ -30,10 +31,11 @@ struct View {
     middle: [f64; 2],
     scale: [f64; 2],
     top: u16,
+    unit: Scale,
 }
 
 impl View {
-    fn of(area: &Area, top: u16) -> View {
+    fn of(area: &Area, top: u16, unit: Scale) -> View {
         let taxels = [area.columns, area.rows].map(|count| f64::from(count.max(2)) - 1.0);
         let pitch = if area.pitch_um.contains(&0) { [1.0; 2] } else { area.pitch_um.map(f64::from) };
         let long = (taxels[0] * pitch[0]).max(taxels[1] * pitch[1]);
@@ -41,6 +43,7 @@ impl View {
             middle: taxels.map(|count| count / 2.0),
             scale: pitch.map(|pitch| pitch * REACH * 1.8 / long),
             top: top.max(1),
+            unit,
         }
     }
 
@@ -88,7 +91,7 @@ impl View {
             svg,
             "<text class=\"value\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
             y - 17.0,
-            contact.peak
+            self.unit.told(contact.peak)
         )
     }
 }

@@ -1,13 +1,9 @@
 //! Contacts, events and health as tables.
 
-use super::seen::Seen;
+use super::seen::{LISTED, Seen};
 use super::svg::escaped;
-use crate::live::narrate;
 use std::fmt::Write;
 use taxel_core::body::Placed;
-
-/// Contacts that are listed: the strongest.
-const LISTED: usize = 60;
 
 /// The contacts, each at its greatest total, in the order of their onsets.
 pub fn contacts(seen: &Seen) -> String {
@@ -18,16 +14,17 @@ pub fn contacts(seen: &Seen) -> String {
     strongest.sort_by_key(|placed| std::cmp::Reverse(placed.contact.total));
     strongest.truncate(LISTED);
     strongest.sort_by_key(|placed| placed.contact.id);
-    let mut html = String::from(
-        "<table><tr><th>contact</th><th>panel</th><th>onset, s</th><th>duration, s</th><th>force</th>\
-         <th>peak, counts</th><th>at row, column</th><th>area, taxels</th><th>centroid x, y</th>\
+    let unit = seen.scale().unit();
+    let mut html = format!(
+        "<table><tr><th>contact</th><th>panel</th><th>onset, s</th><th>duration, s</th><th>total, {unit}</th>\
+         <th>peak, {unit}</th><th>at row, column</th><th>area, taxels</th><th>centroid x, y</th>\
          <th>azimuth</th><th>shape</th></tr>\n",
     );
     strongest.iter().for_each(|placed| row(seen, placed, &mut html));
     html += "</table>\n";
-    if seen.contacts.len() > LISTED {
+    if seen.touches > LISTED as u64 {
         // A string takes all.
-        let _ = writeln!(html, "<p>The {LISTED} strongest of {}.</p>", seen.contacts.len());
+        let _ = writeln!(html, "<p>The {LISTED} strongest of {}.</p>", seen.touches);
     }
     html
 }
@@ -45,8 +42,8 @@ fn row(seen: &Seen, placed: &Placed, html: &mut String) {
         escaped(panel),
         contact.onset.0 as f64 / 1e6,
         f64::from(contact.duration_ms) / 1000.0,
-        narrate::force(contact.total, seen.counts_per_newton),
-        contact.peak,
+        seen.scale().told(contact.total),
+        seen.scale().told(contact.peak),
         contact.peak_at.row,
         contact.peak_at.column,
         contact.area,
@@ -88,6 +85,9 @@ pub fn health(seen: &Seen) -> String {
     let mut html = String::from("<table>");
     rows.iter().for_each(|(name, count)| _ = writeln!(html, "<tr><td>{name}</td><td>{count}</td></tr>"));
     html += "</table>\n";
+    if !seen.skipped.is_none() {
+        let _ = writeln!(html, "<p>Of the recording: {}.</p>", seen.skipped);
+    }
     if seen.ill.is_empty() {
         return html + "<p>No taxel is known to be ill.</p>\n";
     }

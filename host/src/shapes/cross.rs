@@ -3,6 +3,7 @@
 use super::data::Example;
 use super::train::Known;
 use crate::learn::folds::stratified;
+use crate::progress::{Progress, Unit};
 use taxel_core::shape::Recognised;
 
 /// Splits examples into those that a fold trains on and those that it is tested on; the fold of each example.
@@ -29,7 +30,12 @@ pub fn predict(
     let others = |n: usize| -> Vec<&Example> {
         examples.iter().zip(fold).filter(|(_, fold)| **fold != n).map(|(example, _)| *example).collect()
     };
-    let galleries: Vec<Known> = (0..folds).map(|n| train(&others(n))).collect();
+    let mut progress = Progress::of("learning", Unit::Steps("folds"), Some(folds as u64));
+    let mut gallery = |n: usize| {
+        progress.at(n as u64);
+        train(&others(n))
+    };
+    let galleries: Vec<Known> = (0..folds).map(&mut gallery).collect();
     examples.iter().zip(fold).map(|(example, fold)| galleries[*fold].recognise(&example.descriptor)).collect()
 }
 

@@ -28,6 +28,10 @@ pub trait Port: Send {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
     /// Sends all bytes.
     fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// What is to be said of it at the end.
+    fn remark(&self) -> Option<String> {
+        None
+    }
 }
 
 /// What a source is to do beyond giving bytes.

@@ -1,11 +1,12 @@
 //! A recording, played: the bytes that the board sent, when it sent them, faster, slower, or as fast as they can be read.
 
 use super::{Port, Source, SourceOptions};
+use crate::progress::{Progress, Unit};
 use crate::record::WIRE;
-use crate::recording::{Messages, scan};
+use crate::recording::{Messages, Overview};
 use anyhow::{Context, Result, bail};
 use std::fmt;
-use std::io;
+use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
@@ -56,14 +57,16 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
         Speed::Times(times) => Some(times),
         Speed::AsAsked | Speed::Max => None,
     };
-    let scanned = scan(path)?;
-    if !scanned.contents.channels().any(|info| info.channel.topic == WIRE) {
+    let overview = Overview::of(path)?;
+    if !overview.channels.iter().any(|info| info.channel.topic == WIRE) {
         bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
     }
-    let words = scanned.metadata.iter().find(|metadata| metadata.name == "taxel");
-    let scale = words.and_then(|words| words.metadata.get("counts_per_newton")?.parse().ok());
-    let replay =
-        Replay { messages: Messages::of_topic(path, WIRE)?, speed, began: None, next: Vec::new(), due: None };
+    let scale = overview.counts_per_newton().map(|counts| counts as f32);
+    let messages = Messages::of_topic(path, WIRE)?;
+    let progress =
+        || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(messages.passed()[1]));
+    let progress = (!io::stdout().is_terminal()).then(progress);
+    let replay = Replay { messages, speed, began: None, next: Vec::new(), due: None, progress };
     let label = format!("replay:{}", path.display());
     Ok(Source { counts_per_newton: scale, ..Source::new(label, replay) })
 }
@@ -78,6 +81,8 @@ struct Replay {
     /// Bytes that wait, and when they are due.
     next: Vec<u8>,
     due: Option<Instant>,
+    /// None: what is played is seen.
+    progress: Option<Progress>,
 }
 
 impl Replay {
@@ -91,6 +96,9 @@ impl Replay {
                 start.checked_add(Duration::try_from_secs_f64(passed.as_secs_f64() / speed).ok()?)
             });
             self.next.extend_from_slice(message.data);
+            if let Some(progress) = &mut self.progress {
+                progress.at(self.messages.passed()[0]);
+            }
             return Ok(true);
         }
         Ok(false)
@@ -121,6 +129,11 @@ impl Port for Replay {
                 return Ok(Some(count));
             }
         }
+    }
+
+    fn remark(&self) -> Option<String> {
+        let skipped = self.messages.skipped();
+        (!skipped.is_none()).then(|| skipped.to_string())
     }
 
     /// Nobody listens.

@@ -4,6 +4,7 @@ use super::compare::apart;
 use super::data::Data;
 use super::model::{Course, Settings};
 use super::report::{Outcome, Report, accuracy};
+use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
@@ -21,6 +22,9 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     );
     let courses: Vec<Course> = data.touches.iter().map(|touch| Course::of(data, touch, first)).collect();
     let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());
+    let steps = groups.len() * (candidates.len() * (groups.len() - 1) + 1);
+    let mut progress = Progress::of("learning", Unit::Steps("models"), Some(steps as u64));
+    let mut done = 0;
     for group in &groups {
         let others: Vec<&str> = groups.iter().filter(|other| *other != group).map(String::as_str).collect();
         let mut best: Option<(f64, usize)> = None;
@@ -29,6 +33,8 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
             for test in &others {
                 let known: Vec<&str> = others.iter().filter(|other| *other != test).copied().collect();
                 inner.extend(apart(data, &courses, settings, &known, test)?);
+                done += 1;
+                progress.at(done);
             }
             let share = accuracy(&inner);
             if best.is_none_or(|(before, _)| share > before) {
@@ -37,6 +43,8 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
         }
         let (share, number) = best.unwrap_or_default();
         let own = apart(data, &courses, &candidates[number], &others, group)?;
+        done += 1;
+        progress.clear();
         eprintln!(
             "{group}: {:.1} % of {} touches; the others {:.1} %",
             100.0 * accuracy(&own),

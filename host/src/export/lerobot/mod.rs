@@ -53,7 +53,7 @@ pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: &Path) ->
         let path = folder.join(meta::data_path(index));
         let place = || frames.file().display().to_string();
         let mut episode = Episode::begin(path, [index as u64, rows], choices.fps);
-        frames.each(|frame| episode.take(frame, &mut known, &mut stats)).with_context(place)?;
+        frames.each("exporting", |frame| episode.take(frame, &mut known, &mut stats)).with_context(place)?;
         let length = episode.finish(&mut stats).with_context(place)?;
         episodes.push(length);
         rows += length;

@@ -8,6 +8,7 @@ use crate::client::{Client, Event, ImageNews};
 use crate::recording::{Format, Store, Writer};
 use anyhow::Result;
 use std::collections::BTreeMap;
+use taxel_core::garment::Area;
 
 /// A file with these messages alone: readers of ROS bags refuse a file in which there are others. Its channels are made when
 /// their first message comes.
@@ -16,6 +17,8 @@ pub struct Ros2<S: Store> {
     /// What is written to.
     pub writer: Writer<S>,
     ids: BTreeMap<String, u16>,
+    /// The panels whose frames have been told.
+    areas: Vec<Area>,
 }
 
 /// A message for a topic.
@@ -29,13 +32,29 @@ struct Sent {
 impl<S: Store> Ros2<S> {
     /// Begins a file.
     pub fn create(store: S) -> Result<Ros2<S>> {
-        Ok(Ros2 { writer: Writer::create(store, "ros2")?, ids: BTreeMap::new() })
+        Ok(Ros2 { writer: Writer::create(store, "ros2")?, ids: BTreeMap::new(), areas: Vec::new() })
+    }
+
+    /// Where the panels lie, if that has not been told.
+    fn frames(&mut self, client: &Client, stamp: Stamp) -> Vec<Sent> {
+        let areas = client.layout().map_or(&[][..], |layout| layout.areas());
+        if self.areas == areas {
+            return Vec::new();
+        }
+        self.areas = areas.to_vec();
+        let data = messages::frames(stamp.host_us, areas);
+        let schema = "tf2_msgs/msg/TFMessage";
+        vec![Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }]
     }
 
     /// Writes what an event says.
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
         let all = match event {
-            Event::Frame { image: ImageNews::Whole, .. } => frame(client, stamp, scale),
+            Event::Frame { image: ImageNews::Whole, .. } => {
+                let mut all = self.frames(client, stamp);
+                all.extend(frame(client, stamp, scale));
+                all
+            }
             Event::Health(health) => {
                 let board = client.worn().map_or("", |worn| worn.firmware.as_str());
                 let data = messages::diagnostics(stamp.host_us, board, health, client.ill().len());

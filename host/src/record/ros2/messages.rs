@@ -1,6 +1,8 @@
 //! The messages as bytes.
 
+use super::super::names;
 use super::cdr::Cdr;
+use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 use taxel_core::wire::Health;
 
@@ -8,18 +10,48 @@ use taxel_core::wire::Health;
 const FLOAT32: u8 = 7;
 /// Bytes of a point: x, y, z, pressure.
 const POINT: u32 = 16;
+/// Space between the panels of a link, m.
+const GAP: f64 = 0.02;
+/// The frame on which panels lie that name no link.
+const NO_LINK: &str = "garment";
 /// Micrometres of a metre.
 const UM: f32 = 1e6;
 
 /// The header: when, and in which frame.
 fn head(host_us: u64, frame: &str) -> Cdr {
-    Cdr::default().i32((host_us / 1_000_000) as i32).u32((host_us % 1_000_000) as u32 * 1000).text(frame)
+    header(Cdr::default(), host_us, frame)
+}
+
+fn header(cdr: Cdr, host_us: u64, frame: &str) -> Cdr {
+    cdr.i32((host_us / 1_000_000) as i32).u32((host_us % 1_000_000) as u32 * 1000).text(frame)
+}
+
+/// The frame of a panel: two panels on one link do not lie on one another.
+fn frame(area: &Area) -> String {
+    format!("tactile/{}", names::topic(&area.name))
+}
+
+/// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie on a link, so
+/// those of one link lie side by side along x.
+pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
+    let mut taken: BTreeMap<&str, f64> = BTreeMap::new();
+    let mut cdr = Cdr::default().u32(areas.len() as u32);
+    for area in areas {
+        let link = if area.link.is_empty() { NO_LINK } else { area.link.as_str() };
+        let x = taken.entry(link).or_default();
+        cdr = header(cdr, host_us, link).text(&frame(area));
+        for value in [*x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] {
+            cdr = cdr.f64(value);
+        }
+        *x += f64::from(area.columns) * f64::from(area.pitch_um[0]) / f64::from(UM) + GAP;
+    }
+    cdr.finish()
 }
 
 /// `sensor_msgs/msg/Image`: 16 bits a taxel, counts.
 pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    head(host_us, &area.link)
+    head(host_us, &frame(area))
         .u32(area.rows.into())
         .u32(area.columns.into())
         .text("mono16")
@@ -38,7 +70,7 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
         [column * x_um / UM, row * y_um / UM, 0.0, f32::from(*value)]
     };
     let data: Vec<u8> = values.iter().enumerate().flat_map(point).flat_map(f32::to_le_bytes).collect();
-    let mut cdr = head(host_us, &area.link).u32(area.rows.into()).u32(area.columns.into()).u32(4);
+    let mut cdr = head(host_us, &frame(area)).u32(area.rows.into()).u32(area.columns.into()).u32(4);
     for (name, offset) in [("x", 0), ("y", 4), ("z", 8), ("pressure", 12)] {
         cdr = cdr.text(name).u32(offset).u8(FLOAT32).u32(1);
     }
@@ -47,7 +79,7 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
 
 /// `geometry_msgs/msg/WrenchStamped`: a force along z, N. Pressure pushes into the panel, against its normal.
 pub fn wrench(host_us: u64, area: &Area, newtons: f64) -> Vec<u8> {
-    let mut cdr = head(host_us, &area.link);
+    let mut cdr = head(host_us, &frame(area));
     for value in [0.0, 0.0, 0.0 - newtons, 0.0, 0.0, 0.0] {
         cdr = cdr.f64(value);
     }
@@ -76,4 +108,44 @@ pub fn diagnostics(host_us: u64, board: &str, health: &Health, ill: usize) -> Ve
         cdr = cdr.text(key).text(&value.to_string());
     }
     cdr.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel_core::garment::{Garment, Layout};
+
+    /// What a message names as a text: its length, its letters, 0.
+    fn names(message: &[u8], text: &str) -> bool {
+        let text = [&(text.len() as u32 + 1).to_le_bytes()[..], text.as_bytes(), &[0]].concat();
+        message.windows(text.len()).any(|window| window == text)
+    }
+
+    #[test]
+    fn panels_of_one_link_lie_apart() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let areas = layout.areas();
+        assert_eq!(areas[0].link, areas[1].link, "chest and back are on the torso");
+        let told = frames(5, areas);
+        let mut places = Vec::new();
+        for area in areas {
+            let own = frame(area);
+            assert!(names(&told, &own) && names(&told, &area.link), "{own}");
+            let values = vec![1; usize::from(area.rows) * usize::from(area.columns)];
+            for message in [image(5, area, &values), points(5, area, &values), wrench(5, area, 1.0)] {
+                assert!(names(&message, &own), "{own}");
+            }
+            // The place follows the name, aligned to 8 bytes behind the head of 4.
+            let at =
+                told.windows(own.len()).position(|window| window == own.as_bytes()).unwrap() + own.len() + 1;
+            let at = 4 + (at - 4).next_multiple_of(8);
+            let x = f64::from_le_bytes(told[at..at + 8].try_into().unwrap());
+            let width = f64::from(area.columns) * f64::from(area.pitch_um[0]) / 1e6;
+            places.push((area.link.clone(), x, x + width));
+        }
+        for (index, (link, start, _)) in places.iter().enumerate() {
+            let before = places[..index].iter().filter(|(other, ..)| other == link);
+            assert!(before.clone().all(|(_, _, end)| start >= end), "{places:?}");
+        }
+    }
 }

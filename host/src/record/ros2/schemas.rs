@@ -80,6 +80,38 @@ float64 z
 "
 );
 
+/// `tf2_msgs/msg/TFMessage`
+pub const FRAMES: &str = concat!(
+    "geometry_msgs/TransformStamped[] transforms
+
+================================================================================
+MSG: geometry_msgs/TransformStamped
+std_msgs/Header header
+string child_frame_id
+geometry_msgs/Transform transform
+",
+    header!(),
+    "
+================================================================================
+MSG: geometry_msgs/Transform
+geometry_msgs/Vector3 translation
+geometry_msgs/Quaternion rotation
+
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+"
+);
+
 /// `diagnostic_msgs/msg/DiagnosticArray`
 pub const DIAGNOSTICS: &str = concat!(
     "std_msgs/Header header

@@ -5,6 +5,7 @@ use std::path::Path;
 use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel::export::{ExportArgs, Form, run};
 use taxel::live::{BoardArgs, LiveArgs, watch};
+use taxel::output::Force;
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::source::{self, SourceOptions};
 use taxel_core::condition::UNITY;
@@ -55,7 +56,9 @@ fn recorded(name: &str, calibration: &Calibration) {
 
 fn table(path: &Path, output: &str, counts: bool) -> Vec<Vec<String>> {
     let output = file(output);
-    run(ExportArgs { counts, ..ExportArgs::of(vec![path.into()], Form::Csv, output.clone()) }).unwrap();
+    let force = Force { force: true };
+    run(ExportArgs { counts, force, ..ExportArgs::of(vec![path.into()], Form::Csv, output.clone()) })
+        .unwrap();
     let text = std::fs::read_to_string(output).unwrap();
     text.lines().skip(1).map(|line| line.split(',').map(String::from).collect()).collect()
 }
@@ -68,7 +71,7 @@ fn who_calibrated_when_and_how_is_in_it() {
     let scan = taxel::recording::scan(&path).unwrap();
     let text = String::from_utf8(scan.attached(&path, CALIBRATION).unwrap().unwrap()).unwrap();
     assert_eq!(Calibration::parse(&text, "attached").unwrap(), calibration);
-    let words = &scan.metadata.last().unwrap().metadata;
+    let words = &scan.metadata.iter().rfind(|words| words.name == "taxel").unwrap().metadata;
     assert!(words["calibration"].starts_with(&format!("id {}, {}", calibration.id, calibration.date)));
     assert_eq!([&words["calibration_by"], &words["calibration_how"]], ["Anna", "plates of 5 N"]);
     assert_eq!(

@@ -5,6 +5,7 @@ use std::num::NonZeroU64;
 use std::path::PathBuf;
 use taxel::arrays;
 use taxel::export::{ExportArgs, Form, run};
+use taxel::output::Force;
 
 const PANELS: [&str; 4] = ["chest", "back", "left arm", "right arm"];
 
@@ -15,7 +16,8 @@ fn exported(seen_as: &str, to: Form, output: &str, every: u64) -> (Seen, PathBuf
     let every = NonZeroU64::new(every).unwrap();
     let plain = ExportArgs::of(vec![file(&name)], to, output.clone());
     let table = to == Form::Csv;
-    run(ExportArgs { touched: table, counts: table, every, ..plain }).unwrap();
+    let counts = to != Form::Npz;
+    run(ExportArgs { force: Force { force: true }, touched: table, counts, every, ..plain }).unwrap();
     (seen, output)
 }
 

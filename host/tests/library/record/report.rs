@@ -28,6 +28,20 @@ fn the_figures_of_the_source_are_drawn() {
 }
 
 #[test]
+fn a_page_is_in_one_unit() {
+    let mut seen = Seen::new("sim:pat".into(), Some(1000.0));
+    play("sim:pat", &mut seen);
+    let html = page(&seen).unwrap();
+    assert!(html.contains("<th>total, N</th><th>peak, N</th>"));
+    let told = "the source knows that 1000 counts are a newton";
+    assert_eq!((html.matches("counts").count(), html.matches(told).count()), (1, 1), "only what the unit is");
+    let mut seen = Seen::new("sim:pat".into(), None);
+    play("sim:pat", &mut seen);
+    let html = page(&seen).unwrap();
+    assert!(html.contains("<th>total, counts</th><th>peak, counts</th>") && !html.contains(" N<"));
+}
+
+#[test]
 fn without_an_image_there_is_no_page() {
     let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
     assert_eq!(error, "file:x: no image came, there is nothing to report");

@@ -1,0 +1,113 @@
+//! What is in a recording, at once: by the summary at its end, or else by going through it.
+
+use super::contents::{ChannelInfo, Stretch};
+use super::records::Records;
+use super::summary::{Summary, summary};
+use super::{Scan, scan};
+use anyhow::{Context, Result};
+use mcap::parse_record;
+use mcap::records::{AttachmentIndex, Metadata, Record};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What is in a recording.
+#[derive(Debug, Clone)]
+pub struct Overview {
+    path: PathBuf,
+    /// The channels, with the names of their schemas.
+    pub channels: Vec<ChannelInfo>,
+    /// Messages by channel.
+    pub counts: BTreeMap<u16, u64>,
+    /// First and last log time, ns; none without a message.
+    pub stretch: Option<Stretch>,
+    /// Where attached files lie.
+    pub attachments: Vec<AttachmentIndex>,
+    /// Words of the file by name.
+    pub metadata: Vec<Metadata>,
+    /// Bytes behind what is whole, of a file without its end; none: it has its end.
+    pub torn: Option<u64>,
+}
+
+impl Overview {
+    /// Of a file. One with a summary is not gone through, whatever its length.
+    pub fn of(path: &Path) -> Result<Overview> {
+        match summary(path)? {
+            Some(summary) if summary.statistics.is_some() => Overview::told(path, summary),
+            _ => Ok(Overview::found(path, &scan(path)?)),
+        }
+    }
+
+    fn told(path: &Path, summary: Summary) -> Result<Overview> {
+        let Summary { schemas, channels, statistics, attachments, metadata } = summary;
+        let schema = |id: &u16| schemas.get(id).cloned().unwrap_or_default();
+        let channels = channels.into_values();
+        let channels = channels.map(|channel| ChannelInfo { schema: schema(&channel.schema_id), channel });
+        let statistics = statistics.unwrap_or_default();
+        let times = [statistics.message_start_time, statistics.message_end_time];
+        let words = metadata.iter().map(|index| words(path, index.offset));
+        Ok(Overview {
+            path: path.into(),
+            channels: channels.collect(),
+            counts: statistics.channel_message_counts,
+            stretch: (statistics.message_count > 0).then_some(times),
+            attachments,
+            // Words that are damaged are missing; the messages are there all the same.
+            metadata: words.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect(),
+            torn: None,
+        })
+    }
+
+    /// Of a file that has been gone through.
+    pub fn found(path: &Path, scan: &Scan) -> Overview {
+        Overview {
+            path: path.into(),
+            channels: scan.contents.channels().collect(),
+            counts: scan.contents.counts(),
+            stretch: scan.contents.stretch(),
+            attachments: scan.contents.attachments.clone(),
+            torn: (!scan.ended).then_some(scan.torn),
+            metadata: scan.metadata.clone(),
+        }
+    }
+
+    /// Messages of a topic.
+    pub fn messages(&self, topic: &str) -> u64 {
+        let of = self.channels.iter().filter(|info| info.channel.topic == topic);
+        of.filter_map(|info| self.counts.get(&info.channel.id)).sum()
+    }
+
+    /// The newest words of that name.
+    pub fn words(&self, name: &str) -> Option<&BTreeMap<String, String>> {
+        self.metadata.iter().rfind(|words| words.name == name).map(|words| &words.metadata)
+    }
+
+    /// Counts per newton that the recording's source knew.
+    pub fn counts_per_newton(&self) -> Option<f64> {
+        let counts: f64 = self.words("taxel")?.get("counts_per_newton")?.parse().ok()?;
+        (counts.is_finite() && counts > 0.0).then_some(counts)
+    }
+
+    /// What is attached under that name, the newest; none: nothing is.
+    pub fn attached(&self, name: &str) -> Result<Option<Vec<u8>>> {
+        let place = || format!("{}: {name} that is attached cannot be read", self.path.display());
+        let Some(index) = self.attachments.iter().rfind(|index| index.name == name) else {
+            return Ok(None);
+        };
+        let mut records = Records::open_at(&self.path, index.offset)?;
+        let record = records.next_record()?.with_context(place)?;
+        match parse_record(record.op, record.body).with_context(place)? {
+            Record::Attachment { data, .. } => Ok(Some(data.into_owned())),
+            _ => Ok(None),
+        }
+    }
+}
+
+/// The words that lie there; none: they are damaged.
+fn words(path: &Path, offset: u64) -> Result<Option<Metadata>> {
+    let mut records = Records::open_at(path, offset)?;
+    let record = records.next_record()?;
+    Ok(record.and_then(|record| match parse_record(record.op, record.body) {
+        Ok(Record::Metadata(words)) => Some(words),
+        _ => None,
+    }))
+}
