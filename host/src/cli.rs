@@ -56,7 +56,7 @@ enum Command {
     /// Watch a board, or a simulated one; `taxel` alone does this
     #[command(after_help = LIVE)]
     Live(LiveArgs),
-    /// Watch a board in the browser: panels, surface, body, map, health
+    /// Watch a board or a recording in the browser: panels, surface, body, map, health
     #[command(after_help = VIEW)]
     View(ViewArgs),
     /// Serve a board's stream to Foxglove, live

@@ -210,7 +210,7 @@ impl Hub {
                     let recent = self.recent();
                     (recent.recording().context("no image has come")?, recent.newest())
                 };
-                tape::live(&bytes, newest, origin, store)
+                tape::live(&bytes, newest, (*origin).clone(), store)
             }
             Tape::Recorded(cut) => cut.write(range, store),
         }

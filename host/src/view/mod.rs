@@ -1,4 +1,4 @@
-//! `taxel view`: what a board tells, live in the browser.
+//! `taxel view`: what a board tells, live in the browser, or a recording of it (see `recorded`).
 //!
 //! One program serves one page with all that it needs, on this machine alone, and tells each page over a WebSocket what
 //! comes; see [`message`] for what is said. Three rules keep the board's stream free of its watchers: a page has one
@@ -90,7 +90,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let (source, calibration) = args.board.open(options)?;
     let hub = Arc::new(Hub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-    hub.tape(Tape::Live(Origin { label, counts_per_newton, calibration }));
+    hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     announce(&source.label, listener, &hub, args.open)?;
     let mut viewer = Viewer::new(&source, hub);
     live::watch(&LiveArgs::on(args.board), source, &mut viewer)?;

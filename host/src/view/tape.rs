@@ -16,7 +16,7 @@ const CHUNK_US: u64 = 1_000_000;
 #[derive(Clone)]
 pub enum Tape {
     /// A board.
-    Live(Origin),
+    Live(Arc<Origin>),
     /// A recording.
     Recorded(Arc<Cut>),
 }
