@@ -64,7 +64,7 @@ impl Walk {
         if has_magic {
             walk.at = begin;
         } else if !walk.summary.is_sound && !walk.begins_with_header(begin).with_context(place)? {
-            bail!("{} is no MCAP file", path.display());
+            bail!("{} is not an MCAP file", path.display());
         }
         Ok(walk)
     }
