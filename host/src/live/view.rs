@@ -9,7 +9,7 @@ use crate::client::{Client, Event};
 use crate::source::Source;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::{Color, Modifier, Style};
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -204,16 +204,13 @@ impl View {
             keys = format!("PAUSED  {keys}");
         }
         let (mut x, y) = buffer.set_stringn(space.x, space.y, keys, usize::from(space.width), Style::new());
-        let steps = match self.paint {
-            Paint::Colours => 16,
-            Paint::Glyphs => GLYPHS.len(),
+        let steps: Vec<(char, Color)> = match self.paint {
+            Paint::Colours => (0..16).map(|step| (' ', color(ramp(step as f32 / 15.0)))).collect(),
+            Paint::Glyphs => GLYPHS.map(|glyph| (glyph, Color::Reset)).to_vec(),
         };
-        for step in 0..steps {
+        for (glyph, ground) in steps {
             let Some(cell) = buffer.cell_mut((x, y)).filter(|_| x < space.right()) else { break };
-            match self.paint {
-                Paint::Colours => cell.set_char(' ').set_bg(color(ramp(step as f32 / 15.0))),
-                Paint::Glyphs => cell.set_char(GLYPHS[step]),
-            };
+            cell.set_char(glyph).set_bg(ground);
             x += 1;
         }
         let left = usize::from(space.right().saturating_sub(x));
