@@ -135,7 +135,7 @@ test("who is not there is said to be away, and since when", () => {
   assert.equal(absence(here, 5_000).since, 1_000);
   assert.equal(absence({ ...here, quiet: true }, 50_000), null);
   const gone = absence({ connected: false, heard: 1_000, lost: 1_200 }, 9_000);
-  assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_000, true]);
+  assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_200, true]);
   assert.equal(absence({ connected: false, heard: null, lost: null }, 9_000).since, null);
   assert.deepEqual([5_900, 130_000, 8_000_000].map(agoText), ["5 s", "2 min", "2 h"]);
 });

@@ -9,7 +9,8 @@ export const SILENCE_MS = 3000;
  */
 export function absence({ connected, heard, lost, quiet = false }, now) {
   if (!connected) {
-    const since = heard ?? lost;
+    // A recording that stands still may have said nothing for long before.
+    const since = lost ?? heard;
     return { since, text: since === null ? "Connecting …" : "Disconnected", again: since !== null };
   }
   if (heard === null || quiet || now - heard < SILENCE_MS) return null;
