@@ -1,7 +1,7 @@
 //! Garments as files.
 
+use crate::output::Output;
 use anyhow::{Context, Result};
-use std::path::Path;
 use taxel_core::garment::Garment;
 
 /// Garments that come with the program whose rows and columns are joined by the cloth alone, and read through a resistor: what
@@ -21,13 +21,13 @@ pub fn text(garment: &Garment, comment: &str) -> Result<String> {
 }
 
 /// Writes a garment's file, or prints it where there is none.
-pub fn write(garment: &Garment, comment: &str, file: Option<&Path>) -> Result<()> {
+pub fn write(garment: &Garment, comment: &str, output: Option<Output>) -> Result<()> {
     let text = text(garment, comment)?;
-    let Some(file) = file else {
+    let Some(output) = output else {
         print!("\n{text}");
         return Ok(());
     };
-    std::fs::write(file, text).with_context(|| format!("{} cannot be written", file.display()))
+    output.write(text.as_bytes())
 }
 
 #[cfg(test)]

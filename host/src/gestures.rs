@@ -55,7 +55,10 @@ enum Cross {
 /// Runs the command.
 pub fn run(args: GesturesArgs) -> Result<()> {
     match args.command {
-        Command::Train(args) => TASK.train(&load(&args.files)?, &args.output),
+        Command::Train(args) => {
+            let output = args.output()?;
+            TASK.train(&load(&args.files)?, output)
+        }
         Command::Eval { eval, rate } => TASK.eval(&eval, load(&eval.files)?, &times(rate)?),
         Command::Card => {
             print!("{}", touches::CARDS);

@@ -57,7 +57,10 @@ enum Cross {
 /// Runs the command.
 pub fn run(args: IntentArgs) -> Result<()> {
     match args.command {
-        Command::Train(args) => TASK.train(&load(&args.files, Cross::Day)?, &args.output),
+        Command::Train(args) => {
+            let output = args.output()?;
+            TASK.train(&load(&args.files, Cross::Day)?, output)
+        }
         Command::Eval(args) => {
             let data = load(&args.files, args.cross.unwrap_or(Cross::Day))?;
             TASK.eval(&args, data, &times())

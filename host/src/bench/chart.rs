@@ -1,8 +1,6 @@
 //! A chart as SVG: points of several series over two logarithmic axes, with the Pareto front of each marked.
 
-use anyhow::{Context, Result};
 use std::fmt::Write;
-use std::path::Path;
 
 const PAPER: &str = "#12141a";
 const INK: &str = "#d8dee9";
@@ -89,11 +87,6 @@ impl Chart {
             .collect();
         front.sort_by(|a, b| a.1.total_cmp(&b.1));
         front.into_iter().map(|(index, _)| index).collect()
-    }
-
-    /// Writes the picture into a file.
-    pub fn write(&self, file: &Path) -> Result<()> {
-        std::fs::write(file, self.svg()).with_context(|| format!("{} cannot be written", file.display()))
     }
 
     /// The picture.

@@ -9,6 +9,7 @@ pub mod record;
 pub mod stages;
 mod touch;
 
+use crate::output::{self, Force};
 use anyhow::Result;
 use chart::Chart;
 use clap::{Args, Subcommand};
@@ -54,6 +55,9 @@ pub struct Output {
     /// Also draw the chart into this file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// A finished table in its three forms.
@@ -81,8 +85,9 @@ pub fn run(args: BenchArgs) -> Result<()> {
 impl Output {
     /// Prints a report, and draws it where a file is named.
     pub fn put(&self, report: &Report) -> Result<()> {
+        let none: [&PathBuf; 0] = [];
         if let Some(file) = &self.svg {
-            report.chart.write(file)?;
+            output::Output::file(file, self.force, none)?.write(report.chart.svg().as_bytes())?;
         }
         if self.json {
             println!("{}", report.json);

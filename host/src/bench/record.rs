@@ -144,7 +144,7 @@ fn fastest(what: &mut dyn FnMut() -> Result<()>) -> Result<f64> {
 
 fn recorder(path: PathBuf, ros2: bool) -> Result<Recorder> {
     let origin = Origin { label: format!("sim:{SCENE}"), counts_per_newton: Some(1000.0), calibration: None };
-    Recorder::create(Plan { path, rotate: None, ros2, force: true, origin, raw: false })
+    Recorder::create(Plan { path, rotate: None, ros2, force: true, inputs: Vec::new(), origin, raw: false })
 }
 
 fn play(spec: SourceSpec, show: &mut dyn Show) -> Result<()> {

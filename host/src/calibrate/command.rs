@@ -8,6 +8,7 @@ use super::plates::{Over, plates};
 use super::residuals::OfWeight;
 use super::task::{Task, calibrate};
 use crate::fault::Fault;
+use crate::output::{Force, Output};
 use crate::raw::RawBoard;
 use crate::sim::{self, Sensor};
 use crate::source::{self, SourceSpec};
@@ -56,6 +57,9 @@ pub struct CalibrateArgs {
     /// File to write
     #[arg(long, short, value_name = "FILE", default_value = "calibration.toml")]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Also save the calibration to the board's flash
     #[arg(long)]
     pub save: bool,
@@ -83,13 +87,15 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     }
     let weights = weights(args)?;
     ensure!(args.wait.is_finite() && args.wait > 0.0, Fault::usage("--wait must be a time above 0"));
+    let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
+    let output = Output::stream(&args.output, args.force, inputs)?;
     let mut board = open(args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
         board.wear(&sim::garment(garment)?)?;
     }
     let task = Task { over: args.over, weights, by: by(args), wait: args.wait, json: args.json };
     let made = calibrate(&mut board, &task)?;
-    made.write(&args.output)?;
+    keep(&made, output)?;
     install(&mut board, &made)?;
     if args.save {
         board.ask(&Request::Save)?;
@@ -97,6 +103,12 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     board.give_back()?;
     tell(args, &made);
     Ok(())
+}
+
+/// Writes the calibration. Nobody puts the weights on twice: where it cannot be written, it is printed.
+fn keep(made: &Calibration, output: Output) -> Result<()> {
+    let text = made.text()?;
+    output.write(text.as_bytes()).inspect_err(|_| println!("{text}"))
 }
 
 /// The weights in N, checked, ascending.

@@ -5,6 +5,7 @@ use super::fit::Fitted;
 use super::reading::Rest;
 use super::residuals::{OfWeight, Residuals};
 use crate::date;
+use crate::output::Output;
 use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -131,7 +132,7 @@ impl Calibration {
 
     /// Writes the file.
     pub fn write(&self, file: &Path) -> Result<()> {
-        std::fs::write(file, self.text()?).with_context(|| format!("{} cannot be written", file.display()))
+        Output::update(file)?.write(self.text()?.as_bytes())
     }
 
     /// What the board is told of it.

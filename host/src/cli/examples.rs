@@ -100,7 +100,7 @@ pub(super) const CALIBRATE: &str = "Examples:
   taxel calibrate check anna.toml";
 
 pub(super) const SETTLE: &str = "Examples:
-  taxel settle --garment garment.toml -o garment.toml
+  taxel settle --garment garment.toml -o settled.toml
   taxel settle --source serial:/dev/ttyACM0 --error 2 --json";
 
 pub(super) const HEALTH: &str = "Examples:

@@ -7,8 +7,9 @@ mod scene;
 pub use check::check;
 
 use crate::garments;
+use crate::output::{Force, Output};
 use crate::sim;
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -52,8 +53,11 @@ enum What {
     /// Begin a garment's file, and its schema beside it, which editors read
     #[command(after_help = "Example:\n  taxel config new mine.toml --like reference")]
     New {
-        /// The file to write; it must not be there yet
+        /// The file to write
         file: PathBuf,
+        /// Whether it is replaced.
+        #[command(flatten)]
+        force: Force,
         /// The garment to begin with: a preset or a TOML file
         #[arg(long, value_name = "G", default_value = "block-4x16")]
         like: String,
@@ -61,8 +65,11 @@ enum What {
     /// Begin a scene's file with all that ships, and its schema beside it
     #[command(after_help = "Example:\n  taxel config scene calm.toml")]
     Scene {
-        /// The file to write; it must not be there yet
+        /// The file to write
         file: PathBuf,
+        /// Whether it is replaced.
+        #[command(flatten)]
+        force: Force,
     },
     /// Check a garment's file, and a scene's with it; errors name line and key
     #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
@@ -85,14 +92,16 @@ enum What {
 /// Runs the command.
 pub fn run(args: &ConfigArgs) -> Result<()> {
     match &args.what {
-        What::New { file, like } => {
+        What::New { file, force, like } => {
             let text = garments::text(&sim::garment(like)?, &format!("Like {like}. {}", next(file, "")))?;
-            begin(file, Kind::Garment, &text)
+            begin(Output::file(file, *force, [like])?, *force, Kind::Garment, &text)
         }
-        What::Scene { file } => {
+        What::Scene { file, force } => {
             let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
             let comment = format!("# As it ships; what is left out stays so. {next}\n");
-            begin(file, Kind::Scene, &(comment + &scene::text()?))
+            let none: [&Path; 0] = [];
+            let output = Output::file(file, *force, none)?;
+            begin(output, *force, Kind::Scene, &(comment + &scene::text()?))
         }
         What::Check { file, scene } => {
             println!("{}", check(file, scene.as_deref())?);
@@ -109,14 +118,15 @@ fn next(file: &Path, more: &str) -> String {
     format!("Change it, then: taxel config check {}{more}", file.display())
 }
 
-/// Writes a file that is not there yet, and its schema beside it.
-fn begin(file: &Path, kind: Kind, text: &str) -> Result<()> {
-    ensure!(!file.exists(), "{} is there already: give another name, or remove it", file.display());
-    // Editors look for `#:schema` in the first line.
-    let text = format!("#:schema ./{}\n{text}", kind.schema_file());
-    fs::write(file, text).with_context(|| format!("{} cannot be written", file.display()))?;
+/// Writes a file, and its schema beside it.
+fn begin(output: Output, force: Force, kind: Kind, text: &str) -> Result<()> {
+    let file = output.name().to_path_buf();
     let schema = file.with_file_name(kind.schema_file());
-    fs::write(&schema, kind.schema()).with_context(|| format!("{} cannot be written", schema.display()))?;
+    let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
+    let beside = (!is_known).then(|| Output::file(&schema, force, [&file])).transpose()?;
+    // Editors look for `#:schema` in the first line.
+    output.write(format!("#:schema ./{}\n{text}", kind.schema_file()).as_bytes())?;
+    beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
     println!("{} and {} are written.", file.display(), schema.display());
     Ok(())
 }

@@ -93,5 +93,6 @@ fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Resul
 
 #[cfg(feature = "lerobot")]
 fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
-    lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, &args.output)
+    let folder = Folder::begin(&args.output, args.force, &args.files, lerobot::is_ours)?;
+    lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, folder)
 }

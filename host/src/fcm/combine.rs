@@ -5,9 +5,10 @@ use super::board::BoardMap;
 use super::load;
 use super::map::MapFile;
 use super::unite::{Shared, United, unite};
-use anyhow::{Context, Result};
+use crate::output::{Force, Output, tell};
+use anyhow::Result;
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `taxel fcm combine`.
 #[derive(Debug, Clone, clap::Args)]
@@ -18,6 +19,9 @@ pub struct CombineArgs {
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// How the fuzzy sets of an edge's weights are aggregated before the centroid is taken
     #[arg(long, value_enum, default_value = "sum")]
     pub how: Aggregation,
@@ -35,6 +39,9 @@ pub struct MergeArgs {
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Aggregate weights that differ, instead of refusing them
     #[arg(long, value_enum)]
     pub combine: Option<Aggregation>,
@@ -45,27 +52,26 @@ pub struct MergeArgs {
 
 /// Runs `combine`: who knows both concepts and draws no edge says `none`.
 pub fn combine(args: CombineArgs) -> Result<()> {
-    write(&args.maps, &args.output, Shared::Vote(args.how), args.json)
+    let output = Output::stream(&args.output, args.force, &args.maps)?;
+    write(&args.maps, output, Shared::Vote(args.how), args.json)
 }
 
 /// Runs `merge`: who draws no edge says nothing.
 pub fn merge(args: MergeArgs) -> Result<()> {
-    write(&args.maps, &args.output, args.combine.map_or(Shared::Agree, Shared::Combine), args.json)
+    let output = Output::stream(&args.output, args.force, &args.maps)?;
+    write(&args.maps, output, args.combine.map_or(Shared::Agree, Shared::Combine), args.json)
 }
 
-fn write(paths: &[String], output: &Path, shared: Shared, as_json: bool) -> Result<()> {
+fn write(paths: &[String], output: Output, shared: Shared, as_json: bool) -> Result<()> {
     // Told apart by their files: what experts draw of one thing mostly has one name.
     let named = |path: &String| Ok(MapFile { name: path.clone(), ..load::map(path)? });
     let maps = paths.iter().map(named).collect::<Result<Vec<_>>>()?;
-    let name = output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
-    let united = unite(&maps, name, shared)?;
+    let (name, is_standard) = (load::name(&output)?, output.is_standard());
+    let united = unite(&maps, &name, shared)?;
     BoardMap::build(&united.map)?;
     load::save(&united.map, output)?;
-    if as_json {
-        println!("{}", report(&united));
-    } else {
-        print!("{}", table(&united));
-    }
+    let told = if as_json { format!("{}\n", report(&united)) } else { table(&united).to_string() };
+    tell(is_standard, &told);
     Ok(())
 }
 

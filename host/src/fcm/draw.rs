@@ -7,7 +7,8 @@ use super::layers;
 use super::load;
 use super::map::{EdgeFile, MapFile};
 use super::told::ToldArgs;
-use anyhow::{Context, Result};
+use crate::output::{Force, Output};
+use anyhow::Result;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -20,6 +21,9 @@ pub struct DrawArgs {
     /// File to write (.svg)
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
@@ -40,6 +44,8 @@ const LESS: &str = "#d55e00";
 
 /// Runs the command.
 pub fn run(args: DrawArgs) -> Result<()> {
+    let inputs = args.map.iter().map(PathBuf::from).chain(args.told.files());
+    let output = Output::stream(&args.output, args.force, inputs)?;
     let (map, activations) = match args.told.listen()? {
         Some(told) => {
             let activations = told.report.concepts.iter().map(|value| value.to_f64()).collect();
@@ -51,8 +57,7 @@ pub fn run(args: DrawArgs) -> Result<()> {
             (map, activations)
         }
     };
-    let place = || format!("{}: cannot be written", args.output.display());
-    std::fs::write(&args.output, svg(&map, activations.as_deref())).with_context(place)
+    output.write(svg(&map, activations.as_deref()).as_bytes())
 }
 
 fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {

@@ -5,6 +5,7 @@ use super::load;
 use super::map::MapFile;
 use super::search::{Judged, judge, search};
 use super::touches::{self, Touches};
+use crate::output::{Force, Output, tell};
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -20,6 +21,9 @@ pub struct LearnArgs {
     /// File to write
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Parts of the cross-validation: groups, if the file has them
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u8).range(2..=100))]
     pub folds: u8,
@@ -43,15 +47,18 @@ pub struct Learned {
 
 /// Runs the command.
 pub fn run(args: LearnArgs) -> Result<()> {
+    let inputs = [PathBuf::from(&args.map), args.touches.clone()];
+    let output = Output::stream(&args.output, args.force, inputs)?;
+    let is_standard = output.is_standard();
     let file = load::map(&args.map)?;
     let touches = touches::read(&args.touches, &file, &BoardMap::build(&file)?)?;
     let learned = learn(&file, &touches, args.folds.into())?;
-    load::save(&learned.map, &args.output)?;
-    if args.json {
-        println!("{}", report(&file, &touches, &learned));
-    } else {
-        print!("{}", text(&file, &touches, &learned));
-    }
+    load::save(&learned.map, output)?;
+    let told = match args.json {
+        true => format!("{}\n", report(&file, &touches, &learned)),
+        false => text(&file, &touches, &learned),
+    };
+    tell(is_standard, &told);
     Ok(())
 }
 

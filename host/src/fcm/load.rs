@@ -4,6 +4,7 @@ use super::decimal::Decimal;
 use super::map::MapFile;
 use super::wrong;
 use crate::fault::Fault;
+use crate::output::Output;
 use crate::words;
 use anyhow::{Context, Result, anyhow, bail};
 use std::borrow::Cow;
@@ -44,9 +45,17 @@ pub fn parse(text: &str, place: &str) -> Result<MapFile> {
 }
 
 /// Writes a map.
-pub fn save(map: &MapFile, path: &Path) -> Result<()> {
-    let text = toml::to_string(map).context("the map cannot be written")?;
-    std::fs::write(path, text).with_context(|| format!("{}: cannot be written", path.display()))
+pub fn save(map: &MapFile, output: Output) -> Result<()> {
+    output.write(toml::to_string(map).context("the map cannot be written")?.as_bytes())
+}
+
+/// The name of a map that is written there: that of the file.
+pub fn name(output: &Output) -> Result<String> {
+    if output.is_standard() {
+        return Ok("map".into());
+    }
+    let stem = output.name().file_stem().and_then(|stem| stem.to_str());
+    Ok(stem.context("--output names no file")?.into())
 }
 
 /// `NAME=VALUE` with a value in -1 ..= 1.

@@ -7,6 +7,7 @@ use super::member::InputFile;
 use super::run::{lambda, threshold, transfer};
 use super::terms;
 use super::weight::Weight;
+use crate::output::{Force, Output, tell};
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{BufRead, IsTerminal, Write};
 use std::path::PathBuf;
@@ -18,19 +19,25 @@ pub struct NewArgs {
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// Runs the command.
 pub fn run(args: NewArgs) -> Result<()> {
-    let name = args.output.file_stem().and_then(|stem| stem.to_str()).context("--output names no file")?;
+    let none: [&PathBuf; 0] = [];
+    let output = Output::stream(&args.output, args.force, none)?;
+    let (name, is_standard) = (load::name(&output)?, output.is_standard());
     let input = std::io::stdin();
     let patient = input.is_terminal();
     // A script is not asked.
     let questions: Box<dyn Write> =
         if patient { Box::new(std::io::stderr()) } else { Box::new(std::io::sink()) };
-    let map = Dialog { answers: input.lock(), questions, patient, line: 0 }.map(name)?;
-    load::save(&map, &args.output)?;
-    println!("{}: {} concepts, {} edges", args.output.display(), map.concept.len(), map.edge.len());
+    let map = Dialog { answers: input.lock(), questions, patient, line: 0 }.map(&name)?;
+    load::save(&map, output)?;
+    let (file, concepts, edges) = (args.output.display(), map.concept.len(), map.edge.len());
+    tell(is_standard, &format!("{file}: {concepts} concepts, {edges} edges\n"));
     Ok(())
 }
 

@@ -31,6 +31,11 @@ pub struct ToldArgs {
 }
 
 impl ToldArgs {
+    /// Names of the files that are read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.source.iter().filter_map(SourceSpec::file).chain(self.scene.clone()).collect()
+    }
+
     /// What the source tells; none where none is given.
     pub fn listen(self) -> Result<Option<Told>> {
         let Some(source) = self.source else { return Ok(None) };

@@ -2,6 +2,7 @@
 
 use super::{GestureModel, TaxelPlace, feed};
 use crate::calibrate::Calibration;
+use crate::output::Force;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use anyhow::Result;
 use clap::Args;
@@ -64,6 +65,13 @@ impl BoardArgs {
         }
     }
 
+    /// Names of the files that are read, among them such that may be no files: no output may replace them.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let named = [self.garment.clone().map(PathBuf::from), self.source.file()];
+        let told = [&self.scene, &self.calibration, &self.shapes].map(Clone::clone);
+        named.into_iter().chain(told).flatten().collect()
+    }
+
     /// Opens the source, and the calibration where there is one; the source is then of its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
         let mut source = source::open(&self.source, &SourceOptions { seed: self.seed, ..options })?;
@@ -95,6 +103,9 @@ pub struct LiveArgs {
     /// Also save the received bytes, for --source file:FILE
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
@@ -121,6 +132,7 @@ impl LiveArgs {
             json: false,
             pixels: false,
             save: None,
+            force: Force::default(),
             taxel: None,
             realtime: false,
             svg: None,

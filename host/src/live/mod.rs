@@ -27,6 +27,7 @@ pub use view::View;
 pub use watch::watch;
 
 use crate::client::{Client, Event};
+use crate::output::Output;
 use crate::source::SourceOptions;
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
@@ -70,7 +71,8 @@ pub fn run(args: LiveArgs) -> Result<()> {
     let (source, calibration) = args.board.open(options)?;
     let out = std::io::BufWriter::new(stdout());
     let mut show: Box<dyn Show> = if let Some(file) = &args.svg {
-        Box::new(svg::Painter::new(View::new(&source), file.clone()))
+        let inputs = args.board.files().into_iter().chain(args.save.clone());
+        Box::new(svg::Painter::new(View::new(&source), Output::stream(file, args.force, inputs)?))
     } else if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {

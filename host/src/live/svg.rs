@@ -2,12 +2,12 @@
 
 use super::{Show, View};
 use crate::client::{Client, Event};
-use anyhow::{Context, Result};
+use crate::output::Output;
+use anyhow::Result;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 /// A character cell, SVG units.
 const CELL: [u32; 2] = [8, 16];
@@ -19,13 +19,14 @@ const SIZE: [u16; 2] = [100, 40];
 /// Draws the last picture into a file.
 pub struct Painter {
     view: View,
-    file: PathBuf,
+    /// Taken at the end.
+    output: Option<Output>,
 }
 
 impl Painter {
     /// Of a view.
-    pub fn new(view: View, file: PathBuf) -> Painter {
-        Painter { view, file }
+    pub fn new(view: View, output: Output) -> Painter {
+        Painter { view, output: Some(output) }
     }
 }
 
@@ -38,8 +39,7 @@ impl Show for Painter {
     fn end(&mut self, client: &Client) -> Result<()> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, SIZE[0], SIZE[1]));
         self.view.draw(client, &mut buffer);
-        std::fs::write(&self.file, picture(&buffer))
-            .with_context(|| format!("{} cannot be written", self.file.display()))
+        self.output.take().map_or(Ok(()), |output| output.write(picture(&buffer).as_bytes()))
     }
 }
 

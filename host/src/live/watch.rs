@@ -6,6 +6,7 @@ use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews};
 use crate::clock::SteadyTime;
 use crate::fault::{Blame, Fault};
+use crate::output::Output;
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
 use crate::source::Source;
@@ -13,7 +14,7 @@ use crate::verbose;
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
@@ -32,7 +33,7 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         codes: args.taxel.is_some(),
         ended: false,
     };
-    let mut save = args.save.as_ref().map(Saver::open).transpose()?;
+    let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let limited = args.frames.is_some() || args.seconds.is_some();
     let mut patience = Patience { limited, asked: Instant::now(), times: 0 };
     let time = SteadyTime::start();
@@ -171,9 +172,9 @@ struct Saver {
 }
 
 impl Saver {
-    fn open(path: &PathBuf) -> Result<Saver> {
-        let file = File::create(path).with_context(|| format!("{} cannot be written", path.display()))?;
-        Ok(Saver { file, path: path.clone() })
+    fn open(path: &Path, args: &LiveArgs) -> Result<Saver> {
+        let file = Output::file(path, args.force, args.board.files())?.begin()?;
+        Ok(Saver { file, path: path.into() })
     }
 
     fn write(&mut self, bytes: &[u8]) -> Result<()> {

@@ -59,6 +59,15 @@ mod scratch;
 #[cfg(test)]
 mod tests;
 
+/// Prints what a command has to say besides its output: on the standard error where the output is the standard output.
+pub fn tell(is_standard: bool, text: &str) {
+    if is_standard {
+        eprint!("{text}");
+    } else {
+        print!("{text}");
+    }
+}
+
 pub use draft::Draft;
 pub use file::Output;
 pub use folder::Folder;

@@ -4,6 +4,7 @@ use super::limit::Rotate;
 use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
 use crate::live::{self, BoardArgs, LiveArgs};
+use crate::output::Force;
 use crate::source::SourceOptions;
 use crate::stop;
 use anyhow::Result;
@@ -31,9 +32,9 @@ pub struct RecordArgs {
     /// Start a new file (FILE-0002.mcap, ...) after a time or a size: 10min, 1GB
     #[arg(long, value_name = "LIMIT")]
     pub rotate: Option<Rotate>,
-    /// Overwrite existing files
-    #[arg(long)]
-    pub force: bool,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Also record the converter's raw code of every taxel
     #[arg(long)]
     pub raw: bool,
@@ -57,7 +58,8 @@ pub fn run(args: RecordArgs) -> Result<()> {
         path: args.output,
         rotate: args.rotate,
         ros2: args.ros2,
-        force: args.force,
+        force: args.force.force,
+        inputs: args.board.files(),
         origin: Origin {
             label: source.label.clone(),
             counts_per_newton: source.counts_per_newton,

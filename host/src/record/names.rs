@@ -1,5 +1,6 @@
 //! Names of files and topics.
 
+use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 
 /// The file of a number, from 1: the first as it was named, then `NAME-0002.mcap`, `NAME-0003.mcap`.
@@ -11,6 +12,27 @@ pub fn numbered(path: &Path, number: u32) -> PathBuf {
     let (stem, extension) = (part(path.file_stem()), part(path.extension()));
     let dot = if extension.is_empty() { "" } else { "." };
     path.with_file_name(format!("{stem}-{number:04}{dot}{extension}"))
+}
+
+/// Refuses a name of which files exist that were numbered: a recording in several files would come upon them.
+pub fn are_free(path: &Path) -> Result<()> {
+    let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let begins = format!("{}-", part(path.file_stem()));
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    // A folder that cannot be read says so when the file is begun.
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let number = name.strip_prefix(&begins).and_then(|rest| rest.split('.').next()?.parse::<u32>().ok());
+        let is_one = |number| {
+            let file = numbered(path, number);
+            number > 1
+                && [&file, &beside(&file)].iter().any(|file| file.file_name() == Some(&entry.file_name()))
+        };
+        if number.is_some_and(is_one) {
+            bail!("{} already exists: give another name, or --force to replace it", entry.path().display());
+        }
+    }
+    Ok(())
 }
 
 /// The file with ROS 2's messages beside a recording: `NAME.ros2.mcap`.

@@ -2,7 +2,7 @@
 
 use super::file::{NS, RecordingFile};
 use super::limit::Rotate;
-use super::names::{beside, numbered};
+use super::names::{self, beside, numbered};
 use super::progress::Progress;
 use super::provenance::{self, Origin};
 use super::stamps::{Stamp, Stamps};
@@ -10,10 +10,11 @@ use super::standing::{self, Standing};
 use super::tally::{COUNTS, Tally};
 use crate::client::{Client, Event, Worn};
 use crate::live::Show;
+use crate::output::{Force, Output};
 use crate::progress::{self, Unit};
 use crate::stop;
-use anyhow::{Context, Result, bail};
-use std::fs::{File, OpenOptions};
+use anyhow::{Context, Result};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel_core::wire::{self, Request};
@@ -35,8 +36,10 @@ pub struct Plan {
     pub rotate: Option<Rotate>,
     /// Also as ROS 2's messages.
     pub ros2: bool,
-    /// Files that are there already are written over.
+    /// Files that exist are replaced.
     pub force: bool,
+    /// Files that are read meanwhile: they are never replaced.
+    pub inputs: Vec<PathBuf>,
     /// Where it comes from.
     pub origin: Origin,
     /// Raw codes are asked for, too.
@@ -67,6 +70,9 @@ pub struct Recorder {
 impl Recorder {
     /// Begins the first file.
     pub fn create(plan: Plan) -> Result<Recorder> {
+        if plan.rotate.is_some() && !plan.force {
+            names::are_free(&plan.path)?;
+        }
         Ok(Recorder {
             file: Some(begin(&plan, &plan.path)?),
             path: plan.path.clone(),
@@ -189,21 +195,13 @@ fn attach(plan: &Plan, worn: Option<&Worn>, file: &mut RecordingFile<File>, stam
     provenance::attach(&mut file.writer, worn, &plan.origin, stamp.host_us * NS)
 }
 
-/// Begins a file, and the one beside it.
+/// Begins a file, and the one beside it. Both have their names from the start: a crash leaves what was written.
 fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
-    let store = create(plan, path)?;
-    let ros2 = plan.ros2.then(|| create(plan, &beside(path))).transpose()?;
-    RecordingFile::create(store, ros2).with_context(|| format!("{} cannot be written", path.display()))
-}
-
-/// A file, which must not be there unless it may be written over.
-fn create(plan: &Plan, path: &Path) -> Result<File> {
-    if !plan.force && path.exists() {
-        bail!("{} is there already: give another name, or --force", path.display());
-    }
-    let mut options = OpenOptions::new();
-    options.write(true).create(true).truncate(true);
-    options.open(path).with_context(|| format!("{} cannot be written", path.display()))
+    let output = |path: &Path| Output::file(path, Force { force: plan.force }, &plan.inputs);
+    let main = output(path)?;
+    let ros2 = plan.ros2.then(|| output(&beside(path))?.begin()).transpose()?;
+    RecordingFile::create(main.begin()?, ros2)
+        .with_context(|| format!("{} cannot be written", path.display()))
 }
 
 impl Show for Recorder {

@@ -38,7 +38,8 @@ const WATCHED: f64 = 10.0;
 
 /// Runs the command.
 pub fn run(args: ReportArgs) -> Result<()> {
-    let output = Output::stream(&args.output, args.force, &args.file)?;
+    let inputs = args.file.clone().into_iter().chain(args.source.as_ref().and_then(SourceSpec::file));
+    let output = Output::stream(&args.output, args.force, inputs)?;
     let seen = match (&args.file, args.source) {
         (Some(path), _) => recorded(path, args.seconds)?,
         (None, Some(spec)) => watched(spec, args.seconds)?,

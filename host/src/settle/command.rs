@@ -3,6 +3,7 @@
 use super::search::{Scanner, Settled, settle};
 use crate::fault::Fault;
 use crate::garments;
+use crate::output::{Force, Output};
 use crate::raw::RawBoard;
 use crate::sim::{self, FULL_SCALE};
 use crate::source::SourceSpec;
@@ -33,6 +34,9 @@ pub struct SettleArgs {
     /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Also save it to the board's flash, as `taxel save` does
     #[arg(long)]
     pub save: bool,
@@ -70,6 +74,8 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     if !args.error.is_finite() || !(0.5..=400.0).contains(&args.error) {
         bail!(Fault::usage("--error must be 0.5 to 400 counts"));
     }
+    let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
+    let output = args.output.as_ref().map(|name| Output::stream(name, args.force, inputs)).transpose()?;
     let given = args.garment.as_deref().map(sim::garment).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
     let mut garment = given.unwrap_or_else(|| board.garment().clone());
@@ -87,14 +93,14 @@ pub fn run(args: &SettleArgs) -> Result<()> {
         board.ask(&Request::Save)?;
     }
     tell(args, before_ns, &settled, &garment)?;
-    if args.json && args.output.is_none() {
+    if args.json && output.is_none() {
         return Ok(());
     }
     let comment = format!(
         "Settling found by taxel settle: {:.1} counts are left of a full-scale step.",
         settled.residue_counts
     );
-    garments::write(&garment, &comment, args.output.as_deref())
+    garments::write(&garment, &comment, output)
 }
 
 /// `garment` has the settling that was found.

@@ -6,6 +6,7 @@ use super::solver::{Found, Next, Solver};
 use super::touch::Touch;
 use super::user::User;
 use crate::fault::Fault;
+use crate::output::{Force, Output};
 use crate::raw::RawBoard;
 use crate::source::SourceSpec;
 use crate::{garments, sim};
@@ -31,6 +32,9 @@ pub struct SetupArgs {
     /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
     /// Seconds of the board to wait for a touch
     #[arg(long, value_name = "S", default_value_t = 20.0)]
     pub wait: f64,
@@ -82,16 +86,18 @@ pub fn run(args: &SetupArgs) -> Result<()> {
     if !args.wait.is_finite() || args.wait <= 0.0 {
         bail!(Fault::usage("--wait must be a time above 0"));
     }
+    let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
+    let output = args.output.as_ref().map(|name| Output::stream(name, args.force, inputs)).transpose()?;
     let found = match args.simulate {
         Some(seed) => simulated(args, seed)?,
         None => on_a_board(args)?,
     };
     let comment =
         "Found by touch: taxel setup. What it does not know (names, pitch, seams) is as it was given.";
-    if args.json && args.output.is_none() {
+    if args.json && output.is_none() {
         return Ok(());
     }
-    garments::write(&found.garment, comment, args.output.as_deref())
+    garments::write(&found.garment, comment, output)
 }
 
 fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {

@@ -3,6 +3,7 @@
 use super::train::Known;
 use super::view::View;
 use crate::fault::Fault;
+use crate::output::Output;
 use crate::words;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
@@ -175,8 +176,8 @@ impl Base {
     }
 
     /// Writes the file.
-    pub fn save(&self, path: &Path) -> Result<()> {
-        std::fs::write(path, self.text()?).with_context(|| format!("{}: cannot be written", path.display()))
+    pub fn save(&self, output: Output) -> Result<()> {
+        output.write(self.text()?.as_bytes())
     }
 
     /// Names of the classes.

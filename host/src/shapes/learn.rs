@@ -7,6 +7,7 @@ use super::view::ViewArgs;
 use crate::arrays;
 use crate::learn::fingerprint::Fingerprint;
 use crate::live::{self, BoardArgs, LiveArgs, seconds};
+use crate::output::{Force, Output, is_same};
 use crate::source::{SourceOptions, SourceSpec};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
@@ -41,11 +42,15 @@ pub struct LearnArgs {
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// Runs the command.
 pub fn run(args: LearnArgs) -> Result<()> {
     check_name(&args.name)?;
+    let output = output(&args)?;
     let mut base = match &args.base {
         Some(base) => Base::open(base)?,
         None if args.output.exists() => Base::open(&args.output)?,
@@ -57,7 +62,7 @@ pub fn run(args: LearnArgs) -> Result<()> {
     };
     let added = extend(&mut base, &args.name, &points, args.prototypes)?;
     base.trained_on.push(source);
-    base.save(&args.output)?;
+    base.save(output)?;
     let (file, name) = (args.output.display(), &args.name);
     eprintln!("{file}: {added} prototypes of {name} from {} touches", points.len());
     let count = base.gallery.prototypes.len();
@@ -65,6 +70,15 @@ pub fn run(args: LearnArgs) -> Result<()> {
         eprintln!("{:.0} % of {count} are known by the others", 100.0 * base.card.accuracy);
     }
     Ok(())
+}
+
+/// The file to write. A base that gets more is read whole before, and may be replaced.
+fn output(args: &LearnArgs) -> Result<Output> {
+    let extends = args.base.as_ref().is_none_or(|base| is_same(base, &args.output));
+    let force = Force { force: args.force.force || extends };
+    let base = args.base.iter().filter(|_| !extends);
+    let inputs = base.chain(&args.images).cloned().chain(args.board.files());
+    Output::file(&args.output, force, inputs)
 }
 
 /// A place for each image of a file on which something touches.

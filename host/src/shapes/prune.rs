@@ -2,6 +2,7 @@
 
 use super::base::Base;
 use super::train::Known;
+use crate::output::{Force, Output};
 use anyhow::Result;
 use std::path::PathBuf;
 use taxel_core::shape::{Exemplar, Point};
@@ -14,15 +15,19 @@ pub struct PruneArgs {
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// Runs the command.
 pub fn run(args: PruneArgs) -> Result<()> {
+    let output = Output::stream(&args.output, args.force, [&args.base])?;
     let mut base = Base::open(&args.base)?;
     let before = base.gallery.prototypes.len();
     prune(&mut base.gallery);
     base.card.split += ", before pruning";
-    base.save(&args.output)?;
+    base.save(output)?;
     eprintln!("{}: {} of {before} prototypes", args.output.display(), base.gallery.prototypes.len());
     Ok(())
 }

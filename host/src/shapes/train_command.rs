@@ -7,6 +7,7 @@ use super::train::Recipe;
 use super::trained::trained;
 use crate::learn::confusion::Confusion;
 use crate::learn::fingerprint::Fingerprint;
+use crate::output::{Force, Output};
 use anyhow::{Result, ensure};
 use std::path::PathBuf;
 use taxel_core::shape::{GALLERY_CLASSES, GALLERY_PROTOTYPES, Recognised};
@@ -23,6 +24,9 @@ pub struct TrainArgs {
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// How to learn, on the command line.
@@ -63,10 +67,12 @@ impl RecipeArgs {
 
 /// Runs the command.
 pub fn run(args: TrainArgs) -> Result<()> {
+    let inputs = [Some(&args.images.images), args.images.labels.as_ref()];
+    let output = Output::stream(&args.output, args.force, inputs.into_iter().flatten())?;
     eprintln!("reading {}", args.images.images.display());
     let examples = args.images.read(None)?;
     let base = train(&args.images, &examples, &args.recipe.recipe())?;
-    base.save(&args.output)?;
+    base.save(output)?;
     let gallery = &base.gallery;
     eprintln!(
         "{}: {} classes, {} prototypes in {} dimensions from {} images; {:.1} % right in {}",

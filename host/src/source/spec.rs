@@ -46,6 +46,15 @@ impl SourceSpec {
     pub fn simulation() -> SourceSpec {
         SourceSpec::Sim(SCENE.into())
     }
+
+    /// The file that it names, if it names one: no output may replace it.
+    pub fn file(&self) -> Option<PathBuf> {
+        match self {
+            SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Some(path.clone()),
+            SourceSpec::Sim(scene) | SourceSpec::Emulator(scene) => Some(scene.into()),
+            _ => None,
+        }
+    }
 }
 
 impl FromStr for SourceSpec {

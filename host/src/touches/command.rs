@@ -6,7 +6,8 @@ use super::model::{Course, Provenance, Settings, read, train};
 use super::nested::nested;
 use super::report::Report;
 use crate::fault::Fault;
-use anyhow::{Context, Result, ensure};
+use crate::output::{Force, Output};
+use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use taxel_core::gesture::{Model, Shipped};
@@ -31,6 +32,17 @@ pub struct TrainArgs {
     /// File to write
     #[arg(short, long, value_name = "MODEL")]
     pub output: PathBuf,
+    /// Whether the output is replaced.
+    #[command(flatten)]
+    pub force: Force,
+}
+
+impl TrainArgs {
+    /// The model that is going to be written.
+    pub fn output(&self) -> Result<Output> {
+        let inputs = [Some(&self.files.frames), self.files.labels.as_ref()];
+        Output::file(&self.output, self.force, inputs.into_iter().flatten())
+    }
 }
 
 /// Arguments of `eval`, where `C` names what may be kept apart.
@@ -66,7 +78,7 @@ pub struct Task {
 
 impl Task {
     /// Trains on all touches and writes the model.
-    pub fn train(&self, data: &Data, output: &Path) -> Result<()> {
+    pub fn train(&self, data: &Data, output: Output) -> Result<()> {
         eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
         let mut courses = Vec::new();
         for (number, touch) in data.touches.iter().enumerate() {
@@ -77,8 +89,9 @@ impl Task {
         }
         let examples: Vec<_> = courses.iter().map(|(course, class)| (course, *class)).collect();
         let bytes = train(data, &examples, &self.settings)?;
-        std::fs::write(output, &bytes).with_context(|| format!("{}: cannot be written", output.display()))?;
-        eprintln!("{}: {} bytes", output.display(), bytes.len());
+        let name = output.name().display().to_string();
+        output.write(&bytes)?;
+        eprintln!("{name}: {} bytes", bytes.len());
         Ok(())
     }
 

@@ -115,12 +115,12 @@ fn bad_maps_are_refused_by_name() {
 fn maps_are_made_of_maps() {
     let at = |name: &str| file(name, b"");
     let (ours, both, taught, drawn) = (at("ours.toml"), at("both.toml"), at("taught.toml"), at("map.svg"));
-    let combined = json(&["fcm", "combine", "tactile", "tactile", "-o", &ours, "--json"]);
+    let combined = json(&["fcm", "combine", "tactile", "tactile", "--force", "-o", &ours, "--json"]);
     assert_eq!(
         (combined["map"].as_str(), combined["edges"].as_array().map(Vec::len)),
         (Some("ours"), Some(24))
     );
-    let merged = json(&["fcm", "merge", &ours, "shape", "-o", &both, "--json"]);
+    let merged = json(&["fcm", "merge", &ours, "shape", "--force", "-o", &both, "--json"]);
     assert_eq!(merged["concepts"].as_array().map(Vec::len), Some(16));
     assert!(
         merged["conflicts"][0].as_str().is_some_and(|said| said.starts_with("lambda of shape")),
@@ -151,10 +151,21 @@ fn maps_are_made_of_maps() {
     assert!(attack(&why) > 0.9 && attack(&why["what_if"]) < 0.5, "{why}");
     let touches =
         file("touches.csv", b"press,time,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n");
-    let learned =
-        json(&["fcm", "learn", "tactile", "--touches", &touches, "-o", &taught, "--folds", "2", "--json"]);
+    let learned = json(&[
+        "fcm",
+        "learn",
+        "tactile",
+        "--touches",
+        &touches,
+        "--force",
+        "-o",
+        &taught,
+        "--folds",
+        "2",
+        "--json",
+    ]);
     assert_eq!((learned["touches"].as_u64(), learned["after"]["accuracy"].as_f64()), (Some(4), Some(1.0)));
-    answer(&["fcm", "draw", &taught, "-o", &drawn, "--input", "press=0.5"]);
+    answer(&["fcm", "draw", &taught, "--force", "-o", &drawn, "--input", "press=0.5"]);
     assert!(std::fs::read_to_string(&drawn).unwrap().ends_with("</svg>\n"));
     let run = json(&["fcm", &taught, "--input", "shape=1", "--json"]);
     assert_eq!(run["f64"]["outcome"], "fixed");
@@ -163,18 +174,18 @@ fn maps_are_made_of_maps() {
         &["fcm", "check", &broken][..],
         &["fcm", &broken],
         &["fcm", "why", &broken],
-        &["fcm", "draw", &broken, "-o", &drawn],
+        &["fcm", "draw", &broken, "--force", "-o", &drawn],
     ] {
         refused(1, command, &["broken.toml, line 3"]);
     }
     refused(
         1,
-        &["fcm", "new", "-o", &at("new.toml")],
+        &["fcm", "new", "--force", "-o", &at("new.toml")],
         &["line 1: the answers end before the map is complete"],
     );
     refused(
         1,
-        &["fcm", "learn", "tactile", "--touches", "/no/such.csv", "-o", &taught],
+        &["fcm", "learn", "tactile", "--touches", "/no/such.csv", "--force", "-o", &taught],
         &["/no/such.csv", "cannot be read"],
     );
 }
@@ -273,7 +284,7 @@ fn a_broken_pipe_is_quiet() {
 #[test]
 fn a_garment_is_set_up_by_touch() {
     let output = file("touched.toml", b"");
-    let said = run(&["setup", "--simulate", "7", "--json", "-o", &output]);
+    let said = run(&["setup", "--simulate", "7", "--json", "--force", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let lines: Vec<Value> = String::from_utf8(said.stdout)
         .unwrap()
@@ -311,7 +322,7 @@ fn nobody_touches_and_nothing_is_claimed() {
 fn settling_is_found_and_written() {
     let weights = concat!("sim:", env!("CARGO_MANIFEST_DIR"), "/../examples/scenes/weights.toml");
     let output = file("settled.toml", b"");
-    let said = run(&["settle", "--source", weights, "--json", "-o", &output]);
+    let said = run(&["settle", "--source", weights, "--json", "--force", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
     // 800 ns and 4 of 4,095 counts: 5,545 ns, three conversions; a second round of the four inputs takes less time than a slower pace.
@@ -342,7 +353,7 @@ fn a_board_is_set_up_by_touch() {
     }
     let source = format!("sim:{}", file("nine.toml", script.as_bytes()));
     let output = file("found.toml", b"");
-    let said = run(&["setup", "--source", &source, "--json", "-o", &output]);
+    let said = run(&["setup", "--source", &source, "--json", "--force", "-o", &output]);
     assert!(
         said.status.success(),
         "{}{}",

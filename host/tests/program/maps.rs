@@ -81,7 +81,7 @@ fn a_name_that_is_no_map_is_wrong_use() {
 fn experts_are_told_apart_by_their_files() {
     let (anna, ben) = (file("anna.toml", MAP), file("ben.toml", &MAP.replace("0.5", "-0.25")));
     let ours = file("ours.toml", "");
-    let output = taxel(&["fcm", "combine", &anna, &ben, "-o", &ours]);
+    let output = taxel(&["fcm", "combine", &anna, &ben, "--force", "-o", &ours]);
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(table.contains(&format!("0.5 ({anna}), -0.25 ({ben}); SIGNS CONFLICT")), "{table}");
     assert!(table.ends_with("ours: 2 concepts, 1 edges\n"), "{table}");

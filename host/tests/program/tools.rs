@@ -70,7 +70,7 @@ fn a_garment_file_is_begun_and_checked() {
     let garment = file("mine.toml");
     let name = garment.to_str().unwrap();
     said(&["config", "new", name, "--like", "reference"]);
-    assert!(refused(1, &["config", "new", name]).contains("is there already"));
+    assert!(refused(1, &["config", "new", name]).contains("already exists"));
     let text = std::fs::read_to_string(&garment).unwrap();
     assert!(text.starts_with("#:schema ./taxel-garment.schema.json\n"), "{text}");
     let schema = std::fs::read_to_string(garment.with_file_name("taxel-garment.schema.json")).unwrap();

@@ -5,6 +5,7 @@ use super::stage::{Seen, file, plan, record};
 use serde_json::json;
 use std::num::NonZeroU16;
 use taxel::export::{ExportArgs, Form, run};
+use taxel::output::Force;
 
 const FPS: u16 = 50;
 
@@ -32,7 +33,14 @@ fn every_row_is_the_image_of_its_time() {
     let _ = std::fs::remove_dir_all(&folder);
     let args = ExportArgs::of(names.map(file).to_vec(), Form::Lerobot, folder.clone());
     let task = "pat the robot".to_string();
-    run(ExportArgs { counts: true, fps: NonZeroU16::new(FPS).unwrap(), task, ..args }).unwrap();
+    run(ExportArgs {
+        counts: true,
+        force: Force { force: true },
+        fps: NonZeroU16::new(FPS).unwrap(),
+        task,
+        ..args
+    })
+    .unwrap();
     let found = read("lerobot", &folder);
     let rows: Vec<Vec<&[u16]>> = seen.iter().map(rows).collect();
     assert_eq!(found["lengths"], json!(rows.iter().map(Vec::len).collect::<Vec<_>>()));

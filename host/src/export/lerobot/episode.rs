@@ -5,16 +5,17 @@ use super::parquet::{Table, Values};
 use super::sampler::Sampler;
 use super::stats;
 use crate::export::frames::Frame;
+use crate::output::Folder;
 use anyhow::{Result, ensure};
 use std::num::NonZeroU16;
-use std::path::PathBuf;
 
 /// Rows that are written at a time.
 const ROWS: usize = 256;
 
 /// An episode being written.
-pub struct Episode {
-    path: PathBuf,
+pub struct Episode<'a> {
+    folder: &'a Folder,
+    path: String,
     number: u64,
     /// Row of the data set with which it begins.
     first: u64,
@@ -34,11 +35,11 @@ struct Open {
     rows: usize,
 }
 
-impl Episode {
+impl Episode<'_> {
     /// Begins the episode of a number, which begins with that row of the data set.
-    pub fn begin(path: PathBuf, [number, first]: [u64; 2], fps: NonZeroU16) -> Episode {
+    pub fn begin(folder: &Folder, path: String, [number, first]: [u64; 2], fps: NonZeroU16) -> Episode<'_> {
         let sampler = Sampler::new(fps);
-        Episode { path, number, first, fps: fps.get().into(), sampler, open: None, length: 0 }
+        Episode { folder, path, number, first, fps: fps.get().into(), sampler, open: None, length: 0 }
     }
 
     /// Takes an image. All recordings have the `known` features.
@@ -61,7 +62,7 @@ impl Episode {
             self.open = Some(Open {
                 names: columns.iter().map(|column| column.name.clone()).collect(),
                 waiting: columns.iter().map(|column| column.kind.none()).collect(),
-                table: Table::create(&self.path, columns, None)?,
+                table: Table::create(self.folder, &self.path, columns, None)?,
                 last: (Vec::new(), 0),
                 rows: 0,
             });

@@ -3,9 +3,10 @@
 use super::features::Features;
 use super::parquet::{Column, Kind, Table, Values};
 use super::{CHUNK, Choices, stats};
+use crate::output::Folder;
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::io::Write;
 
 /// Megabytes of a file above which LeRobot begins another; ours end with their episode.
 const DATA_MB: u32 = 100;
@@ -17,24 +18,24 @@ pub fn data_path(episode: usize) -> String {
 
 /// Writes the folder `meta`; `episodes` are the rows of each.
 pub fn write(
-    folder: &Path,
+    folder: &Folder,
     features: &Features,
     stats: &stats::Table,
     episodes: &[u64],
     choices: &Choices<'_>,
 ) -> Result<()> {
-    let meta = folder.join("meta");
-    tasks(&meta.join("tasks.parquet"), choices.task)?;
-    list(&meta.join("episodes/chunk-000/file-000.parquet"), episodes, choices.task)?;
+    tasks(folder, choices.task)?;
+    list(folder, episodes, choices.task)?;
     let shapes = features.columns().into_iter().map(|column| match column.kind {
         Kind::Floats(shape) => (column.name, shape),
         _ => (column.name, vec![1]),
     });
     let all: serde_json::Map<_, _> =
         shapes.map(|(name, shape)| (name.clone(), stats.of(&name, &shape))).collect();
-    put(&meta.join("stats.json"), &Value::Object(all))?;
+    put(folder, "meta/stats.json", &Value::Object(all))?;
     put(
-        &meta.join("info.json"),
+        folder,
+        "meta/info.json",
         &json!({
             "codebase_version": "v3.0",
             "robot_type": null,
@@ -53,13 +54,15 @@ pub fn write(
     )
 }
 
-fn put(path: &Path, value: &Value) -> Result<()> {
+fn put(folder: &Folder, path: &str, value: &Value) -> Result<()> {
     let text = serde_json::to_string_pretty(value)?;
-    std::fs::write(path, text).with_context(|| format!("{} cannot be written", path.display()))
+    let mut file = folder.file(path)?;
+    let done = file.write_all(text.as_bytes()).and_then(|()| file.flush());
+    done.with_context(|| format!("{path} cannot be written"))
 }
 
 /// The one task. LeRobot reads it with pandas, by its index.
-fn tasks(path: &Path, task: &str) -> Result<()> {
+fn tasks(folder: &Folder, task: &str) -> Result<()> {
     let column = |name: &str, kind| Column { name: name.into(), kind };
     let columns = vec![column("task_index", Kind::Whole), column("task", Kind::Text)];
     let described = |name: &str, pandas: &str, numpy: &str| json!({ "name": name, "field_name": name, "pandas_type": pandas, "numpy_type": numpy, "metadata": null });
@@ -70,13 +73,14 @@ fn tasks(path: &Path, task: &str) -> Result<()> {
         "creator": { "library": "taxel", "version": env!("CARGO_PKG_VERSION") },
         "pandas_version": "2.0.0",
     });
-    let mut table = Table::create(path, columns, Some(["pandas".into(), pandas.to_string()]))?;
+    let mut table =
+        Table::create(folder, "meta/tasks.parquet", columns, Some(["pandas".into(), pandas.to_string()]))?;
     table.rows(&[Values::Whole(vec![0]), Values::Texts(vec![task.into()])])?;
     table.finish()
 }
 
 /// Where each episode lies.
-fn list(path: &Path, episodes: &[u64], task: &str) -> Result<()> {
+fn list(folder: &Folder, episodes: &[u64], task: &str) -> Result<()> {
     let starts = episodes.iter().scan(0, |next, length| Some(std::mem::replace(next, *next + *length)));
     let starts: Vec<i64> = starts.map(|start| start as i64).collect();
     let count = episodes.len();
@@ -98,7 +102,7 @@ fn list(path: &Path, episodes: &[u64], task: &str) -> Result<()> {
     columns.push(Column { name: "tasks".into(), kind: Kind::Texts });
     let mut values: Vec<_> = whole.into_iter().map(|(_, numbers)| Values::Whole(numbers)).collect();
     values.push(Values::Texts(vec![task.into(); count]));
-    let mut table = Table::create(path, columns, None)?;
+    let mut table = Table::create(folder, "meta/episodes/chunk-000/file-000.parquet", columns, None)?;
     table.rows(&values)?;
     table.finish()
 }

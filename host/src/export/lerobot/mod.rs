@@ -23,7 +23,8 @@ mod sampler;
 mod stats;
 
 use super::frames::Frames;
-use anyhow::{Context, Result, ensure};
+use crate::output::Folder;
+use anyhow::{Context, Result};
 use episode::Episode;
 use features::Features;
 use std::num::NonZeroU16;
@@ -42,23 +43,28 @@ pub struct Choices<'a> {
 }
 
 /// Writes the data set of these recordings; the number of rows.
-pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: &Path) -> Result<u64> {
-    let empty = std::fs::read_dir(folder).map_or(!folder.exists(), |mut entries| entries.next().is_none());
-    ensure!(empty, "there is something already: give another folder");
+pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: Folder) -> Result<u64> {
     let mut known: Option<Features> = None;
     let mut stats = stats::Table::default();
     let mut episodes = Vec::new();
     let mut rows = 0;
     for (index, frames) in recordings.iter().enumerate() {
-        let path = folder.join(meta::data_path(index));
+        let path = meta::data_path(index);
         let place = || frames.file().display().to_string();
-        let mut episode = Episode::begin(path, [index as u64, rows], choices.fps);
+        let mut episode = Episode::begin(&folder, path, [index as u64, rows], choices.fps);
         frames.each("exporting", |frame| episode.take(frame, &mut known, &mut stats)).with_context(place)?;
         let length = episode.finish(&mut stats).with_context(place)?;
         episodes.push(length);
         rows += length;
     }
     let features = known.context("no recording is given")?;
-    meta::write(folder, &features, &stats, &episodes, choices)?;
+    meta::write(&folder, &features, &stats, &episodes, choices)?;
+    folder.keep()?;
     Ok(rows)
+}
+
+/// Whether a file of a folder is one of a data set.
+pub fn is_ours(inside: &Path) -> bool {
+    let is_named = |name: &str| inside.extension().is_some_and(|extension| extension == name);
+    (inside.starts_with("data") || inside.starts_with("meta")) && (is_named("parquet") || is_named("json"))
 }

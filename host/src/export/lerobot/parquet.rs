@@ -1,6 +1,7 @@
 //! Tables as Parquet files: columns of numbers, of lists of numbers in lists, of texts.
 
-use anyhow::{Context, Result, bail};
+use crate::output::Folder;
+use anyhow::{Result, bail};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, FloatType, Int64Type};
 use parquet::file::metadata::KeyValue;
@@ -8,7 +9,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
 use std::fs::File;
-use std::path::Path;
+use std::io::BufWriter;
 use std::sync::Arc;
 
 /// What a row of a column holds.
@@ -128,14 +129,17 @@ impl Values {
 /// A file being written.
 pub struct Table {
     columns: Vec<Column>,
-    writer: SerializedFileWriter<File>,
+    writer: SerializedFileWriter<BufWriter<File>>,
 }
 
 impl Table {
-    /// Begins a file, in a folder that is made where it is missing; `note` is a name and what it says to readers.
-    pub fn create(path: &Path, columns: Vec<Column>, note: Option<[String; 2]>) -> Result<Table> {
-        let place = || format!("{} cannot be written", path.display());
-        path.parent().map_or(Ok(()), std::fs::create_dir_all).with_context(place)?;
+    /// Begins a file of the data set; `note` is a name and what it says to readers.
+    pub fn create(
+        folder: &Folder,
+        path: &str,
+        columns: Vec<Column>,
+        note: Option<[String; 2]>,
+    ) -> Result<Table> {
         let types = columns.iter().map(|column| column.kind.column(&column.name, column.kind.shape().len()));
         let types = types.collect::<parquet::errors::Result<_>>()?;
         let schema = Arc::new(Type::group_type_builder("schema").with_fields(types).build()?);
@@ -144,7 +148,7 @@ impl Table {
             .set_created_by(concat!("taxel ", env!("CARGO_PKG_VERSION")).into())
             .set_key_value_metadata(note)
             .build();
-        let file = File::create(path).with_context(place)?;
+        let file = folder.file(path)?;
         Ok(Table { columns, writer: SerializedFileWriter::new(file, schema, Arc::new(properties))? })
     }
 

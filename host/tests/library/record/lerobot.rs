@@ -4,11 +4,15 @@ use super::stage::{file, plan, record};
 use serde_json::Value;
 use std::path::PathBuf;
 use taxel::export::{ExportArgs, Form, run};
+use taxel::output::Force;
 
 fn exported(name: &str, recordings: Vec<PathBuf>) -> anyhow::Result<PathBuf> {
     let folder = file(name);
     let _ = std::fs::remove_dir_all(&folder);
-    run(ExportArgs::of(recordings, Form::Lerobot, folder.clone()))?;
+    run(ExportArgs {
+        force: Force { force: true },
+        ..ExportArgs::of(recordings, Form::Lerobot, folder.clone())
+    })?;
     Ok(folder)
 }
 
@@ -51,7 +55,7 @@ fn a_folder_that_holds_something_is_left_alone() {
     let folder = exported("lerobot-once", vec![file("lerobot-once.mcap")]).unwrap();
     let again = ExportArgs::of(vec![file("lerobot-once.mcap")], Form::Lerobot, folder);
     let error = format!("{:#}", run(again).unwrap_err());
-    assert!(error.ends_with("there is something already: give another folder"), "{error}");
+    assert!(error.contains("is not empty: name another folder, or --force"), "{error}");
     let many = ExportArgs::of(vec![file("a"), file("b")], Form::Npz, file("many.npz"));
     let error = run(many).unwrap_err().to_string();
     assert_eq!(error, "2 recordings: only --to lerobot takes more than one");

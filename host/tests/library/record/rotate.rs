@@ -31,6 +31,9 @@ fn a_file_that_is_there_is_not_written_over() {
     std::fs::write(file("there.mcap"), "precious").unwrap();
     let careful = taxel::record::Plan { force: false, ..plan("there.mcap", "sim", None, false) };
     let error = taxel::record::Recorder::create(careful).unwrap_err().to_string();
-    assert!(error.ends_with("there.mcap is there already: give another name, or --force"), "{error}");
+    assert!(
+        error.ends_with("there.mcap already exists: give another name, or --force to replace it"),
+        "{error}"
+    );
     assert_eq!(std::fs::read(file("there.mcap")).unwrap(), b"precious");
 }
