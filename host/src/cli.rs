@@ -126,7 +126,7 @@ enum Command {
     /// Create and validate garment files
     #[command(after_help = CONFIG)]
     Config(ConfigArgs),
-    /// List the simulated scenes
+    /// List the scripts of touches that a simulation plays
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
     /// Print the completions of this command line for a shell

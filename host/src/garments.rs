@@ -1,8 +1,61 @@
 //! Garments as files.
 
+mod key;
+
+use crate::fault::Fault;
 use crate::output::Output;
-use anyhow::{Context, Result};
-use taxel_core::garment::Garment;
+use crate::{toml_key, verbose, words};
+use anyhow::{Context, Error, Result, anyhow, bail};
+use std::fmt::Display;
+use std::path::Path;
+use taxel_core::garment::{Garment, GarmentError};
+
+/// Names and files of the garments that come with the program.
+const PRESETS: [(&str, &str); 3] = [
+    ("reference", include_str!("../garments/reference.toml")),
+    ("mat-64x32", include_str!("../garments/mat-64x32.toml")),
+    ("block-4x16", include_str!("../garments/block-4x16.toml")),
+];
+
+/// A garment's file, read.
+#[derive(Debug, Clone)]
+pub struct Read {
+    /// What people call the file: its path, or the name of a garment that comes with the program.
+    pub name: String,
+    /// The text of the file, with its comments.
+    pub text: String,
+    /// The garment, not yet checked.
+    pub garment: Garment,
+}
+
+impl Read {
+    /// What is wrong with the garment, with the line of the key that is to be changed.
+    pub fn error(&self, error: &GarmentError) -> Error {
+        self.error_at(&key::key(error, &self.garment), error)
+    }
+
+    /// An error about one of its keys, with its line.
+    pub fn error_at(&self, key: &str, error: impl Display) -> Error {
+        toml_key::error(&self.name, &self.text, key, error)
+    }
+}
+
+/// Reads a garment that comes with the program, or a garment's TOML file. Errors name the file, the line and the key.
+pub fn read(name_or_path: &str) -> Result<Read> {
+    let name = name_or_path.to_string();
+    if let Some((_, text)) = PRESETS.iter().find(|(preset, _)| *preset == name) {
+        return Ok(Read { garment: toml::from_str(text)?, text: text.to_string(), name });
+    }
+    if !name.ends_with(".toml") && !Path::new(&name).is_file() {
+        let known = PRESETS.map(|(preset, _)| preset);
+        let unknown = words::unknown("garment", &name, known);
+        bail!(Fault::usage(format!("{unknown}, or give a .toml file")));
+    }
+    verbose::reads(Path::new(&name));
+    let text = std::fs::read_to_string(&name).with_context(|| format!("cannot read {name}"))?;
+    let garment = toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
+    Ok(Read { name, text, garment })
+}
 
 /// Garments that come with the program whose rows and columns are joined by the cloth alone, and read through a resistor: what
 /// is pressed elsewhere in a block leads current past the taxel that is read. In the others an amplifier holds what is read at
@@ -38,6 +91,25 @@ mod tests {
     fn what_is_said_to_be_passive_comes_with_the_program() {
         assert!(PASSIVE.iter().all(|name| Garment::PRESETS.contains(name)));
         assert!(is_passive(&Garment::block()) && !is_passive(&Garment::reference()));
+    }
+
+    #[test]
+    fn the_files_of_presets_are_those_of_the_core() {
+        assert_eq!(PRESETS.map(|(name, _)| name), Garment::PRESETS);
+        for name in Garment::PRESETS {
+            let Read { text, garment, .. } = read(name).unwrap();
+            assert_eq!(Some(garment), Garment::preset(name));
+            assert!(text.starts_with("# ") && text.lines().filter(|line| line.contains('#')).count() > 8);
+        }
+    }
+
+    #[test]
+    fn a_garment_that_is_not_known_is_told_with_the_nearest() {
+        let why = read("refrence").unwrap_err().to_string();
+        assert!(
+            why.starts_with("there is no garment \"refrence\": did you mean \"reference\"? Known are"),
+            "{why}"
+        );
     }
 
     #[test]

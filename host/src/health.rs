@@ -22,7 +22,7 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel health`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HealthArgs {
-    /// `auto`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `file:FILE` or `replay:FILE`
+    /// `auto`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `file:FILE` or `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Images to wait for; each of 2,048 taxels is judged once in 90 frames. Touch the garment meanwhile to find dead taxels

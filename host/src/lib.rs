@@ -46,6 +46,7 @@ mod shared;
 pub mod sim;
 pub mod source;
 pub mod stop;
+pub mod toml_key;
 pub mod touches;
 pub mod verbose;
 pub mod view;

@@ -1,4 +1,4 @@
-//! `taxel scenes`: what the simulated board can play.
+//! `taxel scenes`: the scripts of touches that the simulated board can play.
 
 use crate::sim::{self, SceneInfo};
 use anyhow::Result;

@@ -1,14 +1,12 @@
 //! `taxel config`: the files of a garment and of a scene, begun, checked, and explained to editors.
 
 mod check;
-mod line;
 mod scene;
 
 pub use check::check;
 
 use crate::garments;
 use crate::output::{Force, Output};
-use crate::sim;
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use std::fs;
@@ -21,6 +19,8 @@ pub enum Kind {
     Garment,
     /// what it is used for: limits, map, reactions, stream
     Scene,
+    /// who touches a simulated garment where, when and how hard
+    Touches,
 }
 
 impl Kind {
@@ -29,6 +29,7 @@ impl Kind {
         match self {
             Kind::Garment => include_str!("../../schemas/garment.json"),
             Kind::Scene => include_str!("../../schemas/scene.json"),
+            Kind::Touches => include_str!("../../schemas/touches.json"),
         }
     }
 
@@ -37,6 +38,7 @@ impl Kind {
         match self {
             Kind::Garment => "taxel-garment.schema.json",
             Kind::Scene => "taxel-scene.schema.json",
+            Kind::Touches => "taxel-touches.schema.json",
         }
     }
 }
@@ -74,13 +76,14 @@ enum What {
     /// Check a garment's file, and a scene's with it; errors name line and key
     #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
     Check {
-        /// The garment's file
-        file: PathBuf,
+        /// The garment: a TOML file or a preset
+        #[arg(value_name = "GARMENT")]
+        garment: String,
         /// A scene that the garment is to be used for
         #[arg(long, value_name = "FILE")]
         scene: Option<PathBuf>,
     },
-    /// Print the JSON schema of a garment's or a scene's file
+    /// Print the JSON schema of a garment's or a scene's file, or of a script of touches
     #[command(after_help = "Example:\n  taxel config schema scene > taxel-scene.schema.json")]
     Schema {
         /// Of what
@@ -93,8 +96,10 @@ enum What {
 pub fn run(args: &ConfigArgs) -> Result<()> {
     match &args.what {
         What::New { file, force, like } => {
-            let text = garments::text(&sim::garment(like)?, &format!("Like {like}. {}", next(file, "")))?;
-            begin(Output::file(file, *force, [like])?, *force, Kind::Garment, &text)
+            let text = garments::read(like)?.text;
+            let begun = format!("# Like {like}. {}\n", next(file, ""));
+            let output = Output::file(file, *force, [like])?;
+            begin(output, *force, Kind::Garment, &(begun + without_schema(&text)))
         }
         What::Scene { file, force } => {
             let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
@@ -103,14 +108,22 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             let output = Output::file(file, *force, none)?;
             begin(output, *force, Kind::Scene, &(comment + &scene::text()?))
         }
-        What::Check { file, scene } => {
-            println!("{}", check(file, scene.as_deref())?);
+        What::Check { garment, scene } => {
+            println!("{}", check(garment, scene.as_deref())?);
             Ok(())
         }
         What::Schema { of } => {
             print!("{}", of.schema());
             Ok(())
         }
+    }
+}
+
+/// A file's text without the first line that names its schema: a file that is begun like it gets a line of its own.
+fn without_schema(text: &str) -> &str {
+    match text.strip_prefix("#:schema") {
+        Some(rest) => rest.split_once('\n').map_or("", |(_, rest)| rest),
+        None => text,
     }
 }
 

@@ -14,7 +14,7 @@ use serde_json::json;
 /// What `taxel doctor` takes.
 #[derive(Debug, Clone, Args)]
 pub struct DoctorArgs {
-    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`, `file:FILE`
+    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`, `file:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Seconds of the board to listen

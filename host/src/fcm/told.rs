@@ -15,8 +15,8 @@ use taxel_core::wire::IntentReport;
 /// What commands take that show a map as a board has it.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ToldArgs {
-    /// In place of a map: a board or a recording, of which the first announced intention is shown: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`,
-    /// `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// In place of a map: a board or a recording, of which the first announced intention is shown: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`,
+    /// `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
     /// With --source: show the last state of the first S seconds, announced or not

@@ -12,10 +12,10 @@ use taxel_core::intent::Feed;
 /// A board, and what is asked of it before it is watched.
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
-    /// `auto`, `usb`, `sim[:SCENE]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Garment that a real or emulated board is to wear: a preset or a TOML file
+    /// Garment that the board is to wear, real or simulated: a preset or a TOML file
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// Scene to send to the board: a TOML file; keys that it leaves out keep the shipped values
@@ -74,7 +74,10 @@ impl BoardArgs {
 
     /// Opens the source, and the calibration where there is one; the source is then of its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
-        let mut source = source::open(&self.source, &SourceOptions { seed: self.seed, ..options })?;
+        let mut source = source::open(
+            &self.source,
+            &SourceOptions { seed: self.seed, garment: self.garment.clone(), ..options },
+        )?;
         let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
         let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
         source.counts_per_newton = known.or(source.counts_per_newton);

@@ -2,7 +2,7 @@
 
 use crate::client::Client;
 use crate::fault::Blame;
-use crate::sim;
+use crate::garments;
 use crate::source::read_scene;
 use crate::verbose;
 use anyhow::{Context, Result};
@@ -16,12 +16,12 @@ use taxel_core::wire::Request;
 /// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it whatever the board
 /// is said here; the board knows its own pins and size.
 pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
-    let garment = sim::garment(name_or_path)?;
-    let checked = Layout::build(&garment, usize::from(u16::MAX), 4095)
-        .and_then(|layout| Circuit::build(&garment, &layout, Pins::ANY));
-    checked.with_context(|| name_or_path.to_string())?;
-    let bytes = postcard::to_allocvec(&garment).context("the garment cannot be written")?;
-    verbose::tell(format_args!("garment {} is sent, {} bytes", garment.name, bytes.len()));
+    let read = garments::read(name_or_path)?;
+    Layout::build(&read.garment, usize::from(u16::MAX), 4095)
+        .and_then(|layout| Circuit::build(&read.garment, &layout, Pins::ANY))
+        .map_err(|error| read.error(&error))?;
+    let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
+    verbose::tell(format_args!("garment {} is sent, {} bytes", read.garment.name, bytes.len()));
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 

@@ -109,10 +109,10 @@ fn silent(source: &Source, bytes: u64) -> Error {
 
 /// Queues what is asked of the board before anything is shown.
 fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
-    if let Some(garment) = &args.garment {
+    if let Some(garment) = args.garment.as_ref().filter(|_| !source.wears_asked) {
         if source.label.starts_with("sim:") {
             bail!(Fault::usage(format!(
-                "--garment {garment}: a simulated board wears the garment that its scene file names"
+                "--garment {garment}: a simulated board wears the garment that it began with"
             )));
         }
         outfit::wear(client, garment)?;

@@ -19,7 +19,7 @@ pub struct ReportArgs {
     /// Recording: .mcap
     #[arg(conflicts_with = "source")]
     pub file: Option<PathBuf>,
-    /// In place of a recording: `sim[:SCENE]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:SCENE]` or `file:FILE`
+    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]` or `file:FILE`
     #[arg(long, value_name = "SOURCE")]
     pub source: Option<SourceSpec>,
     /// Page to write (.html), `-` for standard output

@@ -22,7 +22,7 @@ const OLD: u32 = 2;
 /// What `taxel settle` takes.
 #[derive(Debug, Clone, Args)]
 pub struct SettleArgs {
-    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`
+    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// The garment, a preset or a TOML file [default: what the board wears]

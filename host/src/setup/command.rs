@@ -23,7 +23,7 @@ const OLD: u32 = 2;
 /// What `taxel setup` takes.
 #[derive(Debug, Clone, Args)]
 pub struct SetupArgs {
-    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:SCENE]`
+    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: what the board wears]

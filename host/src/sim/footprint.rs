@@ -9,6 +9,9 @@ use std::f64::consts::PI;
 /// Steps of the footprint's grid per taxel.
 const STEPS: usize = 8;
 
+/// Most nodes of a footprint's grid: 250 taxels in a square.
+const MOST_NODES: usize = 4_000_000;
+
 /// The share of a contact's force that falls on a taxel, by the taxel's offset from the contact's centre.
 #[derive(Debug, Clone)]
 pub struct Footprint {
@@ -23,10 +26,8 @@ impl Footprint {
     /// that pitch. Sizes and pitches must be positive.
     pub fn build(shape: Shape, size_mm: [f64; 2], angle_deg: f64, pitch_mm: [f64; 2]) -> Footprint {
         let half = [size_mm[0] / 2.0, size_mm[1] / 2.0];
-        let reach = reach_mm(shape, half, angle_deg);
         let step = [pitch_mm[0] / STEPS as f64, pitch_mm[1] / STEPS as f64];
-        // Nodes on each side of the centre: the footprint, half a taxel for the taxel's cell, a border.
-        let [nx, ny] = [0, 1].map(|axis| (reach[axis] / step[axis]).ceil() as usize + STEPS / 2 + 1);
+        let [nx, ny] = nodes(shape, half, angle_deg, step);
         let (columns, rows) = (2 * nx + 1, 2 * ny + 1);
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         let mut dense = vec![0.0f64; columns * rows];
@@ -68,6 +69,19 @@ impl Footprint {
     pub fn reach(&self) -> [f64; 2] {
         [self.columns, self.rows].map(|nodes| (nodes / 2) as f64 / STEPS as f64)
     }
+}
+
+/// Whether a footprint is so large, or the pitch so fine, that its grid has more than [`MOST_NODES`].
+pub(super) fn is_too_fine(shape: Shape, size_mm: [f64; 2], angle_deg: f64, pitch_mm: [f64; 2]) -> bool {
+    let half = size_mm.map(|size| size / 2.0);
+    let [nx, ny] = nodes(shape, half, angle_deg, pitch_mm.map(|pitch| pitch / STEPS as f64));
+    (2 * nx + 1).saturating_mul(2 * ny + 1) > MOST_NODES
+}
+
+/// Nodes on each side of the centre: the footprint, half a taxel for the taxel's cell, a border.
+fn nodes(shape: Shape, half: [f64; 2], angle_deg: f64, step: [f64; 2]) -> [usize; 2] {
+    let reach = reach_mm(shape, half, angle_deg);
+    [0, 1].map(|axis| (reach[axis] / step[axis]).ceil() as usize + STEPS / 2 + 1)
 }
 
 /// Sums over the cell of a taxel along one axis; both ends of the cell count half, so that cells tile the axis.

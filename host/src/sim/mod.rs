@@ -49,4 +49,4 @@ pub use scenes::{SceneInfo, garment, list, load};
 pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Sensor, Stuck, WiringEffects};
 pub use signal::{COUNTS_PER_NEWTON, FULL_SCALE, World};
 pub use touch::{Shape, Size, Touch};
-pub use variants::{refit, scale_force, scale_rate, vary};
+pub use variants::{lacking, largest, refit, scale_force, scale_rate, vary};

@@ -1,8 +1,9 @@
 //! All contacts of a scene on a garment: the force on a taxel at a time.
 
 use super::contact::Contact;
+use super::footprint::is_too_fine;
 use super::script::Script;
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use std::sync::Arc;
 use taxel_core::garment::{Area, Layout, Transform};
 
@@ -46,6 +47,13 @@ impl Pressure {
                 )
             })?;
             let pitch = layout.areas().get(home).map_or([USUAL_PITCH_MM; 2], pitch_mm);
+            let ([length, width], [x, y]) = (touch.size(), pitch);
+            ensure!(
+                !is_too_fine(touch.shape, touch.size(), touch.angle_deg, pitch),
+                "in script {}: touch {}: `size_mm` is {length} x {width} mm, too large for taxels of {x} x {y} mm",
+                script.name,
+                index + 1
+            );
             pressure.add(Arc::new(Contact::build(touch, pitch, script.sensor.hysteresis)), home, layout);
         }
         Ok(pressure)
@@ -179,6 +187,22 @@ mod tests {
         let pressure = Pressure::build(&script(text), &layout).unwrap();
         let end = totals(&pressure, &layout, 3_200_000_000);
         assert!((end[0][1] - 8.0).abs() < 0.05 && end[0][0] > 9.99, "{end:?}");
+    }
+
+    #[test]
+    fn a_footprint_of_too_many_taxels_is_refused() {
+        let mut garment = Garment::reference();
+        garment.panels[1].pitch_um = [500, 500];
+        let layout = Layout::build(&garment, 2048, 4095).unwrap();
+        let of = |size: &str| {
+            let text = format!("panel = \"back\"\nshape = \"box\"\nat = [1, 1]\nsize_mm = {size}");
+            Pressure::build(&script(&text), &layout)
+        };
+        assert!(of("100").is_ok());
+        let why = of("[1000, 900]").unwrap_err().to_string();
+        let said =
+            "in script test: touch 1: `size_mm` is 1000 x 900 mm, too large for taxels of 0.5 x 0.5 mm";
+        assert_eq!(why, said);
     }
 
     #[test]

@@ -1,13 +1,13 @@
-//! The scenes that come with the program, and scenes and garments from files.
+//! The scripts of touches that come with the program, and scripts and garments from files.
 
 use super::script::Script;
 use crate::fault::Fault;
-use crate::words;
+use crate::{garments, words};
 use anyhow::{Context, Result, anyhow, bail};
 use std::path::Path;
 use taxel_core::garment::Garment;
 
-/// What a list of scenes shows.
+/// What a list of scripts of touches shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneInfo {
     /// Name to load it by.
@@ -41,7 +41,7 @@ const SCENES: [(&str, &str); 13] = scenes![
     "idle",
 ];
 
-/// The scenes that come with the program.
+/// The scripts of touches that come with the program.
 pub fn list() -> Vec<SceneInfo> {
     let parse = |(name, text): &(&str, &str)| {
         let script = Script::parse(text, &format!("{name}.toml")).ok()?;
@@ -50,29 +50,21 @@ pub fn list() -> Vec<SceneInfo> {
     SCENES.iter().filter_map(parse).collect()
 }
 
-/// A scene that comes with the program, or a scene's TOML file.
+/// A script of touches that comes with the program, or its TOML file.
 pub fn load(name_or_path: &str) -> Result<Script> {
     if let Some((name, text)) = SCENES.iter().find(|(name, _)| *name == name_or_path) {
         return Script::parse(text, &format!("{name}.toml"));
     }
     if !is_file(name_or_path) {
-        let known = words::unknown("scene", name_or_path, SCENES.map(|(name, _)| name));
+        let known = words::unknown("script of touches", name_or_path, SCENES.map(|(name, _)| name));
         bail!(Fault::usage(format!("{known}, or give a .toml file")));
     }
     Script::parse(&read(name_or_path)?, name_or_path)
 }
 
-/// A garment that comes with the program, or a garment's TOML file.
+/// A garment that comes with the program, or a garment's TOML file, see [`garments::read`].
 pub fn garment(name_or_path: &str) -> Result<Garment> {
-    if let Some(garment) = Garment::preset(name_or_path) {
-        return Ok(garment);
-    }
-    if !is_file(name_or_path) {
-        let known = words::unknown("garment", name_or_path, Garment::PRESETS);
-        bail!(Fault::usage(format!("{known}, or give a .toml file")));
-    }
-    let text = read(name_or_path)?;
-    toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, name_or_path)))
+    Ok(garments::read(name_or_path)?.garment)
 }
 
 fn is_file(name: &str) -> bool {
@@ -157,7 +149,10 @@ mod tests {
     #[test]
     fn names_that_do_not_exist_are_answered_with_those_that_do() {
         let error = load("tickle").unwrap_err().to_string();
-        assert!(error.starts_with("there is no scene \"tickle\"; known are pat, lash, "), "{error}");
+        assert!(
+            error.starts_with("there is no script of touches \"tickle\"; known are pat, lash, "),
+            "{error}"
+        );
         let error = load("no/such.toml").unwrap_err().to_string();
         assert!(error.starts_with("cannot read no/such.toml: "), "{error}");
         let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };

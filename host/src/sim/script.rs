@@ -1,4 +1,4 @@
-//! A scripted scene as its author writes it: one small TOML file.
+//! A script of touches as its author writes it: one small TOML file (docs/touches.md).
 //!
 //! Times are seconds since the board started, forces newtons; lengths end in `_mm`, or are in taxels of the panel where
 //! they carry no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first taxel.
@@ -7,7 +7,7 @@ use super::touch::Touch;
 use serde::{Deserialize, Serialize};
 use taxel_core::selftest::PinFault;
 
-/// A scripted scene.
+/// A script of touches: who touches a simulated garment where, when and how hard.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Script {

@@ -64,31 +64,46 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The scene on another garment: touches on panels that it lacks go to its panels in turn, at the same relative place.
+/// The script on another garment. Touches on a panel that the garment lacks go to its largest panel: to the same place in
+/// parts of the panel's width and height, as large and as fast in mm as before.
 pub fn refit(script: &Script, layout: &Layout) -> Script {
     let mut fitted = script.clone();
-    let Some(old) = layout_of(script) else { return fitted };
-    for touch in &mut fitted.touches {
-        let named = |a: &Area| a.name == touch.panel.as_str();
-        if layout.areas().iter().any(named) {
-            continue;
-        }
-        let Some(home) = old.areas().iter().position(named) else { continue };
-        let (Some(from), Some(to)) =
-            (old.areas().get(home), layout.areas().get(home % layout.areas().len().max(1)))
-        else {
-            continue;
-        };
-        let [x, y] = touch.centre(pitch_mm(from));
-        let part = |at: f64, count: u16| (at + 0.5) / f64::from(count);
+    let (Some(old), Some(to)) = (layout_of(script), largest(layout)) else { return fitted };
+    for touch in fitted.touches.iter_mut().filter(|touch| !has(layout, &touch.panel)) {
+        let Some(from) = old.areas().iter().find(|area| area.name == touch.panel.as_str()) else { continue };
+        let (old_mm, new_mm) = (pitch_mm(from), pitch_mm(to));
+        let at = touch.centre(old_mm);
+        let sizes = [(from.columns, to.columns), (from.rows, to.rows)];
+        // The panel reaches half a taxel beyond its first and its last centre.
+        let part = |axis: usize| (at[axis] + 0.5) / f64::from(sizes[axis].0);
+        let place = |axis: usize| (part(axis) * f64::from(sizes[axis].1) - 0.5) * new_mm[axis];
         touch.panel = to.name.as_str().into();
-        touch.at_mm = None;
-        touch.at = Some([
-            part(x, from.columns) * f64::from(to.columns) - 0.5,
-            part(y, from.rows) * f64::from(to.rows) - 0.5,
-        ]);
+        (touch.at, touch.at_mm) = (None, Some([place(0), place(1)]));
+        touch.velocity = [0, 1].map(|axis| touch.velocity[axis] * old_mm[axis] / new_mm[axis]);
     }
     fitted
+}
+
+/// Panels on which a script touches and that a garment lacks, each once.
+pub fn lacking(script: &Script, layout: &Layout) -> Vec<String> {
+    let mut panels: Vec<String> = script.touches.iter().map(|touch| touch.panel.clone()).collect();
+    panels.retain(|panel| !has(layout, panel));
+    panels.sort();
+    panels.dedup();
+    panels
+}
+
+fn has(layout: &Layout, panel: &str) -> bool {
+    layout.areas().iter().any(|area| area.name == panel)
+}
+
+/// The panel of the largest surface; the first of equals.
+pub fn largest(layout: &Layout) -> Option<&Area> {
+    let mm2 = |area: &Area| {
+        let [x, y] = pitch_mm(area);
+        x * f64::from(area.columns) * y * f64::from(area.rows)
+    };
+    layout.areas().iter().rev().max_by(|a, b| mm2(a).total_cmp(&mm2(b)))
 }
 
 fn layout_of(script: &Script) -> Option<Layout> {
@@ -170,10 +185,31 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_moves_to_another_garment() {
+    fn a_script_moves_to_another_garment_in_mm() {
         let layout = Layout::build(&Garment::mat(), 2048, 4095).unwrap();
-        let script = refit(&load("two-hands").unwrap(), &layout);
+        let hands = load("two-hands").unwrap();
+        let script = refit(&hands, &layout);
         assert!(script.touches.iter().all(|t| t.panel == "mat"));
+        assert_eq!((lacking(&hands, &layout).len(), lacking(&script, &layout).len()), (2, 0));
         World::build(&script, &Garment::mat()).unwrap();
+        // The middle stays the middle, and what is fast in mm stays as fast.
+        let stroke = Script::parse(
+            "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [7.5, 15.5]\nvelocity = [5, 6]\nstart_s = 0.2",
+            "x.toml",
+        );
+        let touch = refit(&stroke.unwrap(), &layout).touches.remove(0);
+        assert_eq!((touch.at, touch.at_mm, touch.velocity), (None, Some([155.0, 315.0]), [6.0, 6.0]));
+    }
+
+    #[test]
+    fn the_largest_panel_is_that_of_the_largest_surface() {
+        let mut garment = Garment::reference();
+        let largest_of = |garment: &Garment| {
+            let layout = Layout::build(garment, 2048, 4095).unwrap();
+            largest(&layout).unwrap().name.to_string()
+        };
+        assert_eq!(largest_of(&garment), "chest");
+        garment.panels[2].pitch_um = [20_000, 10_000];
+        assert_eq!(largest_of(&garment), "left arm");
     }
 }

@@ -14,7 +14,7 @@ mod tcp;
 
 pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
-pub use scene::{read_scene, scene_of};
+pub use scene::{SceneFile, read_scene, scene_of};
 pub use spec::SourceSpec;
 
 use crate::sim::Script;
@@ -49,6 +49,8 @@ pub struct SourceOptions {
     pub seconds: Option<f64>,
     /// A simulation sends raw codes with every frame.
     pub raw: bool,
+    /// A simulated board wears this garment, a preset or a TOML file, in place of that of its script.
+    pub garment: Option<String>,
 }
 
 /// An open source.
@@ -63,6 +65,8 @@ pub struct Source {
     pub real_time: bool,
     /// Counts per newton on a taxel, where that is known.
     pub counts_per_newton: Option<f32>,
+    /// Its board wears the garment that was asked for already.
+    pub wears_asked: bool,
 }
 
 impl Source {
@@ -73,6 +77,7 @@ impl Source {
             tare: 0,
             real_time: false,
             counts_per_newton: None,
+            wears_asked: false,
         }
     }
 

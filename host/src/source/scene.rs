@@ -2,9 +2,10 @@
 
 use crate::fcm;
 use crate::sim::Script;
-use crate::words;
-use anyhow::{Context, Result, anyhow};
+use crate::{toml_key, words};
+use anyhow::{Context, Error, Result, anyhow};
 use serde_json::Value;
+use std::fmt::Display;
 use std::path::Path;
 use taxel_core::scene::Scene;
 
@@ -12,35 +13,107 @@ use taxel_core::scene::Scene;
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
     filled(said, Path::new("."))
-        .map_err(|error| anyhow!("scene {}: [scene]: {}", script.name, words::sentence(&error)))
+        .map_err(|Wrong { key, why }| anyhow!("script {}: `scene.{key}`: {why}", script.name))
 }
 
-/// Reads the file of a scene; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
-/// Errors name the file, and the line or the section.
+/// A scene's file, read.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// The scene; what the file does not say is as in the shipped scene.
+    pub scene: Scene,
+    name: String,
+    text: String,
+}
+
+impl SceneFile {
+    /// Reads the file of a scene, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
+    pub fn read(path: &Path) -> Result<SceneFile> {
+        let name = path.display().to_string();
+        crate::verbose::reads(path);
+        let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
+        let said: toml::Table =
+            toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
+        let said = serde_json::to_value(said)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let scene =
+            filled(said, folder).map_err(|Wrong { key, why }| toml_key::error(&name, &text, &key, why))?;
+        Ok(SceneFile { scene, name, text })
+    }
+
+    /// An error about one of its keys, with its line.
+    pub fn error(&self, key: &str, why: impl Display) -> Error {
+        toml_key::error(&self.name, &self.text, key, why)
+    }
+}
+
+/// Reads the file of a scene, see [`SceneFile::read`].
 pub fn read_scene(path: &Path) -> Result<Scene> {
-    let name = path.display().to_string();
-    crate::verbose::reads(path);
-    let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
-    let said: toml::Table =
-        toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
-    filled(serde_json::to_value(said)?, path.parent().unwrap_or(Path::new("."))).with_context(|| name)
+    Ok(SceneFile::read(path)?.scene)
+}
+
+/// What is wrong with what is said of a scene, and under which key.
+struct Wrong {
+    key: String,
+    why: String,
 }
 
 /// The shipped scene with what is said in its place. `folder` is where the path of a map begins.
-fn filled(mut said: Value, folder: &Path) -> Result<Scene> {
-    fcm::scene::resolve(&mut said, folder)?;
+fn filled(mut said: Value, folder: &Path) -> Result<Scene, Wrong> {
+    fcm::scene::resolve(&mut said, folder).map_err(|error| Wrong {
+        key: "intent.map".into(),
+        why: error.chain().skip(1).map(words::cause).collect::<Vec<_>>().join(": "),
+    })?;
+    scene_as(&said).map_err(|why| Wrong { key: key_of(&why, &said), why })
+}
+
+/// The scene, or what the reader says of it.
+fn scene_as(said: &Value) -> Result<Scene, String> {
     // JSON in between: TOML has no 64-bit masks.
-    let mut merged = serde_json::to_value(Scene::shipped())?;
-    merge(&mut merged, said);
-    if let Value::Object(sections) = &merged {
-        // One by one, so that an error can say where.
-        for (key, value) in sections {
-            let alone = Value::Object([(key.clone(), value.clone())].into_iter().collect());
-            serde_json::from_value::<Scene>(alone)
-                .map_err(|error| anyhow!("{key}: {}", words::cause(&error)))?;
-        }
+    let mut merged = serde_json::to_value(Scene::shipped()).map_err(|error| error.to_string())?;
+    merge(&mut merged, said.clone());
+    serde_json::from_value(merged).map_err(|error| words::cause(&error))
+}
+
+/// The path of the innermost value without which the reader no longer says this.
+fn key_of(why: &str, said: &Value) -> String {
+    let is_missing = |why: &str| why.contains("is missing") || why.starts_with("missing field");
+    let (mut path, mut pointer) = (String::new(), String::new());
+    while let Some(node) = said.pointer(&pointer) {
+        let children: Vec<(String, String)> = match node {
+            Value::Object(table) => {
+                let dot = if path.is_empty() { "" } else { "." };
+                table.keys().map(|key| (format!("/{key}"), format!("{dot}{key}"))).collect()
+            }
+            Value::Array(items) => (0..items.len()).map(|at| (format!("/{at}"), format!("[{at}]"))).collect(),
+            _ => break,
+        };
+        let decides = |(step, _): &&(String, String)| match scene_as(&without(said, &pointer, step)) {
+            Ok(_) => true,
+            // Where something is missing, something else that is missing as well tells nothing.
+            Err(other) => words_of(&other) != words_of(why) && !(is_missing(why) && is_missing(&other)),
+        };
+        let Some((step, name)) = children.iter().find(decides) else { break };
+        pointer += step;
+        path += name;
     }
-    Ok(serde_json::from_value(merged)?)
+    path
+}
+
+/// A message without its numbers: a list of two values that has one tells the same of none.
+fn words_of(why: &str) -> String {
+    why.chars().filter(|letter| !letter.is_ascii_digit()).collect()
+}
+
+/// What is said but for one value of the node at `pointer`.
+fn without(said: &Value, pointer: &str, step: &str) -> Value {
+    let mut rest = said.clone();
+    let key = step.trim_start_matches('/');
+    match (rest.pointer_mut(pointer), key.parse::<usize>()) {
+        (Some(Value::Object(table)), _) => drop(table.remove(key)),
+        (Some(Value::Array(items)), Ok(at)) if at < items.len() => drop(items.remove(at)),
+        _ => {}
+    }
+    rest
 }
 
 /// Tables are merged, everything else is replaced.
@@ -75,12 +148,18 @@ mod tests {
         assert_eq!((named.concepts.len(), named.edges[0].weight, named.decimals), (2, -75, 2));
         assert_eq!(of("intent = { map = \"tactile\" }").unwrap(), Scene::shipped());
         let error = of(&map.replace("to = \"threat\"", "to = \"joy\"")).unwrap_err().to_string();
-        assert!(error.contains("intent.map: map two: an edge names the unknown concept joy"), "{error}");
+        assert!(
+            error.contains("`scene.intent.map`: map two: an edge names the unknown concept joy"),
+            "{error}"
+        );
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
-        assert!(error.starts_with("scene a: [scene]: contact: `lo` is no key that is known here"), "{error}");
+        assert!(
+            error.starts_with("script a: `scene.contact.lo`: `lo` is no key that is known here"),
+            "{error}"
+        );
         let error = of("speed = 3").unwrap_err().to_string();
         assert!(
-            error.starts_with("scene a: [scene]: speed: `speed` is no key that is known here"),
+            error.starts_with("script a: `scene.speed`: `speed` is no key that is known here"),
             "{error}"
         );
     }

@@ -2,6 +2,7 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
+use crate::garments;
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;
@@ -10,9 +11,10 @@ use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
 use taxel_core::board::{Board, BoardInfo, Saved, Settings};
 use taxel_core::format::Micros;
-use taxel_core::garment::{Garment, Pins};
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
+use taxel_core::scene::Scene;
 use taxel_store::{Store, StoreError};
 
 const TAXELS: usize = 2048;
@@ -35,14 +37,21 @@ struct Play {
     end_us: u64,
 }
 
-/// Opens a simulated board that plays a scene.
+/// Opens a simulated board that plays a script of touches.
 pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
     play(sim::load(scene)?, format!("sim:{scene}"), options)
 }
 
 /// A simulated board that plays a script.
 pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<Source> {
-    let garment = script.load_garment()?;
+    let mut board_scene = scene_of(&script)?;
+    let (script, garment) = match &options.garment {
+        Some(asked) => fitted(script, &garments::read(asked)?, &mut board_scene, &label)?,
+        None => {
+            let garment = script.load_garment()?;
+            (script, garment)
+        }
+    };
     let tare = script.tare_frames.min(4096) as u16;
     let play = Play {
         seed: options.seed.unwrap_or(script.seed),
@@ -52,7 +61,6 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         garment,
         script,
     };
-    let mut board_scene = scene_of(&play.script)?;
     if options.raw {
         board_scene.stream.raw_hz = u16::MAX;
     }
@@ -74,7 +82,40 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         }
     })?;
     ready.recv().unwrap_or_else(|_| Err(anyhow!("its thread ended"))).with_context(|| label.clone())?;
-    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), ..Source::new(label, host) })
+    let wears_asked = options.garment.is_some();
+    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), wears_asked, ..Source::new(label, host) })
+}
+
+/// The script on another garment than its own, once that is checked. What had to be changed is said on stderr.
+fn fitted(
+    script: Script,
+    asked: &garments::Read,
+    scene: &mut Scene,
+    label: &str,
+) -> Result<(Script, Garment)> {
+    let garment = asked.garment.clone();
+    let layout = Layout::build(&garment, TAXELS, FULL_SCALE).map_err(|error| asked.error(&error))?;
+    let circuit =
+        Circuit::build(&garment, &layout, info(&garment).pins).map_err(|error| asked.error(&error))?;
+    let lacking = sim::lacking(&script, &layout);
+    if let (Some(largest), false) = (sim::largest(&layout), lacking.is_empty()) {
+        let (name, lacking) = (&garment.name, lacking.join(", "));
+        eprintln!(
+            "{label}: the garment {name} has no panel {lacking}: what touches there touches {}.",
+            largest.name
+        );
+    }
+    let script = sim::refit(&script, &layout);
+    for row in &mut scene.react {
+        if let Some(line) = row.output.filter(|line| circuit.lines().contains(&line.pin)) {
+            eprintln!(
+                "{label}: the reaction {} drives no pin: GP{} is a line of the garment.",
+                row.name, line.pin
+            );
+            row.output = None;
+        }
+    }
+    Ok((script, garment))
 }
 
 /// The script's end, or later where somebody waits for more.

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 /// Speed of a serial port where none is given, Bd.
 const BAUD: u32 = 921_600;
-/// The scene that is played where none is given.
+/// The script of touches that is played where none is given.
 const SCENE: &str = "pat";
 
 /// Where the bytes come from.
@@ -17,7 +17,7 @@ pub enum SourceSpec {
     Auto,
     /// A board on USB.
     Usb,
-    /// A simulated board that plays this scene.
+    /// A simulated board that plays this script of touches.
     Sim(String),
     /// A serial port.
     Serial {
@@ -28,7 +28,7 @@ pub enum SourceSpec {
     },
     /// `HOST:PORT`
     Tcp(String),
-    /// The firmware image in the emulator, on which this scene is played.
+    /// The firmware image in the emulator, on which this script of touches is played.
     Emulator(String),
     /// Bytes that were saved.
     File(PathBuf),
@@ -73,11 +73,11 @@ impl FromStr for SourceSpec {
             ("tcp", Some(address)) => tcp(address),
             ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
-            _ => {
-                Err("known are auto, usb, sim[:SCENE], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:SCENE], \
+            _ => Err(
+                "known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:TOUCHES], \
                       file:FILE, replay:FILE[@SPEED]"
-                    .into())
-            }
+                    .into(),
+            ),
         }
     }
 }

@@ -308,7 +308,7 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
         ("serial:/dev/no-such-port", "serial port /dev/no-such-port at 921600 Bd cannot be opened: "),
         ("tcp:127.0.0.1:1", "tcp:127.0.0.1:1 cannot be reached: "),
         ("file:/no/such/file", "file /no/such/file cannot be read: "),
-        ("sim:tickle", "there is no scene \"tickle\"; known are pat, "),
+        ("sim:tickle", "there is no script of touches \"tickle\"; known are pat, "),
     ] {
         let sentence = error(source);
         assert!(sentence.starts_with(start) && !sentence.contains('\n'), "{sentence}");
@@ -331,8 +331,6 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
         let source = open(&args);
         format!("{:#}", watch(&args, source, &mut Messages::new(false, Vec::new())).unwrap_err())
     };
-    let why = refused(&|args| args.board.garment = Some("mat-64x32".into()));
-    assert_eq!(why, "--garment mat-64x32: a simulated board wears the garment that its scene file names");
     let file = scratch("scene.toml");
     for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
         std::fs::write(&file, text).unwrap();

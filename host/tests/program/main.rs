@@ -9,6 +9,7 @@ mod drawn;
 mod foxglove;
 mod live;
 mod maps;
+mod own_garment;
 mod reference;
 mod schemas;
 mod start;

@@ -20,7 +20,11 @@ fn check(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<String
             "$ref" => return check(value, target(wanted, root), root, at),
             "anyOf" => wanted.as_array().unwrap().iter().any(|any| check(value, any, root, at).is_none()),
             "enum" => wanted.as_array().unwrap().contains(value),
-            "type" => type_of(value) == wanted.as_str().unwrap(),
+            // A whole number is a number.
+            "type" => match (type_of(value), wanted.as_str().unwrap()) {
+                ("integer", "number") => true,
+                (is, wanted) => is == wanted,
+            },
             "minimum" => value.as_f64().is_none_or(|number| number >= wanted.as_f64().unwrap()),
             "maximum" => value.as_f64().is_none_or(|number| number <= wanted.as_f64().unwrap()),
             "maxLength" => value.as_str().is_none_or(|text| text.chars().count() <= size(wanted)),
@@ -132,4 +136,30 @@ fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
     let mut unknown = scene;
     unknown["contact"]["lo"] = 3.into();
     assert!(wrong(&unknown, &schema).unwrap().starts_with("/contact: additionalProperties"));
+}
+
+#[test]
+fn the_schema_of_touches_takes_what_ships_and_nothing_wrong() {
+    let schema: Value = serde_json::from_str(&said(&["config", "schema", "touches"])).unwrap();
+    let mut scripts = 0;
+    for script in std::fs::read_dir(root().join("host/scenes")).unwrap() {
+        let path = script.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(wrong(&toml_value(&text), &schema), None, "{}", path.display());
+        scripts += 1;
+    }
+    assert!(scripts >= 13, "{scripts}");
+    let text = std::fs::read_to_string(root().join("host/scenes/pat.toml")).unwrap();
+    for (from, to, place) in [
+        ("duration_s = 1.4", "duration_s = -1", "/duration_s"),
+        ("force_n = 8", "force_n = \"8\"", "/touch/0/force_n"),
+        ("shape = \"palm\"", "shape = \"hand\"", "/touch/0/shape"),
+        ("at = [7.5, 11]", "at = [7.5]", "/touch/0/at"),
+        ("repeat = 3", "repeat = 0", "/touch/0/repeat"),
+        ("angle_deg = 20", "angle = 20", "/touch/0"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let why = wrong(&toml_value(&text.replacen(from, to, 1)), &schema).unwrap();
+        assert!(why.starts_with(place), "{to}: {why}");
+    }
 }

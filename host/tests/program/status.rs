@@ -41,7 +41,7 @@ fn what_failed_is_1() {
 #[test]
 fn wrong_use_is_2() {
     ends(&["nothing"], 2, "unrecognized subcommand");
-    ends(&["live", "--source", "sim:tickle"], 2, "there is no scene \"tickle\"");
+    ends(&["live", "--source", "sim:tickle"], 2, "there is no script of touches \"tickle\"");
     ends(&["live", "--source", "sum"], 2, "known are auto, usb, sim");
     ends(&["save", "--source", "sim:idle", "--garment", "shirt"], 2, "shirt");
     ends(&["process", "a.npy", "--rate", "0"], 2, "--rate 0: it must be above 0");

@@ -13,7 +13,7 @@ use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Receiver, Report, Request, decode, open};
 
-fn run(args: &[&str]) -> Output {
+pub fn run(args: &[&str]) -> Output {
     Command::new(taxel()).args(args).output().unwrap()
 }
 
@@ -23,7 +23,7 @@ pub fn said(args: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn refused(status: i32, args: &[&str]) -> String {
+pub fn refused(status: i32, args: &[&str]) -> String {
     let output = run(args);
     assert_eq!(output.status.code(), Some(status), "{args:?}");
     String::from_utf8(output.stderr).unwrap()

@@ -1,0 +1,41 @@
+//! One mistake under each key of the files of garments and scenes: each is refused with file, line and key. The keys are those
+//! of the schemas, so that a key without a mistake fails the test.
+
+mod garment;
+mod keys;
+mod scene;
+mod touches;
+
+use std::path::PathBuf;
+
+/// A mistake: the key of the schema, what stands in the file, what stands there instead, and what the error says behind the
+/// file's name and the line of the mistake.
+type Mistake = (&'static str, &'static str, &'static str, &'static str);
+
+/// A file of its own for this process, with that text.
+fn file(name: &str, text: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("taxel-mistakes-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    let path = folder.join(name);
+    std::fs::write(&path, text).expect("a temporary file");
+    path
+}
+
+/// Makes each mistake and compares what is said; at the end all that differ at once.
+fn each(base: &str, mistakes: &[Mistake], said: impl Fn(&str) -> String) {
+    let mut wrong = Vec::new();
+    for (key, from, to, expected) in mistakes {
+        let at = base.find(from).unwrap_or_else(|| panic!("{key}: {from} is not in the file"));
+        let text = base.replacen(from, to, 1);
+        let before = from.bytes().zip(to.bytes()).take_while(|(a, b)| a == b).count();
+        let line = text[..at + before].matches('\n').count() + 1;
+        let said = said(&text);
+        // Of a key that is not known the message names the key.
+        let comma = if expected.starts_with(':') { "" } else { ", " };
+        let expected = format!(", line {line}{comma}{expected}");
+        if !said.contains(&expected) {
+            wrong.push(format!("{key}: `{to}`\n     expected {expected}\n     is told {said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
