@@ -67,7 +67,8 @@ impl Way {
     /// A compiler that is there already.
     fn installed(self) -> Option<Toolchain> {
         let roots = sysroots();
-        let mut mine = roots.iter().filter(|root| root.starts_with("/usr") == (self == Way::Debian));
+        let mut mine =
+            roots.iter().filter(|root| (root.as_path() == Path::new("/usr")) == (self == Way::Debian));
         let (root, described) = if self == Way::Target {
             (mine.find(|root| has_target_library(root))?, None)
         } else {
