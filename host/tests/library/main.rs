@@ -20,3 +20,4 @@ mod shapes;
 mod store;
 mod tables;
 mod touch;
+mod view_recording;
