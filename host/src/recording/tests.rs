@@ -4,7 +4,7 @@ use super::append::append;
 use super::{Format, Messages, Skipped, Store, Writer, chunk_indexes, repair, scan};
 use mcap::Summary;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A disk with so much room.
 #[derive(Debug)]
@@ -92,14 +92,14 @@ fn messages(path: &PathBuf) -> u64 {
 }
 
 /// What can be read of a file, with an end.
-fn repaired(path: &PathBuf) -> PathBuf {
+fn repaired(path: &Path) -> PathBuf {
     let mut bytes = Vec::new();
     repair(path, &scan(path).unwrap(), &mut bytes).unwrap();
     file("repaired", &bytes)
 }
 
 /// Log times of the messages that can be read, and what was passed over.
-fn read(path: &PathBuf) -> (Vec<u64>, Skipped) {
+fn read(path: &Path) -> (Vec<u64>, Skipped) {
     let (mut messages, mut times) = (Messages::open(path).unwrap(), Vec::new());
     while let Some(message) = messages.next_message().unwrap() {
         assert_eq!(message.data, [b'x'; 50]);

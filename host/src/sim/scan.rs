@@ -79,7 +79,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         // The multiples of this number are spread evenly, and so are their digits: each scan looks at the lines somewhere else.
         self.scans = self.scans.wrapping_add(1);
         let spread = self.scans.wrapping_mul(0xb529_7a4d);
-        let look = (u64::from(spread) * self.sweep.levels().len() as u64 >> 32) as usize;
+        let look = ((u64::from(spread) * self.sweep.levels().len() as u64) >> 32) as usize;
         for _ in 0..plan.depth.scans() {
             for address in 0..self.sweep.levels().len() {
                 self.read(address, lines, rounds, address == look)?;

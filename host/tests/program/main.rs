@@ -5,12 +5,17 @@ mod cli;
 mod commands;
 #[path = "../library/drawn.rs"]
 mod drawn;
+mod exports;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod live;
 mod maps;
+mod mistakes;
+mod outputs;
 mod own_garment;
+mod recordings;
 mod reference;
+mod repair;
 mod schemas;
 mod start;
 mod status;

@@ -85,7 +85,7 @@ impl Opened {
     /// Reads the plain bytes of a chunk; also whether they are whole records to their last byte.
     fn of(plain: &[u8]) -> (Opened, bool) {
         let (mut inside, mut records) = (Opened::default(), Inside::of(plain, 0));
-        while let Some(record) = records.next() {
+        for record in records.by_ref() {
             match parse(record.op, record.body) {
                 Some((Kind::Message(header), _)) => {
                     let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };

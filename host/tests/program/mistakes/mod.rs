@@ -12,9 +12,9 @@ use std::path::PathBuf;
 /// file's name and the line of the mistake.
 type Mistake = (&'static str, &'static str, &'static str, &'static str);
 
-/// A file of its own for this process, with that text.
+/// A file in the build folder, with that text.
 fn file(name: &str, text: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("taxel-mistakes-{}", std::process::id()));
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("mistakes");
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let path = folder.join(name);
     std::fs::write(&path, text).expect("a temporary file");

@@ -93,7 +93,7 @@ fn the_schema_has_the_keys_of_a_script_and_no_others() {
 /// Each key of the schema is explained in the document.
 #[test]
 fn the_document_names_every_key() {
-    let document = include_str!("../../../docs/touches.md");
+    let document = include_str!("../../../../docs/touches.md");
     for key in keys::of(Kind::Touches.schema()) {
         let key = key.rsplit('/').next().unwrap();
         assert!(document.contains(&format!("`{key}`")) || document.contains(&format!("[{key}]")), "{key}");
