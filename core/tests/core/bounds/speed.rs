@@ -42,7 +42,7 @@ fn speed_outside_its_range_is_held() {
     // A velocity at its end, over the largest pitch and over the smallest.
     let [least, most] = PITCH_UM;
     for pitch in [least, most] {
-        let end = pitch / 100 << 15;
+        let end = (pitch / 100) << 15;
         assert_eq!(told([pitch; 2], i32::MIN, i32::MIN), end + end / 2);
     }
     assert_eq!(told([most; 2], i32::MIN, i32::MIN), 98_304_000);
