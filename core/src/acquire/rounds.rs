@@ -48,7 +48,7 @@ impl Rounds {
     /// The quickest pace at which so many rounds give time for that many conversions.
     const fn paced(conversions: u32, rounds: u32, slots: u32) -> Rounds {
         let until = (slots as u64 + 1) * CONVERSION_CLOCKS as u64;
-        let starts = conversions as u64 * (rounds as u64 - 1) + 2;
+        let starts = conversions as u64 * rounds.saturating_sub(1) as u64 + 2;
         let needed = until.div_ceil(starts) as u32;
         let period_clocks = if needed > CONVERSION_CLOCKS { needed } else { CONVERSION_CLOCKS };
         Rounds { conversions, rounds, period_clocks }

@@ -163,7 +163,15 @@ impl Circuit {
 
     /// The blocks by select code: those of one code are read together.
     pub fn selects(&self) -> impl Iterator<Item = &[Site]> {
-        self.sites.chunk_by(|a, b| a.select == b.select)
+        let mut rest = self.sites.as_slice();
+        core::iter::from_fn(move || {
+            let select = rest.first()?.select;
+            let count = rest.iter().take_while(|site| site.select == select).count();
+            // `chunk_by` would leave a panic here that the linker finds.
+            let (sites, others) = rest.split_at_checked(count)?;
+            rest = others;
+            Some(sites)
+        })
     }
 
     /// Electrical levels of all lines that select a block, row and column.

@@ -211,7 +211,7 @@ fn bad_sources_are_refused_by_name() {
         &["live", "--source", &format!("sim:{scene}")],
         &["colour.toml, line 2", "`colour` is no key that is known here"],
     );
-    refused(2, &["live", "--source", "sim:nothing"], &["no scene", "nothing", "pat"]);
+    refused(2, &["live", "--source", "sim:nothing"], &["no script of touches", "nothing", "pat"]);
     refused(3, &["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);
     refused(3, &["live", "--source", "tcp:127.0.0.1:1"], &["127.0.0.1:1"]);
     refused(1, &["live", "--source", "file:/no/such/bytes"], &["/no/such/bytes"]);

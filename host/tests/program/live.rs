@@ -112,6 +112,7 @@ fn a_run_is_repeated_to_the_byte_and_a_saved_one_reads_the_same() {
     let saved = LiveArgs { save: Some(file.clone()), pixels: true, ..args("sim:five", Some(60)) };
     let first = json(&saved);
     let bytes = std::fs::read(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
     assert_eq!(json(&saved), first);
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
     let again = LiveArgs { pixels: true, ..args(&format!("file:{}", file.display()), None) };

@@ -140,7 +140,7 @@ fn what_teaches_nothing_is_said_in_one_sentence() {
     let long = ["shapes", "learn", "seventeen letters", "--source", "sim:box", "-o", "x.json"];
     refused(&long, "the name \"seventeen letters\" has 17 bytes, expected 1 to 16");
     let unknown = ["live", "--source", "sim:box", "--shapes", "no-such-base"];
-    refused(&unknown, "no-such-base: cannot be read");
+    refused(&unknown, "there is no base \"no-such-base\"");
 }
 
 /// Files of so many drawn images and of their labels: NAME.csv, NAME-labels.csv.

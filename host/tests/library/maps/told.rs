@@ -105,6 +105,7 @@ impl Show for Silent {
 #[test]
 fn a_recording_explains_the_same() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("told.taxel");
+    let _ = std::fs::remove_file(&path);
     let source = source::open(&spec("sim:lash"), &SourceOptions::default()).unwrap();
     let args = LiveArgs { save: Some(path.clone()), ..LiveArgs::of(spec("sim:lash")) };
     live::watch(&args, source, &mut Silent).unwrap();

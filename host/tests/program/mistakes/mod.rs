@@ -7,14 +7,17 @@ mod scene;
 mod touches;
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A mistake: the key of the schema, what stands in the file, what stands there instead, and what the error says behind the
 /// file's name and the line of the mistake.
 type Mistake = (&'static str, &'static str, &'static str, &'static str);
 
-/// A file in the build folder, with that text.
+/// A file with that text, in a folder of its own below the build folder: tests run side by side.
 fn file(name: &str, text: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("mistakes");
+    static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+    let folder = FOLDERS.fetch_add(1, Ordering::Relaxed).to_string();
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("mistakes").join(folder);
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let path = folder.join(name);
     std::fs::write(&path, text).expect("a temporary file");

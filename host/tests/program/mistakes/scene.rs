@@ -213,7 +213,8 @@ fn each_key_of_a_scene_has_a_mistake_that_is_told_with_its_line() {
 #[test]
 fn a_frame_that_is_too_slow_is_told_in_the_file_that_makes_it_so() {
     let garment = |settle_ns: &str| {
-        let text = include_str!("../../../garments/reference.toml").replacen("settle_ns = 3000 ", settle_ns, 1);
+        let text =
+            include_str!("../../../garments/reference.toml").replacen("settle_ns = 3000 ", settle_ns, 1);
         file(&format!("{}.toml", settle_ns.len()), &text).display().to_string()
     };
     let (quick, slow) = (garment("settle_ns = 200000 "), garment("settle_ns = 1000000 "));
