@@ -155,8 +155,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     /// Puts the first garment on a board that has not begun yet.
-    pub fn dress(&mut self, garment: Garment) -> Result<(), SetupError> {
-        self.setup.change_garment(&self.info, garment, TAXELS)
+    pub fn dress(&mut self, mut garment: Garment) -> Result<(), SetupError> {
+        self.setup.change_garment(&self.info, &mut garment, TAXELS)
     }
 
     /// Gives a board that has not begun yet its first scene.

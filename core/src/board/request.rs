@@ -113,7 +113,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
     #[inline(never)]
     fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let garment = read::<Garment>("garment", bytes)?;
+        // Where it was read: the stack has no room for a second one.
+        let mut read = read::<Garment>("garment", bytes);
+        let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
         self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
         self.worn();
         Ok(())

@@ -158,7 +158,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// With a scene that any garment fits; the stored one follows.
     #[inline(never)]
     fn restore_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let garment = request::read::<Garment>("garment", bytes)?;
+        let mut read = request::read::<Garment>("garment", bytes);
+        let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
         let reactions = core::mem::take(&mut self.setup.scene.react);
         let done = self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of);
         match done {

@@ -84,32 +84,34 @@ impl Setup {
     /// Checks everything for a board that holds `capacity` taxels.
     pub fn build(
         info: &BoardInfo,
-        garment: Garment,
+        mut garment: Garment,
         mut scene: Scene,
         capacity: usize,
     ) -> Result<Setup, SetupError> {
         let mut setup = Setup::empty();
-        setup.change_garment(info, garment, capacity)?;
+        setup.change_garment(info, &mut garment, capacity)?;
         setup.change_scene(info, &mut scene)?;
         Ok(setup)
     }
 
-    /// Takes another garment for the same scene; nothing changes if it is refused. What is new is built beside what is there,
-    /// one part after the other: the stack of a microcontroller has no room for two setups.
+    /// Takes another garment for the same scene, and leaves the one that was there in its place; nothing changes if it is refused.
+    /// What is new is built beside what is there, one part after the other: the stack of a microcontroller has no room for two
+    /// setups.
     #[inline(never)]
     pub fn change_garment(
         &mut self,
         info: &BoardInfo,
-        garment: Garment,
+        garment: &mut Garment,
         capacity: usize,
     ) -> Result<(), SetupError> {
         // A gain may take a conditioned value past the converter's range.
-        let layout = Layout::build(&garment, capacity, u16::MAX)?;
-        let circuit = Circuit::build(&garment, &layout, info.pins)?;
+        let layout = Layout::build(garment, capacity, u16::MAX)?;
+        let circuit = Circuit::build(garment, &layout, info.pins)?;
         check(info, &self.scene, &circuit)?;
         check_duration(&circuit, &self.scene.plan)?;
         self.pipeline.fit(&self.scene, &layout)?;
-        (self.garment, self.layout, self.circuit) = (garment, layout, circuit);
+        core::mem::swap(&mut self.garment, garment);
+        (self.layout, self.circuit) = (layout, circuit);
         Ok(())
     }
 
