@@ -222,7 +222,8 @@ mod tests {
             std::fs::write(&file, format!("duration_s = 1\n{faults}")).unwrap();
             HealthArgs {
                 source: format!("sim:{}", file.display()).parse().unwrap(),
-                frames: 60,
+                // A stuck taxel is known for sure after 58 frames, counted from when it shows.
+                frames: 150,
                 tare: None,
                 self_test: true,
                 passive: None,

@@ -3,8 +3,8 @@
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
-pub use taxel_core::acquire::{SWEEP_ADDRESSES as ADDRESSES, SWEEP_STRETCHES as STRETCHES};
 use taxel_core::acquire::{PLACES, SWEEP_INPUTS, Sweep};
+pub use taxel_core::acquire::{SWEEP_ADDRESSES as ADDRESSES, SWEEP_STRETCHES as STRETCHES};
 
 /// Codes without a taxel in a stretch: as many as a block's row or column has.
 const SPARE: usize = 256;

@@ -2,6 +2,7 @@
 
 use super::residue::{Residue, Steps, steps};
 use anyhow::{Context, Result, bail};
+use taxel_core::acquire::{Plan, check_duration};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
 /// Full scale of the converter, counts.
@@ -64,12 +65,15 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
         Circuit::build(garment, &layout, Pins::ANY).with_context(|| format!("garment {}", garment.name))?;
     let mut search =
         Search { scanner, steps: steps(&circuit), bar: counts / FULL, slow_ns: SLOW.0, frames: FRAMES.0 };
+    let longest = longest_ns(garment, &layout)?;
     while search.trial(search.slow_ns, 2 * search.slow_ns)?.worst.part > search.bar / 4.0 {
         search.slow_ns *= 2;
-        if search.slow_ns > SLOW.1 {
+        if 2 * search.slow_ns > longest {
             bail!(
-                "not sure: the codes have not settled after {} us, or the press does not hold still",
-                SLOW.1 / 1000
+                "not sure: the codes have not settled after {} us, or the press does not hold still; a board takes \
+                 at most {} us of settling for this garment",
+                search.slow_ns / 1000,
+                longest / 1000
             );
         }
     }
@@ -98,6 +102,18 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
         measured: best.measured,
         unmeasured,
     })
+}
+
+/// The longest settling that a board takes for this garment, of those that are tried: a longer frame would keep it from its watchdog.
+fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
+    let mut slower = garment.clone();
+    slower.wiring.settle_ns = 2 * SLOW.1;
+    while slower.wiring.settle_ns > 0
+        && check_duration(&Circuit::build(&slower, layout, Pins::ANY)?, &Plan::default()).is_err()
+    {
+        slower.wiring.settle_ns /= 2;
+    }
+    Ok(slower.wiring.settle_ns)
 }
 
 impl<S: Scanner> Search<'_, S> {

@@ -110,3 +110,21 @@ fn without_an_edge_nothing_is_claimed() {
     let why = settle(&mut lines, &Garment::reference(), ERROR).unwrap_err().to_string();
     assert!(why.starts_with("not sure: the picture has too few edges") && why.contains("GP26"), "{why}");
 }
+
+/// A board that takes no longer settling than its watchdog allows, of lines that never settle.
+struct Never(u32);
+
+impl Scanner for Never {
+    fn scan(&mut self, settle_ns: u32, _: u32) -> Result<Vec<f64>> {
+        anyhow::ensure!(settle_ns <= self.0, "the board refuses {settle_ns} ns");
+        let edges = (0..2048).map(|taxel| if taxel % 16 < 8 { 0.0 } else { f64::from(settle_ns) / 1000.0 });
+        Ok(edges.collect())
+    }
+}
+
+#[test]
+fn no_settling_is_tried_that_the_board_refuses() {
+    let why = settle(&mut Never(800_000), &Garment::reference(), ERROR).unwrap_err().to_string();
+    assert!(why.starts_with("not sure: the codes have not settled after 800 us"), "{why}");
+    assert!(why.ends_with("at most 800 us of settling for this garment"), "{why}");
+}
