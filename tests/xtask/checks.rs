@@ -5,7 +5,7 @@ use crate::counts::Counts;
 use crate::cross::Toolchain;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
-use crate::{browser, firmware, locks, no_panic, paths, process, sizes, targets};
+use crate::{browser, firmware, locks, no_panic, paths, process, recordings, sizes, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
@@ -60,7 +60,7 @@ struct Asked {
 impl Asked {
     fn read(args: &[String]) -> Result<Asked, String> {
         let (mut only, mut may_miss) = (Vec::new(), Vec::new());
-        let mut recorded = std::env::var_os("TAXEL_DATA").is_some();
+        let mut recorded = recordings::listed().is_some();
         let all = || CHECKS.iter().chain(RECORDED);
         let mut args = args.iter();
         while let Some(arg) = args.next() {

@@ -13,6 +13,7 @@ mod names;
 mod no_panic;
 mod paths;
 mod process;
+mod recordings;
 mod report;
 mod sizes;
 mod targets;

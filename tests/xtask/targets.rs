@@ -2,7 +2,7 @@
 
 use crate::checks::cargo;
 use crate::cross::Toolchain;
-use crate::{firmware, install, paths, process};
+use crate::{firmware, install, paths, process, recordings};
 use std::path::Path;
 use std::process::Command;
 
@@ -98,19 +98,19 @@ pub fn read_by_python(names: &[&str], log: &Path, variables: &[(&str, &str)]) ->
 
 /// Recordings through the pipeline, and recorded touches, recognised with people and days kept apart.
 pub fn recorded(log: &Path) -> End {
-    recordings()?;
+    recordings::at_hand()?;
     Ok(process::run_into(&mut test_target("recorded"), log))
 }
 
 /// Recordings on the emulated board and on this machine.
 pub fn emulator_recorded(log: &Path) -> End {
-    recordings()?;
+    recordings::at_hand()?;
     on_emulator("recorded", log)
 }
 
 /// `cargo xtask recorded`: the recordings through the pipeline, in the open.
 pub fn feed_recordings(args: &[String]) -> Result<(), String> {
-    recordings()?;
+    recordings::at_hand()?;
     let mut command = test_target("recorded");
     command.args(["--", "--nocapture", "frames::"]);
     match args {
@@ -130,12 +130,7 @@ pub fn peers(args: &[String]) -> Result<(), String> {
 
 /// One of the workspace's test targets.
 pub fn test_target(name: &str) -> Command {
-    cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root())
-}
-
-/// Whether recordings are at hand.
-fn recordings() -> Result<(), String> {
-    let listed = std::env::var_os("TAXEL_DATA").ok_or("TAXEL_DATA lists no folders of recordings")?;
-    let missing = std::env::split_paths(&listed).find(|folder| !folder.is_dir());
-    missing.map_or(Ok(()), |folder| Err(format!("TAXEL_DATA: there is no folder {}", folder.display())))
+    let mut command = cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root());
+    command.envs(recordings::listed().map(|folders| (recordings::VARIABLE, folders)));
+    command
 }
