@@ -195,6 +195,7 @@ impl Client {
             Report::Gesture(report) => Event::Gesture(report),
             Report::Shapes(report) => {
                 self.shapes = report.names.iter().map(ToString::to_string).collect();
+                self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
                 Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
             }
             Report::Reaction(report) => Event::Reaction(report),

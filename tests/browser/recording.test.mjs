@@ -42,8 +42,8 @@ test("it opens with its length, plays by itself, and stands still when asked", a
   await browser.key(" ");
   await browser.until("!taxel.store.recorded.playing");
   await browser.until("taxel.store.states.overview?.known_us === taxel.store.states.overview?.duration_us");
-  // The page may have been stopped before it was drawn for the first time.
-  await browser.until("document.getElementById('clock').textContent !== ''");
+  // What came last is yet to be drawn.
+  await drawn(browser);
   const still = await clock();
   assert.match(still, /^\d+\.\d{3} \/ [78]\.\d\d s {2}#\d+$/);
   await new Promise((done) => setTimeout(done, 400));

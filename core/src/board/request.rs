@@ -4,11 +4,12 @@ use super::outputs::Outputs;
 use super::refusal::Refusal;
 use super::{Board, Work, reading};
 use crate::condition::Certificate;
-use crate::format::Micros;
+use crate::format::{Invalid, Micros};
 use crate::garment::Garment;
 use crate::gesture::{GestureConfig, Gestures};
+use crate::pipeline::CONTACTS;
 use crate::scene::Scene;
-use crate::shape::Exemplar;
+use crate::shape::{Exemplar, Taught};
 use crate::wire::{Request, SHAPES_ADDED, WireError, decode};
 use heapless::Vec;
 use serde::Deserialize;
@@ -71,7 +72,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 self.monitor.again();
                 self.outbox.start();
                 if self.state.taught.gallery().is_some() {
-                    self.outbox.shapes_changed();
+                    self.outbox.tell_shapes();
                 }
                 Ok(())
             }
@@ -143,20 +144,36 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     fn set_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         if bytes.is_empty() {
             self.state.taught.clear();
-            self.outbox.shapes_changed();
+            self.shapes_changed();
             return Ok(());
         }
-        self.state.taught.begin(read("shapes", bytes)?).map_err(Refusal::of)
+        let head = read("shapes", bytes)?;
+        self.teach(|taught| taught.begin(head))
     }
 
     #[inline(never)]
     fn add_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>("prototypes", bytes)?;
-        self.state.taught.add(&prototypes).map_err(Refusal::of)?;
-        if self.state.taught.gallery().is_some() {
-            self.outbox.shapes_changed();
+        self.teach(|taught| taught.add(&prototypes))
+    }
+
+    /// Changes the gallery, and says so where one was in force or is now.
+    fn teach(
+        &mut self,
+        change: impl FnOnce(&mut Taught<CONTACTS>) -> Result<(), Invalid>,
+    ) -> Result<(), Refusal> {
+        let before = self.state.taught.gallery().is_some();
+        let done = change(&mut self.state.taught);
+        if before || self.state.taught.gallery().is_some() {
+            self.shapes_changed();
         }
-        Ok(())
+        done.map_err(Refusal::of)
+    }
+
+    /// What was found by the base before has no name in this one.
+    fn shapes_changed(&mut self) {
+        self.state.recognise_shapes_anew();
+        self.outbox.shapes_changed();
     }
 
     fn tare(&mut self, frames: u16) -> Result<(), Refusal> {

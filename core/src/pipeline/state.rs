@@ -90,6 +90,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.gesture.forget();
     }
 
+    /// Shapes are recognised from the next frame on, by another base.
+    pub fn recognise_shapes_anew(&mut self) {
+        self.present.iter_mut().for_each(|placed| placed.shape.forget_class());
+    }
+
     /// The announced intention and what led to it.
     pub fn intent(&self) -> &IntentState {
         &self.intent

@@ -24,6 +24,13 @@ pub struct Shape {
     pub confidence: Q15,
 }
 
+impl Shape {
+    /// Another base is in force: the class of the former one has no name in it.
+    pub const fn forget_class(&mut self) {
+        (self.class, self.confidence) = (Class::UNKNOWN, Q15(0));
+    }
+}
+
 /// Recognises shapes; see the [module](super).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shapes<const PROTOTYPES: usize> {

@@ -16,7 +16,7 @@ const TAXELS: usize = 64;
 type Small = Board<TAXELS, 32>;
 
 /// A board in one hand and a host in the other.
-struct Bench {
+pub struct Bench {
     board: Box<Small>,
     now: u64,
     codes: [Code; TAXELS],
@@ -29,7 +29,7 @@ fn info() -> BoardInfo {
 }
 
 impl Bench {
-    fn new(scene: Scene) -> Bench {
+    pub fn new(scene: Scene) -> Bench {
         let board = Small::new(info(), Garment::block(), scene).expect("garment and scene fit");
         Bench {
             board: Box::new(board),
@@ -40,7 +40,7 @@ impl Bench {
         }
     }
 
-    fn ask(&mut self, request: &Request<'_>) {
+    pub fn ask(&mut self, request: &Request<'_>) {
         let mut frame = [0; 4200];
         let frame = wire::encode(request, &mut frame).expect("it fits");
         // In uneven pieces, as a UART delivers them.
@@ -50,7 +50,7 @@ impl Bench {
     }
 
     /// One scan of the present codes, 5 ms later.
-    fn scan(&mut self) {
+    pub fn scan(&mut self) {
         self.now += 5_000;
         let report =
             ScanReport { start: Micros(self.now), duration_us: 4_000, overruns: 0, temperature: None };
@@ -58,12 +58,12 @@ impl Bench {
         self.board.step(Micros(self.now), Input::Scanned(Ok(scan)), &mut ());
     }
 
-    fn tick(&mut self) -> Option<Job> {
+    pub fn tick(&mut self) -> Option<Job> {
         self.board.step(Micros(self.now), Input::Tick, &mut ())
     }
 
     /// Takes up to `budget` bytes off the board and calls `told` for every message; seq must not jump.
-    fn drain(&mut self, mut budget: usize, mut told: impl FnMut(&Report<'_>)) {
+    pub fn drain(&mut self, mut budget: usize, mut told: impl FnMut(&Report<'_>)) {
         while budget > 0 {
             let bytes = self.board.pending(Micros(self.now), &mut ()).to_vec();
             let taken = bytes.len().min(budget);
@@ -83,7 +83,7 @@ impl Bench {
     }
 
     /// What a request is answered with: none is yes.
-    fn answer(&mut self, request: &Request<'_>) -> Option<String> {
+    pub fn answer(&mut self, request: &Request<'_>) -> Option<String> {
         self.ask(request);
         let mut answer = None;
         self.drain(usize::MAX, |report| {
@@ -95,14 +95,15 @@ impl Bench {
         answer.expect("every request is answered")
     }
 
-    fn press(&mut self, taxels: &[usize], code: u16) {
+    pub fn press(&mut self, taxels: &[usize], code: u16) {
         for taxel in taxels {
             self.codes[*taxel] = Code(code);
         }
     }
 }
 
-const FINGER: [usize; 4] = [17, 18, 33, 34];
+/// Taxels under a fingertip.
+pub const FINGER: [usize; 4] = [17, 18, 33, 34];
 
 #[test]
 fn says_hello_until_started_and_in_answer_to_start() {

@@ -11,5 +11,6 @@ mod hard;
 mod moments;
 mod plain;
 mod sweep;
+mod taught;
 mod tracking;
 mod wire;

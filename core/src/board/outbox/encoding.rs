@@ -32,6 +32,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way.put(Report::ANSWER, &Answer { request, refusal })
         } else if let Some(report) = self.reactions.pop_front() {
             under_way.put(Report::REACTION, &report)
+        } else if core::mem::take(&mut self.shapes) {
+            // Before the contacts, whose classes are numbers of these names.
+            put_shapes(under_way, taught)
         } else if self.contacts_wait {
             self.contacts_wait = false;
             under_way.put(Report::CONTACTS, &self.contacts)
@@ -47,8 +50,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             fits
         } else if let Some(report) = self.gestures.pop_front() {
             under_way.put(Report::GESTURE, &report)
-        } else if core::mem::take(&mut self.shapes) {
-            put_shapes(under_way, taught)
         } else if let Some((level, text)) = self.logs.pop_front() {
             under_way.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {

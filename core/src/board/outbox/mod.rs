@@ -130,8 +130,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     /// What the board was taught is to be told.
+    pub fn tell_shapes(&mut self) {
+        self.shapes = true;
+    }
+
+    /// Another base of shapes: it is to be told, and what waits was recognised by the one before.
     pub fn shapes_changed(&mut self) {
         self.shapes = true;
+        self.contacts.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
     }
 
     /// The map of health is to be told.

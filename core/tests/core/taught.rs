@@ -1,0 +1,54 @@
+//! A base of shapes is exchanged while something touches: no class is told under the names of another base.
+
+use crate::board::{Bench, FINGER};
+use taxel_core::scene::Scene;
+use taxel_core::shape::{Class, Exemplar, GalleryHead, Space, Sureness};
+use taxel_core::wire::{Report, Request};
+
+/// Classes of the contacts in lists that come after the base was told, and the last frame of them.
+fn told(bench: &mut Bench) -> Vec<(u32, Class)> {
+    let (mut exchanged, mut classes) = (false, Vec::new());
+    bench.drain(usize::MAX, |report| match report {
+        Report::Shapes(_) => exchanged = true,
+        Report::Contacts(list) if exchanged => {
+            classes.extend(list.contacts.iter().map(|placed| (list.frame, placed.shape.class)));
+        }
+        _ => {}
+    });
+    assert!(exchanged, "the base was not told");
+    classes
+}
+
+#[test]
+fn a_class_of_one_base_is_never_told_as_one_of_another() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Start);
+    bench.ask(&Request::Tare { frames: 1 });
+    bench.scan();
+    bench.drain(usize::MAX, |_| ());
+
+    let names = ["cube", "ball"].into_iter().map(taxel_core::format::name).collect();
+    let space = Space { origin: [0; 24], weights: core::iter::once([0; 24]).collect(), shift: 0 };
+    let head = GalleryHead { names, space, k: 1, reject: 100, sureness: Sureness::default(), prototypes: 1 };
+    let head = postcard::to_allocvec(&head).unwrap();
+    let prototypes = postcard::to_allocvec(&vec![Exemplar { class: 1, at: [0; 12] }]).unwrap();
+
+    // The list that tells the onset is still to be sent when the base arrives: it was made with the one before.
+    bench.press(&FINGER, 900);
+    bench.scan();
+    bench.ask(&Request::SetShapes(&head));
+    bench.ask(&Request::AddShapes(&prototypes));
+    let classes = told(&mut bench);
+    assert!(!classes.is_empty() && classes.iter().all(|(_, class)| *class == Class::UNKNOWN), "{classes:?}");
+    (0..8).for_each(|_| bench.scan());
+    bench.ask(&Request::Start);
+    assert!(told(&mut bench).iter().all(|(_, class)| *class == Class(2)));
+
+    // Another head arrives: from here on the built-in base is in force again, and this is told.
+    bench.press(&FINGER, 0);
+    bench.press(&[44, 45, 60, 61], 900);
+    bench.scan();
+    bench.ask(&Request::SetShapes(&head));
+    let classes = told(&mut bench);
+    assert!(!classes.is_empty() && classes.iter().all(|(_, class)| *class == Class::UNKNOWN), "{classes:?}");
+}
