@@ -1,7 +1,7 @@
 //! `taxel-core`: everything between the converter's codes and the meaning of a touch.
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
-//! [`selftest`] (of lines and inputs), [`health`] (of every taxel), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
+//! [`reflex`] (check of a sub-field), [`selftest`] (of lines and inputs), [`health`] (of every taxel), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
 //! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
 //! [`scene`] (all their settings), [`pipeline`] (their composition), [`wire`] (messages, frames), [`board`] (a function
 //! of what happened) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
@@ -14,6 +14,8 @@ pub mod format;
 pub mod garment;
 
 pub mod acquire;
+
+pub mod reflex;
 
 pub mod selftest;
 

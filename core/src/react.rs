@@ -10,12 +10,13 @@
 use crate::format::{Invalid, InvalidRow, Micros, Name, Q15};
 use crate::garment::{Layout, Line};
 use crate::intent::{Leading, Map, Meaning};
+use crate::reflex::{Agree, ROWS, Reflexes, Row};
 use crate::symbol::RegionState;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 /// Most reactions of a scene.
-pub const REACTIONS: usize = 8;
+pub const REACTIONS: usize = ROWS;
 
 /// What a reaction looks at. Variants are only appended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,6 +34,9 @@ pub enum Cause {
     Concept(Name),
     /// This intention leads: 1.
     Leading(Leading),
+    /// Greatest pressure of a taxel, counts, as of `Pressure`; and it begins before the frame is complete, as soon as so many taxels
+    /// agree. Needs an interlaced scan.
+    Reflex(Agree),
 }
 
 /// One row of the table of reactions.
@@ -84,6 +88,7 @@ enum Watch {
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Reactions {
     rows: Vec<(ReactionConfig, Watch), REACTIONS>,
+    reflexes: Reflexes,
 }
 
 /// What the stage remembers.
@@ -101,6 +106,11 @@ impl ReactState {
     pub fn changes(&self) -> &[Reaction] {
         &self.changes
     }
+
+    /// The rows that last, a bit each.
+    pub fn active(&self) -> u8 {
+        (0..).zip(&self.active).fold(0, |mask, (index, since)| mask | u8::from(since.is_some()) << index)
+    }
 }
 
 impl Reactions {
@@ -110,14 +120,35 @@ impl Reactions {
         layout: &Layout,
         map: Option<&Map>,
     ) -> Result<Reactions, InvalidRow> {
-        let mut reactions = Reactions { rows: Vec::new() };
+        let mut reactions = Reactions { rows: Vec::new(), reflexes: Reflexes::of(layout) };
         for (index, row) in rows.iter().enumerate() {
             let at = |invalid| InvalidRow { list: "react", index, invalid };
             let watch = watch(row, layout, map).map_err(at)?;
+            if let (Cause::Reflex(agree), Watch::Region(_, region)) = (&row.cause, &watch) {
+                reactions.add_reflex(index as u8, row, *agree, *region, layout).map_err(at)?;
+            }
             let full = Invalid { parameter: "name", must: "must be one of 8 rows at most" };
             reactions.rows.push((row.clone(), watch)).map_err(|_| at(full))?;
         }
         Ok(reactions)
+    }
+
+    fn add_reflex(
+        &mut self,
+        index: u8,
+        row: &ReactionConfig,
+        agree: Agree,
+        region: Option<u8>,
+        layout: &Layout,
+    ) -> Result<(), Invalid> {
+        let Some(level) = u16::try_from(row.level).ok().filter(|level| *level > 0) else {
+            return Err(Invalid { parameter: "level", must: "must be 1 to 65535 counts for a reflex" });
+        };
+        let reflex = Row { index, agree, level, output: row.output, region };
+        if self.reflexes.add(reflex, layout) {
+            return Ok(());
+        }
+        Err(Invalid { parameter: "region", must: "must not be that of another reflex" })
     }
 
     /// Takes one frame: the state of the regions and the meaning, if there is a new one.
@@ -153,6 +184,22 @@ impl Reactions {
                 let _ = changes.push(Reaction { index: index as u8, name, active: !was, value });
             }
         }
+    }
+
+    /// A row has begun by reflex, at that pressure (counts); none if it lasts already or is no reflex.
+    pub fn begin(&self, state: &mut ReactState, index: u8, value: u16, now: Micros) -> Option<Reaction> {
+        let (row, _) = self.rows.get(usize::from(index))?;
+        let since = state.active.get_mut(usize::from(index))?;
+        if !matches!(row.cause, Cause::Reflex(_)) || since.is_some() {
+            return None;
+        }
+        *since = Some(now);
+        Some(Reaction { index, name: row.name.clone(), active: true, value: value.into() })
+    }
+
+    /// The rows that begin by reflex.
+    pub fn reflexes(&self) -> &Reflexes {
+        &self.reflexes
     }
 
     /// The pin that a row asserts.
@@ -194,7 +241,7 @@ fn of_regions(cause: &Cause, region: Option<u8>, regions: &[RegionState]) -> i32
     let wanted = regions.iter().filter(|state| region.is_none_or(|r| r == state.region));
     let value = wanted
         .map(|state| match cause {
-            Cause::Pressure => u32::from(state.peak),
+            Cause::Pressure | Cause::Reflex(_) => u32::from(state.peak),
             Cause::Force => state.total,
             Cause::Contacts => u32::from(state.contacts),
             Cause::Moving => u32::from(state.moving),

@@ -38,6 +38,7 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     examine(acquire, platform, board);
     while platform.alive() {
         receive(link, platform, board);
+        acquire.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel));
         let now = platform.now();
         let job = board.step(now, Input::Tick, platform);
         // What a reaction moves goes before what tells of it.
@@ -58,6 +59,10 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 platform.begin(Stage::Idle);
                 let now = platform.now();
                 board.step(now, Input::Scanned(scan), platform);
+                while let Some(early) = acquire.reflex() {
+                    let now = platform.now();
+                    board.step(now, Input::Reflex(early), platform);
+                }
                 acquire.pose(board.circuit());
             }
             Some(Job::Save) => {

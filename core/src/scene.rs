@@ -1,6 +1,6 @@
 //! The scene: what one deployment needs, as one small checked value.
 
-use crate::acquire::Plan;
+use crate::acquire::{Depth, Plan};
 use crate::condition::{ConditionConfig, Filter};
 use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
@@ -8,6 +8,7 @@ use crate::format::{Invalid, InvalidRow, Name, name};
 use crate::garment::{Layout, Line, PANELS};
 use crate::intent::{Input, IntentConfig, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
+use crate::reflex::Agree;
 use crate::shape::ShapeConfig;
 use crate::symbol::SymbolConfig;
 use heapless::Vec;
@@ -148,6 +149,15 @@ impl Scene {
         }
     }
 
+    /// The same with an interlaced scan, in which the reactions to pressure begin by reflex.
+    pub fn interlaced(mut self, agree: Agree) -> Scene {
+        self.plan.depth = Depth::Interlaced;
+        for row in self.react.iter_mut().filter(|row| row.cause == Cause::Pressure) {
+            row.cause = Cause::Reflex(agree);
+        }
+        self
+    }
+
     /// Checks the names of joints, and of regions of the garment that the scene is for.
     pub fn check_names(&self, layout: &Layout) -> Result<(), InvalidRow> {
         let refuse = |list, index, parameter, must| {
@@ -197,7 +207,11 @@ impl Scene {
         scene.contact.low = scale16(scene.contact.low);
         scene.contact.high = scale16(scene.contact.high);
         scene.symbol.strength = scene.symbol.strength.map(scale);
-        for row in scene.react.iter_mut().filter(|row| matches!(row.cause, Cause::Pressure | Cause::Force)) {
+        for row in scene
+            .react
+            .iter_mut()
+            .filter(|row| matches!(row.cause, Cause::Pressure | Cause::Force | Cause::Reflex(_)))
+        {
             row.level = scale(row.level.unsigned_abs()) as i32;
             row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
         }

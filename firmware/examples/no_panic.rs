@@ -11,11 +11,12 @@
 
 use core::hint::black_box;
 use core::panic::PanicInfo;
-use taxel_core::acquire::{Scan, ScanError, ScanReport};
+use taxel_core::acquire::{Fields, Scan, ScanError, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{Model, TouchState, Touches};
+use taxel_core::reflex::{Early, Reflex};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
 
@@ -52,6 +53,9 @@ pub struct Given {
     scene: Scene,
     touch: TouchState,
     image: &'static [u16],
+    early: Early,
+    reflex: Reflex<2048>,
+    frame: &'static mut [Code; 2048],
 }
 
 /// One call; where a linker begins, and so what it keeps.
@@ -82,8 +86,19 @@ pub extern "C" fn _start(given: &mut Given) {
             touches.decide(touch)
         })),
         17 => step(Input::Misled),
+        18 => step(Input::Reflex(given.early)),
+        19 => given.reflex.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel)),
+        20 => keep(given.reflex.check(given.count, codes, given.frame, *now)),
+        21 => keep(Fields::of(board.circuit(), &scene.plan).map(|fields| {
+            fields.each(board.circuit(), &scene.plan, |field, _, taxels| {
+                given.reflex.order(field, given.count, taxels);
+            });
+            given.reflex.begin(fields, board.circuit().falling());
+        })),
+        22 => keep((given.reflex.told(), given.reflex.pins(given.call).count())),
+        23 => given.reflex.driven(given.call, given.count > 0),
         #[cfg(control)]
-        18 => keep(codes[given.count]),
+        24 => keep(codes[given.count]),
         _ => {}
     }
 }

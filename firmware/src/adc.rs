@@ -86,8 +86,8 @@ pub const fn channel(input: u8) -> usize {
     (input.wrapping_sub(FIRST_INPUT) & 3) as usize
 }
 
-/// Converts the thermometer and these inputs in turn until [`halt`], at that pace, and asks for DMA.
-pub fn run(inputs: &[u8], rounds: Rounds) {
+/// Converts the thermometer and these channels in turn until [`halt`], at that pace, and asks for DMA.
+pub fn run(channels: impl Iterator<Item = usize>, rounds: Rounds) {
     // 0: one conversion after the other.
     let divider = if rounds.period_clocks > CONVERSION_CLOCKS { rounds.period_clocks - 1 } else { 0 };
     ADC.div().write(|w| w.set_int(divider.min(u16::MAX.into()) as u16));
@@ -107,7 +107,7 @@ pub fn run(inputs: &[u8], rounds: Rounds) {
         w.set_ts_en(true);
         w.set_err_sticky(true);
         w.set_ainsel(THERMOMETER);
-        w.set_rrobin(inputs.iter().fold(1 << THERMOMETER, |mask, input| mask | 1 << channel(*input)));
+        w.set_rrobin(channels.fold(1 << THERMOMETER, |mask, channel| mask | 1 << channel));
         w.set_start_many(true);
     });
 }

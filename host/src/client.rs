@@ -199,6 +199,7 @@ impl Client {
                 Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
             }
             Report::Reaction(report) => Event::Reaction(report),
+            Report::Reflex(report) => Event::Reflex(report),
             Report::Health(health) => {
                 self.health = Some(health);
                 Event::Health(health)

@@ -7,6 +7,7 @@ use taxel_core::contact::Phase;
 use taxel_core::format::Code;
 use taxel_core::garment::Garment;
 use taxel_core::intent::Leading;
+use taxel_core::reflex::Agree;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
 use taxel_suite::pattern::Pattern;
@@ -182,6 +183,84 @@ fn from_voltage_to_message_and_pin() {
     assert!(all.percentile(99) <= ONSET_US);
     assert!(reflexes.percentile(99) <= REFLEX_US);
     assert!(alone.percentile(99) <= REFLEX_US);
+}
+
+/// Percentiles that are allowed of a reflex within a frame, us: by one taxel's word, and where two must agree.
+const ONE_US: f64 = 1_500.0;
+const TWO_US: f64 = 2_200.0;
+
+/// Rest and touch in turn: one contact of 3 x 3, 4 x 4 or 5 x 5 taxels, anywhere on the garment.
+fn footprints() -> Vec<u16> {
+    let empty = |number: usize| {
+        let mut codes = [Code(0); TAXELS];
+        Pattern::Empty.codes(number as u32, &mut codes);
+        codes.map(|code| code.0)
+    };
+    let mut frames: Vec<u16> = (0..RESTS).flat_map(empty).collect();
+    let mut random = 1u32;
+    let mut below = |n: usize| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((u64::from(random) * n as u64) >> 32) as usize
+    };
+    for touch in 0..touches() {
+        let side = 3 + touch % 3;
+        let place = below(4) * PANEL + below(33 - side) * COLUMNS + below(17 - side);
+        let mut pressed = empty(touch);
+        (0..side * side).for_each(|at| pressed[place + at / side * COLUMNS + at % side] = PRESSED);
+        frames.extend(pressed);
+        frames.extend(empty(touch + 1));
+    }
+    frames
+}
+
+/// From the voltage to the pin in an interlaced scan, which tells each reflex once.
+fn reflexes(agree: Agree) -> Times {
+    let period = PERIOD_US.to_string();
+    let options = ["--link", "usb", "--period", &period, "--times", "--watch", "18"];
+    let mut board = Emulated::start(&Garment::reference(), &footprints(), 100, &options);
+    let scene = postcard::to_allocvec(&scene().interlaced(agree)).unwrap();
+    board.receive();
+    let begun = board.play().0 as f64;
+    let rise = |touch: usize| begun + (RESTS + 2 * touch) as f64 * PERIOD_US;
+    [Request::SetScene(&scene), Request::Tare { frames: 16 }, Request::Start]
+        .iter()
+        .for_each(|r| board.ask(r));
+    let mut told = Vec::new();
+    loop {
+        match board.receive().report() {
+            Report::Reflex(reflex) => told.push(reflex),
+            Report::Frame(frame) if frame.time.0 as f64 > rise(touches()) => break,
+            Report::Answer(answer) => assert_eq!(answer.refusal, None),
+            _ => {}
+        }
+    }
+    let said = std::mem::take(&mut board.said);
+    board.end();
+    let edges: Vec<f64> = said
+        .iter()
+        .filter_map(|line| line.get("edge"))
+        .filter(|edge| edge["pin"] == PRESSURE_PIN && edge["level"] == true)
+        .map(us)
+        .collect();
+    assert_eq!((told.len(), edges.len()), (touches(), touches()));
+    for (touch, (reflex, edge)) in told.iter().zip(&edges).enumerate() {
+        assert!((rise(touch)..rise(touch) + PERIOD_US).contains(edge), "touch {touch}");
+        // The pin moves when the check is through.
+        assert!((0.0..100.0).contains(&(edge - reflex.time.0 as f64)), "touch {touch}: {reflex:?} {edge}");
+        assert_eq!((reflex.index, reflex.other.is_some()), (0, agree == Agree::Two));
+    }
+    Times(edges.iter().enumerate().map(|(touch, edge)| edge - rise(touch)).collect())
+}
+
+#[test]
+fn a_reflex_within_a_frame() {
+    for (agree, what, most) in
+        [(Agree::One, "one taxel's word", ONE_US), (Agree::Two, "two that agree", TWO_US)]
+    {
+        let times = reflexes(agree);
+        times.tell(&format!("interlaced: reflex by {what}"));
+        assert!(times.percentile(99) <= most);
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ use serde_json::Value;
 use taxel_core::acquire::{Depth, Plan, frame_us};
 use taxel_core::format::name;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::reflex::Agree;
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::{Report, Request, decode_image};
 
@@ -97,6 +98,29 @@ fn the_whole_garment_at_the_limit_of_the_converter() {
     assert!((spent.scan as f64) < 0.01 * CLOCK / spent.rate);
 }
 
+/// Put back into the order of the taxels, each frame is what the garment showed, in the time of a progressive one.
+#[test]
+fn the_whole_garment_interlaced() {
+    let mut board = tared(&Garment::reference(), &Scene::shipped().interlaced(Agree::Two));
+    let spent = measure(&mut board, 1000);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
+    assert!(spent.rate >= 195.0);
+}
+
+/// A wiring that a progressive chain cannot follow, as its taxels jump too often, is no matter to an interlaced one.
+#[test]
+fn a_mirrored_panel_is_interlaced_by_the_chain() {
+    let mut garment = Garment::reference();
+    garment.blocks.iter_mut().filter(|b| b.panel == 3).for_each(|b| b.orientation.mirror_x = true);
+    let mut board = tared(&garment, &Scene::shipped().interlaced(Agree::Two));
+    let spent = measure(&mut board, 100);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert!(spent.rate >= 195.0);
+}
+
 #[test]
 fn one_panel_alone() {
     let mut scene = Scene::shipped();
@@ -154,7 +178,15 @@ fn a_mean_of_scans() {
 /// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is lost is counted.
 #[test]
 fn a_chain_that_loses_samples_begins_anew() {
-    let mut board = tared(&Garment::reference(), &Scene::shipped());
+    for depth in [Depth::Twelve, Depth::Interlaced] {
+        lose_samples(depth);
+    }
+}
+
+fn lose_samples(depth: Depth) {
+    let mut scene = Scene::shipped();
+    scene.plan.depth = depth;
+    let mut board = tared(&Garment::reference(), &scene);
     let counted = |board: &mut Emulated| loop {
         if let Report::Health(health) = board.receive().report() {
             return health;
@@ -220,7 +252,8 @@ fn period_us(board: &mut Emulated, frames: u32) -> f64 {
 #[test]
 fn a_frame_takes_what_the_model_says() {
     const SETTLING: [u32; 8] = [500, 3_000, 4_000, 8_000, 15_000, 34_000, 60_000, 100_000];
-    const DEPTHS: [Depth; 5] = [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8];
+    const DEPTHS: [Depth; 6] =
+        [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8, Depth::Interlaced];
     // A block's frame may be shorter than what the board does with it: some scans are missed then.
     const WHAT_ELSE_US: u64 = 1_000;
     let mut scene = Scene::shipped();

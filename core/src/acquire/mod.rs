@@ -3,7 +3,9 @@
 //! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
 //! board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a [`Ring`].
 
+mod addresses;
 mod duration;
+mod fields;
 mod lines;
 mod mux;
 mod plan;
@@ -11,18 +13,21 @@ mod ring;
 mod rounds;
 mod sweep;
 
+pub use addresses::Read;
 pub use duration::{
     LONGEST_MS, TooLong, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
 };
+pub use fields::{FIELDS, Fields};
 pub use lines::{Lines, Pad, Pull, PulledAdc};
 pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
-pub use ring::{Lent, PLACES, Ring};
+pub use ring::{Lent, PLACES, Ring, TURN_PLACES};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
 pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, SWEEP_STRETCHES, Stretch, Sweep, Unfit};
 
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;
+use crate::reflex::{Early, Reflexes};
 use core::fmt;
 
 /// One finished scan.
@@ -105,6 +110,15 @@ pub trait Acquire {
     /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the lines or the
     /// memory, or the circuit changes, which it does at no other time. Has no effect on what only works when it is asked to.
     fn rest(&mut self) {}
+
+    /// What is to be watched in each sub-field from now on; none: nothing, for now. As [`Reflex::watch`](crate::reflex::Reflex::watch)
+    /// says. Nothing is watched by what reads whole frames only.
+    fn watch(&mut self, _reflexes: Option<&Reflexes>, _active: u8, _limit: impl Fn(u16) -> Option<u16>) {}
+
+    /// The next reflex that has begun and was not told yet.
+    fn reflex(&mut self) -> Option<Early> {
+        None
+    }
 }
 
 impl<A: Acquire> Acquire for &mut A {
@@ -118,5 +132,13 @@ impl<A: Acquire> Acquire for &mut A {
 
     fn rest(&mut self) {
         (**self).rest();
+    }
+
+    fn watch(&mut self, reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Option<u16>) {
+        (**self).watch(reflexes, active, limit);
+    }
+
+    fn reflex(&mut self) -> Option<Early> {
+        (**self).reflex()
     }
 }

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How finely a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come as much
-/// more rarely.
+/// How a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come as much
+/// more rarely; and in which order.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Depth {
     /// The upper 8 bits of the converter's 12 (the source's 256 grey levels); codes still span 0 ..= 4095.
@@ -22,6 +22,10 @@ pub enum Depth {
     /// The mean of eight scans.
     #[serde(rename = "mean of 8")]
     MeanOf8,
+    /// All 12 bits, in the order of [`Fields`](super::Fields): every part of the garment is met in each part of a frame, which
+    /// is what a reflex within a frame needs.
+    #[serde(rename = "12 interlaced")]
+    Interlaced,
 }
 
 impl Depth {
@@ -29,7 +33,7 @@ impl Depth {
     pub const fn step(self) -> u16 {
         match self {
             Depth::Eight => 16,
-            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 => 1,
+            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 | Depth::Interlaced => 1,
         }
     }
 
@@ -38,14 +42,14 @@ impl Depth {
         match self {
             // The upper bits are repeated below, so that full scale stays full scale.
             Depth::Eight => (code & 0xff0) | (code >> 8 & 0xf),
-            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 => code,
+            Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 | Depth::Interlaced => code,
         }
     }
 
     /// log2 of the number of scans of a frame.
     const fn doublings(self) -> u32 {
         match self {
-            Depth::Eight | Depth::Twelve => 0,
+            Depth::Eight | Depth::Twelve | Depth::Interlaced => 0,
             Depth::MeanOf2 => 1,
             Depth::MeanOf4 => 2,
             Depth::MeanOf8 => 3,

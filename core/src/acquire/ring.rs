@@ -6,6 +6,9 @@ use crate::format::Micros;
 /// to be known before the converter gets there.
 pub const PLACES: usize = 4;
 
+/// Places that [`Ring::turn`] goes round in.
+pub const TURN_PLACES: usize = PLACES - 1;
+
 /// A complete frame that nobody overwrites until the next one is lent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lent {
@@ -41,6 +44,11 @@ impl Ring {
         self.next
     }
 
+    /// The place that is being filled.
+    pub const fn filling(&self) -> u8 {
+        self.filling
+    }
+
     /// The place that was lent last.
     pub const fn lent(&self) -> Option<u8> {
         self.lent
@@ -55,6 +63,16 @@ impl Ring {
         let taken = [Some(done.place), Some(self.filling), self.lent];
         // Three of four places at most are taken.
         self.next = (0..PLACES as u8).find(|place| !taken.contains(&Some(*place))).unwrap_or(0);
+    }
+
+    /// A frame is complete, at `now`, of those that are put into their places as they come, by whoever calls this: the place of the
+    /// next one. It need not be known before, so [`TURN_PLACES`] are enough.
+    pub fn turn(&mut self, now: Micros) -> u8 {
+        let done = self.filling;
+        self.complete(now);
+        let free = (0..TURN_PLACES as u8).find(|place| *place != done && Some(*place) != self.lent);
+        (self.filling, self.next) = (free.unwrap_or(0), free.unwrap_or(0));
+        self.filling
     }
 
     /// Lends the latest complete frame, once, and takes back the one before.

@@ -2,7 +2,8 @@
 //! each input go. A board whose DMA reads the garment turns this into its tables.
 
 use super::Plan;
-use crate::garment::{Circuit, Site};
+use super::addresses::{self, Inputs, Read};
+use crate::garment::Circuit;
 use core::fmt;
 use heapless::Vec;
 
@@ -14,9 +15,6 @@ pub const SWEEP_ADDRESSES: usize = 512;
 /// Stretches for which it has room: one for each row of 16 blocks.
 pub const SWEEP_STRETCHES: usize = 64;
 
-/// Taxels that a sweep reads at one address, by the position of their input in [`Sweep::inputs`].
-type Read = [Option<u16>; SWEEP_INPUTS];
-
 /// Addresses that follow each other, and so do, at every input, the numbers of the taxels read there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stretch {
@@ -24,7 +22,7 @@ pub struct Stretch {
     pub first: u16,
     /// Taxels at that address, by the position of their input in [`Sweep::inputs`]; none where an input reads nothing
     /// in the whole stretch, which then lies within one row or column of a block (256 addresses at most).
-    pub taxels: [Option<u16>; SWEEP_INPUTS],
+    pub taxels: Read,
 }
 
 /// Why a plan cannot be read in one sweep.
@@ -40,6 +38,8 @@ pub enum Unfit {
     Addresses(usize),
     /// The taxels jump more often than there is room for.
     Stretches(usize),
+    /// A frame is as short as a part of it should be: nothing is gained by interlacing it.
+    Short,
 }
 
 impl fmt::Display for Unfit {
@@ -50,6 +50,7 @@ impl fmt::Display for Unfit {
             Unfit::Line(pin) => write!(f, "the select line on pin {pin} is out of reach"),
             Unfit::Addresses(room) => write!(f, "more than {room} addresses are read"),
             Unfit::Stretches(room) => write!(f, "the taxels jump more than {room} times"),
+            Unfit::Short => write!(f, "a frame of less than 200 us is not interlaced"),
         }
     }
 }
@@ -59,7 +60,7 @@ impl core::error::Error for Unfit {}
 /// The sweep of a plan: up to ADDRESSES addresses in up to STRETCHES stretches, of which there are at least two.
 #[derive(Debug)]
 pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
-    inputs: Vec<u8, SWEEP_INPUTS>,
+    inputs: Inputs,
     levels: Vec<u32, ADDRESSES>,
     stretches: Vec<Stretch, STRETCHES>,
 }
@@ -75,59 +76,19 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
         self.inputs.clear();
         self.levels.clear();
         self.stretches.clear();
-        if let Some(pin) = circuit.lines().iter().find(|pin| **pin >= 32) {
-            return Err(Unfit::Line(*pin));
-        }
-        for site in circuit.sites().iter().filter(|s| plan.reads(s.panel, s.block)) {
-            if !self.inputs.contains(&site.input) {
-                self.inputs.push(site.input).map_err(|_| Unfit::Inputs)?;
-            }
-        }
-        self.inputs.sort_unstable();
+        self.inputs = addresses::inputs(circuit, plan)?;
         let mut last = [None; SWEEP_INPUTS];
-        for sites in circuit.selects() {
-            self.add_select(circuit, plan, sites, &mut last)?;
-        }
+        addresses::each(circuit, plan, |address| {
+            let here = address.taxels(&self.inputs);
+            let goes_on = last.iter().zip(&here).take(self.inputs.len()).all(|pair| match pair {
+                (Some(last), Some(here)) => last + 1 == *here,
+                (None, None) => address.point > 0,
+                _ => false,
+            });
+            last = here;
+            self.add(address.levels(), here, goes_on)
+        })?;
         self.split()
-    }
-
-    /// All addresses of the blocks that share one select code. Their order within it is that of the taxels of its first
-    /// block, so that as many taxels as possible follow each other.
-    fn add_select(
-        &mut self,
-        circuit: &Circuit,
-        plan: &Plan,
-        sites: &[Site],
-        last: &mut Read,
-    ) -> Result<(), Unfit> {
-        let read = || sites.iter().filter(|s| plan.reads(s.panel, s.block));
-        let Some(lead) = read().next() else { return Ok(()) };
-        let rows = read().map(|s| s.rows).max().unwrap_or(0);
-        let columns = read().map(|s| s.columns).max().unwrap_or(0);
-        let by_rows = lead.column_step.abs() == 1;
-        let (lines, points, step) =
-            if by_rows { (rows, columns, lead.column_step) } else { (columns, rows, lead.row_step) };
-        for line in 0..lines {
-            for point in 0..points {
-                let point_here = if step < 0 { points - 1 - point } else { point };
-                let (row, column) = if by_rows { (line, point_here) } else { (point_here, line) };
-                let mut here = [None; SWEEP_INPUTS];
-                for site in read().filter(|s| row < s.rows && column < s.columns) {
-                    let position = self.inputs.iter().position(|input| *input == site.input);
-                    if let Some(slot) = position.and_then(|position| here.get_mut(position)) {
-                        *slot = Some(site.taxel(row, column) as u16);
-                    }
-                }
-                let goes_on = last.iter().zip(&here).take(self.inputs.len()).all(|pair| match pair {
-                    (Some(last), Some(here)) => last + 1 == *here,
-                    (None, None) => point > 0,
-                    _ => false,
-                });
-                self.add(levels(circuit, circuit.word(lead.select, row, column)), here, goes_on)?;
-                *last = here;
-            }
-        }
-        Ok(())
     }
 
     fn add(&mut self, levels: u32, taxels: Read, goes_on: bool) -> Result<(), Unfit> {
@@ -172,10 +133,4 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Default for Sweep<ADDRESSES
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// A circuit's word, with bit `n` for GPIO `n`.
-fn levels(circuit: &Circuit, word: u32) -> u32 {
-    let bits = circuit.lines().iter().enumerate();
-    bits.fold(0, |levels, (bit, pin)| levels | (word >> bit & 1).checked_shl(u32::from(*pin)).unwrap_or(0))
 }

@@ -10,6 +10,7 @@ mod outbox;
 mod outputs;
 mod pace;
 mod reading;
+mod reflex;
 mod refusal;
 mod request;
 mod saving;
@@ -28,6 +29,7 @@ use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
 use crate::health::Monitor;
 use crate::pipeline::{PipelineState, Probe, Stage};
+use crate::reflex::Early;
 use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
@@ -53,6 +55,8 @@ pub enum Input<'a> {
     Examined(Result<Findings, ScanError>),
     /// A select line showed another level than it was driven to.
     Misled,
+    /// A reaction began by reflex, within the frame that is being scanned or was scanned last.
+    Reflex(Early),
     /// Nothing in particular: what is there to do?
     Tick,
 }
@@ -219,6 +223,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Saved(result) => self.saved(now, result),
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.doubt.raise(now),
+            Input::Reflex(early) => self.reflex(&early),
             Input::Tick => return self.next_job(now),
         }
         None

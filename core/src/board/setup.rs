@@ -1,10 +1,11 @@
 //! Garment, scene, and what is built of them; changed as a whole or not at all.
 
 use super::info::BoardInfo;
-use crate::acquire::{TooLong, check_duration};
+use crate::acquire::{Depth, Fields, TooLong, Unfit, check_duration};
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Circuit, Garment, GarmentError, Layout};
 use crate::pipeline::{Pipeline, SceneError};
+use crate::react::Cause;
 use crate::scene::Scene;
 use core::fmt;
 
@@ -32,6 +33,8 @@ pub enum SetupError {
     Scene(SceneError),
     /// The garment with this scene keeps the board from its watchdog.
     Slow(TooLong),
+    /// The scene wants the garment interlaced, which it cannot be.
+    Interlaced(Unfit),
 }
 
 impl fmt::Display for SetupError {
@@ -40,6 +43,7 @@ impl fmt::Display for SetupError {
             SetupError::Garment(error) => write!(f, "garment: {error}"),
             SetupError::Scene(error) => write!(f, "scene: {error}"),
             SetupError::Slow(error) => error.fmt(f),
+            SetupError::Interlaced(why) => write!(f, "plan.depth cannot be interlaced: {why}"),
         }
     }
 }
@@ -55,6 +59,12 @@ impl From<GarmentError> for SetupError {
 impl From<TooLong> for SetupError {
     fn from(error: TooLong) -> Self {
         SetupError::Slow(error)
+    }
+}
+
+impl From<Unfit> for SetupError {
+    fn from(why: Unfit) -> Self {
+        SetupError::Interlaced(why)
     }
 }
 
@@ -109,6 +119,7 @@ impl Setup {
         let circuit = Circuit::build(garment, &layout, info.pins)?;
         check(info, &self.scene, &circuit)?;
         check_duration(&circuit, &self.scene.plan)?;
+        Fields::check(&circuit, &self.scene.plan)?;
         self.pipeline.fit(&self.scene, &layout)?;
         core::mem::swap(&mut self.garment, garment);
         (self.layout, self.circuit) = (layout, circuit);
@@ -121,6 +132,7 @@ impl Setup {
     pub fn change_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Result<(), SetupError> {
         check(info, scene, &self.circuit)?;
         check_duration(&self.circuit, &scene.plan)?;
+        Fields::check(&self.circuit, &scene.plan)?;
         scene.check_names(&self.layout).map_err(SceneError::Row)?;
         let done = self.pipeline.fill(scene, &self.layout);
         if done.is_err() {
@@ -148,11 +160,14 @@ fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), Scene
         return Err(Invalid { parameter: "stream.contacts_hz", must }.into());
     }
     for (index, row) in scene.react.iter().enumerate() {
-        let Some(line) = row.output else { continue };
-        let refuse = |must| {
-            let invalid = Invalid { parameter: "output.pin", must };
-            Err(InvalidRow { list: "react", index, invalid }.into())
+        let refuse = |parameter, must| {
+            Err(InvalidRow { list: "react", index, invalid: Invalid { parameter, must } }.into())
         };
+        if matches!(row.cause, Cause::Reflex(_)) && scene.plan.depth != Depth::Interlaced {
+            return refuse("cause.reflex", "needs plan.depth = \"12 interlaced\"");
+        }
+        let Some(line) = row.output else { continue };
+        let refuse = |must| refuse("output.pin", must);
         if !info.pins.is_output(line.pin) {
             return refuse("must be a free output of this board");
         }

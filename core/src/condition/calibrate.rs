@@ -264,7 +264,7 @@ fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: 
 /// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. As short as the
 /// compiler unrolls it. Not inlined: five places in memory are all that the registers of a Cortex-M0+ can tell.
 #[inline(never)]
-fn scale<const PART: usize, const FALLING: bool>(
+pub(super) fn scale<const PART: usize, const FALLING: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
     rest: &[u16; PART],

@@ -1,7 +1,9 @@
 //! The limit of each taxel, kept beside its calibration, so that a quiet taxel is compared and left.
 
+use super::calibrate::scale;
 use super::state::{ConditionState, UNITY};
 use super::terms::Terms;
+use crate::format::Code;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Sets the limits anew if they are for other terms, or for another calibration.
@@ -30,6 +32,27 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             *limit = terms.limit(*rest, terms.margin(*gain));
             self.plain &= is_plain(gain);
         }
+    }
+
+    /// The last code of a taxel that comes to less than `level` counts; of one that is silenced the last of all.
+    pub fn quiet_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
+        let terms = Terms { floor: level, falling };
+        let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
+        calibration.map_or(terms.silent(), |(rest, gain)| {
+            let margin = if *gain == UNITY { terms.margin_of_unity() } else { terms.margin(*gain) };
+            terms.limit(*rest, margin)
+        })
+    }
+
+    /// What the code of a taxel comes to, counts.
+    pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
+        let mut value = [0];
+        if let Some((rest, gain)) = self.baseline.get(taxel).zip(self.gain.get(taxel)) {
+            let scale = if falling { scale::<1, true> } else { scale::<1, false> };
+            scale(&[code], &[*rest], &[*rest], &[*gain], &mut value);
+        }
+        let [value] = value;
+        value
     }
 }
 

@@ -31,12 +31,25 @@ pub struct Site {
     pub row_step: i32,
     /// Step of the taxel number per wired column.
     pub column_step: i32,
+    /// Row of the panel modulo 8, times 8, and its column modulo 8, at wired row 0, column 0.
+    pub corner: u8,
 }
 
 impl Site {
     /// Number of the taxel at a wired row and column of the block.
     pub const fn taxel(&self, row: u8, column: u8) -> usize {
         (self.origin + row as i32 * self.row_step + column as i32 * self.column_step) as usize
+    }
+
+    /// Row and column of the panel at a wired row and column of the block, as far as they are known: up to a multiple of 8. Those of
+    /// a panel of one column are told as columns.
+    pub const fn place(&self, row: u8, column: u8) -> (i32, i32) {
+        let (mut y, mut x) = ((self.corner >> 3) as i32, (self.corner & 7) as i32);
+        let by_row = row as i32 * self.row_step.signum();
+        let by_column = column as i32 * self.column_step.signum();
+        *(if self.row_step.abs() == 1 { &mut x } else { &mut y }) += by_row;
+        *(if self.column_step.abs() == 1 { &mut x } else { &mut y }) += by_column;
+        (y, x)
     }
 }
 
@@ -228,8 +241,9 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
     let turn = block.orientation;
     let (x_step, x0) = if turn.mirror_x { (-1, width as i32 - 1) } else { (1, 0) };
     let (y_step, y0) = if turn.mirror_y { (-stride, height as i32 - 1) } else { (stride, 0) };
+    let (row, column) = (i32::from(block.row) + y0, i32::from(block.column) + x0);
     let (row_step, column_step) = if turn.transposed { (x_step, y_step) } else { (y_step, x_step) };
-    let origin = i32::from(area.base) + (i32::from(block.row) + y0) * stride + i32::from(block.column) + x0;
+    let origin = i32::from(area.base) + row * stride + column;
     Site {
         block: index as u8,
         panel: block.panel,
@@ -240,6 +254,7 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
         origin,
         row_step,
         column_step,
+        corner: (row as u8 & 7) << 3 | column as u8 & 7,
     }
 }
 

@@ -5,11 +5,11 @@ use crate::body::Placed;
 use crate::condition::{ConditionState, Image};
 use crate::contact::ContactState;
 use crate::fold::FoldState;
-use crate::format::Code;
+use crate::format::{Code, Micros};
 use crate::garment::Layout;
 use crate::gesture::GestureState;
 use crate::intent::{Fed, IntentState};
-use crate::react::ReactState;
+use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
 use crate::symbol::SymbolState;
 use heapless::Vec;
@@ -73,6 +73,22 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.gesture.forget();
         self.intent = IntentState::default();
         self.react = ReactState::default();
+    }
+
+    /// A reaction has begun by reflex, at that pressure (counts); none if it lasts already.
+    pub fn begin_reaction(
+        &mut self,
+        reactions: &Reactions,
+        index: u8,
+        value: u16,
+        now: Micros,
+    ) -> Option<Reaction> {
+        reactions.begin(&mut self.react, index, value, now)
+    }
+
+    /// Reactions that last, a bit for each row.
+    pub fn reacting(&self) -> u8 {
+        self.react.active()
     }
 
     /// Whether something touched the garment in the last frame.

@@ -69,6 +69,8 @@ pub enum Report<'a> {
     Gesture(GestureReport),
     /// Which shapes the board was taught.
     Shapes(ShapesReport),
+    /// A reaction began within a frame.
+    Reflex(ReflexReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -107,6 +109,8 @@ impl Report<'_> {
     pub const GESTURE: u32 = 15;
     /// Of `Shapes`.
     pub const SHAPES: u32 = 16;
+    /// Of `Reflex`.
+    pub const REFLEX: u32 = 17;
 }
 
 /// Frozen.
@@ -333,6 +337,23 @@ pub struct ShapesReport {
     pub prototypes: u16,
     /// Names of its classes.
     pub names: Vec<Name, GALLERY_CLASSES>,
+}
+
+/// A reaction began before its frame was complete. The `Reaction` itself follows it, or was told with a frame that showed the cause.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReflexReport {
+    /// Number of the scan in which it began.
+    pub frame: u32,
+    /// When the sub-field had been read that decided: the pin was asserted at once.
+    pub time: Micros,
+    /// Row of the scene's table.
+    pub index: u8,
+    /// Number of the taxel that decided.
+    pub taxel: u16,
+    /// Its pressure, counts.
+    pub value: u16,
+    /// The taxel that agrees, where two have to.
+    pub other: Option<u16>,
 }
 
 /// How grave a sentence is.

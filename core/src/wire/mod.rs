@@ -28,6 +28,7 @@
 //! | 14 | [`SelfTestReport`] | in answer to `Start`, if lines and inputs were examined; after each `SelfTest`, before its answer |
 //! | 15 | [`GestureReport`] | after `SetGestures`: when another class is announced for a touch, and at the end of a touch; always |
 //! | 16 | [`ShapesReport`] | when a gallery was taught or given up; in answer to `Start` where one is in force |
+//! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.

@@ -154,9 +154,10 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 17] {
+fn reports() -> [(&'static str, Report<'static>); 18] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
+    let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
     let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
     let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
     [
@@ -177,6 +178,7 @@ fn reports() -> [(&'static str, Report<'static>); 17] {
         ("SelfTest", Report::SelfTest(SelfTestReport { time, findings: findings() })),
         ("Gesture", Report::Gesture(gesture())),
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
+        ("Reflex", Report::Reflex(reflex)),
     ]
 }
 

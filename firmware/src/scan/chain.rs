@@ -15,7 +15,7 @@
 
 use super::frames::{Begun, Frames};
 use super::select::Select;
-use super::tables;
+use super::{reflex, tables};
 use crate::adc;
 use embassy_rp::Peri;
 use embassy_rp::interrupt::typelevel::{Binding, PIO0_IRQ_0};
@@ -25,7 +25,7 @@ use embassy_rp::peripherals::{
 use rp_pac::dma::regs::CtrlTrig;
 use rp_pac::dma::vals::{DataSize, TreqSel};
 use rp_pac::{ADC, DMA};
-use taxel_core::acquire::{Plan, Rounds, SWEEP_INPUTS, Sweep, Unfit};
+use taxel_core::acquire::{Depth, Fields, Plan, Rounds, SWEEP_INPUTS, Sweep, Unfit};
 use taxel_core::garment::Circuit;
 
 /// The chain's own channels, and the PIO block with the select lines' program.
@@ -61,7 +61,8 @@ const CHANNELS: u16 = (1 << (DROP + 1)) - 1;
 /// The chain of DMA channels.
 pub struct Chain {
     _parts: Parts,
-    sweep: Sweep<{ tables::ADDRESSES }, { tables::STRETCHES }>,
+    /// The converter inputs that are read in turn, bit `n` for GPIO `n`.
+    inputs: u32,
     select: Option<Select>,
 }
 
@@ -99,35 +100,70 @@ impl Step {
 impl Chain {
     /// At rest.
     pub fn new(parts: Parts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> Chain {
-        Chain { _parts: parts, sweep: Sweep::new(), select: None }
+        Chain { _parts: parts, inputs: 0, select: None }
     }
 
     /// Reads a plan over and over, from now on.
     pub fn start(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<(), Unfit> {
         self.stop();
-        self.sweep.fill(circuit, plan)?;
-        let select = Select::take(circuit.lines());
-        self.select = Some(select);
-        let destinations = core::array::from_fn(|input| DMA.ch(input).write_addr().as_ptr() as u32);
-        let next_word = DMA.ch(WORD).read_addr().as_ptr() as u32;
-        let code = |place, taxel| frames.address(place, taxel);
-        tables::fill(&self.sweep, select, code, destinations, next_word, Select::flags());
-        let rounds = Rounds::of(self.sweep.inputs().len(), circuit.settle_ns());
+        let fields = if plan.depth == Depth::Interlaced {
+            self.interlace(circuit, plan, frames)?
+        } else {
+            self.sweep(circuit, plan, frames)?
+        };
+        let rounds = Rounds::of(self.inputs.count_ones() as usize, circuit.settle_ns());
         self.set_up(rounds);
         trigger(1 << ANSWER);
         trigger(1 << WORD);
-        frames.begin();
-        adc::run(self.sweep.inputs(), rounds);
+        frames.begin(fields);
+        adc::run(self.channels(), rounds);
         Ok(())
+    }
+
+    /// The tables of a progressive scan, without sub-fields.
+    #[inline(never)] // the sweep is on the stack only meanwhile
+    fn sweep(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<usize, Unfit> {
+        let mut sweep = Sweep::<{ tables::ADDRESSES }, { tables::STRETCHES }>::new();
+        sweep.fill(circuit, plan)?;
+        self.inputs = mask(sweep.inputs());
+        let select = Select::take(circuit.lines());
+        self.select = Some(select);
+        let code = |place, taxel| frames.address(place, taxel);
+        tables::fill(&sweep, select, code, registers());
+        Ok(0)
+    }
+
+    /// The tables of an interlaced scan; how many sub-fields it has.
+    #[inline(never)]
+    fn interlace(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<usize, Unfit> {
+        let fields = Fields::of(circuit, plan)?;
+        self.inputs = mask(fields.inputs());
+        let select = Select::take(circuit.lines());
+        self.select = Some(select);
+        reflex::begin(&fields, circuit.falling());
+        let mut index = 0;
+        fields.each(circuit, plan, |field, levels, taxels| {
+            let within = index - fields.before(field);
+            tables::set_word(index, select.word(levels, within == 0));
+            reflex::order(field, within, taxels);
+            index += 1;
+        });
+        tables::fill_fields(&fields, |index| frames.scanned(index), registers());
+        Ok(fields.count())
+    }
+
+    /// The converter's channels of the inputs, in turn.
+    fn channels(&self) -> impl Iterator<Item = usize> {
+        let inputs = self.inputs;
+        (0..32).filter(move |input| inputs >> input & 1 == 1).map(adc::channel)
     }
 
     fn set_up(&self, rounds: Rounds) {
         use DataSize::{SIZE_HALFWORD as CODE, SIZE_WORD};
         use TreqSel::{ADC as SAMPLE, PERMANENT, PIO0_RX0};
         let samples = ADC.fifo().as_ptr() as u32;
-        let channels = || self.sweep.inputs().iter().map(|input| adc::channel(*input));
-        for (index, channel) in channels().enumerate() {
-            let then = channels().nth(index + 1).unwrap_or(WORD);
+        for (index, channel) in self.channels().enumerate() {
+            let then = self.channels().nth(index + 1).unwrap_or(WORD);
             let mut step = Step::new(CODE, samples, tables::nowhere(), SAMPLE, then);
             step.control.set_incr_write(true);
             step.set_up(channel);
@@ -140,7 +176,7 @@ impl Chain {
         let mut drop = Step::new(CODE, samples, tables::nowhere(), SAMPLE, SETTLE);
         drop.count = dropped;
         drop.set_up(DROP);
-        let first = channels().next().unwrap_or(0);
+        let first = self.channels().next().unwrap_or(0);
         Step::new(CODE, samples, tables::warmth(), SAMPLE, first).set_up(SETTLE);
         Step::new(SIZE_WORD, Select::answers(), tables::answer(), PIO0_RX0, LIST).set_up(ANSWER);
         let values = DMA.ch(VALUE);
@@ -179,6 +215,19 @@ impl Chain {
         DMA.chan_abort().write(|w| w.set_chan_abort(CHANNELS));
         while DMA.chan_abort().read().chan_abort() != 0 {}
         select.release();
+    }
+}
+
+fn mask(inputs: &[u8]) -> u32 {
+    inputs.iter().fold(0, |mask, input| mask | 1 << (input & 31))
+}
+
+/// What the chain writes at the start of a stretch.
+fn registers() -> tables::Registers {
+    tables::Registers {
+        destinations: core::array::from_fn(|input| DMA.ch(input).write_addr().as_ptr() as u32),
+        word: DMA.ch(WORD).read_addr().as_ptr() as u32,
+        flag: Select::flags(),
     }
 }
 

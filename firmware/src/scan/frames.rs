@@ -1,16 +1,20 @@
 //! Where the codes end up. The chain raises an interrupt where it begins a frame: the one before is complete then, and the
 //! place of the one after is chosen, so that the chain never meets a frame that is being read.
+//!
+//! An interlaced scan raises it where it begins a sub-field. Its codes lie in the order of the scan then; the interrupt checks
+//! them and copies them into their places of a frame.
 
-use super::{select::Select, tables};
+use super::{reflex, select::Select, tables};
 use crate::{adc, platform::Timer};
 use core::cell::RefCell;
 use core::future::poll_fn;
+use core::sync::atomic::{AtomicPtr, Ordering};
 use core::task::Poll;
 use embassy_rp::interrupt::typelevel::{Handler, Interrupt, PIO0_IRQ_0};
 use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
 use embassy_sync::waitqueue::AtomicWaker;
 use static_cell::ConstStaticCell;
-use taxel_core::acquire::{Clock, Lent, PLACES, Ring, ScanError};
+use taxel_core::acquire::{Clock, Lent, PLACES, Ring, ScanError, TURN_PLACES};
 use taxel_core::format::{Code, Micros};
 
 /// The codes of one frame by taxel number.
@@ -20,28 +24,69 @@ type Frame = [Code; crate::TAXELS];
 struct Beat {
     ring: Ring,
     astray: bool,
+    /// Sub-fields of a frame; 0 of one that is not interlaced.
+    fields: usize,
+    /// The one that is being read.
+    field: usize,
+}
+
+impl Beat {
+    const fn new(now: Micros, fields: usize) -> Beat {
+        Beat { ring: Ring::new(now), astray: false, fields, field: 0 }
+    }
+
+    /// A frame is complete; whether it is, and the flag that of the one after it.
+    fn frame(&mut self, begun: u32, now: Micros) -> bool {
+        let place = self.ring.next();
+        if begun != 1 << place {
+            return false;
+        }
+        self.ring.complete(now);
+        tables::lead(place, self.ring.next());
+        true
+    }
+
+    /// A sub-field is complete, and with the last one a frame; whether it is, and the flag that of the one after it.
+    fn field(&mut self, begun: u32, now: Micros) -> bool {
+        let next = if self.field + 1 < self.fields { self.field + 1 } else { 0 };
+        if begun != tables::flag_of(next) {
+            return false;
+        }
+        let places = FRAMES_AT.load(Ordering::Relaxed).cast::<Frame>();
+        #[allow(unsafe_code)]
+        // SAFETY: two places of a static, which was taken before the chain began. The chain stores in the last one alone, and
+        // comes back to this sub-field after all others. The ring keeps the place that is being filled from being lent.
+        let (codes, frame) = unsafe {
+            let filling = usize::from(self.ring.filling()).min(TURN_PLACES - 1);
+            (&*places.wrapping_add(TURN_PLACES), &mut *places.wrapping_add(filling))
+        };
+        reflex::check(self.field, codes, frame, now);
+        self.field = next;
+        if next == 0 {
+            self.ring.turn(now);
+        }
+        true
+    }
 }
 
 static BEAT: Mutex<CriticalSectionRawMutex, RefCell<Beat>> =
-    Mutex::new(RefCell::new(Beat { ring: Ring::new(Micros(0)), astray: false }));
+    Mutex::new(RefCell::new(Beat::new(Micros(0), 0)));
+/// The memory of all frames, for the interrupt.
+static FRAMES_AT: AtomicPtr<[Frame; PLACES]> = AtomicPtr::new(core::ptr::null_mut());
 static COMPLETE: AtomicWaker = AtomicWaker::new();
 
-/// The interrupt at the beginning of each frame.
+/// The interrupt at the beginning of each frame, or of each sub-field.
 pub struct Begun;
 
 impl Handler<PIO0_IRQ_0> for Begun {
     #[allow(unsafe_code)] // SAFETY: nothing here is unsafe; the trait wants to be called by the interrupt alone
     unsafe fn on_interrupt() {
-        let begun = Select::take_flags();
+        let begun = u32::from(Select::take_flags());
         BEAT.lock(|beat| {
-            let Beat { ring, astray } = &mut *beat.borrow_mut();
-            let place = ring.next();
-            if begun == 1 << place {
-                ring.complete(Timer.now());
-                tables::lead(place, ring.next());
-            } else {
-                *astray = true;
-            }
+            let beat = &mut *beat.borrow_mut();
+            let now = Timer.now();
+            let led = if beat.fields == 0 { beat.frame(begun, now) } else { beat.field(begun, now) };
+            beat.astray |= !led;
         });
         COMPLETE.wake();
     }
@@ -55,13 +100,20 @@ impl Frames {
     pub fn take() -> Frames {
         static FRAMES: ConstStaticCell<[Frame; PLACES]> =
             ConstStaticCell::new([[Code(0); crate::TAXELS]; PLACES]);
-        Frames(FRAMES.take())
+        let frames = FRAMES.take();
+        FRAMES_AT.store(frames, Ordering::Relaxed);
+        Frames(frames)
     }
 
     /// Where the code of a taxel goes in a place.
     pub fn address(&self, place: usize, taxel: u16) -> u32 {
         let offset = place * size_of::<Frame>() + usize::from(taxel) * size_of::<Code>();
         self.0 as u32 + offset as u32
+    }
+
+    /// Where a code goes by the order of an interlaced scan, until its sub-field is complete: in the place that no frame needs then.
+    pub fn scanned(&self, index: usize) -> u32 {
+        self.address(TURN_PLACES, index as u16)
     }
 
     /// All places hold the same before the chain starts: what the frame that was lent last held, or nothing.
@@ -75,11 +127,14 @@ impl Frames {
         (0..PLACES).for_each(|place| codes.copy_within(from..from + crate::TAXELS, place * crate::TAXELS));
     }
 
-    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles.
-    pub fn begin(&self) {
+    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles. `fields`: its sub-fields, 0 where it
+    /// is not interlaced.
+    pub fn begin(&self, fields: usize) {
         while Select::take_flags() == 0 {}
-        BEAT.lock(|beat| *beat.borrow_mut() = Beat { ring: Ring::new(Timer.now()), astray: false });
-        tables::lead(0, 1);
+        BEAT.lock(|beat| *beat.borrow_mut() = Beat::new(Timer.now(), fields));
+        if fields == 0 {
+            tables::lead(0, 1);
+        }
         Select::listen();
         #[allow(unsafe_code)]
         // SAFETY: no critical section is made of this interrupt's mask.
@@ -128,7 +183,7 @@ async fn complete(ask: fn(&mut Ring) -> Option<Lent>) -> Result<Lent, ScanError>
     let lent = poll_fn(|context| {
         COMPLETE.register(context.waker());
         BEAT.lock(|beat| {
-            let Beat { ring, astray } = &mut *beat.borrow_mut();
+            let Beat { ring, astray, .. } = &mut *beat.borrow_mut();
             match ask(ring) {
                 _ if *astray => Poll::Ready(Err(ScanError::OutOfStep)),
                 Some(lent) => Poll::Ready(Ok(lent)),

@@ -7,6 +7,7 @@
 //! | `tables.rs` | what they read: levels of the select lines, and where codes go |
 //! | `select.rs` | the PIO program that puts levels on the select lines |
 //! | `frames.rs` | where the codes end up, and who may read which frame |
+//! | `reflex.rs` | the check of a sub-field, and the pins that it asserts |
 //! | `lent.rs` | tells the emulator which frame is read |
 //!
 //! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then the next
@@ -22,6 +23,7 @@
 mod chain;
 mod frames;
 mod lent;
+mod reflex;
 mod select;
 mod tables;
 
@@ -35,6 +37,7 @@ use embassy_time::Timer;
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
 use taxel_core::garment::Circuit;
+use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
 /// The scan by the processor.
@@ -119,7 +122,7 @@ impl Scanner {
             next.await
         };
         let (codes, lent) = frame.inspect_err(|_| self.by = By::Nobody)?;
-        if depth != Depth::Twelve {
+        if !matches!(depth, Depth::Twelve | Depth::Interlaced) {
             codes.iter_mut().for_each(|code| code.0 = depth.mean(code.0));
         }
         let report = ScanReport {
@@ -146,7 +149,17 @@ impl Acquire for Scanner {
     }
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
-        self.processor.drive(pin, level)
+        let driven = self.processor.drive(pin, level);
+        reflex::driven(pin, level);
+        driven
+    }
+
+    fn watch(&mut self, reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Option<u16>) {
+        reflex::watch(reflexes, active, limit);
+    }
+
+    fn reflex(&mut self) -> Option<Early> {
+        reflex::told()
     }
 
     fn rest(&mut self) {

@@ -3,7 +3,7 @@
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
-use taxel_core::acquire::{PLACES, SWEEP_INPUTS, Sweep};
+use taxel_core::acquire::{Fields, PLACES, SWEEP_INPUTS, Sweep};
 pub use taxel_core::acquire::{SWEEP_ADDRESSES as ADDRESSES, SWEEP_STRETCHES as STRETCHES};
 
 /// Codes without a taxel in a stretch: as many as a block's row or column has.
@@ -81,37 +81,98 @@ pub fn thermometer() -> u16 {
     THERMOMETER.load(Relaxed)
 }
 
-/// Fills the tables. `code` is where the code of a taxel goes in a place; then come the registers that take the destinations
-/// of the four inputs' codes, the address of the next word, and the flags of new frames.
+/// The registers that the chain writes at the start of a stretch.
+pub struct Registers {
+    /// Take the destinations of the four inputs' codes.
+    pub destinations: [u32; SWEEP_INPUTS],
+    /// Takes the address of the next word.
+    pub word: u32,
+    /// Takes the flags of new frames.
+    pub flag: u32,
+}
+
+impl Registers {
+    fn set(self) {
+        let targets = self.destinations.into_iter().chain([self.word, ahead(), self.flag, 0]);
+        TARGET.0.iter().zip(targets).for_each(|(slot, register)| slot.store(register, Relaxed));
+    }
+}
+
+/// What is written at the start of the stretch whose first address is `first`: where the codes of each input (GPIO number) go,
+/// the values of the stretch after it, and its flag.
+fn set(
+    values: &Values,
+    first: usize,
+    codes: impl Iterator<Item = (u8, u32)>,
+    next: Option<&Values>,
+    flag: u32,
+) {
+    let set = |slot: usize, value| values.get(slot).into_iter().for_each(|v| v.store(value, Relaxed));
+    (0..SWEEP_INPUTS).for_each(|channel| set(channel, nowhere()));
+    codes.for_each(|(input, destination)| set(crate::adc::channel(input), destination));
+    set(WORD, WORDS.get(first + 1).map_or(0, address));
+    set(NEXT, next.map_or(0, address));
+    set(FLAG, flag);
+}
+
+/// Fills the tables for a sweep. `code` is where the code of a taxel goes in a place.
 pub fn fill(
     sweep: &Sweep<ADDRESSES, STRETCHES>,
     select: Select,
     code: impl Fn(usize, u16) -> u32,
-    destinations: [u32; SWEEP_INPUTS],
-    word: u32,
-    flag: u32,
+    registers: Registers,
 ) {
-    let targets = destinations.into_iter().chain([word, ahead(), flag, 0]);
-    TARGET.0.iter().zip(targets).for_each(|(slot, register)| slot.store(register, Relaxed));
+    registers.set();
     let begins = |index: usize| sweep.stretches().iter().any(|s| usize::from(s.first) == index);
-    let words = sweep.levels().iter().enumerate().map(|(i, levels)| select.word(*levels, begins(i)));
-    // The first word again: it is read before the list of its stretch leads back to the second.
-    let again = sweep.levels().first().map(|levels| select.word(*levels, true));
-    WORDS.iter().zip(words.chain(again)).for_each(|(slot, word)| slot.store(word, Relaxed));
+    for (index, levels) in sweep.levels().iter().enumerate() {
+        set_word(index, select.word(*levels, begins(index)));
+    }
+    end_words(sweep.levels().len());
     LAST.store(sweep.stretches().len().saturating_sub(1) as u32, Relaxed);
     for (place, lists) in VALUE.iter().enumerate() {
         for (index, (values, stretch)) in lists.iter().zip(sweep.stretches()).enumerate() {
-            let set = |slot: usize, value| values.get(slot).into_iter().for_each(|v| v.store(value, Relaxed));
-            (0..SWEEP_INPUTS).for_each(|channel| set(channel, nowhere()));
-            for (input, taxel) in sweep.inputs().iter().zip(stretch.taxels) {
-                let destination = taxel.map_or(nowhere(), |taxel| code(place, taxel));
-                set(crate::adc::channel(*input), destination);
-            }
-            set(WORD, WORDS.get(usize::from(stretch.first) + 1).map_or(0, address));
-            set(NEXT, lists.get(index + 1).map_or(0, address));
-            set(FLAG, if index == 0 { 1 << place } else { 0 });
+            let codes = sweep.inputs().iter().zip(stretch.taxels);
+            let codes = codes.filter_map(|(input, taxel)| Some((*input, code(place, taxel?))));
+            let flag = if index == 0 { 1 << place } else { 0 };
+            set(values, stretch.first.into(), codes, lists.get(index + 1), flag);
         }
     }
+    begin();
+}
+
+/// Fills the tables for sub-fields, whose words are set. `code` is where a code goes by the order of the scan. The flag of each
+/// sub-field is that of its number, of four.
+pub fn fill_fields(fields: &Fields, code: impl Fn(usize) -> u32, registers: Registers) {
+    registers.set();
+    end_words(fields.before(fields.count()));
+    let Some(lists) = VALUE.first() else { return };
+    for (field, values) in lists.iter().enumerate().take(fields.count()) {
+        let first = fields.span(field).start;
+        let destination = |turn| code(first + turn * fields.addresses(field));
+        let codes = fields.inputs().iter().enumerate().map(|(turn, input)| (*input, destination(turn)));
+        let next = if field + 1 < fields.count() { field + 1 } else { 0 };
+        set(values, fields.before(field), codes, lists.get(next), flag_of(field));
+    }
+    begin();
+}
+
+/// The flag of a sub-field.
+pub fn flag_of(field: usize) -> u32 {
+    1 << (field & 3)
+}
+
+/// Sets what goes to the select lines' program for an address.
+pub fn set_word(index: usize, word: u32) {
+    WORDS.get(index).into_iter().for_each(|slot| slot.store(word, Relaxed));
+}
+
+/// The first word again: it is read before the list of its stretch leads back to the second.
+fn end_words(count: usize) {
+    set_word(count, WORDS.first().map_or(0, |word| word.load(Relaxed)));
+}
+
+/// The first list comes first.
+fn begin() {
     AHEAD.store(VALUE.first().and_then(|lists| lists.first()).map_or(0, address), Relaxed);
 }
 

@@ -7,6 +7,8 @@
 //! keeps. Not modelled: the processor, so that the rates are those of wiring and converter alone, and the charge that the
 //! converter's 1 pF takes from a line when the inputs change, whose sampling window no data sheet gives.
 
+mod order;
+
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};
 use crate::sim::{Chain, Converter, FULL_SCALE, Idle, WiringEffects};
@@ -90,8 +92,9 @@ pub fn report() -> Report {
     let rows: Vec<(Setting, Outcome)> =
         settings().map(|setting| (setting, acquire(&setting, true))).collect();
     let shipped: Vec<_> = SHIPPED.iter().filter_map(|(name, source)| shipped(name, *source)).collect();
+    let orders = order::rows();
     let json = json!({
-        "garment": "reference", "line_pf": LINE_PF, "noise_counts": noise(), "unit": "counts of 12 bits; frames/s simulated",
+        "order": order::json(&orders), "garment": "reference", "line_pf": LINE_PF, "noise_counts": noise(), "unit": "counts of 12 bits; frames/s simulated",
         "rows": rows.iter().map(|(setting, outcome)| object(setting, outcome)).collect::<Vec<_>>(),
         "shipped": shipped.iter().map(|(name, setting, outcome)| {
             let mut row = object(setting, outcome);
@@ -111,6 +114,7 @@ pub fn report() -> Report {
     let _ = by_source(&rows, &mut text);
     let _ = by_depth(&rows, &mut text);
     let _ = by_garment(&shipped, &mut text);
+    let _ = order::table(&orders, &mut text);
     Report { text, json, chart: chart(&rows) }
 }
 

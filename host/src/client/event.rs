@@ -3,8 +3,8 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, GestureReport, Health, IntentReport, Level, ReactionReport, SelfTestReport, SymbolList,
-    SyncReport, Temperature, WireError,
+    Budget, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport, SelfTestReport,
+    SymbolList, SyncReport, Temperature, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -51,6 +51,8 @@ pub enum Event {
     },
     /// Something the garment did by itself.
     Reaction(ReactionReport),
+    /// A reaction began within a frame.
+    Reflex(ReflexReport),
     /// Counters of the board.
     Health(Health),
     /// Where the board's time goes.

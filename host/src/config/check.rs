@@ -24,6 +24,7 @@ pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
         SetupError::Garment(error) => read.error(&error),
         SetupError::Slow(error) => read.error_at("wiring.settle_ns", error),
         SetupError::Scene(error) => anyhow!("{name}: {error}"),
+        SetupError::Interlaced(_) => read.error_at("wiring", error),
     };
     let mut setup = Setup::build(&BOARD, garment.clone(), bare(), TAXELS).map_err(refused)?;
     let said = match scene {

@@ -111,6 +111,12 @@ pub fn message(client: &Client, event: &Event) -> Value {
             merge(&mut line, serde_json::to_value(&report.reaction).unwrap_or_default());
             line
         }
+        Event::Reflex(report) => {
+            let mut line = json!({ "type": "reflex" });
+            merge(&mut line, serde_json::to_value(report).unwrap_or_default());
+            rename_time(&mut line);
+            line
+        }
         Event::Raw { frame, time, whole } => {
             let mut line = at("raw", *frame, *time);
             line["decoded"] = json!(whole);

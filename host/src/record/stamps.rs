@@ -68,6 +68,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Symbols(list) => list.time,
         Event::Intent(report) => report.time,
         Event::Reaction(report) => report.time,
+        Event::Reflex(report) => report.time,
         Event::Health(health) => health.time,
         Event::Budget(budget) => budget.time,
         Event::Temperature(temperature) => temperature.time,

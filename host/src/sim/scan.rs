@@ -1,15 +1,16 @@
 //! The simulated board's scan, as the reference board's: by a chain that never waits wherever the garment's wiring allows
-//! that, else by the processor.
+//! that, else by the processor. An interlaced one is checked after each sub-field, and moves pins then.
 
 use super::board::SimAdc;
 use super::hardware::{PINS, SimDelay, SimPin};
 use super::signal::FULL_SCALE;
 use taxel_core::acquire::{
-    Acquire, Adc, Clock, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan, ScanError,
-    ScanReport, Sweep,
+    Acquire, Adc, Clock, Depth, Fields, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan,
+    ScanError, ScanReport, Sweep,
 };
 use taxel_core::format::Code;
 use taxel_core::garment::Circuit;
+use taxel_core::reflex::{Early, Reflex, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
 /// Taxels of the largest garment.
@@ -22,10 +23,16 @@ pub struct SimScan<'l, C> {
     clock: C,
     /// What is being scanned; none: anew.
     of: Option<(Circuit, Plan)>,
-    sweep: Box<Sweep<SWEEP_ADDRESSES, SWEEP_STRETCHES>>,
-    /// The taxel of each input at each address; empty where no chain can read them.
+    /// GPIO numbers of the inputs that are read at each address.
+    inputs: Vec<u8>,
+    /// Levels of the select lines by address; empty where no chain can read them.
+    levels: Vec<u32>,
+    /// The taxel of each input at each address.
     taxels: Vec<Option<u16>>,
-    codes: Vec<Code>,
+    codes: Box<[Code; TAXELS]>,
+    /// Codes of an interlaced scan, by its order.
+    scanned: Vec<Code>,
+    reflex: Box<Reflex<TAXELS>>,
     scans: u32,
     /// A select line showed another level than it was driven to.
     misled: bool,
@@ -39,9 +46,12 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
             delay,
             clock,
             of: None,
-            sweep: Box::new(Sweep::new()),
+            inputs: Vec::new(),
+            levels: Vec::new(),
             taxels: Vec::new(),
-            codes: vec![Code(0); TAXELS],
+            codes: Box::new([Code(0); TAXELS]),
+            scanned: vec![Code(0); TAXELS],
+            reflex: Box::default(),
             scans: 0,
             misled: false,
         }
@@ -56,44 +66,101 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
             self.codes.fill(Code(0));
         }
         self.of = Some((circuit.clone(), *plan));
+        self.levels.clear();
         self.taxels.clear();
-        if self.sweep.fill(circuit, plan).is_err() {
+        if plan.depth == Depth::Interlaced {
+            self.interlace(circuit, plan);
+        } else {
+            self.sweep(circuit, plan);
+        }
+    }
+
+    /// The addresses of a progressive scan, if a chain can read them.
+    fn sweep(&mut self, circuit: &Circuit, plan: &Plan) {
+        let mut sweep = Box::new(Sweep::<SWEEP_ADDRESSES, SWEEP_STRETCHES>::new());
+        if sweep.fill(circuit, plan).is_err() {
             return;
         }
-        let (addresses, inputs) = (self.sweep.levels().len(), self.sweep.inputs().len());
-        let mut ends = self.sweep.stretches().iter().skip(1).map(|next| usize::from(next.first));
-        for stretch in self.sweep.stretches() {
+        self.inputs = sweep.inputs().into();
+        self.levels = sweep.levels().into();
+        let mut ends = sweep.stretches().iter().skip(1).map(|next| usize::from(next.first));
+        for stretch in sweep.stretches() {
             let first = usize::from(stretch.first);
-            for step in 0..(ends.next().unwrap_or(addresses) - first) {
-                let taxels = stretch.taxels.iter().take(inputs);
+            for step in 0..(ends.next().unwrap_or(self.levels.len()) - first) {
+                let taxels = stretch.taxels.iter().take(self.inputs.len());
                 self.taxels.extend(taxels.map(|taxel| taxel.map(|taxel| taxel + step as u16)));
             }
         }
     }
 
+    /// Those of an interlaced one.
+    fn interlace(&mut self, circuit: &Circuit, plan: &Plan) {
+        let Ok(fields) = Fields::of(circuit, plan) else { return };
+        self.inputs = fields.inputs().into();
+        self.reflex.begin(fields.clone(), circuit.falling());
+        fields.each(circuit, plan, |field, levels, taxels| {
+            self.reflex.order(field, self.levels.len() - fields.before(field), taxels);
+            self.levels.push(levels);
+            self.taxels.extend(taxels.into_iter().take(self.inputs.len()));
+        });
+    }
+
     /// One scan after the other, as many as the depth asks for: their mean.
     fn run(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
-        let rounds = Rounds::of(self.sweep.inputs().len(), circuit.settle_ns());
+        let rounds = Rounds::of(self.inputs.len(), circuit.settle_ns());
         let lines = circuit.lines().iter().fold(0, |lines, pin| lines | 1 << (pin & 63));
-        self.each_read(|code| code.0 = 0);
         // The multiples of this number are spread evenly, and so are their digits: each scan looks at the lines somewhere else.
         self.scans = self.scans.wrapping_add(1);
         let spread = self.scans.wrapping_mul(0xb529_7a4d);
-        let look = ((u64::from(spread) * self.sweep.levels().len() as u64) >> 32) as usize;
+        let look = ((u64::from(spread) * self.levels.len() as u64) >> 32) as usize;
+        if plan.depth == Depth::Interlaced {
+            return self.run_fields(lines, rounds, look);
+        }
+        self.each_read(|code| code.0 = 0);
         for _ in 0..plan.depth.scans() {
-            for address in 0..self.sweep.levels().len() {
-                self.read(address, lines, rounds, address == look)?;
+            for address in 0..self.levels.len() {
+                for (taxel, code) in self.read(address, lines, rounds, address == look)? {
+                    let sum = taxel.and_then(|taxel| self.codes.get_mut(usize::from(taxel)));
+                    sum.into_iter().for_each(|sum| sum.0 += code);
+                }
             }
         }
         self.each_read(|code| code.0 = plan.depth.mean(code.0));
         Ok(())
     }
 
-    /// Every input at an address, whose codes are added up.
-    fn read(&mut self, address: usize, lines: u64, rounds: Rounds, look: bool) -> Result<(), ScanError> {
-        let inputs = self.sweep.inputs();
-        let levels = self.sweep.levels().get(address).map_or(0, |levels| u64::from(*levels));
-        let taxels = self.taxels.iter().skip(address * inputs.len());
+    /// One sub-field after the other, each of which is checked at its end.
+    fn run_fields(&mut self, lines: u64, rounds: Rounds, look: usize) -> Result<(), ScanError> {
+        let fields = self.reflex.fields().clone();
+        for field in 0..fields.count() {
+            let (span, addresses) = (fields.span(field), fields.addresses(field));
+            for within in 0..addresses {
+                let address = fields.before(field) + within;
+                let read = self.read(address, lines, rounds, address == look)?;
+                for (turn, (_, code)) in read.into_iter().enumerate() {
+                    let slot = self.scanned.get_mut(span.start + turn * addresses + within);
+                    slot.into_iter().for_each(|slot| slot.0 = code);
+                }
+            }
+            let codes = self.scanned.get(span).unwrap_or(&[]);
+            let begun = self.reflex.check(field, codes, &mut self.codes, self.clock.now());
+            for (pin, level) in self.reflex.pins(begun) {
+                self.processor.drive(pin, level)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every input at an address: its taxel and its code, 0 where none is read.
+    fn read(
+        &mut self,
+        address: usize,
+        lines: u64,
+        rounds: Rounds,
+        look: bool,
+    ) -> Result<Vec<(Option<u16>, u16)>, ScanError> {
+        let levels = self.levels.get(address).map_or(0, |levels| u64::from(*levels));
+        let taxels = self.taxels.iter().skip(address * self.inputs.len());
         let bus = &self.delay.bus;
         bus.act(|drive| {
             drive.on |= lines;
@@ -102,17 +169,18 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         self.misled |= look && (bus.levels.get() ^ levels) & lines != 0;
         let (_, _, adc) = self.processor.parts();
         let begun = bus.now_ns.get();
-        for (turn, (input, taxel)) in (0..).zip(inputs.iter().zip(taxels)) {
+        let mut read = Vec::with_capacity(self.inputs.len());
+        for (turn, (input, taxel)) in (0..).zip(self.inputs.iter().zip(taxels)) {
             bus.now_ns.set(begun + rounds.settling_ns() + turn * rounds.period_ns());
-            let code = adc.read(*input);
-            let Some(taxel) = *taxel else { continue };
-            let code = code.map_err(|_| ScanError::Converter { input: *input, taxel })?;
-            if let Some(sum) = self.codes.get_mut(usize::from(taxel)) {
-                sum.0 += code.min(FULL_SCALE);
-            }
+            let code = match (adc.read(*input), taxel) {
+                (Ok(code), Some(_)) => code.min(FULL_SCALE),
+                (Err(_), Some(taxel)) => return Err(ScanError::Converter { input: *input, taxel: *taxel }),
+                (_, None) => 0,
+            };
+            read.push((*taxel, code));
         }
         bus.now_ns.set(begun + rounds.address_ns());
-        Ok(())
+        Ok(read)
     }
 
     /// Does something to the code of every taxel that is read.
@@ -128,18 +196,28 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
 impl<C: Clock + Clone> Acquire for SimScan<'_, C> {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
         self.begin(circuit, plan);
-        if self.taxels.is_empty() {
+        if self.levels.is_empty() {
             return self.processor.scan(circuit, plan).await;
         }
         let start = self.clock.now();
         self.run(circuit, plan)?;
         let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
         let report = ScanReport { start, duration_us, ..ScanReport::default() };
-        Ok(Scan { codes: &self.codes, report })
+        Ok(Scan { codes: self.codes.as_slice(), report })
     }
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
-        self.processor.drive(pin, level)
+        let driven = self.processor.drive(pin, level);
+        self.reflex.driven(pin, level);
+        driven
+    }
+
+    fn watch(&mut self, reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Option<u16>) {
+        self.reflex.watch(reflexes, active, limit);
+    }
+
+    fn reflex(&mut self) -> Option<Early> {
+        self.reflex.told()
     }
 }
 
@@ -149,13 +227,13 @@ impl<C: Clock + Clone> Examine for SimScan<'_, C> {
     }
 
     fn pose(&mut self, circuit: &Circuit) {
-        if self.taxels.is_empty() {
+        if self.levels.is_empty() {
             self.processor.pose(circuit);
         }
     }
 
     fn is_misled(&mut self) -> bool {
-        std::mem::take(&mut self.misled) || self.taxels.is_empty() && self.processor.is_misled()
+        std::mem::take(&mut self.misled) || self.levels.is_empty() && self.processor.is_misled()
     }
 }
 
@@ -163,9 +241,11 @@ impl<C: Clock + Clone> Examine for SimScan<'_, C> {
 mod tests {
     use super::super::{Player, Script, SimBoard};
     use super::*;
-    use taxel_core::acquire::{Depth, frame_us};
+    use taxel_core::acquire::frame_us;
     use taxel_core::garment::{Garment, Layout, Pins};
+    use taxel_core::reflex::Agree;
     use taxel_core::run::block_on;
+    use taxel_core::scene::Scene;
 
     fn circuit(garment: &Garment) -> Circuit {
         let layout = Layout::build(garment, TAXELS, FULL_SCALE).unwrap();
@@ -193,7 +273,8 @@ mod tests {
         for mut garment in [Garment::reference(), Garment::mat(), Garment::block()] {
             for settle_ns in [0, 3_000, 4_000, 8_000, 15_000, 34_000, 100_000] {
                 garment.wiring.settle_ns = settle_ns;
-                for depth in [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8] {
+                for depth in [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf8, Depth::Interlaced]
+                {
                     for panels in [0b1111, 0b0101] {
                         let plan = Plan { depth, panels, ..Plan::default() };
                         let want = frame_us(&circuit(&garment), &plan) as f64;
@@ -229,6 +310,41 @@ mod tests {
                 now += u64::from(duration_us);
             }
         }
+    }
+
+    /// A still scene is the same in both orders, over lines that have settled; a reflex moves its pin within the frame.
+    #[test]
+    fn an_interlaced_scan_reads_the_same_and_moves_a_pin_at_once() {
+        let script = script(
+            "[[touch]]\npanel = \"chest\"\nshape = \"ball\"\nat = [8, 16]\nforce_n = 60\nstart_s = 0.1\nrise_s = 0\nhold_s = 5\n\
+             [idle]\nnoise_counts = 0\nspread_counts = 0\nbase_code = 100\n",
+        );
+        let garment = Garment::reference();
+        let circuit = circuit(&garment);
+        let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+        let mut scan = SimScan::new(&mut lines, delay.clone(), adc, &clock);
+        let scene = Scene::shipped().interlaced(Agree::Two);
+        let layout = Layout::build(&garment, TAXELS, FULL_SCALE).unwrap();
+        let pipeline = taxel_core::pipeline::Pipeline::build(&scene, &layout).unwrap();
+        scan.drive(18, false).unwrap();
+        let high = || delay.bus.drive.get().high >> 18 & 1 == 1;
+        let early = loop {
+            let reflexes = pipeline.reactions().reflexes();
+            scan.watch(Some(reflexes), 0, |_| Some(1_100));
+            assert!(!high());
+            let interlaced = block_on(scan.scan(&circuit, &scene.plan)).unwrap();
+            let (start, codes) = (interlaced.report.start, interlaced.codes.to_vec());
+            if let Some(early) = scan.reflex() {
+                break early;
+            }
+            assert!(start.0 < 110_000);
+            assert!(codes.iter().all(|code| *code == Code(100)) || start.0 > 90_000);
+        };
+        assert!(high());
+        assert_eq!((early.index, early.other.is_some()), (0, true));
+        assert!((100_000..102_600).contains(&early.time.0), "{:?}", early.time);
+        let mut still = |plan: &Plan| block_on(scan.scan(&circuit, plan)).unwrap().codes.to_vec();
+        assert_eq!(still(&scene.plan), still(&Plan::default()));
     }
 
     /// What a plan leaves out keeps its code, and what no chain can read is read by the processor.

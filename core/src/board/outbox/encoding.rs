@@ -30,6 +30,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some((request, refusal)) = self.answers.pop_front() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
             under_way.put(Report::ANSWER, &Answer { request, refusal })
+        } else if let Some(report) = self.reflexes.pop_front() {
+            under_way.put(Report::REFLEX, &report)
         } else if let Some(report) = self.reactions.pop_front() {
             under_way.put(Report::REACTION, &report)
         } else if core::mem::take(&mut self.shapes) {

@@ -12,6 +12,7 @@ use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros};
 use crate::health::Monitor;
 use crate::pipeline::{CONTACTS, Probe, Stage};
+use crate::react::REACTIONS;
 use crate::scene::StreamConfig;
 use crate::shape::Taught;
 use crate::wire::*;
@@ -41,6 +42,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     answers: Deque<(u8, Option<Refusal>), 8>,
     logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
+    reflexes: Deque<ReflexReport, REACTIONS>,
     changes: Deque<IntentReport, 8>,
     gestures: Deque<GestureReport, 4>,
     intent: Option<IntentReport>,
@@ -84,6 +86,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             answers: Deque::new(),
             logs: Deque::new(),
             reactions: Deque::new(),
+            reflexes: Deque::new(),
             changes: Deque::new(),
             gestures: Deque::new(),
             intent: None,
@@ -163,6 +166,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn drop_waiting(&mut self) {
         self.reactions.clear();
+        self.reflexes.clear();
         self.gestures.clear();
         self.forget_meaning();
         (self.image.due, self.raw) = (None, None);

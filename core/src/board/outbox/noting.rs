@@ -6,6 +6,7 @@ use crate::format::Micros;
 use crate::garment::PANELS;
 use crate::gesture::Gesture;
 use crate::pipeline::Percept;
+use crate::react::Reaction;
 use crate::wire::*;
 use heapless::Vec;
 
@@ -48,6 +49,19 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         if self.rates.raw.due(time) || self.raw.is_some() {
             self.raw = Some((frame, time));
+        }
+    }
+
+    /// Takes a reflex, and the reaction that began by it, unless the frame has shown its cause meanwhile.
+    pub fn reflex(&mut self, report: ReflexReport, reaction: Option<Reaction>, health: &mut Health) {
+        if !self.streaming {
+            return;
+        }
+        let ReflexReport { frame, time, .. } = report;
+        health.lost += u32::from(self.reflexes.push_back(report).is_err());
+        if let Some(reaction) = reaction {
+            let report = ReactionReport { frame, time, reaction };
+            health.lost += u32::from(self.reactions.push_back(report).is_err());
         }
     }
 

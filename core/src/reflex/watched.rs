@@ -1,0 +1,123 @@
+//! What is watched, and what it moves: the rows of the scene's reactions that are reflexes.
+
+use super::agree::Agree;
+use crate::garment::{Layout, Line, PANELS};
+use heapless::Vec;
+
+/// Most rows.
+pub const ROWS: usize = 8;
+
+/// A reaction that begins by reflex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Row {
+    /// Its place in the scene's table of reactions.
+    pub index: u8,
+    /// Who has to agree.
+    pub agree: Agree,
+    /// Pressure of a taxel from which on it counts, counts.
+    pub level: u16,
+    /// A pin that is asserted at once.
+    pub output: Option<Line>,
+    /// The region that is watched; none: all of them.
+    pub region: Option<u8>,
+}
+
+impl Row {
+    /// The bit of the row in a mask.
+    pub(super) const fn bit(&self) -> u8 {
+        1 << (self.index & 7)
+    }
+}
+
+/// A panel, and who watches it.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+struct Panel {
+    base: u16,
+    rows: u16,
+    columns: u16,
+    /// Place among the rows.
+    row: Option<u8>,
+}
+
+/// Where a taxel is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Spot {
+    pub panel: u8,
+    pub row: u16,
+    pub column: u16,
+}
+
+impl Spot {
+    /// Whether another is at most so many rows and columns away.
+    pub fn is_near(self, other: Spot, reach: u16) -> bool {
+        self.panel == other.panel
+            && self.row.abs_diff(other.row) <= reach
+            && self.column.abs_diff(other.column) <= reach
+    }
+}
+
+/// All reflexes of a scene, on a garment. A panel is watched by one of them at most.
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
+pub struct Reflexes {
+    rows: Vec<Row, ROWS>,
+    panels: Vec<Panel, PANELS>,
+}
+
+impl Reflexes {
+    /// None.
+    pub const fn none() -> Reflexes {
+        Reflexes { rows: Vec::new(), panels: Vec::new() }
+    }
+
+    /// For a garment.
+    pub fn of(layout: &Layout) -> Reflexes {
+        let panel = |area: &crate::garment::Area| Panel {
+            base: area.base,
+            rows: area.rows,
+            columns: area.columns,
+            row: None,
+        };
+        Reflexes { rows: Vec::new(), panels: layout.areas().iter().map(panel).collect() }
+    }
+
+    /// Adds a row. `false`: another one watches a panel of its region.
+    pub fn add(&mut self, row: Row, layout: &Layout) -> bool {
+        let place = self.rows.len() as u8;
+        let there = self.rows.push(row).is_ok();
+        let areas = layout.areas().iter().zip(&mut self.panels);
+        let mut watched = areas.filter(|(area, _)| row.region.is_none_or(|region| region == area.region));
+        there && watched.all(|(_, panel)| panel.row.replace(place).is_none())
+    }
+
+    /// There are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Who watches a taxel.
+    pub fn row_of(&self, taxel: u16) -> Option<&Row> {
+        let (panel, _) = self.find(taxel)?;
+        self.rows.get(usize::from(self.panels.get(usize::from(panel))?.row?))
+    }
+
+    /// Where a taxel is.
+    pub(super) fn spot(&self, taxel: u16) -> Option<Spot> {
+        let (panel, local) = self.find(taxel)?;
+        let columns = self.panels.get(usize::from(panel))?.columns;
+        let row = local.checked_div(columns)?;
+        Some(Spot { panel, row, column: local - row * columns })
+    }
+
+    /// Its panel, and its number in that.
+    fn find(&self, taxel: u16) -> Option<(u8, u16)> {
+        (0..).zip(&self.panels).find_map(|(index, panel)| {
+            let local = taxel.checked_sub(panel.base)?;
+            (u32::from(local) < u32::from(panel.rows) * u32::from(panel.columns)).then_some((index, local))
+        })
+    }
+}
