@@ -55,7 +55,7 @@ pub struct Given {
     image: &'static [u16],
     early: Early,
     reflex: Reflex<2048>,
-    frame: &'static mut [Code; 2048],
+    frame: &'static mut [Code],
 }
 
 /// One call; where a linker begins, and so what it keeps.

@@ -14,7 +14,15 @@ const JUDGED: usize = 8;
 const RENEWED: usize = 16;
 const FILLED: usize = 64;
 /// Where the code of an input goes that reads nothing: beyond every frame.
-const NOWHERE: u32 = u16::MAX as u32;
+const NOWHERE: u16 = u16::MAX;
+
+/// A taxel in the order of the scan.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    taxel: u16,
+    /// The last code that is quiet; where pressure lowers the code, inverted.
+    limit: u16,
+}
 
 /// A reflex that began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,12 +42,9 @@ pub struct Early {
 /// What is remembered from sub-field to sub-field.
 #[derive(Debug, Clone)]
 pub struct Reflex<const TAXELS: usize> {
-    /// By the order of the scan: the taxel below, its limit above. Where pressure lowers the code the limit is inverted.
-    entries: [u32; TAXELS],
+    entries: [Entry; TAXELS],
     fields: Fields,
     falling: bool,
-    /// Every input reads a taxel at every address.
-    dense: bool,
     reflexes: Reflexes,
     /// Entry whose limit is set anew next.
     next: u16,
@@ -55,10 +60,9 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     /// Of no scan. All bytes are 0.
     pub const fn new() -> Self {
         Reflex {
-            entries: [0; TAXELS],
+            entries: [Entry { taxel: 0, limit: 0 }; TAXELS],
             fields: Fields::none(),
             falling: false,
-            dense: false,
             reflexes: Reflexes::none(),
             next: 0,
             armed: false,
@@ -70,8 +74,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
 
     /// Another order of the scan, whose taxels are told by [`Reflex::order`]. Nothing is watched until all limits are set.
     pub fn begin(&mut self, fields: Fields, falling: bool) {
-        (self.fields, self.falling, self.dense) = (fields, falling, true);
-        self.entries.fill(NOWHERE);
+        (self.fields, self.falling) = (fields, falling);
+        self.entries.fill(Entry { taxel: NOWHERE, limit: u16::MAX });
         self.disarm();
     }
 
@@ -80,9 +84,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         let (inputs, addresses) = (self.fields.inputs().len(), self.fields.addresses(field));
         let first = self.fields.span(field).start + address;
         for (input, taxel) in taxels.into_iter().take(inputs).enumerate() {
-            self.dense &= taxel.is_some_and(|taxel| usize::from(taxel) < TAXELS);
             let slot = self.entries.get_mut(first + input * addresses);
-            slot.into_iter().for_each(|entry| *entry = taxel.map_or(NOWHERE, u32::from));
+            slot.into_iter().for_each(|entry| entry.taxel = taxel.unwrap_or(NOWHERE));
         }
     }
 
@@ -106,9 +109,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         let flip = if self.falling { u16::MAX } else { 0 };
         for _ in 0..if self.armed { RENEWED } else { FILLED } {
             let Some(entry) = self.entries.get_mut(usize::from(self.next)) else { break };
-            let taxel = *entry as u16;
-            let limit = limit(taxel).map_or(u16::MAX, |code| code ^ flip);
-            *entry = u32::from(limit) << 16 | u32::from(taxel);
+            entry.limit = limit(entry.taxel).map_or(u16::MAX, |code| code ^ flip);
             self.next += 1;
             if usize::from(self.next) >= self.fields.before(self.fields.count()) * self.fields.inputs().len()
             {
@@ -125,7 +126,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
 
     /// Takes the codes of a sub-field, those of one input after those of the other, and puts them into their places of `frame`, by
     /// taxel number. A mask of the rows that begin, whose pins are to be asserted.
-    pub fn check(&mut self, field: usize, codes: &[Code], frame: &mut [Code; TAXELS], now: Micros) -> u8 {
+    pub fn check(&mut self, field: usize, codes: &[Code], frame: &mut [Code], now: Micros) -> u8 {
         self.recent.turn();
         let addresses = self.fields.addresses(field).max(1);
         let first = self.fields.span(field).start;
@@ -136,13 +137,9 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
             let mut loud = Loud::new();
             let watches = self.armed && self.reflexes.rows().iter().any(|row| self.begun & row.bit() == 0);
             match (watches, self.falling) {
-                (true, false) if self.dense => watched::<false, TAXELS>(codes, entries, frame, &mut loud),
-                (true, true) if self.dense => watched::<true, TAXELS>(codes, entries, frame, &mut loud),
-                (true, falling) => place(codes, entries, |code, entry| {
-                    put(code, entry, frame);
-                    find_beyond(code, entry, falling, &mut loud);
-                }),
-                (false, _) => place(codes, entries, |code, entry| put(code, entry, frame)),
+                (true, false) => place_and_find::<false>(codes, entries, frame, &mut loud),
+                (true, true) => place_and_find::<true>(codes, entries, frame, &mut loud),
+                (false, _) => codes.iter().zip(entries).for_each(|(code, entry)| put(*code, *entry, frame)),
             }
             loud.into_iter().for_each(|(taxel, code)| self.judge(field, taxel, code, now));
         }
@@ -195,52 +192,40 @@ impl<const TAXELS: usize> Default for Reflex<TAXELS> {
 /// Taxels beyond their limits, and their codes.
 type Loud = Vec<(u16, Code), JUDGED>;
 
-/// Puts codes into their places, where every input reads a taxel at every address, and finds those beyond their limits.
+/// Puts codes into their places, and finds those beyond their limits.
 #[inline(never)] // M0+: out of line
-fn watched<const FALLING: bool, const TAXELS: usize>(
+fn place_and_find<const FALLING: bool>(
     codes: &[Code],
-    entries: &[u32],
-    frame: &mut [Code; TAXELS],
+    entries: &[Entry],
+    frame: &mut [Code],
     loud: &mut Loud,
 ) {
-    const { assert!(TAXELS.is_power_of_two(), "a mask is a bound") };
-    place(codes, entries, |code, entry| {
-        if let Some(slot) = frame.get_mut(entry as usize & (TAXELS - 1)) {
-            *slot = code;
+    let mut take = |code: &Code, entry: &Entry| {
+        put(*code, *entry, frame);
+        let pressed = if FALLING { !code.0 } else { code.0 };
+        if pressed > entry.limit {
+            find(loud, entry.taxel, *code);
         }
-        find_beyond(code, entry, FALLING, loud);
-    });
-}
-
-/// Puts a code into its place, if it has one.
-fn put(code: Code, entry: u32, frame: &mut [Code]) {
-    if let Some(slot) = frame.get_mut(usize::from(entry as u16)) {
-        *slot = code;
-    }
-}
-
-/// Takes each code with its entry.
-#[inline(always)]
-fn place(codes: &[Code], entries: &[u32], mut take: impl FnMut(Code, u32)) {
+    };
     let (chunks, rest) = codes.as_chunks::<CHUNK>();
     let (entry_chunks, entry_rest) = entries.as_chunks::<CHUNK>();
     for (codes, entries) in chunks.iter().zip(entry_chunks) {
-        codes.iter().zip(entries).for_each(|(code, entry)| take(*code, *entry));
+        codes.iter().zip(entries).for_each(|(code, entry)| take(code, entry));
     }
-    rest.iter().zip(entry_rest).for_each(|(code, entry)| take(*code, *entry));
+    rest.iter().zip(entry_rest).for_each(|(code, entry)| take(code, entry));
 }
 
+/// Puts a code into its place, if it has one.
 #[inline(always)]
-fn find_beyond(code: Code, entry: u32, falling: bool, loud: &mut Loud) {
-    let pressed = if falling { !code.0 } else { code.0 };
-    if u32::from(pressed) > entry >> 16 {
-        find(loud, entry, code);
+fn put(code: Code, entry: Entry, frame: &mut [Code]) {
+    if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
+        *slot = code;
     }
 }
 
 /// A taxel is beyond its limit; those past the last are not judged.
 #[cold]
 #[inline(never)] // M0+: out of line, so that the loop keeps its registers
-fn find(loud: &mut Loud, entry: u32, code: Code) {
-    let _ = loud.push((entry as u16, code));
+fn find(loud: &mut Loud, taxel: u16, code: Code) {
+    let _ = loud.push((taxel, code));
 }

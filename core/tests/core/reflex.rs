@@ -96,7 +96,8 @@ impl Rig {
         self.fields += 1;
         let code = |taxel: &usize| Code(if falling { 4095 - pressure[*taxel] } else { pressure[*taxel] });
         let codes: Vec<Code> = self.taxels[field].iter().map(code).collect();
-        let begun = self.reflex.check(field, &codes, &mut self.frame, Micros(self.fields * FIELD_US));
+        let begun =
+            self.reflex.check(field, &codes, self.frame.as_mut_slice(), Micros(self.fields * FIELD_US));
         for taxel in &self.taxels[field] {
             assert_eq!(self.frame[*taxel], code(taxel));
         }

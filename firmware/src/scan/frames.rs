@@ -87,8 +87,11 @@ impl Handler<PIO0_IRQ_0> for Begun {
             let now = Timer.now();
             let led = if beat.fields == 0 { beat.frame(begun, now) } else { beat.field(begun, now) };
             beat.astray |= !led;
+            // Nobody waits for a sub-field.
+            if beat.field == 0 || beat.astray {
+                COMPLETE.wake();
+            }
         });
-        COMPLETE.wake();
     }
 }
 

@@ -41,7 +41,7 @@ pub fn driven(pin: u8, level: bool) {
 }
 
 /// As [`Reflex::check`], of codes that lie in the order of the whole scan; asserts the pins of what begins.
-pub fn check(field: usize, codes: &[Code], frame: &mut [Code; crate::TAXELS], now: Micros) {
+pub fn check(field: usize, codes: &[Code], frame: &mut [Code], now: Micros) {
     with(|reflex| {
         let codes = codes.get(reflex.fields().span(field)).unwrap_or(&[]);
         let begun = reflex.check(field, codes, frame, now);

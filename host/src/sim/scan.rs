@@ -143,7 +143,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
                 }
             }
             let codes = self.scanned.get(span).unwrap_or(&[]);
-            let begun = self.reflex.check(field, codes, &mut self.codes, self.clock.now());
+            let begun = self.reflex.check(field, codes, self.codes.as_mut_slice(), self.clock.now());
             for (pin, level) in self.reflex.pins(begun) {
                 self.processor.drive(pin, level)?;
             }
