@@ -123,6 +123,9 @@ impl Reactions {
         let mut reactions = Reactions { rows: Vec::new(), reflexes: Reflexes::of(layout) };
         for (index, row) in rows.iter().enumerate() {
             let at = |invalid| InvalidRow { list: "react", index, invalid };
+            if rows.iter().take(index).any(|other| other.name == row.name) {
+                return Err(at(Invalid { parameter: "name", must: "must not be given twice" }));
+            }
             let watch = watch(row, layout, map).map_err(at)?;
             if let (Cause::Reflex(agree), Watch::Region(_, region)) = (&row.cause, &watch) {
                 reactions.add_reflex(index as u8, row, *agree, *region, layout).map_err(at)?;

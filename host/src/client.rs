@@ -25,6 +25,7 @@ mod worn;
 
 pub use counts::Counts;
 pub use event::{Event, ImageNews};
+pub(crate) use known::leads;
 pub use requests::scene_bytes;
 pub use worn::Worn;
 
@@ -186,7 +187,7 @@ impl Client {
                 Event::Symbols(Box::new(list))
             }
             Report::Intent(report) => {
-                if self.leads(&report) {
+                if leads(self.concepts(), &report) {
                     self.led = Some(report.clone());
                 }
                 self.intention = Some(report.clone());

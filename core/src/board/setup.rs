@@ -159,6 +159,12 @@ fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), Scene
         let must = "must be lower: five contacts at this rate exceed the link";
         return Err(Invalid { parameter: "stream.contacts_hz", must }.into());
     }
+    let (sites, plan) = (circuit.sites(), &scene.plan);
+    if !sites.is_empty() && !sites.iter().any(|site| plan.reads(site.panel, site.block)) {
+        let panels = sites.iter().any(|site| plan.reads_panel(site.panel));
+        let parameter = if panels { "plan.blocks" } else { "plan.panels" };
+        return Err(Invalid { parameter, must: "must leave a block of the garment to be read" }.into());
+    }
     for (index, row) in scene.react.iter().enumerate() {
         let refuse = |parameter, must| {
             Err(InvalidRow { list: "react", index, invalid: Invalid { parameter, must } }.into())

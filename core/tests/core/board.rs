@@ -314,6 +314,21 @@ fn over_pressure_reacts_in_its_frame_and_drives_the_pin() {
 }
 
 #[test]
+fn a_scene_that_reads_nothing_or_names_two_reactions_alike_is_refused_by_name() {
+    let refused = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = Scene::shipped();
+        change(&mut scene);
+        Small::new(info(), Garment::block(), scene).map(drop).unwrap_err().to_string()
+    };
+    let blocks = "scene: plan.blocks must leave a block of the garment to be read";
+    assert_eq!(refused(&|scene| scene.plan.blocks = !1), blocks);
+    let panels = "scene: plan.panels must leave a block of the garment to be read";
+    assert_eq!(refused(&|scene| scene.plan.panels = 0), panels);
+    let twice = "scene: react[1].name must not be given twice";
+    assert_eq!(refused(&|scene| scene.react[1].name = scene.react[0].name.clone()), twice);
+}
+
+#[test]
 fn a_tare_is_answered_when_it_is_done() {
     let mut bench = Bench::new(Scene::shipped());
     bench.drain(usize::MAX, |_| ());

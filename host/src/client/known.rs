@@ -63,8 +63,7 @@ impl Client {
 
     /// Names of the concepts of the scene's map.
     pub fn concepts(&self) -> &[Name] {
-        let intent = self.worn.as_ref().and_then(|worn| worn.scene.intent.as_ref());
-        intent.map_or(&[], |intent| intent.map.concepts.as_slice())
+        self.worn.as_ref().map_or(&[], Worn::concepts)
     }
 
     /// The announced intention.
@@ -85,17 +84,6 @@ impl Client {
         let mut all = self.led.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
         all.resize(self.concepts().len(), Q15(0));
         all
-    }
-
-    /// Whether the announced intention is the most active, or none is announced.
-    pub(super) fn leads(&self, report: &IntentReport) -> bool {
-        let of = |leading: Leading| {
-            let at = self.concepts().iter().position(|name| name.as_str() == leading.as_str())?;
-            report.concepts.get(at).copied()
-        };
-        let own = of(report.leading);
-        let most = Leading::INTENTIONS.into_iter().filter_map(of).max();
-        report.leading == Leading::None || own.is_none() || (own == most && own > Some(Q15(0)))
     }
 
     /// The taxels that are ill, by number, as told last.
@@ -131,4 +119,15 @@ impl Client {
     pub fn celsius(&self) -> Option<Celsius> {
         self.celsius
     }
+}
+
+/// Whether the announced intention is the most active of a map with these concepts, or none is announced.
+pub(crate) fn leads(concepts: &[Name], report: &IntentReport) -> bool {
+    let of = |leading: Leading| {
+        let at = concepts.iter().position(|name| name.as_str() == leading.as_str())?;
+        report.concepts.get(at).copied()
+    };
+    let own = of(report.leading);
+    let most = Leading::INTENTIONS.into_iter().filter_map(of).max();
+    report.leading == Leading::None || own.is_none() || (own == most && own > Some(Q15(0)))
 }

@@ -47,6 +47,11 @@ impl Client {
         Ok(())
     }
 
+    /// The bytes that wait to be sent to the board.
+    pub fn queued(&self) -> &[u8] {
+        &self.requests
+    }
+
     /// The bytes that are to be sent to the board.
     pub fn take_requests(&mut self) -> Vec<u8> {
         let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };

@@ -1,6 +1,6 @@
 //! What a board says of itself.
 
-use taxel_core::format::Micros;
+use taxel_core::format::{Micros, Name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, MAGIC, PROTOCOL, decode};
@@ -23,6 +23,11 @@ pub struct Worn {
 }
 
 impl Worn {
+    /// Names of the concepts of the scene's map.
+    pub fn concepts(&self) -> &[Name] {
+        self.scene.intent.as_ref().map_or(&[], |intent| intent.map.concepts.as_slice())
+    }
+
     /// Reads a `Hello`, or says why not.
     pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
         if hello.magic != MAGIC {

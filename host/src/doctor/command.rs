@@ -18,7 +18,7 @@ pub struct DoctorArgs {
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Seconds of the board to listen
-    #[arg(long, value_name = "S", default_value_t = 5.0)]
+    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
     pub seconds: f64,
     /// Print JSON instead of a table
     #[arg(long)]

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `csv` | one row a taxel and frame: where it is, volts, pressure in its unit, see `csv.rs`; with `--contacts` one a contact and frame, see `contacts.rs` |
 //! | `npz` | NumPy arrays: an array of frames for each panel, times, contacts, see `npz.rs` |
-//! | `png` | a folder with an image of 16 bits for each frame and panel, see `png.rs` |
+//! | `png` | a folder with an image of 16 bits for each frame, see `png.rs` |
 //! | `lerobot` | a folder with a data set for LeRobot, one episode a recording, see `lerobot/mod.rs`; needs the feature `lerobot` |
 //!
 //! Each goes through the recording image by image: memory does not grow with its length.

@@ -1,4 +1,8 @@
-//! Images: one of 16 bits for each frame and panel, `FOLDER/PANEL/FRAME.png`, and `FOLDER/scale.json`.
+//! Images: one of 16 bits for each frame, `FOLDER/THOUSAND/FRAME.png`, and `FOLDER/scale.json`.
+//!
+//! The panels stand side by side in the order of the garment, `scale.json` tells where; an image of each panel alone would
+//! take four times as many files, which is what takes the time. A folder holds the images of 1,000 scans: few programs open
+//! one of 350,000.
 //!
 //! Grey is counts times a whole number, the same in all images of a recording: the greatest that leaves room for the
 //! greatest pressure in it, so that images are bright and nothing is rounded. `scale.json` and each image's comment tell it;
@@ -14,9 +18,13 @@ use std::path::Path;
 use std::sync::mpsc::sync_channel;
 use taxel_core::garment::Area;
 
-/// Images that wait for a thread at most.
-const WAITING: usize = 64;
-/// The file that tells what grey means.
+/// Scans of one folder.
+const THOUSAND: u32 = 1000;
+/// Images that wait for a thread at most: while it writes one folder, the next can be read for another.
+const WAITING: usize = THOUSAND as usize;
+/// Threads that write: the system lets one at a time into a folder, and a disk is not faster for more.
+const THREADS: usize = 4;
+/// The file that tells what grey means, and where the panels are.
 const SCALE: &str = "scale.json";
 
 /// Writes the images; the number of frames. It goes through the recording twice: the scale is that of the whole.
@@ -30,40 +38,32 @@ pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> 
         Ok(())
     })?;
     let factor = if counts { 1 } else { u16::MAX / greatest.max(1) };
-    let panel = |area: &Area| json!({ "name": area.name, "folder": name(&area.name), "rows": area.rows, "columns": area.columns });
-    let legend = json!({
-        "grey_per_count": factor,
-        "greatest_counts": greatest,
-        "panels": areas.iter().map(panel).collect::<Vec<_>>(),
-    });
+    let sheet = Sheet::of(&areas);
     let mut file = folder.file(SCALE)?;
-    writeln!(file, "{legend:#}")?;
+    writeln!(file, "{:#}", sheet.legend(factor, greatest))?;
     file.flush()?;
-    let folders: Vec<String> = areas.iter().map(|area| name(&area.name)).collect();
-    folders.iter().try_for_each(|name| folder.folder(name))?;
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(areas.len()).max(1);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(THREADS);
     std::thread::scope(|scope| {
         let worker = |_| {
-            let (queue, waiting) = sync_channel::<Waiting>(WAITING);
-            let (areas, folders) = (&areas, &folders);
+            let (queue, waiting) = sync_channel::<(u32, Vec<u16>)>(WAITING);
+            let sheet = &sheet;
             let work = scope.spawn(move || {
                 let mut image = Image { factor, grey: Vec::new(), file: Vec::new() };
-                waiting.into_iter().try_for_each(|Waiting { number, panel, values }| {
-                    let inside = format!("{}/{number:08}.png", folders[panel]);
-                    folder.small_file(inside, image.of(&values, &areas[panel])?)
+                let mut last = None;
+                waiting.into_iter().try_for_each(|(number, values)| {
+                    let place = format!("{:05}", number / THOUSAND);
+                    if last.replace(number / THOUSAND) != Some(number / THOUSAND) {
+                        folder.folder(&place)?;
+                    }
+                    folder.small_file(format!("{place}/{number:08}.png"), image.of(&values, sheet)?)
                 })
             });
             (queue, work)
         };
-        // A panel's images are all written by one thread: the system lets nobody else into a folder that is changed.
         let (queues, work): (Vec<_>, Vec<_>) = (0..threads).map(worker).unzip();
         let count = frames.each("exporting", |frame| {
-            for (panel, area) in frame.worn.layout.areas().iter().enumerate() {
-                let values = frames::panel(area, &frame.values).to_vec();
-                let image = Waiting { number: frame.number, panel, values };
-                queues[panel % threads].send(image).context("an image could not be written")?;
-            }
-            Ok(())
+            let queue = &queues[(frame.number / THOUSAND) as usize % threads];
+            queue.send((frame.number, frame.values.clone())).context("an image could not be written")
         });
         drop(queues);
         for work in work {
@@ -74,16 +74,39 @@ pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> 
     })
 }
 
-/// An image that waits for a thread that writes it.
-struct Waiting {
-    number: u32,
-    panel: usize,
-    values: Vec<u16>,
-}
-
 /// Whether a file in an output folder is one of ours.
 pub fn is_ours(inside: &Path) -> bool {
     inside == Path::new(SCALE) || inside.extension().is_some_and(|extension| extension == "png")
+}
+
+/// Where the panels are in an image.
+struct Sheet {
+    /// Each panel, and its first column.
+    panels: Vec<(Area, usize)>,
+    columns: usize,
+    rows: usize,
+}
+
+impl Sheet {
+    fn of(areas: &[Area]) -> Sheet {
+        let mut columns = 0;
+        let mut panel = |area: &Area| {
+            let left = columns;
+            columns += usize::from(area.columns);
+            (area.clone(), left)
+        };
+        let panels = areas.iter().map(&mut panel).collect();
+        Sheet { panels, columns, rows: areas.iter().map(|area| area.rows.into()).max().unwrap_or(0) }
+    }
+
+    fn legend(&self, factor: u16, greatest: u16) -> serde_json::Value {
+        let panel = |(area, left): &(Area, usize)| json!({ "name": area.name, "left": left, "top": 0, "rows": area.rows, "columns": area.columns });
+        json!({
+            "grey_per_count": factor,
+            "greatest_counts": greatest,
+            "panels": self.panels.iter().map(panel).collect::<Vec<_>>(),
+        })
+    }
 }
 
 /// Memory that serves all images.
@@ -94,12 +117,21 @@ struct Image {
 }
 
 impl Image {
-    fn of(&mut self, values: &[u16], area: &Area) -> Result<&[u8]> {
+    fn of(&mut self, values: &[u16], sheet: &Sheet) -> Result<&[u8]> {
         let Image { factor, grey, file } = self;
         grey.clear();
-        grey.extend(values.iter().flat_map(|value| value.saturating_mul(*factor).to_be_bytes()));
+        grey.resize(2 * sheet.rows * sheet.columns, 0);
+        for (area, left) in &sheet.panels {
+            let rows = frames::panel(area, values).chunks(usize::from(area.columns).max(1));
+            for (line, row) in grey.chunks_mut(2 * sheet.columns).zip(rows) {
+                let places = line[2 * left..].as_chunks_mut().0;
+                places.iter_mut().zip(row).for_each(|(place, value)| {
+                    *place = value.saturating_mul(*factor).to_be_bytes();
+                });
+            }
+        }
         file.clear();
-        let mut encoder = Encoder::new(&mut *file, area.columns.into(), area.rows.into());
+        let mut encoder = Encoder::new(&mut *file, sheet.columns as u32, sheet.rows as u32);
         encoder.set_color(ColorType::Grayscale);
         encoder.set_depth(BitDepth::Sixteen);
         encoder.set_compression(Compression::Fastest);
@@ -107,9 +139,4 @@ impl Image {
         encoder.write_header()?.write_image_data(grey)?;
         Ok(file)
     }
-}
-
-/// A panel's name as that of a folder.
-fn name(panel: &str) -> String {
-    panel.chars().map(|c| if c.is_alphanumeric() || c == '-' { c } else { '_' }).collect()
 }

@@ -2,9 +2,10 @@
 
 use super::{GestureModel, TaxelPlace, feed};
 use crate::calibrate::Calibration;
+use crate::fault::Fault;
 use crate::output::Force;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use taxel_core::intent::Feed;
@@ -72,6 +73,25 @@ impl BoardArgs {
         named.into_iter().chain(told).flatten().collect()
     }
 
+    /// Refuses options that ask something of the board, where `label` is a recording: nobody hears them.
+    pub fn check_recorded(&self, label: &str) -> Result<()> {
+        let options = [
+            ("--garment", self.garment.is_some()),
+            ("--scene", self.scene.is_some()),
+            ("--tare", self.tare.is_some()),
+            ("--budget", self.budget.is_some()),
+            ("--gestures", self.gestures.is_some()),
+            ("--feed", !self.feed.is_empty()),
+            ("--shapes", self.shapes.is_some()),
+        ];
+        match options.into_iter().find(|(_, is_there)| *is_there) {
+            Some((option, _)) => {
+                bail!(Fault::usage(format!("{option}: {label} is a recording, whose board does not listen")))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Opens the source, and the calibration where there is one; the source is then of its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
         let mut source = source::open(
@@ -95,7 +115,7 @@ pub struct LiveArgs {
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
     /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal's picture repeats it]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Print messages as JSON, one per line
     #[arg(long)]

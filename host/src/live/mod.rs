@@ -1,6 +1,7 @@
 //! `taxel live`: what a board tells, as a picture in the terminal, as lines, or as JSON.
 
 mod args;
+mod asked;
 mod feed;
 mod lines;
 mod map;

@@ -2,6 +2,7 @@
 
 use super::Show;
 use crate::client::{Client, Event};
+use crate::fault::Fault;
 use anyhow::{Result, anyhow};
 use serde_json::json;
 use std::io::Write;
@@ -40,11 +41,13 @@ impl TaxelPlace {
         let panel = names.or_else(|| self.panel.parse().ok()).unwrap_or(usize::MAX);
         let area = layout.areas().get(panel).ok_or_else(|| {
             let known: Vec<_> = layout.areas().iter().map(|area| area.name.as_str()).collect();
-            anyhow!("--taxel: the garment has no panel {}; known are {}", self.panel, known.join(", "))
+            let known = known.join(", ");
+            Fault::usage(format!("--taxel: the garment has no panel {}; known are {known}", self.panel))
         })?;
         layout.taxel(Place { panel: panel as u8, row: self.row, column: self.column }).ok_or_else(|| {
             let (rows, columns) = (area.rows, area.columns);
-            anyhow!("--taxel: panel {} has {rows} rows and {columns} columns, from 0", area.name)
+            let known = format!("--taxel: panel {} has {rows} rows and {columns} columns, from 0", area.name);
+            Fault::usage(known).into()
         })
     }
 }

@@ -1,5 +1,6 @@
 //! A source is read until it ends, or until enough has come.
 
+use super::asked::Asked;
 use super::narrate::request_name;
 use super::{BoardArgs, LiveArgs, Show, outfit};
 use crate::calibrate::Calibration;
@@ -36,6 +37,7 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let limited = args.frames.is_some() || args.seconds.is_some();
     let mut patience = Patience { limited, asked: Instant::now(), times: 0 };
+    let mut asked = if source.listens { Asked::of(client.queued(), &args.board) } else { Asked::default() };
     let time = SteadyTime::start();
     let tell_time = |client: &mut Client, real: bool| {
         if real {
@@ -43,7 +45,7 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
         }
     };
     let mut buffer = [0; 4096];
-    while !limits.ended {
+    while !limits.ended && asked.refusal.is_none() {
         tell_time(&mut client, source.real_time);
         let lost = || format!("{} is gone", source.label);
         let requests = client.take_requests();
@@ -58,7 +60,8 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
             let Some(event) = client.push(*byte) else { continue };
             tell(&client, &event);
             show.event(&client, &event)?;
-            if limits.reached(&event) {
+            asked.answered(&event);
+            if limits.reached(&event) || asked.refusal.is_some() {
                 break;
             }
         }
@@ -74,9 +77,10 @@ pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result
     if let Some(remark) = source.port.remark() {
         eprintln!("{}: {remark}", source.label);
     }
-    match client.worn() {
-        Some(_) => Ok(()),
-        None => Err(silent(&source, client.counts().bytes)),
+    match (asked.refusal, client.worn()) {
+        (Some(refusal), _) => Err(Fault::board(format!("{}: {refusal}", source.label)).into()),
+        (None, Some(_)) => Ok(()),
+        (None, None) => Err(silent(&source, client.counts().bytes)),
     }
 }
 
@@ -109,6 +113,9 @@ fn silent(source: &Source, bytes: u64) -> Error {
 
 /// Queues what is asked of the board before anything is shown.
 fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
+    if !source.listens {
+        args.check_recorded(&source.label)?;
+    }
     if let Some(garment) = args.garment.as_ref().filter(|_| !source.wears_asked) {
         if source.label.starts_with("sim:") {
             bail!(Fault::usage(format!(

@@ -1,10 +1,11 @@
 //! One file of a recording: its channels, and messages as they go into them.
 
 use super::message;
+use super::provenance::{self, HELLO, Origin};
 use super::ros2::Ros2;
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
-use crate::client::{Client, Event};
+use crate::client::{Client, Event, Worn};
 use crate::recording::{Store, Writer};
 use anyhow::Result;
 use serde_json::json;
@@ -20,6 +21,8 @@ pub struct RecordingFile<S: Store> {
     pub writer: Writer<S>,
     topics: Topics,
     ros2: Option<Ros2<S>>,
+    /// What the board is was told, and is attached.
+    says_what: bool,
 }
 
 impl<S: Store> RecordingFile<S> {
@@ -30,7 +33,17 @@ impl<S: Store> RecordingFile<S> {
             topics: Topics::open(&mut writer)?,
             writer,
             ros2: ros2.map(Ros2::create).transpose()?,
+            says_what: false,
         })
+    }
+
+    /// What a board said of itself in this frame of the wire, and where it comes from.
+    pub fn attach(&mut self, worn: &Worn, hello: &[u8], origin: &Origin, stamp: Stamp) -> Result<()> {
+        let ns = stamp.host_us * NS;
+        if !std::mem::replace(&mut self.says_what, true) {
+            self.writer.attach(HELLO, "application/octet-stream", hello, ns)?;
+        }
+        provenance::attach(&mut self.writer, worn, origin, ns)
     }
 
     /// A frame of the wire from the board.

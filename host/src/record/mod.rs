@@ -10,7 +10,7 @@
 //! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
 //! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
 //!
-//! Attached are `garment.toml`, `scene.json`, `geometry.json` and, where the recorder was given it and the board says that it is in
+//! Attached are `hello.taxel-wire` (the frame with which the board said what it is), `garment.toml`, `scene.json`, `geometry.json` and, where the recorder was given it and the board says that it is in
 //! force, `calibration.toml`; metadata `taxel` names versions, host, board, source and who calibrated when, how and how well.
 
 mod command;
@@ -28,15 +28,17 @@ mod stamps;
 mod standing;
 mod tally;
 mod topics;
+mod wire_reader;
 
 pub use command::{RecordArgs, run};
 pub use file::{NS, RecordingFile};
 pub use limit::Rotate;
 pub use message::json_message;
 pub use play::Play;
-pub use provenance::{CALIBRATION, Origin, attach};
+pub use provenance::{CALIBRATION, HELLO, Origin};
 pub use recorder::{Plan, Recorder};
 pub use stamps::{Stamp, Stamps, time_of};
-pub use standing::{renumbered, sequence};
+pub use standing::{lost, renumbered, sequence};
 pub use tally::{COUNTS, Tally};
 pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};
+pub use wire_reader::WireReader;

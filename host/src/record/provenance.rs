@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
 
+/// The file with the `Hello` with which a recording begins, a frame of the wire: without it nothing else of the board can
+/// be read, and the chunk that has it may be damaged.
+pub const HELLO: &str = "hello.taxel-wire";
 /// The file of the calibration.
 pub const CALIBRATION: &str = "calibration.toml";
 

@@ -1,10 +1,10 @@
 //! Keeps what a board tells, second by second, file after file.
 
-use super::file::{NS, RecordingFile};
+use super::file::RecordingFile;
 use super::limit::Rotate;
 use super::names::{self, beside, numbered};
 use super::progress::Progress;
-use super::provenance::{self, Origin};
+use super::provenance::Origin;
 use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
 use super::tally::{COUNTS, Tally};
@@ -140,7 +140,9 @@ impl Recorder {
         let Some(file) = &mut self.file else { return Ok(()) };
         if *event == Event::Hello && client.worn() != self.worn.as_ref() {
             self.worn = client.worn().cloned();
-            attach(&self.plan, self.worn.as_ref(), file, stamp)?;
+            if let Some(worn) = &self.worn {
+                file.attach(worn, client.line(), &self.plan.origin, stamp)?;
+            }
         }
         if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
             self.chunk_us = stamp.board_us;
@@ -169,7 +171,9 @@ impl Recorder {
         self.path = numbered(&self.plan.path, self.number);
         self.began_us = None;
         let file = self.file.insert(begin(&self.plan, &self.path)?);
-        attach(&self.plan, self.worn.as_ref(), file, stamp)?;
+        if let Some(worn) = &self.worn {
+            file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
+        }
         for bytes in self.standing.frames(standing::sequence(client.line())?)? {
             file.wire(stamp, &bytes)?;
         }
@@ -188,11 +192,6 @@ impl Recorder {
         self.shown.told(self.progress.board_us(), line);
         Ok(())
     }
-}
-
-fn attach(plan: &Plan, worn: Option<&Worn>, file: &mut RecordingFile<File>, stamp: Stamp) -> Result<()> {
-    let Some(worn) = worn else { return Ok(()) };
-    provenance::attach(&mut file.writer, worn, &plan.origin, stamp.host_us * NS)
 }
 
 /// Begins a file, and the one beside it. Both have their names from the start: a crash leaves what was written.

@@ -26,12 +26,25 @@ impl Standing {
         }
     }
 
+    /// The last `Hello`; empty before the first.
+    pub fn hello(&self) -> &[u8] {
+        &self.hello
+    }
+
     /// The frames, numbered so that the message of the number `next` follows them.
     pub fn frames(&self, next: u32) -> Result<Vec<Vec<u8>>, WireError> {
         let all: Vec<_> = std::iter::once(&self.hello).chain(&self.ill).filter(|f| !f.is_empty()).collect();
         let first = next.wrapping_sub(all.len() as u32);
         all.iter().zip(0u32..).map(|(frame, index)| renumbered(frame, first.wrapping_add(index))).collect()
     }
+}
+
+/// What is to be played before `first`, the first frame of the wire that a recording holds, if the one that it began with
+/// is lost: `hello`, numbered so that `first` follows it. None: it is not lost, or one of them cannot be read.
+pub fn lost(hello: &[u8], first: &[u8]) -> Option<Vec<u8>> {
+    let mut bytes = first.strip_suffix(&[0])?.to_vec();
+    let (seq, report): (u32, Report<'_>) = wire::decode(wire::open(&mut bytes).ok()?).ok()?;
+    (!matches!(report, Report::Hello(_))).then(|| renumbered(hello, seq.wrapping_sub(1)).ok()).flatten()
 }
 
 /// The number of a frame's message.

@@ -1,24 +1,47 @@
 //! Files that are attached to a recording.
 
-use super::records::Records;
-use super::scan::Scan;
-use anyhow::{Context, Result};
-use mcap::parse_record;
-use mcap::records::Record;
-use std::path::Path;
+use super::salvage::fields;
+use mcap::records::AttachmentHeader;
 
-impl Scan {
-    /// What is attached under that name, the newest; none: nothing is. `path` is the file that was scanned.
-    pub fn attached(&self, path: &Path, name: &str) -> Result<Option<Vec<u8>>> {
-        let place = || format!("{}: {name} that is attached cannot be read", path.display());
-        let Some(index) = self.contents.attachments.iter().rfind(|index| index.name == name) else {
-            return Ok(None);
+/// The header and the bytes of an attached file, and whether the record ends behind them; none: it is damaged.
+pub fn attached(body: &[u8]) -> Option<(AttachmentHeader, &[u8], bool)> {
+    let (header, used) = fields::<AttachmentHeader>(body)?;
+    let (length, rest) = body.get(used..)?.split_first_chunk()?;
+    let (data, crc) = rest.split_at_checked(usize::try_from(u64::from_le_bytes(*length)).ok()?)?;
+    let sum = u32::from_le_bytes(*crc.first_chunk()?);
+    let summed = body.get(..body.len() - crc.len())?;
+    let fits = sum == 0 || sum == crc32fast::hash(summed);
+    fits.then_some((header, data, crc.len() == size_of::<u32>()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::append::{append, write};
+    use super::*;
+    use mcap::records::op;
+
+    #[test]
+    fn what_is_cut_off_anywhere_is_damaged_and_nothing_panics() {
+        let header = AttachmentHeader {
+            log_time: 1,
+            create_time: 2,
+            name: "a.txt".into(),
+            media_type: "text/plain".into(),
         };
-        let mut records = Records::open_at(path, index.offset)?;
-        let record = records.next_record()?.with_context(place)?;
-        match parse_record(record.op, record.body).with_context(place)? {
-            Record::Attachment { data, .. } => Ok(Some(data.into_owned())),
-            _ => Ok(None),
+        let mut body = Vec::new();
+        write(&mut body, &header).unwrap();
+        body.extend(5u64.to_le_bytes());
+        body.extend(b"hello");
+        let sum = crc32fast::hash(&body);
+        body.extend(sum.to_le_bytes());
+        assert_eq!(attached(&body), Some((header, &b"hello"[..], true)));
+        for length in 0..body.len() {
+            assert_eq!(attached(&body[..length]), None, "{length}");
         }
+        body[40] ^= 1;
+        assert_eq!(attached(&body), None);
+        let mut record = Vec::new();
+        append(&mut record, op::ATTACHMENT, &0u64, &[]).unwrap();
+        assert_eq!(attached(&record[9..]), None);
     }
 }

@@ -16,7 +16,7 @@ pub fn is_known(compression: &str) -> bool {
 }
 
 /// Largest chunk that is read, bytes: a claim beyond it is no reason to ask for memory.
-const LARGEST: u64 = 1 << 30;
+pub const LARGEST: u64 = 1 << 30;
 
 /// Where the messages of a chunk lie in its plain bytes, by channel.
 pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;

@@ -1,5 +1,6 @@
 //! A recording of which any part can be read first: where its chunks lie, and the messages of one of them.
 
+use super::attached::attached;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
@@ -133,10 +134,17 @@ impl Clips {
                     place.channels.push(u16::from_le_bytes([*low, *high]));
                 }
             }
-            op::CHANNEL | op::METADATA | op::ATTACHMENT if head.length <= LONGEST => {
+            op::ATTACHMENT if head.length <= LONGEST => {
+                if let Some((header, data, _)) = attached(self.records.body(head)?.body) {
+                    self.attached.insert(header.name, data.to_vec());
+                }
+            }
+            op::CHANNEL | op::METADATA if head.length <= LONGEST => {
                 let record = self.records.body(head)?;
-                if let Ok(record) = parse_record(record.op, record.body) {
-                    take(record, &mut self.channels, &mut self.words, &mut self.attached);
+                match parse_record(record.op, record.body) {
+                    Ok(Record::Channel(channel)) => _ = self.channels.insert(channel.id, channel),
+                    Ok(Record::Metadata(told)) => _ = self.words.insert(told.name, told.metadata),
+                    _ => {}
                 }
             }
             op::MESSAGE => bail!("it has messages outside of chunks, which cannot be gone to"),
@@ -181,27 +189,13 @@ impl Clips {
                     }
                 }
                 (op::CHANNEL, body) => {
-                    let record = parse_record(op::CHANNEL, body)?;
-                    take(record, &mut self.channels, &mut self.words, &mut self.attached);
+                    if let Record::Channel(channel) = parse_record(op::CHANNEL, body)? {
+                        self.channels.insert(channel.id, channel);
+                    }
                 }
                 _ => {}
             }
         }
         Ok(pieces.into())
-    }
-}
-
-/// Takes what is neither a chunk nor a message.
-fn take(
-    record: Record<'_>,
-    channels: &mut BTreeMap<u16, Channel>,
-    words: &mut BTreeMap<String, BTreeMap<String, String>>,
-    attached: &mut BTreeMap<String, Vec<u8>>,
-) {
-    match record {
-        Record::Channel(channel) => _ = channels.insert(channel.id, channel),
-        Record::Metadata(told) => _ = words.insert(told.name, told.metadata),
-        Record::Attachment { header, data, .. } => _ = attached.insert(header.name, data.into_owned()),
-        _ => {}
     }
 }

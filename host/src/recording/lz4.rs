@@ -3,6 +3,9 @@
 //! Only frames of independent blocks without a dictionary, which is how our chunks and most others are written. Their
 //! checksums (of the block, of the content) are passed over: a chunk of MCAP has its own.
 
+use lz4_flex::frame::{BlockSize, FrameEncoder, FrameInfo};
+use std::sync::LazyLock;
+
 const MAGIC: u32 = 0x184D_2204;
 /// Bits of the frame's first byte.
 const VERSION: u8 = 0b1100_0000;
@@ -13,6 +16,22 @@ const CONTENT_SIZE: u8 = 0b0000_1000;
 const DICTIONARY: u8 = 0b0000_0001;
 /// Of a block's length: its bytes are plain.
 const PLAIN: u32 = 1 << 31;
+
+/// Whether a frame's head is one of those with which chunks of this program begin. Others have to be checked against the
+/// head's own checksum, which [`decode`] passes over.
+pub fn is_ours(frame: &[u8]) -> bool {
+    static HEADS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+        [BlockSize::Max64KB, BlockSize::Max256KB, BlockSize::Max4MB].into_iter().filter_map(head).collect()
+    });
+    HEADS.iter().any(|head| frame.starts_with(head))
+}
+
+/// The head of a frame with blocks of that size, and nothing else set.
+fn head(size: BlockSize) -> Option<Vec<u8>> {
+    let empty = FrameEncoder::with_frame_info(FrameInfo::new().block_size(size), Vec::new()).finish().ok()?;
+    // An empty frame ends with the length 0 of a block.
+    empty.strip_suffix(&[0; 4]).map(<[u8]>::to_vec)
+}
 
 /// Decodes a frame that fills `out` exactly. False: it is of another kind or damaged, and `out` holds anything.
 pub fn decode(mut frame: &[u8], out: &mut [u8]) -> bool {
@@ -58,7 +77,7 @@ fn number(frame: &mut &[u8]) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lz4_flex::frame::{BlockMode, BlockSize, FrameEncoder, FrameInfo};
+    use lz4_flex::frame::BlockMode;
     use std::io::Write;
 
     fn frame(info: FrameInfo, body: &[u8]) -> Vec<u8> {
@@ -96,6 +115,23 @@ mod tests {
         for length in (0..whole.len()).step_by(97) {
             assert!(!decode(&whole[..length], &mut out), "{length} of {}", whole.len());
         }
+    }
+
+    #[test]
+    fn a_frame_of_ours_is_known_by_its_head_and_any_other_head_is_not() {
+        for length in [0, 1, 70_000, 300_000, 400_000] {
+            // As chunks are written.
+            let mut encoder = FrameEncoder::new(Vec::new());
+            encoder.write_all(&body()[..length]).unwrap();
+            let whole = encoder.finish().unwrap();
+            assert!(is_ours(&whole), "{length}");
+            for (at, bit) in (0..7).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+                let mut damaged = whole.clone();
+                damaged[at] ^= 1 << bit;
+                assert!(!is_ours(&damaged), "bit {bit} of byte {at}");
+            }
+        }
+        assert!(!is_ours(&frame(FrameInfo::new().content_checksum(true), &body())));
     }
 
     #[test]

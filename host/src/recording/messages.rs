@@ -1,5 +1,6 @@
 //! The messages of a recording in the order in which they were written, also of one that is damaged or has no end.
 
+use super::attached::attached;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
@@ -12,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// Bytes of a message before its data: channel, order, times.
 const MESSAGE: usize = 22;
+/// Longest attached file that is read, bytes.
+const LONGEST: u64 = 1 << 24;
 
 /// One message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +32,9 @@ pub struct Messages {
     path: PathBuf,
     /// None: messages of all topics.
     only: Option<&'static str>,
+    /// Name of the attached file that is looked for, and the first of them, once it was passed.
+    wanted: Option<&'static str>,
+    attached: Option<Vec<u8>>,
     channels: BTreeMap<u16, Channel>,
     /// Plain records of the chunk that is gone through, and where its next one begins.
     plain: Vec<u8>,
@@ -44,6 +50,8 @@ impl Messages {
             records: Records::open(path)?,
             path: path.into(),
             only: None,
+            wanted: None,
+            attached: None,
             channels: BTreeMap::new(),
             plain: Vec::new(),
             next: 0,
@@ -55,6 +63,16 @@ impl Messages {
     /// Of a file, but only those of one topic.
     pub fn of_topic(path: &Path, topic: &'static str) -> Result<Messages> {
         Ok(Messages { only: Some(topic), ..Messages::open(path)? })
+    }
+
+    /// Keeps the first attached file of that name that is passed.
+    pub fn wanting(self, name: &'static str) -> Messages {
+        Messages { wanted: Some(name), ..self }
+    }
+
+    /// The attached file that is wanted; none: it was not passed yet.
+    pub fn attached(&self) -> Option<&[u8]> {
+        self.attached.as_deref()
     }
 
     /// What a channel is about; none: it has not been told yet.
@@ -142,11 +160,22 @@ impl Messages {
                 return Ok(Step::Filled);
             }
             op::CHANNEL => channel(self.records.body(head)?.body, &mut self.channels),
+            op::ATTACHMENT if self.wanted.is_some() && self.attached.is_none() && head.length <= LONGEST => {
+                self.attach(head)?;
+            }
             op::DATA_END if is_end(&self.path, &head)? => return Ok(Step::Over),
             op if is_known(op) || !is_chunk_at(&self.path, &head)? => self.records.go_to(head.end())?,
             _ => return Ok(Step::Damaged(Damage::at(offset))),
         }
         Ok(Step::Passed)
+    }
+
+    /// Keeps an attached file, if it is the one that is wanted.
+    fn attach(&mut self, head: Head) -> Result<()> {
+        let record = self.records.body(head)?;
+        let found = attached(record.body).filter(|(header, ..)| Some(header.name.as_str()) == self.wanted);
+        self.attached = found.map(|(_, data, _)| data.to_vec());
+        Ok(())
     }
 
     fn chunk(&mut self, head: Head) -> Result<Step> {

@@ -15,10 +15,11 @@
 //! | `messages.rs` | its messages |
 //! | `damage.rs` | what is damaged in the middle of a file, passed over |
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
-//! | `summary.rs` | the summary, read |
+//! | `source.rs` | bytes of a file at any place |
+//! | `summary.rs` | the end of a file: footer and summary, read |
 //! | `clips.rs` | the messages of any chunk |
 //! | `overview.rs` | what is in a file, by its summary or by going through it |
-//! | `attached.rs` | files that are attached to it |
+//! | `attached.rs` | one attached file |
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | what is in a file, found by going through it |
 //! | `repair.rs` | a file that is damaged or has no end, written anew |
@@ -37,6 +38,7 @@ mod records;
 mod repair;
 mod salvage;
 mod scan;
+mod source;
 mod store;
 mod summary;
 mod writer;

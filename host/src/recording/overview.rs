@@ -1,5 +1,6 @@
 //! What is in a recording, at once: by the summary at its end, or else by going through it.
 
+use super::attached::attached;
 use super::contents::{ChannelInfo, Stretch};
 use super::records::Records;
 use super::summary::{Summary, summary};
@@ -95,10 +96,8 @@ impl Overview {
         };
         let mut records = Records::open_at(&self.path, index.offset)?;
         let record = records.next_record()?.with_context(place)?;
-        match parse_record(record.op, record.body).with_context(place)? {
-            Record::Attachment { data, .. } => Ok(Some(data.into_owned())),
-            _ => Ok(None),
-        }
+        let (_, data, _) = attached(record.body).with_context(place)?;
+        Ok(Some(data.to_vec()))
     }
 }
 

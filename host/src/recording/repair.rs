@@ -8,6 +8,7 @@ use super::chunk::{Closed, Index};
 use super::contents::Contents;
 use super::salvage::{Kind, Opened, Piece, Step, Walk};
 use super::scan::Scan;
+use crate::progress::{Progress, Unit};
 use anyhow::Result;
 use binrw::BinWrite;
 use mcap::MAGIC;
@@ -24,7 +25,10 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     let told = Told::default();
     let mut rebuilt = Rebuilt { out, length: 0, contents, told, follows_foreign: false };
     rebuilt.begin(scan)?;
+    let what = format!("repairing {}", path.display());
+    let mut progress = Progress::of(what, Unit::Bytes, Some(walk.length()));
     while let Some(step) = walk.next_step()? {
+        progress.at(walk.passed());
         match step {
             Step::Piece(piece) => rebuilt.take(piece)?,
             Step::Damage(_) => rebuilt.follows_foreign = false,

@@ -3,6 +3,7 @@
 use super::chunk::Index;
 use super::contents::Contents;
 use super::salvage::{Damage, Kind, Piece, Step, Walk};
+use crate::progress::{Progress, Unit};
 use anyhow::Result;
 use mcap::records::{Header, Metadata};
 use std::path::Path;
@@ -31,7 +32,7 @@ pub struct Scan {
 /// Goes through a file.
 pub fn scan(path: &Path) -> Result<Scan> {
     let mut walk = Walk::open(path)?;
-    let ended = walk.summary.is_there;
+    let ended = walk.marks.has_end;
     let mut scan = Scan {
         contents: Contents::default(),
         whole: false,
@@ -42,7 +43,10 @@ pub fn scan(path: &Path) -> Result<Scan> {
         metadata: Vec::new(),
         header: None,
     };
+    let what = format!("scanning {}", path.display());
+    let mut progress = Progress::of(what, Unit::Bytes, Some(walk.length()));
     while let Some(step) = walk.next_step()? {
+        progress.at(walk.passed());
         match step {
             Step::Piece(piece) => scan.take(piece),
             Step::Damage(damage) => scan.damage.push(damage),
@@ -51,9 +55,9 @@ pub fn scan(path: &Path) -> Result<Scan> {
     let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());
     scan.torn = last.map_or(0, |last| last.length);
     // The summary's own checksum covers what it says.
-    scan.contents.schemas.append(&mut walk.summary.schemas);
-    scan.contents.channels.append(&mut walk.summary.channels);
-    scan.whole = walk.summary.is_sound && scan.damage.is_empty() && scan.header.is_some();
+    scan.contents.schemas.append(&mut walk.marks.schemas);
+    scan.contents.channels.append(&mut walk.marks.channels);
+    scan.whole = walk.marks.is_sound && scan.damage.is_empty() && scan.header.is_some();
     Ok(scan)
 }
 

@@ -8,7 +8,7 @@ use super::append::{append, sized, write};
 use super::chunk::Chunk;
 use super::contents::Contents;
 use super::store::Store;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use mcap::MAGIC;
 use mcap::records::{
     AttachmentHeader, AttachmentIndex, Channel, Header, MessageHeader, Metadata, MetadataIndex, SchemaHeader,
@@ -64,8 +64,11 @@ impl<S: Store> Writer<S> {
     fn put(&mut self, bytes: &[u8]) -> Result<()> {
         let written = self.store.write_all(bytes).and_then(|()| self.store.flush());
         if let Err(error) = written {
-            self.store.cut(self.length).context("what was written in part cannot be cut off")?;
-            return Err(error.into());
+            let error = anyhow::Error::from(error);
+            return Err(match self.store.cut(self.length) {
+                Ok(()) => error,
+                Err(_) => error.context("what was written in part cannot be cut off"),
+            });
         }
         self.length += bytes.len() as u64;
         Ok(())

@@ -29,7 +29,7 @@ pub struct ReportArgs {
     #[command(flatten)]
     pub force: Force,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played once]
-    #[arg(long, value_name = "S", value_parser = live::seconds)]
+    #[arg(long, value_name = "S", value_parser = live::seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 

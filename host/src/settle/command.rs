@@ -29,7 +29,7 @@ pub struct SettleArgs {
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// Largest residue of a full-scale step between two taxels, counts of 4,095
-    #[arg(long, value_name = "COUNTS", default_value_t = 4.0)]
+    #[arg(long, value_name = "COUNTS", default_value_t = 4.0, allow_negative_numbers = true)]
     pub error: f64,
     /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]

@@ -73,7 +73,7 @@ fn is_file(name: &str) -> bool {
 
 fn read(path: &str) -> Result<String> {
     crate::verbose::reads(path);
-    std::fs::read_to_string(path).with_context(|| format!("cannot read {path}")).map_err(|e| anyhow!("{e:#}"))
+    std::fs::read_to_string(path).with_context(|| format!("{path} cannot be read"))
 }
 
 impl Script {

@@ -67,6 +67,8 @@ pub struct Source {
     pub counts_per_newton: Option<f32>,
     /// Its board wears the garment that was asked for already.
     pub wears_asked: bool,
+    /// There is a board that hears what is asked of it: nothing was recorded before.
+    pub listens: bool,
 }
 
 impl Source {
@@ -78,6 +80,7 @@ impl Source {
             real_time: false,
             counts_per_newton: None,
             wears_asked: false,
+            listens: true,
         }
     }
 
@@ -111,7 +114,8 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Tcp(address) => Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address)?)),
         SourceSpec::Emulator(scene) => emulator::open(scene, options),
         SourceSpec::File(path) => {
-            Ok(Source::new(format!("file:{}", path.display()), file::Saved::open(path)?))
+            let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
+            Ok(Source { listens: false, ..saved })
         }
         SourceSpec::Replay { path, speed } => replay::open(path, *speed, options),
     }

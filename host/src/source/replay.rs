@@ -2,8 +2,8 @@
 
 use super::{Port, Source, SourceOptions};
 use crate::progress::{Progress, Unit};
-use crate::record::WIRE;
-use crate::recording::{Messages, Overview};
+use crate::record::{WIRE, WireReader};
+use crate::recording::Overview;
 use anyhow::{Context, Result, bail};
 use std::fmt;
 use std::io::{self, IsTerminal};
@@ -62,19 +62,19 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
         bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
     }
     let scale = overview.counts_per_newton().map(|counts| counts as f32);
-    let messages = Messages::of_topic(path, WIRE)?;
+    let wire = WireReader::open(path)?;
     let progress =
-        || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(messages.passed()[1]));
+        || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);
-    let replay = Replay { messages, speed, began: None, next: Vec::new(), due: None, progress };
+    let replay = Replay { wire, speed, began: None, next: Vec::new(), due: None, progress };
     let label = format!("replay:{}", path.display());
-    Ok(Source { counts_per_newton: scale, ..Source::new(label, replay) })
+    Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
 }
 
 /// A recording being played.
 #[derive(Debug)]
 struct Replay {
-    messages: Messages,
+    wire: WireReader,
     speed: Option<f64>,
     /// When the first message was played, and its log time, ns.
     began: Option<(Instant, u64)>,
@@ -88,7 +88,7 @@ struct Replay {
 impl Replay {
     /// The bytes of the next message; false: there are no more.
     fn fetch(&mut self) -> Result<bool> {
-        if let Some(message) = self.messages.next_message()? {
+        if let Some(message) = self.wire.next_frame()? {
             let time = message.header.log_time;
             let (start, first) = *self.began.get_or_insert_with(|| (Instant::now(), time));
             let passed = Duration::from_nanos(time.saturating_sub(first));
@@ -97,7 +97,7 @@ impl Replay {
             });
             self.next.extend_from_slice(message.data);
             if let Some(progress) = &mut self.progress {
-                progress.at(self.messages.passed()[0]);
+                progress.at(self.wire.passed()[0]);
             }
             return Ok(true);
         }
@@ -132,7 +132,7 @@ impl Port for Replay {
     }
 
     fn remark(&self) -> Option<String> {
-        let skipped = self.messages.skipped();
+        let skipped = self.wire.skipped();
         (!skipped.is_none()).then(|| skipped.to_string())
     }
 

@@ -30,7 +30,7 @@ impl SceneFile {
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
         crate::verbose::reads(path);
-        let text = std::fs::read_to_string(path).with_context(|| name.clone())?;
+        let text = std::fs::read_to_string(path).with_context(|| format!("{name} cannot be read"))?;
         let said: toml::Table =
             toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
         let said = serde_json::to_value(said)?;

@@ -23,7 +23,8 @@ impl Serial {
         // DTR: a board on USB talks to a port that is open, and takes this line for it.
         let port =
             serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open().map_err(|error| {
-                Fault::board(format!("serial port {path} at {baud} Bd cannot be opened: {error}"))
+                let why = why(&error);
+                Fault::board(format!("serial port {path} at {baud} Bd cannot be opened: {why}"))
             })?;
         Ok(Serial { port, heard: Vec::new() })
     }
@@ -31,6 +32,18 @@ impl Serial {
     /// Gives bytes back, to be read again.
     pub fn unread(&mut self, bytes: Vec<u8>) {
         self.heard.splice(0..0, bytes);
+    }
+}
+
+/// Why a port cannot be opened, in plain words.
+fn why(error: &serialport::Error) -> String {
+    match (error.kind(), error.description.as_str()) {
+        (serialport::ErrorKind::NoDevice, _) => {
+            "there is no such port, `taxel ports` lists those that there are".into()
+        }
+        // What a system says of a file that is no terminal.
+        (_, "Not a typewriter" | "Inappropriate ioctl for device") => "it is no serial port".into(),
+        (_, told) => told.to_lowercase(),
     }
 }
 

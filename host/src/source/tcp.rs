@@ -20,7 +20,9 @@ impl Tcp {
     pub fn open(address: &str) -> Result<Tcp> {
         let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
-        for target in address.to_socket_addrs().map_err(wrong)? {
+        let unknown =
+            |_| Fault::board(format!("tcp:{address} cannot be reached: its name leads to no address"));
+        for target in address.to_socket_addrs().map_err(unknown)? {
             match TcpStream::connect_timeout(&target, CONNECT) {
                 Ok(stream) => {
                     stream

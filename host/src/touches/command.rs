@@ -2,7 +2,7 @@
 
 use super::compare::{Times, as_it_is, cross};
 use super::data::Data;
-use super::model::{Course, Provenance, Settings, read, train};
+use super::model::{Provenance, Settings, courses, read, train};
 use super::nested::nested;
 use super::report::Report;
 use crate::fault::Fault;
@@ -80,14 +80,9 @@ impl Task {
     /// Trains on all touches and writes the model.
     pub fn train(&self, data: &Data, output: Output) -> Result<()> {
         eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
-        let mut courses = Vec::new();
-        for (number, touch) in data.touches.iter().enumerate() {
-            courses.push((Course::of(data, touch, &self.settings), touch.class));
-            if number % 50 == 49 {
-                eprintln!("features of {} of {} touches", number + 1, data.touches.len());
-            }
-        }
-        let examples: Vec<_> = courses.iter().map(|(course, class)| (course, *class)).collect();
+        let courses = courses(data, &self.settings);
+        let examples: Vec<_> =
+            courses.iter().zip(&data.touches).map(|(course, touch)| (course, touch.class)).collect();
         let bytes = train(data, &examples, &self.settings)?;
         let name = output.name().display().to_string();
         output.write(&bytes)?;

@@ -3,8 +3,9 @@
 use super::data::{Data, Touch};
 use super::knn::nearest;
 use super::map::mapped;
-use super::model::{Course, Settings, apply, train};
+use super::model::{Course, Settings, apply, courses, train};
 use super::report::{Outcome, Report, accuracy};
+use crate::progress::{Progress, Unit};
 use anyhow::{Result, ensure};
 use serde_json::json;
 use taxel_core::gesture::{Features, Model};
@@ -104,10 +105,12 @@ pub fn as_it_is(model: &Model<'_>, data: &Data, times: &Times) -> Result<Report>
 pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 2, "there is one group only: nothing can be kept apart");
-    let courses: Vec<Course> = data.touches.iter().map(|touch| Course::of(data, touch, settings)).collect();
+    let courses = courses(data, settings);
     let (mut found, mut by_group) = (Found::default(), serde_json::Map::new());
     let (mut near, mut map) = (Vec::new(), Vec::new());
-    for group in &groups {
+    let mut progress = Progress::of("learning", Unit::Steps("models"), Some(groups.len() as u64));
+    for (done, group) in (0..).zip(&groups) {
+        progress.at(done);
         let (apart, known): (Vec<usize>, Vec<usize>) =
             (0..data.touches.len()).partition(|i| data.touches[*i].group == *group);
         let examples: Vec<_> = known.iter().map(|i| (&courses[*i], data.touches[*i].class)).collect();
@@ -115,6 +118,7 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
         let before = found.last.len();
         found.add(&Model::read(&bytes)?, data, |touch| touch.group == *group, times)?;
         let share = accuracy(&found.last[before..]);
+        progress.clear();
         eprintln!("{group}: {:.1} % of {} touches", 100.0 * share, apart.len());
         by_group.insert(group.clone(), json!(share));
         let whole: Vec<(&Features, usize)> =

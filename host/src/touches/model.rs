@@ -4,6 +4,7 @@ use super::data::{Data, Source, Touch};
 use super::export::{Head, export};
 use super::ridge::Ridge;
 use crate::date::today;
+use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -88,6 +89,17 @@ impl Course {
     }
 }
 
+/// What is learnt of each touch.
+pub fn courses(data: &Data, settings: &Settings) -> Vec<Course> {
+    let count = data.touches.len() as u64;
+    let mut progress = Progress::of("finding features", Unit::Steps("touches"), Some(count));
+    let course = |(done, touch)| {
+        progress.at(done);
+        Course::of(data, touch, settings)
+    };
+    (0..).zip(&data.touches).map(course).collect()
+}
+
 /// Which cell is seen at a place.
 type Mirror = fn(usize, usize) -> (usize, usize);
 
@@ -130,7 +142,9 @@ pub fn apply(
         bail!("the model knows {}, the labels {}", names.join(", "), data.classes.join(", "));
     };
     let recogniser = Touches::new(*model, data.rows, data.columns);
-    let each = touches.iter().map(|touch| {
+    let mut progress = Progress::of("applying the model", Unit::Steps("touches"), Some(touches.len() as u64));
+    let each = (0..).zip(touches).map(|(done, touch)| {
+        progress.at(done);
         let (last, early) = decide(&recogniser, data.frames(touch), times);
         (places[last], early.into_iter().map(|class| places[class]).collect())
     });

@@ -2,7 +2,7 @@
 
 use super::compare::apart;
 use super::data::Data;
-use super::model::{Course, Settings};
+use super::model::{Settings, courses};
 use super::report::{Outcome, Report, accuracy};
 use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
@@ -20,7 +20,7 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
         candidates.iter().all(|other| same(first, other)),
         "settings differ in what is learnt of a touch"
     );
-    let courses: Vec<Course> = data.touches.iter().map(|touch| Course::of(data, touch, first)).collect();
+    let courses = courses(data, first);
     let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());
     let steps = groups.len() * (candidates.len() * (groups.len() - 1) + 1);
     let mut progress = Progress::of("learning", Unit::Steps("models"), Some(steps as u64));

@@ -13,6 +13,7 @@
 //! | `end` | nothing more comes, `text` says why |
 //! | `none` | what was told of the type `of` holds no more |
 //! | `player` | of a recording: `at`, `duration`, `range` (first and last), all s; `speed`, `loop`, `playing`; `seeks`, how often the moment did not follow from the one before |
+//! | `glow` | of a moment of a recording that was gone to: `time_us`, `seeks`; `taxels`, `[taxel, counts]` of what was felt before it, less the longer ago it was |
 //! | `overview` | of a recording, up to `known_us`: `duration_us`; `totals`, the greatest total of each `width_us`; `intentions`, `[at_us, leading]` where another leads; `said`, `[at_us, kind, text]`; `unlisted`, lines of contacts that are too many |
 //!
 //! A binary message is an image, all numbers little-endian:
@@ -20,7 +21,7 @@
 //! | bytes | what |
 //! |---|---|
 //! | 4 | length h of the head |
-//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` that `taxel live --json` prints; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images that were not sent because a newer one came; `missed`, samples and lines that found no place because the page did not read |
+//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` that `taxel live --json` prints, but for the activations, which are those of the last moment at which the announced intention led; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images that were not sent because a newer one came; `missed`, samples and lines that found no place because the page did not read |
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
 //! | 2 n | the greatest pressure of each since the last image that was sent |
 //!
@@ -34,13 +35,15 @@
 
 use super::mailbox::Shot;
 use super::recorded::Order;
-use crate::client::Client;
+use crate::client::{Client, Event};
 use crate::fcm;
 use crate::health::pins;
+use crate::json;
 use crate::live::message;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::time::Duration;
+use taxel_core::format::Micros;
 use taxel_core::garment::Circuit;
 use taxel_core::selftest::Findings;
 
@@ -62,7 +65,7 @@ pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64
 
 /// `hello`
 pub fn hello(client: &Client, label: &str, counts_per_newton: Option<f32>) -> Value {
-    let mut line = message(client, &crate::client::Event::Hello);
+    let mut line = message(client, &Event::Hello);
     let Some(worn) = client.worn() else { return line };
     line["label"] = json!(label);
     line["counts_per_newton"] = json!(counts_per_newton);
@@ -85,6 +88,20 @@ fn map(map: &taxel_core::intent::MapConfig) -> Value {
         .iter()
         .map(|edge| json!({ "from": edge.from, "to": edge.to, "weight": f64::from(edge.weight) / one }));
     json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
+}
+
+/// The line of an image. The activations are those of the last moment at which the announced intention led: a board announces
+/// it a moment longer than the touch activates it, and a page shows both as one.
+pub fn frame(client: &Client, event: &Event) -> Value {
+    let mut line = message(client, event);
+    line["intent"] = json::intent(client.leading(), client.concepts(), &client.activations_of_leading());
+    line
+}
+
+/// `glow`: what was felt in the second before a moment of a recording, by taxel.
+pub fn glow(glow: &[u16], time: Micros, seeks: u32) -> Value {
+    let taxels: Vec<_> = (0..).zip(glow).filter(|(_, counts)| **counts > 0).collect::<Vec<(u16, _)>>();
+    json!({ "type": "glow", "time_us": time.0, "seeks": seeks, "taxels": taxels })
 }
 
 /// `pins`

@@ -102,6 +102,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
 
 /// Shows a recording.
 fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
+    args.board.check_recorded(&file.display().to_string())?;
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(Hub::default());
     let player = Player::open(file, speed, calibration, hub.clone())?;

@@ -1,8 +1,8 @@
 //! The half minute before a page came: its images, so that a page that is loaded again can step back through them, too.
 
 use super::mailbox::{Mailbox, Parcel, Shot};
+use super::message;
 use crate::client::{Client, Event, ImageNews};
-use crate::live;
 use serde_json::json;
 use taxel_core::format::Micros;
 
@@ -28,7 +28,7 @@ impl<'a> Past<'a> {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return false };
         let Some((_, image)) = self.client.image() else { return false };
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let mut line = live::message(&self.client, event);
+        let mut line = message::frame(&self.client, event);
         line["past"] = json!(true);
         self.mailbox.shot(&Shot {
             line: line.to_string().into(),

@@ -3,7 +3,7 @@
 use super::recorded::Cut;
 use crate::client::{Client, Event, Worn};
 use crate::clock::SteadyTime;
-use crate::record::{NS, Origin, RecordingFile, Stamp, attach, time_of};
+use crate::record::{Origin, RecordingFile, Stamp, time_of};
 use crate::recording::Store;
 use anyhow::Result;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl<S: Store> Copy<S> {
         if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
             self.worn = self.client.worn().cloned();
             if let Some(worn) = &self.worn {
-                attach(&mut self.file.writer, worn, &self.origin, stamp.host_us * NS)?;
+                self.file.attach(worn, self.client.line(), &self.origin, stamp)?;
             }
         }
         if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {

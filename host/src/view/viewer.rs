@@ -66,7 +66,7 @@ impl Viewer {
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let line = live::message(client, event).to_string().into();
+        let line = message::frame(client, event).to_string().into();
         self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
     }
 

@@ -8,12 +8,14 @@ pub fn plain(message: &str) -> String {
         "invalid float literal" => return "it must be a number".into(),
         "number too large to fit in target type" => return "the number is too large".into(),
         "number too small to fit in target type" => return "the number is too small".into(),
+        "number would be zero for non-zero type" => return "it must be 1 or more".into(),
         "cannot parse integer from empty string" | "cannot parse float from empty string" => {
             return "a number is missing".into();
         }
         _ => {}
     }
     kind(&message)
+        .or_else(|| range(&message))
         .or_else(|| length(&message))
         .or_else(|| name(&message))
         .unwrap_or_else(|| super::io(&message))
@@ -24,6 +26,16 @@ fn kind(message: &str) -> Option<String> {
     let rest = message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "))?;
     let (found, wanted) = rest.rsplit_once(", expected ")?;
     Some(format!("must be {}, not {}", this(wanted), that(found)))
+}
+
+/// `N is not in A..=B`
+fn range(message: &str) -> Option<String> {
+    let (number, range) = message.split_once(" is not in ")?;
+    let (low, high) = range.split_once("..=")?;
+    [number, low, high]
+        .iter()
+        .all(|text| text.parse::<i64>().is_ok())
+        .then(|| format!("it must be {low} to {high}"))
 }
 
 /// `invalid length N, expected WANTED`
@@ -162,6 +174,9 @@ mod tests {
             ),
             ("unknown variant `xyz`, expected `b` or `c`", "`xyz` is no name that is known here: `b`, `c`"),
             ("unknown field `a`, there are no fields", "`a` is no key that is known here"),
+            ("number would be zero for non-zero type", "it must be 1 or more"),
+            ("99999 is not in 0..=65535", "it must be 0 to 65535"),
+            ("the taxel is not in the garment", "the taxel is not in the garment"),
             ("must be a number or [length, width]", "must be a number or [length, width]"),
         ] {
             assert_eq!(plain(theirs), ours);

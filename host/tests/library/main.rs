@@ -9,6 +9,7 @@ mod fcm;
 mod ghosts;
 mod health;
 mod maps;
+mod mat;
 mod meaning;
 mod people;
 mod record;

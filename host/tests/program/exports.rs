@@ -89,12 +89,14 @@ fn images_are_bright_and_their_scale_is_told() {
     assert!(factor > 1, "{legend}");
     let (_, plain) = exported("plain", false, "png", &["--counts"]);
     let (mut greatest, mut images) = (0, 0);
-    for entry in fs::read_dir(bright.join("back")).unwrap() {
-        let name = entry.unwrap().file_name();
-        let (bright, plain) = (grey(&bright.join("back").join(&name)), grey(&plain.join("back").join(&name)));
-        assert!(bright.iter().zip(&plain).all(|(bright, plain)| *bright == plain * factor));
-        greatest = bright.iter().copied().fold(greatest, u16::max);
-        images += 1;
+    for folder in fs::read_dir(&bright).unwrap().map(|entry| entry.unwrap()).filter(|e| e.path().is_dir()) {
+        for entry in fs::read_dir(folder.path()).unwrap() {
+            let inside = Path::new(&folder.file_name()).join(entry.unwrap().file_name());
+            let (bright, plain) = (grey(&bright.join(&inside)), grey(&plain.join(&inside)));
+            assert!(bright.iter().zip(&plain).all(|(bright, plain)| *bright == plain * factor));
+            greatest = bright.iter().copied().fold(greatest, u16::max);
+            images += 1;
+        }
     }
     assert!(images > 100 && greatest > u16::MAX / 2, "{images} images, brightest {greatest} of 65535");
 }

@@ -55,6 +55,41 @@ fn wrong_use_is_2() {
 }
 
 #[test]
+fn mistakes_are_told_in_plain_words() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let binary = folder.join("status-binary.toml");
+    std::fs::write(&binary, [0xff, 0xfe, 0x80]).unwrap();
+    let binary = binary.to_str().unwrap();
+    let live = |option: &str, value: &str, status: i32, words: &str| {
+        ends(&["live", "--source", "sim:pat", option, value], status, words);
+    };
+    ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is no text (UTF-8)");
+    live("--scene", binary, 1, "cannot be read: it is no text (UTF-8)");
+    live("--scene", "no-such.toml", 1, "no-such.toml cannot be read: no such file or directory");
+    live("--seconds", "-1", 2, "'-1' for '--seconds <S>': must be a time of 0 or more");
+    live("--tare", "99999", 2, "'99999' for '--tare <N>': it must be 0 to 4096");
+    live("--taxel", "9,0,0", 2, "--taxel: the garment has no panel 9; known are chest");
+    live("--taxel", "0,32,0", 2, "--taxel: panel chest has 32 rows and 16 columns, from 0");
+    ends(&["view", "--port", "99999"], 2, "'99999' for '--port <N>': it must be 0 to 65535");
+    ends(
+        &["export", "a", "--to", "csv", "-o", "b", "--every", "0"],
+        2,
+        "'0' for '--every <N>': it must be 1",
+    );
+    ends(
+        &["live", "--source", "serial:/dev/null"],
+        3,
+        "/dev/null at 921600 Bd cannot be opened: it is no serial",
+    );
+    ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port, `taxel ports` lists");
+    ends(
+        &["live", "--source", "tcp:no-such.invalid:80"],
+        3,
+        "cannot be reached: its name leads to no address",
+    );
+}
+
+#[test]
 fn a_board_at_fault_is_3() {
     ends(&["live", "--source", "serial:/dev/no-such-port"], 3, "/dev/no-such-port");
     ends(
@@ -66,6 +101,25 @@ fn a_board_at_fault_is_3() {
     ends(&["health", "--source", &line], 3, "faults of lines and inputs: 1");
     let taxel = faulty("taxel", "stuck = [{ taxel = 77, code = 300 }]");
     ends(&["health", "--source", &taxel, "--tare", "16"], 3, "faulty taxels: 1");
+}
+
+#[test]
+fn a_board_that_refuses_what_was_asked_for_ends_the_command() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let scene = folder.join("status-too-fast.toml");
+    std::fs::write(&scene, "[stream]\ncontacts_hz = 20000\n").unwrap();
+    let (scene, recording) = (scene.to_str().unwrap(), folder.join("status-refused.mcap"));
+    let why = "sim:pat: the board refuses set-scene: scene: stream.contacts_hz must be lower";
+    let asks = ["--source", "sim:pat", "--scene", scene];
+    ends(&[&["live"][..], &asks].concat(), 3, why);
+    ends(&[&["view", "--port", "0"][..], &asks].concat(), 3, why);
+    let record = ["record", "--force", "-o", recording.to_str().unwrap()];
+    ends(&[&record[..], &asks].concat(), 3, why);
+    // What was recorded until then is whole; and what a recorded board refused is no fault of who plays it.
+    ends(&["info", recording.to_str().unwrap()], 0, "");
+    let source = format!("replay:{}", recording.display());
+    ends(&["live", "--source", &source], 0, "");
+    ends(&["live", "--source", &source, "--scene", scene], 2, "is a recording, whose board does not listen");
 }
 
 #[test]

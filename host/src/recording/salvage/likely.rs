@@ -1,10 +1,10 @@
 //! Whether a record begins at a place, as far as its fields tell.
 
 use super::super::append::HEAD;
+use super::super::source::Source;
+use super::marks::Marks;
 use super::opened;
 use super::piece::{Kind, parse};
-use super::source::Source;
-use super::summary::Summary;
 use mcap::records::op;
 use std::collections::BTreeSet;
 use std::io;
@@ -34,7 +34,7 @@ pub struct Judge<'a> {
     /// The file.
     pub source: &'a mut Source,
     /// What its end says.
-    pub summary: &'a Summary,
+    pub marks: &'a Marks,
     /// Channels that were told before.
     pub channels: &'a BTreeSet<u16>,
 }
@@ -47,7 +47,7 @@ impl Judge<'_> {
 
     /// The first place of `from..until` at which a record begins for sure.
     pub fn search(&mut self, from: u64, until: u64) -> io::Result<Option<u64>> {
-        let told = self.summary.records.range(from..until.max(from)).next().copied();
+        let told = self.marks.records.range(from..until.max(from)).next().copied();
         let until = told.unwrap_or(until);
         let mut block = from;
         while block < until {
@@ -75,7 +75,7 @@ impl Judge<'_> {
 
     /// How sure it is that a record begins there, and where it ends.
     fn trust(&mut self, at: u64) -> io::Result<(Trust, u64)> {
-        let is_known = self.summary.records.contains(&at);
+        let is_known = self.marks.records.contains(&at);
         if is_known || at == self.source.length() || self.source.is_tail(at)? {
             return Ok((Trust::Fields, at));
         }
@@ -110,7 +110,7 @@ impl Judge<'_> {
         let bytes = self.source.read(from, 2)?;
         let channel = bytes.first_chunk().map(|bytes| u16::from_le_bytes(*bytes));
         let is_known = channel.is_some_and(|channel| {
-            self.channels.contains(&channel) || self.summary.channels.contains_key(&channel)
+            self.channels.contains(&channel) || self.marks.channels.contains_key(&channel)
         });
         Ok(if is_known { Trust::Head } else { Trust::No })
     }

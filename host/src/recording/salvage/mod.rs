@@ -5,20 +5,18 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `source.rs` | bytes of the file at any place |
 //! | `piece.rs` | one record, and whether it is read to its last byte |
 //! | `opened.rs` | a chunk whose checksum fits, and what is in it |
-//! | `summary.rs` | what the file's end says of its records |
+//! | `marks.rs` | where the file's end says that its records lie |
 //! | `likely.rs` | whether a record begins at a place |
 //! | `walk.rs` | the records, one after the other |
 
 mod likely;
+mod marks;
 mod opened;
 mod piece;
-mod source;
-mod summary;
 mod walk;
 
 pub use opened::Opened;
-pub use piece::{Kind, Piece};
+pub use piece::{Kind, Piece, fields};
 pub use walk::{Damage, Step, Walk};

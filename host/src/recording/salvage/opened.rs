@@ -1,16 +1,14 @@
 //! A chunk whose checksum fits, and what is in it.
 
 use super::super::append::write;
-use super::super::chunk::{Index, LZ4};
+use super::super::chunk::{Index, LARGEST, LZ4};
+use super::super::lz4;
 use super::super::records::Inside;
 use super::piece::{Kind, fields, parse};
 use lz4_flex::frame::FrameDecoder;
 use mcap::records::{Channel, ChunkHeader, MessageIndexEntry, SchemaHeader, op};
-use std::borrow::Cow;
 use std::io::Read;
 
-/// Largest chunk that is read, bytes.
-const LARGEST: u64 = 1 << 30;
 /// How many times as large as its bytes LZ4 can make a chunk.
 const MOST: u64 = 255;
 
@@ -31,21 +29,20 @@ pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
 }
 
 /// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right. None: it
-/// does not fit.
-pub fn open(body: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
+/// does not fit. Its plain bytes are then in `plain`, memory that serves all chunks.
+pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
     let (told, used) = header(body)?;
     let data = body.get(used..)?;
     let named = [told.compression.as_str(), LZ4, ""];
-    let (compression, plain, inside) = named.into_iter().find_map(|compression| {
-        let plain = plain(data, compression)?;
-        let inside = checked(&told, &plain)?;
-        Some((compression.to_string(), plain.len() as u64, inside))
+    let (compression, inside) = named.into_iter().find_map(|compression| {
+        unpack(data, compression, told.uncompressed_size, plain)?;
+        Some((compression.to_string(), checked(&told, plain)?))
     })?;
     let times = || inside.index.values().flatten().map(|entry| entry.log_time);
     let right = ChunkHeader {
         message_start_time: times().min().unwrap_or(told.message_start_time),
         message_end_time: times().max().unwrap_or(told.message_end_time),
-        uncompressed_size: plain,
+        uncompressed_size: plain.len() as u64,
         compressed_size: data.len() as u64,
         compression,
         ..told
@@ -70,15 +67,32 @@ fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
     fits.then_some(inside)
 }
 
-fn plain<'a>(data: &'a [u8], compression: &str) -> Option<Cow<'a, [u8]>> {
+/// Puts the plain bytes of a chunk, which says that they are so many, into `plain`.
+fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Option<()> {
     let most = LARGEST.min(data.len() as u64 * MOST);
-    let mut body = Vec::new();
     match compression {
-        "" => return Some(Cow::Borrowed(data)),
-        LZ4 => _ = FrameDecoder::new(data).take(most + 1).read_to_end(&mut body).ok()?,
+        "" => {
+            plain.clear();
+            plain.extend_from_slice(data);
+        }
+        // Most chunks are what they say.
+        LZ4 if told <= most && lz4::is_ours(data) => {
+            plain.resize(told as usize, 0);
+            if !lz4::decode(data, plain) {
+                decode(data, most, plain)?;
+            }
+        }
+        LZ4 => decode(data, most, plain)?,
         _ => return None,
     }
-    (body.len() as u64 <= most).then_some(Cow::Owned(body))
+    Some(())
+}
+
+/// Decodes a frame of any kind and size, its own checksums checked.
+fn decode(data: &[u8], most: u64, plain: &mut Vec<u8>) -> Option<()> {
+    plain.clear();
+    FrameDecoder::new(data).take(most + 1).read_to_end(plain).ok()?;
+    (plain.len() as u64 <= most).then_some(())
 }
 
 impl Opened {

@@ -1,5 +1,6 @@
 //! One record of a file that may be damaged.
 
+use super::super::attached::attached;
 use super::opened::Opened;
 use binrw::BinRead;
 use mcap::records::{
@@ -94,12 +95,6 @@ fn schema(body: &[u8]) -> Option<(Kind, bool)> {
 }
 
 fn attachment(body: &[u8]) -> Option<(Kind, bool)> {
-    let (header, used) = fields::<AttachmentHeader>(body)?;
-    let (length, rest) = body.get(used..)?.split_first_chunk()?;
-    let length = u64::from_le_bytes(*length);
-    let (_, crc) = rest.split_at_checked(usize::try_from(length).ok()?)?;
-    let sum = u32::from_le_bytes(*crc.first_chunk()?);
-    let summed = body.get(..body.len() - crc.len())?;
-    let fits = sum == 0 || sum == crc32fast::hash(summed);
-    fits.then_some((Kind::Attachment(header, length), crc.len() == size_of::<u32>()))
+    let (header, data, is_whole) = attached(body)?;
+    Some((Kind::Attachment(header, data.len() as u64), is_whole))
 }

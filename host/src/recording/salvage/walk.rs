@@ -2,11 +2,11 @@
 
 use super::super::append::HEAD;
 use super::super::chunk::{Index, is_known};
+use super::super::source::{Head, Source};
 use super::likely::Judge;
+use super::marks::Marks;
 use super::opened;
 use super::piece::{Kind, Piece, fields, parse};
-use super::source::{Head, Source};
-use super::summary::Summary;
 use anyhow::{Context, Result, bail};
 use mcap::MAGIC;
 use mcap::records::{MessageIndex, op};
@@ -23,12 +23,14 @@ pub struct Walk {
     source: Source,
     path: PathBuf,
     /// What the file's end says.
-    pub summary: Summary,
+    pub marks: Marks,
     at: u64,
     /// Channels that were told so far.
     channels: BTreeSet<u16>,
     /// What the message indexes say that follow, if they are those of a chunk that was read.
     index: Index,
+    /// Plain bytes of the chunk that was opened last: its memory serves the next.
+    plain: Vec<u8>,
 }
 
 /// What comes next in a file.
@@ -56,14 +58,14 @@ impl Walk {
     pub fn open(path: &Path) -> Result<Walk> {
         let mut source = Source::open(path)?;
         let place = || format!("{} cannot be read", path.display());
-        let summary = Summary::read(&mut source).with_context(place)?;
+        let marks = Marks::read(&mut source).with_context(place)?;
         let (index, channels) = (Index::new(), BTreeSet::new());
-        let mut walk = Walk { source, path: path.into(), summary, at: 0, channels, index };
+        let mut walk = Walk { source, path: path.into(), marks, at: 0, channels, index, plain: Vec::new() };
         let begin = MAGIC.len() as u64;
         let has_magic = walk.source.read(0, begin).with_context(place)? == MAGIC;
         if has_magic {
             walk.at = begin;
-        } else if !walk.summary.is_sound && !walk.begins_with_header(begin).with_context(place)? {
+        } else if !walk.marks.is_sound && !walk.begins_with_header(begin).with_context(place)? {
             bail!("{} is not an MCAP file", path.display());
         }
         Ok(walk)
@@ -78,6 +80,11 @@ impl Walk {
     /// Bytes of the file.
     pub fn length(&self) -> u64 {
         self.source.length()
+    }
+
+    /// Bytes before the next record.
+    pub fn passed(&self) -> u64 {
+        self.at
     }
 
     /// The next record, or bytes that are none; none: the file is over.
@@ -115,14 +122,14 @@ impl Walk {
     }
 
     fn judge(&mut self) -> Judge<'_> {
-        Judge { source: &mut self.source, summary: &self.summary, channels: &self.channels }
+        Judge { source: &mut self.source, marks: &self.marks, channels: &self.channels }
     }
 
     fn damage(&mut self, offset: u64) -> io::Result<Damage> {
         self.index.clear();
-        let told = self.summary.chunks.range(offset..self.at).count();
+        let told = self.marks.chunks.range(offset..self.at).count();
         let is_chunk = self.source.head(offset)?.is_some_and(|head| head.op == op::CHUNK);
-        let chunks = if self.summary.chunks.is_empty() { usize::from(is_chunk) } else { told };
+        let chunks = if self.marks.chunks.is_empty() { usize::from(is_chunk) } else { told };
         Ok(Damage { offset, length: self.at - offset, chunks })
     }
 
@@ -157,7 +164,7 @@ impl Walk {
     /// A chunk. Where its record's length is wrong, that of its fields may be right; and where the record's number is
     /// wrong, the place is that of a chunk if the summary says so.
     fn chunk(&mut self, at: u64, head: Head) -> io::Result<Option<Piece>> {
-        if head.op != op::CHUNK && !self.summary.chunks.contains(&at) {
+        if head.op != op::CHUNK && !self.marks.chunks.contains(&at) {
             return Ok(None);
         }
         let (from, behind) = (at + HEAD as u64, self.source.behind(at));
@@ -173,7 +180,7 @@ impl Walk {
         lengths.dedup();
         for length in lengths.into_iter().filter(|length| *length <= behind) {
             let mut body = self.source.read(from, length)?;
-            if let Some((header, inside)) = opened::open(&mut body) {
+            if let Some((header, inside)) = opened::open(&mut body, &mut self.plain) {
                 return Ok(piece(length, body, Kind::Chunk(header, Some(inside))));
             }
         }
@@ -198,7 +205,7 @@ impl Walk {
 
     /// Whether the summary says that another record begins inside this one.
     fn swallows(&self, at: u64, end: u64) -> bool {
-        self.summary.records.range(at + 1..end).next().is_some()
+        self.marks.records.range(at + 1..end).next().is_some()
     }
 
     /// The message index that a body is, if it says what was found in the chunk before it.

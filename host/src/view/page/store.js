@@ -204,6 +204,12 @@ export class Store {
       const recent = this.count - at <= GLOWING;
       images.push([recent ? this.highest.subarray(slot * taxels, (slot + 1) * taxels) : this.at(at).image, age]);
     }
+    const before = this.states.glow;
+    if (before && before.seeks === this.seeks) {
+      // What was felt before the moment that was gone to: its images do not come.
+      before.values ??= spread(before.taxels, taxels);
+      images.push([before.values, (now - before.time_us) / slow]);
+    }
     return afterglow(images, this.glow);
   }
 
@@ -233,4 +239,11 @@ export class Store {
   ill() {
     return new Map((this.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
   }
+}
+
+/** An image of so many taxels, of which only those are told that are not 0. */
+function spread(told, taxels) {
+  const values = new Uint16Array(taxels);
+  for (const [taxel, counts] of told) values[taxel] = counts;
+  return values;
 }

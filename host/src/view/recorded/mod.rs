@@ -64,12 +64,13 @@ impl Player {
     /// Opens a recording and shows its first image. `calibration` replaces the one that is attached.
     pub fn open(path: &Path, speed: f64, calibration: Option<Calibration>, hub: Arc<Hub>) -> Result<Player> {
         let mut clips = Clips::open(path, WIRE)?;
-        // Channels may be told in the first chunk.
-        let first = (!clips.places().is_empty()).then(|| clips.clip(0)).transpose();
+        if !clips.has_topic() && !clips.places().is_empty() {
+            // Channels may be told in the first chunk.
+            clips.clip(0)?;
+        }
         if !clips.has_topic() {
             bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
         }
-        first?;
         let origin = origin(&clips, path, calibration)?;
         let scale = origin.counts_per_newton;
         let clock = RecordedTime::of(&clips);
@@ -145,7 +146,7 @@ impl Player {
     }
 
     fn moment(&mut self, at: u64, event: &Event) {
-        self.screen.moment(self.reel.client(), at, event, self.deck.seeks());
+        self.screen.moment(self.reel.client(), self.reel.glow(), at, event, self.deck.seeks());
     }
 
     /// Plays up to a time.

@@ -11,6 +11,9 @@ use taxel_core::wire::{self, Report};
 /// Chunks before an image in which the one that it is told by is looked for: a board sends one each second.
 const REACH: usize = 64;
 
+/// Time in which the page lets a touch fade, us: `FADE_S` of `afterglow.js`.
+const FADE_US: u64 = 800_000;
+
 /// Topics of what lasts, but for maps of health, which come in parts.
 const LASTING: [&str; 8] = [
     "/taxel/hello",
@@ -42,13 +45,15 @@ pub struct Reel {
     next: Cursor,
     /// The last image that was played.
     shown: Option<Cursor>,
+    /// What glowed when an image was gone to, counts by taxel: what was felt before it, less the longer ago it was.
+    glow: Vec<u16>,
 }
 
 impl Reel {
     /// At its beginning.
     pub fn new(clips: Clips, survey: Arc<Survey>) -> Reel {
         let (clock, next) = (RecordedTime::of(&clips), Cursor { chunk: 0, index: 0 });
-        Reel { clips, clock, survey, client: Client::new(), next, shown: None }
+        Reel { clips, clock, survey, client: Client::new(), next, shown: None, glow: Vec::new() }
     }
 
     /// What is known after the last message.
@@ -110,20 +115,42 @@ impl Reel {
 
     /// Puts the client in the state of an image.
     fn show(&mut self, image: Cursor) -> Option<(u64, Event)> {
-        let key = self.key_of(image);
+        let shown_at =
+            self.clip(image.chunk).get(image.index).map(|piece| self.clock.at(piece.header.log_time))?;
+        let first = self.image_at(shown_at.saturating_sub(FADE_US)).unwrap_or(image).min(image);
+        let key = self.key_of(first);
         self.client = Client::new();
+        self.glow.clear();
         let standing = self.survey.known(key.chunk).unwrap_or_else(|| self.gathered(key.chunk));
         for frame in standing.frames() {
             self.push(&frame);
         }
         let mut last = None;
         for (at, piece) in self.between(key, image) {
-            last = self.push(&piece.data).map(|event| (at, event)).or(last);
+            let event = self.push(&piece.data);
+            if matches!(event, Some(Event::Frame { .. })) {
+                self.shine(shown_at.saturating_sub(at));
+            }
+            last = event.map(|event| (at, event)).or(last);
         }
         self.client.recount();
         self.shown = Some(image);
         self.next = Cursor { index: image.index + 1, ..image };
         last
+    }
+
+    /// Adds the client's image, which was felt so many microseconds before the one that is gone to.
+    fn shine(&mut self, age: u64) {
+        let (Some(left), Some((_, image))) = (FADE_US.checked_sub(age), self.client.image()) else { return };
+        self.glow.resize(image.len(), 0);
+        for (glow, value) in self.glow.iter_mut().zip(image) {
+            *glow = (*glow).max((u64::from(*value) * left / FADE_US) as u16);
+        }
+    }
+
+    /// What glowed when the last image was gone to, counts by taxel.
+    pub fn glow(&self) -> &[u16] {
+        &self.glow
     }
 
     /// The image that is shown, as it was sent.
@@ -159,9 +186,11 @@ impl Reel {
         let last = |topic| self.clips.with_topic(topic, end).next();
         let mut chunks: BTreeSet<usize> = LASTING.into_iter().filter_map(last).collect();
         chunks.extend(self.clips.with_topic("/taxel/health_map", end).take(MAPS));
+        // The moment at which an intention led may lie in the one before.
+        chunks.extend(self.clips.with_topic("/taxel/intent", end).take(2));
         // What a board was taught it tells behind its hello.
         chunks.extend(last("/taxel/hello").map(|hello| hello + 1).filter(|next| *next < end));
-        let mut standing = Standing::default();
+        let mut standing = self.survey.beginning();
         for chunk in chunks {
             for piece in self.clip(chunk).iter() {
                 with_report(piece, |seq, report| _ = standing.take(seq, report, &piece.data));
@@ -240,7 +269,7 @@ impl<I: Iterator> LastPosition for I {
 }
 
 /// Reads a message; none: it cannot be read.
-fn with_report<T>(piece: &Piece, read: impl FnOnce(u32, &Report<'_>) -> T) -> Option<T> {
+pub(super) fn with_report<T>(piece: &Piece, read: impl FnOnce(u32, &Report<'_>) -> T) -> Option<T> {
     let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
     let (seq, report) = wire::decode::<(u32, Report<'_>)>(wire::open(&mut bytes).ok()?).ok()?;
     Some(read(seq, &report))

@@ -25,8 +25,8 @@ impl Screen {
         Screen { hub, label, scale, rate: Rate::default() }
     }
 
-    /// Another moment: what was told of the one before holds no more.
-    pub fn moment(&mut self, client: &Client, at: u64, event: &Event, seeks: u32) {
+    /// Another moment, and what still glows in it: what was told of the one before holds no more.
+    pub fn moment(&mut self, client: &Client, glow: &[u16], at: u64, event: &Event, seeks: u32) {
         self.hub.forget_images();
         self.rate = Rate::default();
         self.hello(client);
@@ -43,6 +43,9 @@ impl Screen {
             }
         }
         self.hub.forget("taxel");
+        if let Event::Frame { time, .. } = event {
+            self.hub.state("glow", &message::glow(glow, *time, seeks));
+        }
         self.image(client, at, event, seeks);
         self.link(client);
     }
@@ -62,7 +65,7 @@ impl Screen {
         let Some((_, image)) = client.image() else { return };
         self.rate.add(*time);
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let mut line = live::message(client, event);
+        let mut line = message::frame(client, event);
         (line["at_us"], line["seeks"]) = (json!(at), json!(seeks));
         self.hub.show(Shot { line: line.to_string().into(), image: image.into(), time_us: time.0, total });
     }

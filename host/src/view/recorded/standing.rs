@@ -1,7 +1,9 @@
 //! What a board said and what holds until it says otherwise: who starts in the middle of a recording is told this first.
 
+use crate::client::{Worn, leads};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use taxel_core::format::Name;
 use taxel_core::wire::Report;
 
 /// A frame of the wire, and its place among those that hold.
@@ -10,11 +12,13 @@ type Part = (u64, Arc<[u8]>);
 /// The frames of the wire that hold, their 0x00 included.
 #[derive(Debug, Default, Clone)]
 pub struct Standing {
-    /// By the report's number and, of a map of health, its first taxel.
+    /// By the report's number and, of a map of health, its first taxel, of an intention, whether it led.
     parts: BTreeMap<(u32, u16), Part>,
     taken: u64,
     /// Number of the next message; none before the first.
     next: Option<u32>,
+    /// Concepts of the board's map.
+    concepts: Vec<Name>,
 }
 
 impl Standing {
@@ -37,10 +41,20 @@ impl Standing {
     /// Where a message is kept; none: it says nothing that lasts.
     fn key(&mut self, report: &Report<'_>) -> Option<(u32, u16)> {
         let number = match report {
-            Report::Hello(_) => Report::HELLO,
+            Report::Hello(hello) => {
+                self.concepts = Worn::read(hello).map_or(Vec::new(), |worn| worn.concepts().to_vec());
+                Report::HELLO
+            }
             Report::Contacts(_) => Report::CONTACTS,
             Report::Symbols(_) => Report::SYMBOLS,
-            Report::Intent(_) => Report::INTENT,
+            Report::Intent(report) => {
+                // The last moment at which the announced intention led is told with it, unless they are one.
+                let leads = leads(&self.concepts, report);
+                if leads {
+                    self.parts.remove(&(Report::INTENT, 0));
+                }
+                return Some((Report::INTENT, u16::from(leads)));
+            }
             Report::Health(_) => Report::HEALTH,
             Report::Budget(_) => Report::BUDGET,
             Report::HealthMap(map) => {

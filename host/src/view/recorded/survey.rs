@@ -1,8 +1,10 @@
 //! Goes once through a recording, beside its player: for the overview, and so that any part of it can be shown.
 
 use super::overview::Overview;
+use super::reel::with_report;
 use super::standing::Standing;
 use crate::client::{Client, Event};
+use crate::record::{HELLO, lost};
 use crate::recording::{Clips, Piece};
 use crate::shared::Shared;
 use crate::view::hub::Hub;
@@ -17,7 +19,10 @@ const TOLD: Duration = Duration::from_millis(500);
 
 /// What held when each chunk began.
 #[derive(Debug, Default)]
-pub struct Survey(Shared<Found>);
+pub struct Survey {
+    found: Shared<Found>,
+    beginning: Standing,
+}
 
 #[derive(Debug, Default)]
 struct Found {
@@ -28,31 +33,40 @@ struct Found {
 impl Survey {
     /// Begins, in a thread of its own.
     pub fn start(
-        clips: Clips,
+        mut clips: Clips,
         clock: RecordedTime,
         scale: Option<f32>,
         hub: Arc<Hub>,
     ) -> anyhow::Result<Arc<Survey>> {
-        let survey = Arc::new(Survey::default());
+        let beginning = beginning(&mut clips);
+        let survey = Arc::new(Survey { beginning: beginning.clone(), ..Survey::default() });
         let mut surveyor = Surveyor {
             clips,
             clock,
             overview: Overview::new(clock.duration()),
-            standing: Standing::default(),
+            standing: beginning,
             client: Client::new(),
             teller: Teller::new(scale),
         };
+        for frame in surveyor.standing.frames() {
+            surveyor.tell(0, &frame);
+        }
         let found = survey.clone();
         thread::Builder::new().name("survey".into()).spawn(move || {
             surveyor.go(&found, &hub);
-            found.0.change(|found| found.done = true);
+            found.found.change(|found| found.done = true);
         })?;
         Ok(survey)
     }
 
+    /// What held before the first message.
+    pub fn beginning(&self) -> Standing {
+        self.beginning.clone()
+    }
+
     /// What held when a chunk began; none: it is not known yet.
     pub fn known(&self, chunk: usize) -> Option<Standing> {
-        let found = self.0.lock();
+        let found = self.found.lock();
         found.standing.get(chunk).or(found.standing.last().filter(|_| found.done)).cloned()
     }
 
@@ -62,13 +76,26 @@ impl Survey {
             if let Some(standing) = self.known(chunk) {
                 return standing;
             }
-            let found = self.0.lock();
+            let found = self.found.lock();
             if found.done {
                 return found.standing.last().cloned().unwrap_or_default();
             }
-            drop(self.0.wait(found, Duration::from_millis(50)));
+            drop(self.found.wait(found, Duration::from_millis(50)));
         }
     }
+}
+
+/// What held before the first message: what the board is, where the chunk that told it is lost.
+fn beginning(clips: &mut Clips) -> Standing {
+    let first = (0..clips.places().len()).find_map(|chunk| clips.clip(chunk).ok()?.first().cloned());
+    let mut standing = Standing::default();
+    if let (Some(first), Some(hello)) = (first, clips.attached.get(HELLO))
+        && let Some(frame) = lost(hello, &first.data)
+    {
+        let piece = Piece { data: frame.into(), ..first };
+        with_report(&piece, |seq, report| _ = standing.take(seq, report, &piece.data));
+    }
+    standing
 }
 
 /// Log times as microseconds since the recording began.
@@ -110,7 +137,7 @@ impl Surveyor {
     fn go(&mut self, survey: &Survey, hub: &Hub) {
         let mut told = Instant::now();
         for chunk in 0..self.clips.places().len() {
-            survey.0.change(|found| found.standing.push(self.standing.clone()));
+            survey.found.change(|found| found.standing.push(self.standing.clone()));
             let at = self.clips.places().get(chunk).map_or(0, |place| self.clock.at(place.start));
             match self.clips.clip(chunk) {
                 Ok(clip) => clip.iter().for_each(|piece| self.take(piece)),

@@ -1,49 +1,20 @@
 //! A recording of a calibrated garment: where its newtons come from is in it, and tables are in its unit.
 
 use super::stage::{file, plan};
+use crate::mat::{box_for, knee};
 use std::path::Path;
-use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
+use taxel::calibrate::Calibration;
 use taxel::export::{ExportArgs, Form, run};
 use taxel::live::{BoardArgs, LiveArgs, watch};
 use taxel::output::Force;
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
+use taxel::recording::Overview;
 use taxel::source::{self, SourceOptions};
-use taxel_core::condition::UNITY;
-use taxel_core::garment::{Garment, Layout};
-
-/// A box of 5 N, all of whose counts are above the floor.
-const SCENE: &str = r#"
-duration_s = 2
-garment = "block-4x16"
-[[touch]]
-panel = "mat"
-shape = "box"
-force_n = 5
-at = [7.5, 1.5]
-size_mm = 22
-start_s = 0.5
-rise_s = 0.2
-hold_s = 1
-"#;
-
-/// A knee: 1,000 counts of the first newton on a taxel and 500 of those after it.
-fn knee() -> Calibration {
-    let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
-    let fitted = Fitted {
-        gains: vec![UNITY; 64],
-        curves: vec![Some(Curve::new(vec![[16_000, 1_000_000], [24_000, 2_000_000]]).unwrap())],
-        silent: Vec::new(),
-        residuals: Residuals { error: 0.0125, worst: 0.03, hysteresis: 0.02, noise: 0.015, rest: 0.0 },
-        weights: Vec::new(),
-    };
-    let rest = Rest { codes: vec![300.0; 64], noise: 2.0 };
-    Calibration::of(fitted, &layout, &rest, ["block-4x16", "Anna", "plates of 5 N", "sim"])
-}
 
 /// Records the scene with what the calibration says, and raw codes.
 fn recorded(name: &str, calibration: &Calibration) {
     let (scene, certificate) = (file(&format!("{name}.scene.toml")), file(&format!("{name}.toml")));
-    std::fs::write(&scene, SCENE).unwrap();
+    std::fs::write(&scene, box_for(1)).unwrap();
     calibration.write(&certificate).unwrap();
     let spec: source::SourceSpec = format!("sim:{}", scene.display()).parse().unwrap();
     let source = source::open(&spec, &SourceOptions { raw: true, ..SourceOptions::default() }).unwrap();
@@ -69,7 +40,8 @@ fn who_calibrated_when_and_how_is_in_it() {
     recorded("calibrated", &calibration);
     let path = file("calibrated.mcap");
     let scan = taxel::recording::scan(&path).unwrap();
-    let text = String::from_utf8(scan.attached(&path, CALIBRATION).unwrap().unwrap()).unwrap();
+    let text =
+        String::from_utf8(Overview::of(&path).unwrap().attached(CALIBRATION).unwrap().unwrap()).unwrap();
     assert_eq!(Calibration::parse(&text, "attached").unwrap(), calibration);
     let words = &scan.metadata.iter().rfind(|words| words.name == "taxel").unwrap().metadata;
     assert!(words["calibration"].starts_with(&format!("id {}, {}", calibration.id, calibration.date)));
@@ -78,7 +50,7 @@ fn who_calibrated_when_and_how_is_in_it() {
         words["calibration_fit"],
         "forces within 1.25 % rms, 3.00 % at most; hysteresis 2.00 %, noise of a taxel 1.50 %"
     );
-    assert!(scan.attached(&path, "nothing").unwrap().is_none());
+    assert!(Overview::of(&path).unwrap().attached("nothing").unwrap().is_none());
 }
 
 #[test]
@@ -91,7 +63,7 @@ fn one_that_is_not_in_force_is_not_in_it() {
         Recorder::create(Plan { origin, ..plan("not-told.mcap", "sim", None, false) }).unwrap();
     watch(&LiveArgs::of(spec), source, &mut recorder).unwrap();
     let scan = taxel::recording::scan(&file("not-told.mcap")).unwrap();
-    assert!(scan.attached(&file("not-told.mcap"), CALIBRATION).unwrap().is_none());
+    assert!(Overview::of(&file("not-told.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());
     assert!(scan.metadata.iter().all(|metadata| !metadata.metadata.contains_key("calibration_by")));
 }
 

@@ -69,17 +69,24 @@ fn a_table_holds_every_taxel_that_is_touched() {
 #[test]
 fn images_hold_the_counts() {
     let (seen, folder) = exported("png", Form::Png, "images", 50);
+    let legend: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.join("scale.json")).unwrap()).unwrap();
     for (number, _, image) in seen.frames.iter().step_by(50) {
+        let path = folder.join(format!("{:05}/{number:08}.png", number / 1000));
+        let mut reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()))
+            .read_info()
+            .unwrap();
+        let mut grey = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut grey).unwrap();
+        assert_eq!((info.width, info.height), (64, 32));
+        let values: Vec<u16> = grey.chunks(2).map(|two| u16::from_be_bytes([two[0], two[1]])).collect();
         for (index, panel) in PANELS.iter().enumerate() {
-            let path = folder.join(panel.replace(' ', "_")).join(format!("{number:08}.png"));
-            let mut reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()))
-                .read_info()
-                .unwrap();
-            let mut grey = vec![0; reader.output_buffer_size().unwrap()];
-            let info = reader.next_frame(&mut grey).unwrap();
-            assert_eq!((info.width, info.height), (16, 32));
-            let values: Vec<u16> = grey.chunks(2).map(|two| u16::from_be_bytes([two[0], two[1]])).collect();
-            assert_eq!(values, image[512 * index..][..512]);
+            let told = &legend["panels"][index];
+            let left = told["left"].as_u64().unwrap() as usize;
+            assert_eq!((told["name"].as_str(), left), (Some(*panel), 16 * index));
+            for row in 0..32 {
+                assert_eq!(values[64 * row + left..][..16], image[512 * index + 16 * row..][..16]);
+            }
         }
     }
 }

@@ -18,7 +18,7 @@ fn every_file_stands_alone_and_none_lacks_a_frame() {
         }
         files = number;
         let part = replayed(&file(&name));
-        assert_eq!(taxel::recording::scan(&file(&name)).unwrap().contents.attachments().count(), 3);
+        assert_eq!(taxel::recording::scan(&file(&name)).unwrap().contents.attachments().count(), 4);
         all.frames.extend(part.frames);
         std::fs::remove_file(file(&name)).unwrap();
     }

@@ -5,6 +5,7 @@ use super::stage::{file, plan, record};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
+use taxel::record::HELLO;
 use taxel::recording::{Messages, scan};
 use taxel::sim;
 
@@ -18,7 +19,7 @@ fn a_replay_is_the_board_bit_for_bit() {
         let found = scan(&file(&format!("{name}.mcap"))).unwrap();
         assert!(found.whole, "{name}");
         let attached: Vec<_> = found.contents.attachments().collect();
-        assert_eq!(attached, ["garment.toml", "scene.json", "geometry.json"]);
+        assert_eq!(attached, [HELLO, "garment.toml", "scene.json", "geometry.json"]);
         assert_eq!(found.metadata[0].metadata["program"], concat!("taxel ", env!("CARGO_PKG_VERSION")));
     }
 }

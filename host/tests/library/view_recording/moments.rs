@@ -1,7 +1,9 @@
 //! A moment is the same from wherever it is gone to.
 
-use super::stage::{Moment, View, moments, recorded};
+use super::stage::{Moment, PROGRAM, View, file, moments, recorded};
 use serde_json::{Value, json};
+use taxel::record::WIRE;
+use taxel::recording::{chunk_indexes, repair, scan};
 
 /// The frame that is shown at a time.
 fn at(all: &[Moment], seconds: f64) -> &Moment {
@@ -80,4 +82,85 @@ fn what_is_played_is_the_recording_in_its_own_time_and_the_loop_begins_again() {
     // Three rounds of 0.3 s at half the speed.
     let seconds = begun.elapsed().as_secs_f64();
     assert!((1.2..6.0).contains(&seconds), "{seconds} s");
+}
+
+#[test]
+fn a_recording_without_its_first_chunk_is_shown() {
+    let path = recorded("first.mcap", "sim:pat", 6, &[]);
+    let first = &chunk_indexes(&path).unwrap()[0];
+    let mut bytes = std::fs::read(&path).unwrap();
+    bytes[(first.chunk_start_offset + first.chunk_length) as usize - 40] ^= 1;
+    std::fs::write(&path, bytes).unwrap();
+    let mut bytes = Vec::new();
+    repair(&path, &scan(&path).unwrap(), &mut bytes).unwrap();
+    let repaired = file("first.repaired.mcap");
+    std::fs::write(&repaired, bytes).unwrap();
+    let (all, view) = (moments(&repaired), View::start(&[repaired.to_str().unwrap()]));
+    assert!(all.len() > 300, "{} images", all.len());
+    let mut page = view.page();
+    let mut seeks = page.stand();
+    for seconds in [3.0, 0.5, 4.2] {
+        let (line, image, _) = page.seek(seconds, &mut seeks);
+        let wanted = at(&all, seconds);
+        assert_eq!((touch(&line), image), (touch(&wanted.line), wanted.image.clone()), "{seconds} s");
+    }
+}
+
+#[test]
+fn messages_outside_of_chunks_are_refused_by_name() {
+    let path = file("loose.mcap");
+    let mut out = std::io::BufWriter::new(std::fs::File::create(&path).unwrap());
+    let options = mcap::WriteOptions::new().use_chunks(false).compression(None);
+    let mut writer = options.create(&mut out).unwrap();
+    let channel = writer.add_channel(0, WIRE, "taxel-wire", &Default::default()).unwrap();
+    let header =
+        mcap::records::MessageHeader { channel_id: channel, sequence: 0, log_time: 1, publish_time: 1 };
+    writer.write_to_known_channel(&header, &[0]).unwrap();
+    writer.finish().unwrap();
+    drop(writer);
+    drop(out);
+    let mut view = std::process::Command::new(PROGRAM);
+    let done = view.args(["view", "--port", "0"]).arg(&path).output().unwrap();
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    assert!(said.contains("loose.mcap cannot be read: it has messages outside of chunks"), "{said}");
+}
+
+#[test]
+fn what_was_felt_just_before_a_moment_glows_in_it() {
+    let path = recorded("glow.mcap", "sim:lash", 4, &[]);
+    let (all, view) = (moments(&path), View::start(&[path.to_str().unwrap()]));
+    let total = |moment: &&Moment| moment.image.iter().map(|value| u64::from(*value)).sum::<u64>();
+    let lash = all.iter().max_by_key(total).unwrap().at;
+    let mut page = view.page();
+    let stood = page.stand();
+    // Amid the lash, 200 ms after it, and when it has faded.
+    for (seeks, (later, glows)) in (stood + 1..).zip([(0, true), (200_000, true), (1_900_000, false)]) {
+        let shown = all.iter().rfind(|moment| moment.at <= lash + later).unwrap();
+        page.ask(json!({ "seek": (lash + later) as f64 / 1e6 }));
+        let line = page.line("glow", |line| line["seeks"] == seeks);
+        assert_eq!(line["time_us"], shown.line["time_us"]);
+        let mut wanted = vec![0; shown.image.len()];
+        for moment in all.iter().filter(|m| m.at <= shown.at && m.at + 800_000 >= shown.at) {
+            let left = 800_000 - (shown.at - moment.at);
+            for (glow, value) in wanted.iter_mut().zip(&moment.image) {
+                *glow = u64::max(*glow, u64::from(*value) * left / 800_000);
+            }
+        }
+        let wanted: Vec<_> = wanted.iter().enumerate().filter(|(_, counts)| **counts > 0).collect();
+        assert_eq!(line["taxels"], json!(wanted), "{later} us after the lash");
+        assert_eq!(!wanted.is_empty(), glows, "{later} us after the lash");
+    }
+}
+
+#[test]
+fn headline_and_bars_are_of_one_moment() {
+    let path = recorded("headline.mcap", "sim:pat", 4, &[]);
+    let led = |line: &Value| {
+        let leading = line["intent"]["leading"].as_str().unwrap();
+        (leading != "none").then(|| line["intent"]["concepts"][leading].as_f64().unwrap())
+    };
+    let all = moments(&path);
+    let bars: Vec<f64> = all.iter().filter_map(|moment| led(&moment.line)).collect();
+    assert!(bars.len() > 100 && bars.iter().all(|bar| *bar > 0.1), "a headline stands over an empty bar");
 }

@@ -1,27 +1,10 @@
 //! What the page saves is a recording for every other command, newtons and all.
 
 use super::stage::{PROGRAM, View, file, moments, recorded};
+use crate::mat::{box_for, knee};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;
-use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
-use taxel_core::condition::UNITY;
-use taxel_core::garment::{Garment, Layout};
-
-/// A box on a mat of one block.
-const SCENE: &str = r#"
-duration_s = 5
-garment = "block-4x16"
-[[touch]]
-panel = "mat"
-shape = "box"
-force_n = 5
-at = [7.5, 1.5]
-size_mm = 22
-start_s = 0.5
-rise_s = 0.2
-hold_s = 4
-"#;
 
 fn info(path: &Path) -> Value {
     let output = Command::new(PROGRAM).args(["info", "--json"]).arg(path).output().unwrap();
@@ -67,19 +50,9 @@ fn a_range_is_saved_to_the_image_and_every_command_reads_it() {
 
 #[test]
 fn the_calibration_stays_with_what_is_saved() {
-    let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
-    let fitted = Fitted {
-        gains: vec![UNITY; 64],
-        curves: vec![Some(Curve::new(vec![[16_000, 1_000_000], [24_000, 2_000_000]]).unwrap())],
-        silent: Vec::new(),
-        residuals: Residuals { error: 0.0125, worst: 0.03, hysteresis: 0.02, noise: 0.015, rest: 0.0 },
-        weights: Vec::new(),
-    };
-    let rest = Rest { codes: vec![300.0; 64], noise: 2.0 };
-    let made = Calibration::of(fitted, &layout, &rest, ["block-4x16", "Anna", "plates of 5 N", "sim"]);
     let (scene, certificate) = (file("block.toml"), file("block.calibration.toml"));
-    std::fs::write(&scene, SCENE).unwrap();
-    made.write(&certificate).unwrap();
+    std::fs::write(&scene, box_for(4)).unwrap();
+    knee().write(&certificate).unwrap();
     let calibration = ["--calibration", certificate.to_str().unwrap()];
     let source = format!("sim:{}", scene.display());
     let path = recorded("calibrated.mcap", &source, 4, &calibration);

@@ -10,6 +10,7 @@ use taxel::client::{Client, Event, ImageNews};
 use taxel::live;
 use taxel::record::{Play, WIRE};
 use taxel::recording::Clips;
+use taxel::view::message;
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
@@ -62,7 +63,11 @@ pub fn moments(path: &Path) -> Vec<Moment> {
 
 /// An event as a page reads it: numbers go through text on their way.
 fn told(client: &Client, event: &Event) -> Value {
-    serde_json::from_str(&live::message(client, event).to_string()).unwrap()
+    let line = match event {
+        Event::Frame { .. } => message::frame(client, event),
+        event => live::message(client, event),
+    };
+    serde_json::from_str(&line.to_string()).unwrap()
 }
 
 /// A running `taxel view`.

@@ -28,8 +28,18 @@ fn allowed(schema: &Value, root: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
+/// Asserts that a value of a file in which every key stands has the keys that a schema allows, and no others.
+#[track_caller]
+pub fn assert_all(value: &impl serde::Serialize, schema: &str) {
+    let mut found = Vec::new();
+    in_value(&serde_json::to_value(value).expect("a value is JSON"), "", &mut found);
+    found.sort();
+    found.dedup();
+    assert_eq!(found, of(schema));
+}
+
 /// The keys of a value, as those of a schema.
-pub fn in_value(value: &Value, path: &str, found: &mut Vec<String>) {
+fn in_value(value: &Value, path: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(table) => {
             for (key, value) in table {

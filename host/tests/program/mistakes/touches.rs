@@ -82,12 +82,7 @@ fall_s = 0.5
 
 #[test]
 fn the_schema_has_the_keys_of_a_script_and_no_others() {
-    let script = Script::parse(BASE, "all.toml").unwrap();
-    let mut found = Vec::new();
-    keys::in_value(&serde_json::to_value(script).unwrap(), "", &mut found);
-    found.sort();
-    found.dedup();
-    assert_eq!(found, keys::of(Kind::Touches.schema()));
+    keys::assert_all(&Script::parse(BASE, "all.toml").unwrap(), Kind::Touches.schema());
 }
 
 /// Each key of the schema is explained in the document.

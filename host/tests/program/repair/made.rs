@@ -2,6 +2,7 @@
 
 use mcap::records::op;
 use std::fs::{self, File};
+use std::io::Read;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use taxel::recording::{Format, Messages, Writer, repair, scan};
@@ -75,6 +76,12 @@ pub fn read(bytes: &[u8]) -> Vec<Told> {
     }
     assert!(messages.skipped().is_none());
     for index in &summary.chunk_indexes {
+        // As readers see them that check LZ4's own sums, too.
+        let end = (index.chunk_start_offset + index.chunk_length) as usize;
+        let frame = &bytes[end - index.compressed_size as usize..end];
+        let mut plain = Vec::new();
+        lz4_flex::frame::FrameDecoder::new(frame).read_to_end(&mut plain).expect("a frame of LZ4");
+        assert_eq!(plain.len() as u64, index.uncompressed_size);
         assert_eq!(bytes[index.chunk_start_offset as usize], op::CHUNK);
         assert!(index.message_index_offsets.values().all(|at| bytes[*at as usize] == op::MESSAGE_INDEX));
     }

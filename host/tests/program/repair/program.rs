@@ -104,3 +104,26 @@ fn a_repair_takes_no_name_that_it_was_not_given() {
     }
     assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 3, "nothing temporary is left");
 }
+
+#[test]
+fn a_recording_without_its_first_chunk_is_played() {
+    let folder = Folder::new("first");
+    folder.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", "touch.mcap"]);
+    let whole = info(&folder, "touch.mcap")["frames"].as_u64().unwrap();
+    let first = &taxel::recording::chunk_indexes(&folder.at("touch.mcap")).unwrap()[0];
+    let mut bytes = fs::read(folder.at("touch.mcap")).unwrap();
+    bytes[(first.chunk_start_offset + first.chunk_length) as usize - 40] ^= 1;
+    fs::write(folder.at("touch.mcap"), &bytes).unwrap();
+    folder.good(&["info", "touch.mcap", "--repair"]);
+    for name in ["touch.mcap", "touch.repaired.mcap"] {
+        let played = folder.good(&["replay", name, "--speed", "max", "--json"]);
+        let lines: Vec<serde_json::Value> =
+            played.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert_eq!(lines[0]["type"], "hello", "{name}: what the board is was told in the chunk that is lost");
+        let decoded = lines.iter().filter(|line| line["decoded"] == true).count() as u64;
+        assert!(decoded > 100 && decoded < whole, "{name}: {decoded} of {whole} frames");
+        let npz = format!("{name}.npz");
+        folder.good(&["export", name, "--to", "npz", "-o", &npz]);
+        assert_eq!(taxel::arrays::read(&folder.at(&npz), Some("chest")).unwrap().count as u64, decoded);
+    }
+}

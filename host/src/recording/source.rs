@@ -1,12 +1,11 @@
 //! Bytes of a file at any place.
 
+use super::append::HEAD;
 use anyhow::{Context, Result, bail};
 use mcap::MAGIC;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
-
-use super::super::append::HEAD;
 
 /// Bytes of the last bytes of a file: the magic.
 const TAIL: u64 = MAGIC.len() as u64;
@@ -32,6 +31,7 @@ impl Source {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Source> {
         let place = || format!("{} cannot be read", path.display());
+        crate::verbose::reads(path);
         let file = File::open(path).with_context(place)?;
         let known = file.metadata().with_context(place)?;
         if known.is_dir() {
