@@ -37,14 +37,15 @@ impl Client {
         Ok(self.request(&Request::SetScene(&scene_bytes(scene)?))?)
     }
 
-    /// Asks for the raw codes of every frame where none come. Nothing is known of the board: nothing is asked.
-    pub fn request_codes(&mut self) -> Result<()> {
-        let Some(mut scene) = self.worn.as_ref().map(|worn| worn.scene.clone()) else { return Ok(()) };
-        if scene.stream.raw_hz == 0 {
+    /// Asks for the raw codes of every frame where none come; whether it did. Nothing is known of the board: nothing is asked.
+    pub fn request_codes(&mut self) -> Result<bool> {
+        let Some(mut scene) = self.worn.as_ref().map(|worn| worn.scene.clone()) else { return Ok(false) };
+        let asks = scene.stream.raw_hz == 0;
+        if asks {
             scene.stream.raw_hz = u16::MAX;
             self.use_for(&scene)?;
         }
-        Ok(())
+        Ok(asks)
     }
 
     /// The bytes that wait to be sent to the board.

@@ -3,11 +3,12 @@
 use super::limit::Rotate;
 use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
+use crate::fault::Fault;
 use crate::live::{self, BoardArgs, LiveArgs};
 use crate::output::Force;
 use crate::source::SourceOptions;
 use crate::stop;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -53,6 +54,9 @@ pub fn run(args: RecordArgs) -> Result<()> {
         ..SourceOptions::default()
     };
     let (source, calibration) = args.board.open(options)?;
+    if args.raw && !source.listens {
+        bail!(Fault::usage(format!("--raw: {} is a recording, whose board does not listen", source.label)));
+    }
     stop::catch()?;
     let mut recorder = Recorder::create(Plan {
         path: args.output,

@@ -9,6 +9,7 @@ use super::stamps::{Stamp, Stamps};
 use super::standing::{self, Standing};
 use super::tally::{COUNTS, Tally};
 use crate::client::{Client, Event, Worn};
+use crate::fault::Fault;
 use crate::live::Show;
 use crate::output::{Force, Output};
 use crate::progress::{self, Unit};
@@ -65,6 +66,8 @@ pub struct Recorder {
     shown: progress::Progress,
     /// What was counted so far, and before the file began.
     tally: [Tally; 2],
+    /// Raw codes have been asked for by a scene that the board has not answered yet.
+    waits_for_raw: bool,
 }
 
 impl Recorder {
@@ -86,6 +89,7 @@ impl Recorder {
             progress: Progress::default(),
             shown: progress::Progress::of("recording", Unit::BoardTime, None),
             tally: [Tally::default(); 2],
+            waits_for_raw: false,
             plan,
         })
     }
@@ -180,6 +184,18 @@ impl Recorder {
         Ok(())
     }
 
+    /// An error: the board refuses the scene with raw codes.
+    fn answered(&mut self, event: &Event) -> Result<()> {
+        let Event::Answer { request, refusal } = event else { return Ok(()) };
+        if *request != Request::SetScene(&[]).number() || !std::mem::take(&mut self.waits_for_raw) {
+            return Ok(());
+        }
+        match refusal {
+            Some(why) => Err(Fault::board(format!("--raw: the board refuses raw codes: {why}")).into()),
+            None => Ok(()),
+        }
+    }
+
     fn keep(&mut self) -> Result<()> {
         if self.kept.elapsed() < CHUNK {
             return Ok(());
@@ -206,7 +222,8 @@ fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
 impl Show for Recorder {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         let done = self.take(client, event);
-        self.guard(done)
+        self.guard(done)?;
+        self.answered(event)
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
@@ -226,7 +243,7 @@ impl Show for Recorder {
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         if client.worn().is_some() && std::mem::take(&mut self.plan.raw) {
-            client.request_codes()?;
+            self.waits_for_raw = client.request_codes()?;
         }
         let done = self.keep();
         self.guard(done)?;

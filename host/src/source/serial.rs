@@ -38,7 +38,8 @@ impl Serial {
 /// Why a port cannot be opened, in plain words.
 fn why(error: &serialport::Error) -> String {
     match (error.kind(), error.description.as_str()) {
-        (serialport::ErrorKind::NoDevice, _) => {
+        (serialport::ErrorKind::NoDevice, _) => "another program has it open".into(),
+        (serialport::ErrorKind::Io(ErrorKind::NotFound), _) => {
             "there is no such port, `taxel ports` lists those that there are".into()
         }
         // What a system says of a file that is no terminal.

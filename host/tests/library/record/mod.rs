@@ -4,6 +4,7 @@ mod calibrated;
 mod cost;
 mod exports;
 mod lerobot;
+mod raw;
 mod replayed;
 mod report;
 mod rotate;

@@ -1,0 +1,38 @@
+//! Raw codes that a board refuses.
+
+use super::stage::{file, plan, record};
+use taxel::client::{Client, Event};
+use taxel::fault::status;
+use taxel::live::Show;
+use taxel::record::{Plan, Play, Recorder};
+
+/// What a board says of itself that sends no raw codes.
+fn acquainted() -> Client {
+    record("sim:idle", plan("raw-idle.mcap", "sim", None, false));
+    let mut play = Play::open(&file("raw-idle.mcap")).unwrap();
+    while play.client().worn().is_none() {
+        play.next_event().unwrap().expect("it says what it is");
+    }
+    play.client().clone()
+}
+
+#[test]
+fn a_refusal_of_raw_codes_ends_the_recording() {
+    let mut client = acquainted();
+    let begin = |name: &str| Recorder::create(Plan { raw: true, ..plan(name, "sim", None, false) }).unwrap();
+    let answer = |refusal: Option<&str>| Event::Answer { request: 1, refusal: refusal.map(String::from) };
+    let mut refused = begin("raw-refused.mcap");
+    // Nothing has been asked yet: the answer is to somebody else.
+    refused.event(&client, &answer(Some("no"))).unwrap();
+    assert!(refused.idle(&mut client).unwrap());
+    let error = refused.event(&client, &answer(Some("the link is too slow"))).unwrap_err();
+    let told = "--raw: the board refuses raw codes: the link is too slow";
+    assert_eq!((error.to_string().as_str(), status(&error)), (told, 3));
+    refused.finish().unwrap();
+    let mut done = begin("raw-done.mcap");
+    assert!(done.idle(&mut client).unwrap());
+    done.event(&client, &answer(None)).unwrap();
+    // A scene that is refused later is that of somebody else.
+    done.event(&client, &answer(Some("no"))).unwrap();
+    done.finish().unwrap();
+}
