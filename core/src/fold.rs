@@ -3,9 +3,9 @@
 //! | | |
 //! |---|---|
 //! | input | [`Posture`] messages |
-//! | output | the last posture and its age |
+//! | output | the last posture, its age, whether a joint moves |
 //! | latency | none |
-//! | RAM | [`FoldState`]: 64 bytes |
+//! | RAM | [`FoldState`]: 96 bytes |
 
 use crate::format::{Invalid, Micros, Name};
 use heapless::Vec;
@@ -37,7 +37,14 @@ pub struct Posture {
 pub struct FoldState {
     angles: [Option<i16>; JOINTS],
     told: Option<Micros>,
+    /// Time of the last message by which a joint had moved.
+    moved: Option<Micros>,
 }
+
+/// A joint moves if it is told to be that far from where it was told to be, hundredths of a degree.
+const MOVES: u16 = 20;
+/// It moves on for so long after the message that said so, us.
+const MOVES_FOR_US: u64 = 300_000;
 
 impl FoldState {
     /// Takes a message that arrived at `now`, for a scene with `joints`. Nothing of a refused message is taken.
@@ -53,6 +60,9 @@ impl FoldState {
         }
         for told in &posture.joints {
             if let Some(angle) = self.angles.get_mut(usize::from(told.joint)) {
+                if angle.is_some_and(|was| was.abs_diff(told.centidegrees) >= MOVES) {
+                    self.moved = Some(now);
+                }
                 *angle = Some(told.centidegrees);
             }
         }
@@ -63,6 +73,11 @@ impl FoldState {
     /// Angle of a joint in hundredths of a degree; none until it is told.
     pub fn angle(&self, joint: usize) -> Option<i16> {
         self.angles.get(joint).copied().flatten()
+    }
+
+    /// Whether a joint moves at `now`: the garment folds against itself, and that is nobody's touch.
+    pub fn moves(&self, now: Micros) -> bool {
+        self.moved.is_some_and(|moved| now.since(moved) < MOVES_FOR_US)
     }
 
     /// Time of the last message.
@@ -90,5 +105,20 @@ mod tests {
         state.accept(&good, &joints, Micros(7)).unwrap();
         assert_eq!((state.angle(0), state.angle(1), state.told()), (None, Some(-18_000), Some(Micros(7))));
         assert_eq!(state.angle(99), None);
+    }
+
+    #[test]
+    fn a_joint_moves_while_its_angle_changes_and_a_little_longer() {
+        let joints = [name("elbow")];
+        let mut state = FoldState::default();
+        let mut tell = |centidegrees, us| {
+            let posture = Posture { joints: [JointAngle { joint: 0, centidegrees }].into_iter().collect() };
+            state.accept(&posture, &joints, Micros(us)).unwrap();
+            [us, us + 299_999, us + 300_000].map(|us| state.moves(Micros(us)))
+        };
+        assert_eq!(tell(-18_000, 0), [false; 3], "nobody knows from where");
+        assert_eq!(tell(18_000, 1_000_000), [true, true, false]);
+        assert_eq!(tell(18_000 - 19, 2_000_000), [false; 3], "it trembles");
+        assert_eq!(tell(18_000 - 19 - 20, 3_000_000), [true, true, false]);
     }
 }

@@ -216,8 +216,10 @@ impl Scene {
             row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
         }
         if let Some(intent) = &mut scene.intent {
-            let pressure =
-                |i: &&mut Input| matches!(i.source, Source::Press | Source::Rise | Source::Hardness);
+            let pressure = |input: &&mut Input| {
+                use Source::{Blow, Hardness, Load, Peak, Press, Rise};
+                matches!(input.source, Press | Rise | Hardness | Blow | Load | Peak)
+            };
             for input in intent.map.inputs.iter_mut().filter(pressure) {
                 input.low = scale(input.low.unsigned_abs()).min(i32::MAX as u32) as i32;
                 input.high = scale(input.high.unsigned_abs()).min(i32::MAX as u32) as i32;

@@ -7,7 +7,7 @@ use taxel_core::intent::{Inference, Map, MapConfig, tactile};
 pub const CONCEPTS: usize = taxel_core::intent::CONCEPTS;
 
 /// Concepts that are computed with floats: enough for the map that ships.
-pub const PLAIN: usize = 16;
+pub const PLAIN: usize = 24;
 
 /// How it is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// The map that ships: rule kosko, tanh, inputs held.
+    /// The map that ships: rule kosko, tanh above 0, inputs held.
     pub fn shipped() -> Option<Maps> {
         let config: MapConfig = tactile();
         let mut weights = [[0.0; PLAIN]; PLAIN];
@@ -97,7 +97,7 @@ fn plain(maps: &Maps, start: &[i32; CONCEPTS], transfer: fn(f32) -> f32) -> [u32
         // What nothing causes is held.
         if weights.iter().any(|weight| *weight != 0.0) {
             let sum = weights.iter().zip(&state).map(|(weight, y)| weight * y).sum::<f32>();
-            *value = transfer(maps.lambda * sum);
+            *value = transfer(maps.lambda * sum.max(0.0));
         }
     }
     next.map(f32::to_bits)

@@ -19,7 +19,7 @@ enum Run {
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 9] = [
+const RUNS: [(&str, Run, &str); 10] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -41,6 +41,11 @@ const RUNS: [(&str, Run, &str); 9] = [
         "people",
         Run::Library("people::"),
         "intentions: 4,000 touches by 20 people, of each of two families (simulated)",
+    ),
+    (
+        "families",
+        Run::Library("families_are_understood"),
+        "intentions: 200 touches of 40 families against what a person would say (simulated)",
     ),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
     (

@@ -28,6 +28,14 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 Source::Hardness => {
                     touch.and_then(|t| t.hardness).map(|it| i32::try_from(it).unwrap_or(i32::MAX))
                 }
+                Source::Blow => measured(|t| t.blow),
+                Source::Load => measured(|t| t.load),
+                Source::Cover => measured(|t| t.cover_mm2),
+                Source::Peak => measured(|t| t.peak),
+                Source::Age => measured(|t| t.age_ms),
+                Source::Beats => measured(|t| t.beats),
+                Source::Still => measured(|t| t.still_ms),
+                Source::Own => measured(|t| t.own.into()),
                 Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
             };
             if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {

@@ -126,6 +126,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
             Transfer::Trivalent => sum.signum() * self.one,
             Transfer::Sigmoid => sigmoid_of_twice(self.gain.apply(sum)),
             Transfer::Tanh => tanh(self.gain.apply(sum)),
+            Transfer::Positive => tanh(self.gain.apply(sum.max(0))),
         }
     }
 

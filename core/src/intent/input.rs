@@ -26,8 +26,25 @@ pub struct Touch {
     pub duration_ms: u32,
     /// Speed of the contact over the surface, in 0.1 mm/s.
     pub speed: u32,
-    /// How steeply the force came, in counts/ms: the greatest mean rise since the onset. The stage finds it itself.
+    /// How steeply the force came, in counts/ms: the steepest rise since the onset. The stage finds it itself, as all that follows
+    /// up to `own`.
     pub rise: u32,
+    /// Steepest rise of the last time, in counts/ms: that of a blow is forgotten while what hit still lies there.
+    pub blow: u32,
+    /// Greatest total pressure of all contacts of the last time, in counts.
+    pub load: u32,
+    /// Largest area that all contacts touched at once, in mm2.
+    pub cover_mm2: u32,
+    /// Greatest pressure of a taxel of the last time, in counts.
+    pub peak: u32,
+    /// Time since the onset, in ms; unlike the duration, it goes on after the release.
+    pub age_ms: u32,
+    /// How often the force fell and rose again at the tempo of a hand.
+    pub beats: u32,
+    /// How long nothing has been added to the force, in ms.
+    pub still_ms: u32,
+    /// It began while the robot itself moved: told by whoever gives the touch.
+    pub own: bool,
     /// Total pressure now, in counts.
     pub force: u32,
     /// Taxels that are touched now.
@@ -37,14 +54,6 @@ pub struct Touch {
     /// How hard what touches seems, in counts per cm2: see [`hardness`](crate::contact::hardness). The stage finds it itself, and
     /// only where an input asks for it.
     pub hardness: Option<u32>,
-}
-
-impl Touch {
-    /// The mean rise since the onset, which lay within the `interval_ms` before the first frame, in counts/ms.
-    pub(super) fn mean_rise(&self, interval_ms: u32) -> u32 {
-        let since = NonZeroU32::new(self.duration_ms.saturating_add(interval_ms)).unwrap_or(NonZeroU32::MIN);
-        self.press / since
-    }
 }
 
 /// Where an input concept takes its value from. Variants are only appended.
@@ -67,6 +76,22 @@ pub enum Source {
     Rise,
     /// [`Touch::hardness`], counts per cm2, soft to hard; gives 0 before it is known.
     Hardness,
+    /// [`Touch::blow`], counts/ms: a blow, as long as it has just happened.
+    Blow,
+    /// [`Touch::load`], counts: of all contacts together.
+    Load,
+    /// [`Touch::cover_mm2`], mm2: an embrace covers more than a hand.
+    Cover,
+    /// [`Touch::peak`], counts: what is sharp fills a taxel.
+    Peak,
+    /// [`Touch::age_ms`], ms.
+    Age,
+    /// [`Touch::beats`]: the rhythm of a shaken hand, of pats, of a massage.
+    Beats,
+    /// [`Touch::still_ms`], ms: what lies there.
+    Still,
+    /// [`Touch::own`]: 1 if it began while the robot itself moved, else 0.
+    Own,
 }
 
 /// One input of a map. The ramp may fall (`at_high` below `at_low`).

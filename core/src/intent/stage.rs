@@ -6,11 +6,13 @@
 //! | output | [`Meaning`], when there is a new one |
 //! | saturation | as [`Map::encode`] and [`Map::infer`] |
 //! | latency | `onset_ms` from the first inference in favour of an intention |
-//! | RAM | [`IntentState`]: 4 N bytes three times and about 150 |
+//! | RAM | [`IntentState`]: 4 N bytes three times and about 450 |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
 
 use super::config::{CONCEPTS, IntentConfig};
 use super::error::MapError;
+use super::evidence::Evidence;
+use super::felt::Felt;
 use super::infer::{Inference, Outcome};
 use super::input::{Source, Touch};
 use super::leading::Leading;
@@ -41,11 +43,8 @@ pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
     /// How it grew.
     growth: Growth,
+    evidence: Evidence,
     released: Option<Micros>,
-    /// Time of the first frame.
-    first: Option<Micros>,
-    /// Time of the last frame.
-    before: Micros,
     inputs: [i32; N],
     inference: Inference<N>,
     inferred: Option<Micros>,
@@ -61,9 +60,8 @@ impl<const N: usize> Default for IntentState<N> {
         IntentState {
             touch: None,
             growth: Growth::default(),
+            evidence: Evidence::default(),
             released: None,
-            first: None,
-            before: Micros(0),
             inputs: [0; N],
             inference: Inference { state: [0; N], steps: 0, outcome: Outcome::Fixed },
             inferred: None,
@@ -165,7 +163,8 @@ impl<const N: usize> Intent<N> {
     }
 
     /// Takes the touches of one frame. Of several, the one with the greatest press counts; a released one counts on
-    /// for `hold_ms`, also beside weaker ones that still last. `host` holds the values the host feeds, by slot.
+    /// for `hold_ms`, also beside weaker ones that still last. `felt` sums up all contacts of the frame; `host` holds the
+    /// values the host feeds, by slot.
     ///
     /// The inference starts from the inputs alone, not from its last result: one touch has one meaning, whatever was
     /// before. It runs only when the inputs have changed. Total.
@@ -173,12 +172,14 @@ impl<const N: usize> Intent<N> {
         &self,
         state: &'s mut IntentState<N>,
         touches: &[Touch],
+        felt: &Felt,
         host: &[Q15],
         now: Micros,
     ) -> Option<&'s Meaning<N>> {
-        state.first.get_or_insert(now);
+        let counts = state.touch.is_some() || !touches.is_empty();
+        state.evidence.take(felt, counts, now, self.hold_us);
         let edge = self.select(state, touches, now);
-        state.before = now;
+        self.weigh(state, now);
         let inferred = self.refresh(state, host, edge, now);
         let changed = self.debounce(state, now);
         if !inferred && !changed {
@@ -212,13 +213,11 @@ impl<const N: usize> Intent<N> {
             (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
                 let same = |held: &Touch| state.released.is_none() && held.duration_ms <= present.duration_ms;
                 let before = held.filter(same);
-                let steepest = before.map_or(0, |held| held.rise);
-                // Nobody saw the onset of what was there in the first frame.
-                let lasts = now.millis_since(state.first.unwrap_or(now));
-                let mean = present.mean_rise(now.millis_since(state.before));
-                let rise = if present.duration_ms < lasts { mean.max(steepest) } else { 0 };
+                // What has just come is its own; from then on what comes while it is the one that counts.
+                let rise = before.map_or(state.evidence.blow(), |held| held.rise.max(state.evidence.rise));
+                let own = before.map_or(present.own, |held| held.own);
                 let hardness = self.feel(&mut state.growth, before.is_some(), &present);
-                (state.touch, state.released) = (Some(Touch { rise, hardness, ..present }), None);
+                (state.touch, state.released) = (Some(Touch { rise, own, hardness, ..present }), None);
             }
             (Some(_), present) => {
                 let released = *state.released.get_or_insert(now);
@@ -229,6 +228,18 @@ impl<const N: usize> Intent<N> {
             (None, _) => {}
         }
         state.touch.is_some() != before
+    }
+
+    /// Tells the touch that counts what the frames have shown.
+    fn weigh(&self, state: &mut IntentState<N>, now: Micros) {
+        let evidence = &state.evidence;
+        if let Some(touch) = &mut state.touch {
+            let since = state.released.map_or(0, |released| now.millis_since(released));
+            touch.age_ms = touch.duration_ms.saturating_add(since);
+            (touch.blow, touch.load, touch.peak) = (evidence.blow(), evidence.load(), evidence.peak());
+            touch.cover_mm2 = evidence.cover_mm2();
+            (touch.beats, touch.still_ms) = (evidence.beats(), evidence.still_ms());
+        }
     }
 
     /// How hard the touch seems by now; `known`: it has been there before.

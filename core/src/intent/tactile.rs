@@ -1,9 +1,11 @@
-//! The map that ships: shape, location, press and time of a touch cause kindness, threat and attack; those cause
-//! happiness, anger and politeness. The source prints the ten concepts and the matrix with all entries zero: the weights
-//! here are ours, in steps of 0.05, set by what touches of people are (`tests/people/scripted.rs`); people it never saw judge it.
+//! The map that ships: what is measured of a touch causes kindness, threat and attack; those cause happiness, anger and politeness.
+//! The source prints ten concepts and the matrix with all entries zero: the other ten, which are all measured, and the weights, in
+//! steps of 0.05, are ours. They follow what a person who looks on would say of forty families of touches
+//! (`host/tests/library/meaning`) and of twenty people (`host/tests/library/people`).
 //!
-//! Nothing causes an input and no edge closes a loop: the map settles within six steps, whatever is put in. Without a
-//! touch every input is 0, and tanh(0) = 0 keeps every other concept at exactly 0.
+//! Nothing causes an input and no edge closes a loop: the map settles within six steps, whatever is put in. Without a touch every
+//! input is 0, and so is every other concept, exactly. What does not hold is 0 and not its opposite ([`Transfer::Positive`]), so that the
+//! absence of an attack pleases nobody, and feelings follow meanings: where a threat or an attack leads, happiness and politeness are 0.
 
 use super::config::{Edge, MapConfig, Rule};
 use super::input::{Input, Source};
@@ -14,20 +16,40 @@ use crate::format::name;
 /// own limit into the input `press`.
 pub const PRESS_PER_NEWTON: i32 = 1000;
 /// Force at which press is 1, hard, in newtons; it begins at -1, light.
-pub const FULL_PRESS_NEWTON: i32 = 25;
-/// Mean rise of the force up to which time is 1, in counts/ms (N/s): a hand that closes takes at least a tenth of a second.
+pub const FULL_PRESS_NEWTON: i32 = 30;
+/// Rise up to which time is 0, in counts/ms (N/s): a hand that closes takes at least a tenth of a second.
 pub const SLOW_RISE: i32 = 400;
-/// Mean rise from which time is -1: a blow is over in a few hundredths.
+/// Rise from which time is -1: a blow is over in a few hundredths.
 pub const SUDDEN_RISE: i32 = 1000;
-/// Width up to which a contact is narrow (shape 0), in 0.1 mm: straps, sticks, fingers, the edge of a hand.
+/// Rise up to which a touch comes too slowly for a grip or a stab (slow is -1), and from which it does not, in counts/ms.
+pub const CREEPING_RISE: [i32; 2] = [90, 130];
+/// Rises at which a blow is -1 and 1, in counts/ms: hearty pats of 25 N stay below 900, slaps of 30 N are above 1,600.
+pub const BLOW_RISE: [i32; 2] = [600, 1400];
+/// Width up to which a contact is narrow (shape 0, edge 1), in 0.1 mm: straps, sticks, fingers, the edge of a hand.
 pub const NARROW: i32 = 300;
+/// Width from which it is no edge, in 0.1 mm.
+pub const EDGE: i32 = 450;
 /// Width from which it is broad (shape 1), in 0.1 mm: a palm.
 pub const BROAD: i32 = 600;
-/// Duration at which time is greater by half, in ms.
-pub const LONG_MS: i32 = 1000;
+/// Pressures of a taxel between which a thing becomes sharp, in counts: a palm that holds with 70 N stays below 2,200.
+pub const SHARP: [i32; 2] = [2600, 3400];
+/// Loads between which a grip becomes firm, in counts.
+pub const FIRM: [i32; 2] = [18_000, 25_000];
+/// Loads between which it becomes heavy, in counts.
+pub const HEAVY: [i32; 2] = [40_000, 60_000];
+/// Durations between which a touch becomes a grip, in ms: it is no pat.
+pub const GRIP_MS: [i32; 2] = [250, 400];
+/// Ages between which a grip is told from the first beat of a shaken hand, in ms.
+pub const SETTLED_MS: [i32; 2] = [450, 550];
+/// Areas between which a touch becomes an embrace, in mm2: more than the largest hand.
+pub const EMBRACE_MM2: [i32; 2] = [13_800, 16_500];
+/// Loads between which a touch is noticed, in counts: drops stay below.
+pub const NOTICED: [i32; 2] = [400, 600];
+/// Times between which what lies still is no longer noticed, in ms.
+pub const STILL_MS: [i32; 2] = [2000, 2100];
 
-/// The concepts, in the order of the source's matrix with the inputs by their meaning.
-const CONCEPTS: [&str; 10] = [
+/// The concepts: the ten of the source in the order of its matrix, with the inputs by their meaning, then further inputs.
+const CONCEPTS: [&str; 20] = [
     "press",
     "shape",
     "location",
@@ -38,6 +60,16 @@ const CONCEPTS: [&str; 10] = [
     "happiness",
     "anger",
     "politeness",
+    "blow",
+    "edge",
+    "sharp",
+    "slow",
+    "firm",
+    "lasting",
+    "embrace",
+    "rhythm",
+    "notice",
+    "own",
 ];
 
 const PRESS: u8 = 0;
@@ -50,55 +82,90 @@ const ATTACK: u8 = 6;
 const HAPPINESS: u8 = 7;
 const ANGER: u8 = 8;
 const POLITENESS: u8 = 9;
+const BLOW: u8 = 10;
+const EDGED: u8 = 11;
+const SHARPNESS: u8 = 12;
+const SLOW: u8 = 13;
+const FIRMNESS: u8 = 14;
+const LASTING: u8 = 15;
+const EMBRACE: u8 = 16;
+const RHYTHM: u8 = 17;
+const NOTICE: u8 = 18;
+const OWN: u8 = 19;
 
 /// The edges: cause, effect, weight in hundredths.
-const EDGES: [(u8, u8, i16); 24] = [
+const EDGES: [(u8, u8, i16); 36] = [
     // what the touch says
-    (PRESS, KINDNESS, -100), // kindness spares force: what is light is kind
-    (SHAPE, KINDNESS, 40),   // a flat hand may press more, the oldest sign of good will
-    (LOCATION, KINDNESS, 5), // a friendly place tips a close call; it must not excuse a blow
-    (TIME, KINDNESS, 25),    // and so may what takes its time
-    (PRESS, THREAT, 30),     // a threat has force
-    (SHAPE, THREAT, -30),    // which on a broad surface is less of it
-    (LOCATION, THREAT, -5),  // less so where touching is usual
-    (TIME, THREAT, 80),      // and it takes its time: it holds, the longer the graver
-    (PRESS, ATTACK, 30),     // a blow has force
-    (SHAPE, ATTACK, -30),    // on a narrow surface, which hurts
-    (LOCATION, ATTACK, -5),  // a friendly place excuses little
-    (TIME, ATTACK, -45),     // and it comes at once; what follows does not make it undone
+    (PRESS, KINDNESS, -70),      // kindness spares force: what is light is kind
+    (SHAPE, KINDNESS, 35),       // a flat hand may press more, the oldest sign of good will
+    (LOCATION, KINDNESS, 5),     // a friendly place tips a close call; it must not excuse a blow
+    (TIME, KINDNESS, 20),        // what comes at once is hardly kind
+    (RHYTHM, KINDNESS, 70),      // who shakes, pats or kneads means well
+    (EMBRACE, KINDNESS, 70),     // and so does who embraces
+    (SHARPNESS, KINDNESS, -100), // what is sharp is not kind
+    (NOTICE, KINDNESS, 100),     // what is hardly felt, or only lies there, means nothing
+    (OWN, KINDNESS, -100),       // nor does the garment that folds as the robot bends
+    (FIRMNESS, THREAT, 90),      // a threat has force
+    (LASTING, THREAT, 100),      // it holds, the longer the graver
+    (TIME, THREAT, 50),          // what fell and lies holds nobody
+    (SLOW, THREAT, 70),          // nor does what leans
+    (EMBRACE, THREAT, -100),     // nor who embraces
+    (RHYTHM, THREAT, -100),      // nor who shakes a hand
+    (LOCATION, THREAT, -5),      // less so where touching is usual
+    (OWN, THREAT, -50),          // the robot's own motion threatens nobody
+    (BLOW, ATTACK, 100),         // a blow comes at once
+    (EDGED, ATTACK, 90),         // on a narrow surface, which hurts
+    (SHARPNESS, ATTACK, 60),     // the more so where it is sharp
+    (SLOW, ATTACK, 90),          // but not if it comes slowly
+    (EMBRACE, ATTACK, -50),      // nor if it is soft and large
+    (LOCATION, ATTACK, -5),      // a friendly place excuses little
     // how the three compete
-    (KINDNESS, THREAT, -60), // who is kind does not threaten; who is unkind does
-    (KINDNESS, ATTACK, -35), // nor hit
-    (THREAT, ATTACK, -10),   // a threat holds back what it threatens with
+    (ATTACK, THREAT, -100),   // who hits no longer threatens
+    (ATTACK, KINDNESS, -100), // nor is kind
+    (THREAT, KINDNESS, -100), // nor is who threatens
     // what the robot feels about it
-    (KINDNESS, HAPPINESS, 80),   // kindness pleases
-    (THREAT, HAPPINESS, -30),    // a threat spoils it
-    (ATTACK, HAPPINESS, -60),    // an attack more so
-    (KINDNESS, ANGER, -20),      // kindness calms
+    (KINDNESS, HAPPINESS, 50),   // kindness pleases
+    (THREAT, HAPPINESS, -100),   // a threat spoils it
+    (ATTACK, HAPPINESS, -100),   // and so does an attack
+    (KINDNESS, ANGER, -50),      // kindness calms
     (THREAT, ANGER, 30),         // a threat annoys
     (ATTACK, ANGER, 80),         // an attack angers
-    (KINDNESS, POLITENESS, 50),  // kindness is answered politely
-    (HAPPINESS, POLITENESS, 30), // the more so in a good mood
-    (ANGER, POLITENESS, -50),    // and anger forgets its manners
+    (KINDNESS, POLITENESS, 40),  // kindness is answered politely
+    (HAPPINESS, POLITENESS, 10), // the more so in a good mood
+    (THREAT, POLITENESS, -100),  // a threat is not
+    (ATTACK, POLITENESS, -100),  // nor is an attack
 ];
 
 /// The ramps: concept, source, range, and the activation at both ends. Where both sides of a measure say something, they differ
-/// in sign: light and hard, sudden and slow. Shape starts at 0: narrow alone says nothing.
-const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 5] = [
+/// in sign: light and hard. Where one side alone does, the other is 0.
+const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 18] = [
     (PRESS, Source::Press, [0, FULL_PRESS_NEWTON * PRESS_PER_NEWTON], [-100, 100]),
     (SHAPE, Source::Breadth, [NARROW, BROAD], [0, 100]),
     (LOCATION, Source::Friendliness, [-100, 100], [-100, 100]),
-    (TIME, Source::Rise, [SLOW_RISE, SUDDEN_RISE], [100, -100]),
-    (TIME, Source::Duration, [0, LONG_MS], [0, 50]),
+    (TIME, Source::Rise, [SLOW_RISE, SUDDEN_RISE], [0, -100]),
+    (BLOW, Source::Blow, BLOW_RISE, [-100, 100]),
+    (EDGED, Source::Breadth, [NARROW, EDGE], [100, 0]),
+    (SHARPNESS, Source::Peak, SHARP, [0, 100]),
+    (SLOW, Source::Rise, CREEPING_RISE, [-100, 0]),
+    (FIRMNESS, Source::Load, FIRM, [-100, 55]),
+    (FIRMNESS, Source::Load, HEAVY, [0, 45]),
+    (LASTING, Source::Duration, GRIP_MS, [-100, 0]),
+    (LASTING, Source::Age, SETTLED_MS, [-100, 0]),
+    (EMBRACE, Source::Cover, EMBRACE_MM2, [0, 100]),
+    (RHYTHM, Source::Beats, [0, 1], [0, 100]),
+    (RHYTHM, Source::Load, NOTICED, [-100, 0]),
+    (NOTICE, Source::Load, NOTICED, [-100, 0]),
+    (NOTICE, Source::Still, STILL_MS, [0, -100]),
+    (OWN, Source::Own, [0, 1], [0, 100]),
 ];
 
-/// The shipped map: kosko, tanh, lambda 3.5 (activations then use most of their range), inputs held.
+/// The shipped map: kosko, tanh above 0, lambda 3.5 (activations then use most of their range), inputs held.
 pub fn tactile() -> MapConfig {
     let mut map = MapConfig {
         name: name("tactile"),
         decimals: 2,
         rule: Rule::Kosko,
-        transfer: Transfer::Tanh,
+        transfer: Transfer::Positive,
         lambda: 3500,
         held: true,
         ..MapConfig::default()

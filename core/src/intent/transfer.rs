@@ -6,8 +6,9 @@
 //! | trivalent | 1 if z > 0, -1 if z < 0, 0 in a tie | -1, 0, 1 |
 //! | sigmoid | 1 / (1 + exp(-lambda z)) | 0 ..= 1 |
 //! | tanh | tanh(lambda z) | -1 ..= 1 |
+//! | positive | tanh(lambda z) if z > 0, else 0 | 0 ..= 1 |
 //!
-//! T enters all four in the same way, as the level that z is measured from. The trivalent function with T = 0.2 is
+//! T enters all five in the same way, as the level that z is measured from. The trivalent function with T = 0.2 is
 //! therefore the sign of z - 0.2, not a dead zone of +-0.2 (which would have no meaning for T < 0).
 //!
 //! Smooth functions are read from one table of 513 points with linear interpolation. Largest errors, asserted by the
@@ -28,6 +29,8 @@ pub enum Transfer {
     /// The hyperbolic tangent, -1 ..= 1: 0 stays 0, so a quiet map is silent.
     #[default]
     Tanh,
+    /// The hyperbolic tangent above 0, else 0: what does not hold is 0, and its absence speaks for nothing else.
+    Positive,
 }
 
 impl Transfer {

@@ -10,7 +10,7 @@ use crate::contact::hardness::cell_mm2;
 use crate::contact::{Contact, ContactState, Touches};
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
-use crate::intent::{Intent, Touch};
+use crate::intent::{Felt, Intent, Touch};
 use crate::shape::{Shape, Taught};
 use heapless::Vec;
 
@@ -52,8 +52,10 @@ impl Pipeline {
             let strongest =
                 present.iter().reduce(|most, next| if press(next) > press(most) { next } else { most });
             // The one that the stage would choose.
-            let felt = strongest.map(|placed| self.touch(layout, placed));
-            stage.process(intent, felt.as_slice(), &state.fed.values(now), now)
+            let own = state.fold.moves(now);
+            let touch = strongest.map(|placed| Touch { own, ..self.touch(layout, placed) });
+            let felt = self.felt(layout, present);
+            stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
         self.react.process(react, symbol.regions(layout.regions().len()), meaning, now);
@@ -122,6 +124,21 @@ impl Pipeline {
             cell_mm2: self.cell_mm2(layout, placed),
             ..Touch::default()
         }
+    }
+
+    /// What the map is told of all contacts together.
+    fn felt(&self, layout: &Layout, present: &[Placed]) -> Felt {
+        let mut felt = Felt::default();
+        let high = self.contact.config().high;
+        let mut panel = (u8::MAX, 0);
+        for Placed { contact, region, .. } in present {
+            if contact.panel != panel.0 {
+                let area = layout.areas().get(usize::from(contact.panel));
+                panel = (contact.panel, cell_mm2(area.map_or([0, 0], |area| area.pitch_um)));
+            }
+            felt.add(*region, contact.total, contact.peak, contact.area, panel.1, high);
+        }
+        felt
     }
 
     /// Area of a taxel where it touches, if the map asks how hard things are.

@@ -133,6 +133,7 @@ fn float(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
             let z = weights.iter().zip(&y).map(|(row, y)| row[j] * y).sum::<f64>() + own - thresholds[j];
             match settings.transfer {
                 Transfer::Sigmoid => 1.0 / (1.0 + (-settings.lambda * z).exp()),
+                Transfer::Positive => (settings.lambda * z.max(0.0)).tanh(),
                 _ => (settings.lambda * z).tanh(),
             }
         });

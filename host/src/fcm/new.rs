@@ -75,7 +75,8 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
         self.say(
             "4. Threshold: what a sum becomes, and the level that it is measured from; empty: as in brackets",
         )?;
-        map.transfer = self.or("bivalent, trivalent, sigmoid or tanh [tanh]", map.transfer, transfer)?;
+        map.transfer =
+            self.or("bivalent, trivalent, sigmoid, tanh or positive [tanh]", map.transfer, transfer)?;
         map.threshold = self.or("threshold [0]", map.threshold, |text| Ok(threshold(text)?.to_f64()))?;
         map.lambda = self.or("steepness [1]", map.lambda, lambda)?;
         self.say(

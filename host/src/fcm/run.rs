@@ -21,10 +21,10 @@ pub struct RunArgs {
     /// What is summed: kosko, mkosko or rescaled [default: as in the file, else kosko]
     #[arg(long, value_parser = rule)]
     pub rule: Option<Rule>,
-    /// What the sum becomes: bivalent, trivalent, sigmoid or tanh [default: as in the file, else tanh]
+    /// What the sum becomes: bivalent, trivalent, sigmoid, tanh or positive [default: as in the file, else tanh]
     #[arg(long, value_parser = transfer)]
     pub transfer: Option<Transfer>,
-    /// Steepness of sigmoid and tanh [default: as in the file, else 1]
+    /// Steepness of sigmoid, tanh and positive [default: as in the file, else 1]
     #[arg(long, value_parser = lambda, allow_negative_numbers = true)]
     pub lambda: Option<f64>,
     /// Level that every sum is measured from, -1 ..= 1 [default: as in the file, else 0]
@@ -57,7 +57,8 @@ pub fn transfer(text: &str) -> Result<Transfer, String> {
         "trivalent" => Ok(Transfer::Trivalent),
         "sigmoid" => Ok(Transfer::Sigmoid),
         "tanh" => Ok(Transfer::Tanh),
-        _ => Err("expected bivalent, trivalent, sigmoid or tanh".into()),
+        "positive" => Ok(Transfer::Positive),
+        _ => Err("expected bivalent, trivalent, sigmoid, tanh or positive".into()),
     }
 }
 

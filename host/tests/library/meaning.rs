@@ -1,11 +1,18 @@
 //! What simulated touches mean: 500 seeded variants of a pat and of a lash, and controls with the map's reason.
 
+mod family;
+mod judge;
+mod same;
+mod scripted;
+mod strangers;
+
 use std::collections::BTreeSet;
 use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
+use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Layout;
 use taxel_core::intent::{
-    CONCEPTS, Intent, IntentConfig, IntentState, Leading, PRESS_PER_NEWTON, Touch, tactile,
+    CONCEPTS, Felt, Intent, IntentConfig, IntentState, Leading, PRESS_PER_NEWTON, Touch, tactile,
 };
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
@@ -122,6 +129,8 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
     let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).expect("the shipped map is whole");
     let touch = |newton: u32, mm: u32, duration_ms: u32, speed: u32| Touch {
         press: newton * PRESS_PER_NEWTON as u32,
+        force: newton * PRESS_PER_NEWTON as u32,
+        cover_mm2: 100 * mm,
         breadth: 10 * mm,
         friendliness: 40,
         duration_ms,
@@ -140,7 +149,10 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
                 460..3_460 => Some(touch(3, random.u32(50..70), ms - 460, random.u32(300..900))),
                 _ => None,
             };
-            let meaning = stage.process(&mut state, present.as_slice(), &[], Micros(1000 * u64::from(ms)));
+            let mut felt = Felt::default();
+            present.iter().for_each(|it| felt.add(0, it.force, 300, it.cover_mm2 as u16 / 100, 100, 40));
+            let now = Micros(1000 * u64::from(ms));
+            let meaning = stage.process(&mut state, present.as_slice(), &felt, &[], now);
             led.extend(meaning.filter(|m| m.changed).map(|m| (ms, m.leading)));
         }
         led.retain(|(_, leading)| *leading != Leading::None);
@@ -152,4 +164,46 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
     println!("attack at most {} ms after its onset, kindness {} ms", latest[0], latest[1]);
     // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke takes some time to be one.
     assert!(latest[0] <= 40 && latest[1] <= 700, "{latest:?}");
+}
+
+/// An arm that bends folds its own garment: nobody touches it.
+#[test]
+fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
+    let script = sim::load("elbow").expect("built in");
+    let garment = script.load_garment().expect("it is a preset");
+    let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
+    let scene = Scene::shipped();
+    let pipeline = Pipeline::build(&scene, &layout).expect("the shipped scene fits");
+    let led = |tells: bool| {
+        let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
+        state.reset(&layout, false, 4095);
+        state.condition.tare(script.tare_frames as u16);
+        let mut player = Player::new(&script, &garment).expect("the script is checked");
+        let (mut codes, mut led) = (vec![0u16; TAXELS], BTreeSet::new());
+        for start in (0..3_500_000).step_by(FRAME_PERIOD_US as usize) {
+            let angle = script.posture(start as f64 / 1e6).map(|(_, angle)| (100.0 * angle) as i16);
+            let joints = (0..).zip(angle).map(|(joint, centidegrees)| JointAngle { joint, centidegrees });
+            if tells {
+                let posture = Posture { joints: joints.collect() };
+                state
+                    .fold
+                    .accept(&posture, &scene.joints, Micros(start))
+                    .expect("it is a joint of the scene");
+            }
+            player.frame(start, &mut codes);
+            let codes: Vec<Code> = codes.iter().map(|code| Code(*code)).collect();
+            let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(start), &mut ());
+            led.extend(percept.meaning.map(|meaning| meaning.leading.as_str()));
+        }
+        led
+    };
+    assert_eq!(led(true), BTreeSet::from(["none"]));
+    assert!(led(false).len() > 1, "without its posture it may be a hand");
+}
+
+/// Forty families of touches against what a person would say. `TAXEL_CAMPAIGN=1`: five of each instead of one.
+#[test]
+fn families_are_understood() {
+    let each = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 5 } else { 1 };
+    judge::judge(&judge::table(each));
 }

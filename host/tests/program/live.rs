@@ -86,7 +86,7 @@ fn a_pat_is_kindness_and_a_lash_an_attack() {
             assert_eq!(line["frame"], index + 1);
             assert_eq!((line["lost"].as_u64(), line["thinned"].as_u64()), (Some(0), Some(0)));
             assert_eq!(line["decoded"], true);
-            assert_eq!(line["intent"]["concepts"].as_object().unwrap().len(), 10);
+            assert_eq!(line["intent"]["concepts"].as_object().unwrap().len(), 20);
         }
         assert_eq!(leading(&lines), [meant, "none"], "{scene}");
         assert!(of_type(&lines, "refused").next().is_none());

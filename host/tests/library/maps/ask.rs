@@ -35,7 +35,7 @@ fn a_bad_answer_is_refused_with_its_line_or_asked_for_again() {
         ("press > kindness", "force > kindness", "line 5: force is no concept"),
         ("strong -", "strongly", "line 8: \"strongly\" is neither a number in -1 ..= 1 nor a term"),
         ("0.9", "1.9", "line 9: \"1.9\" is neither a number in -1 ..= 1 nor a term"),
-        ("tanh", "relu", "line 10: expected bivalent, trivalent, sigmoid or tanh"),
+        ("tanh", "relu", "line 10: expected bivalent, trivalent, sigmoid, tanh or positive"),
         ("-0.1", "7", "line 11: expected a number in -1 ..= 1"),
         (
             "rise 0 30000",

@@ -29,7 +29,7 @@ fn the_shipped_map_has_no_fault() {
     let found = check(&load::map("tactile").unwrap()).unwrap();
     assert!(found.faults.is_empty(), "{:?}", found.faults);
     assert!(found.warnings.is_empty(), "{:?}", found.warnings);
-    assert_eq!((found.sweep.starts, found.sweep.cycles.0, found.sweep.unsettled.0), (256, 0, 0));
+    assert_eq!((found.sweep.starts, found.sweep.cycles.0, found.sweep.unsettled.0), (4096, 0, 0));
     assert!((2..=6).contains(&found.sweep.steps), "{}", found.sweep.steps);
 }
 

@@ -14,7 +14,7 @@ fn every_concept_and_edge_is_drawn() {
     assert_eq!(plain.matches("stroke-dasharray").count(), negative);
     assert_eq!(plain.matches("fill=\"#ffffff\"").count(), map.concept.len(), "none is active");
     // The strongest edge is the widest.
-    assert!(plain.contains("press to kindness: -1 ") && plain.contains("stroke-width=\"5.0\""));
+    assert!(plain.contains("sharp to kindness: -1 ") && plain.contains("stroke-width=\"5.0\""));
     let mut live = vec![0.0; map.concept.len()];
     (live[0], live[4]) = (1.0, -1.0);
     let live = draw::svg(&map, Some(&live));

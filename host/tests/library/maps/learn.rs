@@ -11,17 +11,18 @@ fn labelled(map: &MapFile) -> String {
     let board = BoardMap::build(map).unwrap();
     let of = |name: &str| map.find(name).unwrap();
     let intentions = ["kindness", "threat", "attack"];
-    let mut text = "press,shape,location,time,label\n".to_string();
+    let columns = ["press", "shape", "firm", "blow"];
+    let mut text = format!("{},label\n", columns.join(","));
     let mut random = 12345u64;
     while text.lines().count() < 91 {
         let cells: Vec<i128> = (0..4)
             .map(|_| {
                 random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                i128::from((random >> 33) % 101)
+                2 * i128::from((random >> 33) % 101) - 100
             })
             .collect();
         let decimal = |at: usize| taxel::fcm::decimal::Decimal { digits: cells[at], decimals: 2 };
-        let run = board.infer(&board.state((0..4).map(|at| (at, decimal(at)))));
+        let run = board.infer(&board.state((0..4).map(|at| (of(columns[at]), decimal(at)))));
         let mut values: Vec<(f64, &str)> =
             intentions.iter().map(|name| (board.value(run.state[of(name)]), *name)).collect();
         values.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -37,7 +38,15 @@ fn labelled(map: &MapFile) -> String {
 fn a_spoilt_map_learns_again_and_keeps_what_the_expert_fixed() {
     let good = load::map("tactile").unwrap();
     let mut spoilt = good.clone();
-    for (at, weight) in [(0, -0.2), (1, 0.3), (8, 0.4), (9, -0.9)] {
+    for (from, to, weight) in [
+        ("press", "kindness", -0.05),
+        ("shape", "kindness", 1.0),
+        ("threat", "kindness", -0.05),
+        ("attack", "kindness", -0.05),
+        ("firm", "threat", 0.05),
+        ("blow", "attack", 0.05),
+    ] {
+        let at = good.edge.iter().position(|edge| edge.from == from && edge.to == to).unwrap();
         assert_eq!(good.edge[at].weight.value().signum(), f64::signum(weight));
         spoilt.edge[at].weight = Weight::Number(weight);
     }

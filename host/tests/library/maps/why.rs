@@ -21,32 +21,27 @@ fn adds_up(file: &MapFile, explained: &Explained) {
     let z = file.lambda * why.sum.to_f64();
     let activation = match file.transfer {
         taxel_core::intent::Transfer::Sigmoid => 1.0 / (1.0 + (-z).exp()),
+        taxel_core::intent::Transfer::Positive => z.max(0.0).tanh(),
         _ => z.tanh(),
     };
     assert!((map.value(run.state[usize::from(why.concept)]) - activation).abs() < 1e-3);
 }
 
 #[test]
-fn a_lash_is_an_attack_because_it_is_sudden_and_hard() {
+fn a_lash_is_an_attack_because_it_is_sudden_and_narrow() {
     let file = load::map("tactile").unwrap();
-    let explained = explain(&file, &inputs(&[("press", "0.8"), ("time", "-0.9")]), None).unwrap();
+    let measured = [("blow", "0.3"), ("edge", "0.1"), ("sharp", "0.1"), ("slow", "-0.05"), ("press", "0.8")];
+    let explained = explain(&file, &inputs(&measured), None).unwrap();
     adds_up(&file, &explained);
     let names = |at: usize| file.concept[at].name.as_str();
     assert_eq!(names(explained.why.concept.into()), "attack");
     let paths = &explained.shares.paths;
-    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["time"]);
-    // press is unkind, and what is unkind hits the harder.
-    let way = |wanted: &[&str]| {
-        paths.iter().find(|p| p.concepts.iter().map(|at| names(*at)).eq(wanted.iter().copied()))
-    };
-    assert!(way(&["press", "kindness"]).unwrap().share > 0);
-    assert!(way(&["press", "threat"]).unwrap().share < 0);
-    assert!(way(&["press", "kindness", "threat"]).is_some());
+    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["blow"]);
     assert!(explained.shares.rest.is_empty(), "{:?}", explained.shares.rest);
-    let words = text(&file, &explained, None, 3);
+    let words = text(&file, &explained, None, 2);
     assert!(
-        words.starts_with("attack is 0.9")
-            && words.contains("press -> attack")
+        words.starts_with("attack is 0.8")
+            && words.contains("blow -> attack")
             && words.contains("other paths"),
         "{words}"
     );
@@ -55,6 +50,14 @@ fn a_lash_is_an_attack_because_it_is_sudden_and_hard() {
         (json["concept"].as_str(), json["sum_units"].as_i64()),
         (Some("attack"), Some(explained.shares.sum()))
     );
+    // What is felt about it goes back to what was measured.
+    let anger = explain(&file, &inputs(&measured), Some("anger")).unwrap();
+    adds_up(&file, &anger);
+    let way = |wanted: &[&str]| {
+        anger.shares.paths.iter().find(|p| p.concepts.iter().map(|at| names(*at)).eq(wanted.iter().copied()))
+    };
+    assert!(way(&["blow", "attack"]).unwrap().share > 0);
+    assert!(way(&["slow", "attack"]).unwrap().share < 0);
 }
 
 #[test]
@@ -93,14 +96,15 @@ fn all_maps_and_settings_add_up() {
 #[test]
 fn what_if_holds_a_concept_against_its_causes() {
     let file = load::map("tactile").unwrap();
-    let start = inputs(&[("press", "0.8"), ("time", "0.1")]);
+    let start = |blow: &str| inputs(&[("press", "-0.5"), ("shape", "1"), ("blow", blow)]);
     let at = |name: &str| file.find(name).unwrap();
-    let before = explain(&file, &start, None).unwrap().run.state;
-    let calm = what_if(&file, &start, &inputs(&[("attack", "0")])).unwrap().state;
-    assert_eq!((calm[at("attack")], calm[at("kindness")]), (0, before[at("kindness")]));
+    let before = explain(&file, &start("0.8"), None).unwrap().run.state;
+    let calm = what_if(&file, &start("0.8"), &inputs(&[("attack", "0")])).unwrap().state;
+    assert_eq!(calm[at("attack")], 0);
+    assert!(calm[at("kindness")] > before[at("kindness")]);
     assert!(calm[at("anger")] < before[at("anger")] && calm[at("happiness")] > before[at("happiness")]);
-    let light = what_if(&file, &start, &inputs(&[("press", "0.1")])).unwrap().state;
-    assert_eq!(light, explain(&file, &inputs(&[("press", "0.1"), ("time", "0.1")]), None).unwrap().run.state);
+    let gentle = what_if(&file, &start("0.8"), &inputs(&[("blow", "-1")])).unwrap().state;
+    assert_eq!(gentle, explain(&file, &start("-1"), None).unwrap().run.state);
 }
 
 #[test]

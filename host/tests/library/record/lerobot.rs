@@ -38,7 +38,7 @@ fn it_says_what_is_in_it() {
     let back = &info["features"]["observation.tactile.back"];
     assert_eq!((back["shape"].to_string(), &back["info"]["unit"]), ("[32,16]".into(), &"kPa".into()));
     assert!(info["features"]["observation.tactile.left_arm"].is_object());
-    assert_eq!(info["features"]["observation.tactile.intent"]["names"].as_array().unwrap().len(), 10);
+    assert_eq!(info["features"]["observation.tactile.intent"]["names"].as_array().unwrap().len(), 20);
     let stats = read(folder.join("meta/stats.json"));
     let greatest = &stats["observation.tactile.back"]["max"];
     assert_eq!((greatest.as_array().unwrap().len(), greatest[0].as_array().unwrap().len()), (32, 16));

@@ -91,7 +91,7 @@ fn a_damaged_part_is_a_gap_and_what_is_no_recording_is_named() {
     let path = recorded("damaged.mcap", "sim:pat", 8, &[]);
     let mut bytes = std::fs::read(&path).unwrap();
     let middle = bytes.len() / 2;
-    bytes[middle..middle + 64].fill(0x5a);
+    bytes[middle..middle + 1024].fill(0x5a);
     std::fs::write(&path, &bytes).unwrap();
     let view = View::start(&[path.to_str().unwrap()]);
     let mut page = view.page();

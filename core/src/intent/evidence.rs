@@ -1,0 +1,294 @@
+//! What is remembered of the frames of a touch: how suddenly it came, its beats, how long it has lain still.
+//!
+//! | | |
+//! |---|---|
+//! | input | [`Felt`] of each frame, the time |
+//! | output | [`Evidence`]'s fields |
+//! | saturation | at the ends of their types |
+//! | latency | none |
+//! | RAM | 150 bytes |
+//!
+//! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) over the youngest earlier frame
+//! that is at least [`WINDOW_US`] older: where frames are slower than that, over one frame. It is that of one region, and at
+//! most that of the whole garment: a contact that crosses a border takes its pressure from one region to another, and nothing has come.
+
+use super::felt::Felt;
+use crate::format::{Inverse, Micros, wide};
+use core::num::NonZeroU32;
+
+/// A rise is measured over this time at least, us: two frames of the reference board, a quarter of the time in which a hand closes.
+pub const WINDOW_US: u64 = 9_000;
+/// Beats that are closer than this are none of a hand, us.
+const FASTEST_BEAT_US: u64 = 120_000;
+/// Without a beat for this time the rhythm is over, us.
+const SLOWEST_BEAT_US: u64 = 2_000_000;
+
+/// When less than half of what lay there is left for so long, it was taken away, us: what remains flickers while it goes.
+const TAKEN_US: u64 = 200_000;
+
+/// Certain pressure at a time.
+#[derive(Debug, Default, Clone)]
+struct Anchor {
+    at: Micros,
+    felt: Felt,
+}
+
+/// The greatest of the last time.
+#[derive(Debug, Default, Clone, Copy)]
+struct Recent {
+    value: u32,
+    at: Micros,
+}
+
+impl Recent {
+    /// Takes the value of this frame; what is older than `memory_us` is forgotten.
+    fn take(&mut self, value: u32, now: Micros, memory_us: u64) {
+        if value >= self.value || now.since(self.at) >= memory_us {
+            *self = Recent { value, at: now };
+        }
+    }
+}
+
+/// Falls and rises of the force.
+#[derive(Debug, Default, Clone)]
+struct Beats {
+    count: u32,
+    /// Greatest since the last rise, then the least since the fall.
+    high: u32,
+    low: u32,
+    falling: bool,
+    last: Micros,
+}
+
+impl Beats {
+    /// A fall by a fifth of the greatest, and a rise by as much, are a beat.
+    fn take(&mut self, load: u32, now: Micros) {
+        let swing = self.high / 5;
+        if !self.falling {
+            self.high = self.high.max(load);
+            (self.falling, self.low) = (load < self.high - self.high / 5, load);
+        } else if load > self.low.saturating_add(swing) {
+            if now.since(self.last) >= FASTEST_BEAT_US {
+                self.count = self.count.saturating_add(1);
+                self.last = now;
+            }
+            (self.falling, self.high) = (false, load);
+        } else {
+            self.low = self.low.min(load);
+        }
+        if now.since(self.last) >= SLOWEST_BEAT_US {
+            self.count = 0;
+        }
+    }
+}
+
+/// What is remembered of the frames of a touch.
+#[derive(Debug, Default, Clone)]
+pub struct Evidence {
+    anchors: [Anchor; 2],
+    begun: bool,
+    /// Rise of this frame, counts/ms.
+    pub(super) rise: u32,
+    blow: Recent,
+    load: Recent,
+    peak: Recent,
+    cover_mm2: u32,
+    beats: Beats,
+    /// What lay there when it began to lie still, counts; and since when.
+    rest: u32,
+    since: Micros,
+    /// When at least half of it was there last.
+    whole: Micros,
+    still_ms: u32,
+}
+
+impl Evidence {
+    /// Takes a frame. `counts`: a touch counts, else what belongs to the last one is forgotten; `memory_us`: for how long a
+    /// touch counts after its end.
+    pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
+        self.rise = self.rise_of(felt, now);
+        if !counts {
+            (self.blow, self.load, self.peak) = Default::default();
+            (self.beats, self.cover_mm2, self.rest, self.still_ms) = (Beats::default(), 0, 0, 0);
+        }
+        // What nothing touches any more counts on as it was.
+        if felt.load > 0 {
+            self.blow.take(self.rise, now, memory_us);
+            self.load.take(felt.load, now, memory_us);
+            self.peak.take(felt.peak.into(), now, memory_us);
+        }
+        self.cover_mm2 = self.cover_mm2.max(felt.cover_mm2);
+        if felt.load > 0 || counts {
+            self.beats.take(felt.load, now);
+        }
+        self.rests(felt.load, now);
+    }
+
+    /// Counts/ms.
+    fn rise_of(&mut self, felt: &Felt, now: Micros) -> u32 {
+        if !self.begun {
+            // Nobody saw the onset of what was there in the first frame.
+            self.begun = true;
+            self.anchors = [Anchor { at: now, felt: *felt }, Anchor { at: now, felt: *felt }];
+        }
+        let [older, newer] = &self.anchors;
+        let anchor = if now.since(newer.at) >= WINDOW_US { newer } else { older };
+        let regions = felt.certain.iter().zip(&anchor.felt.certain);
+        let region = regions.map(|(here, then)| here.saturating_sub(*then)).max().unwrap_or(0);
+        let gain = region.min(felt.whole().saturating_sub(anchor.felt.whole()));
+        let passed = u32::try_from(now.since(anchor.at)).unwrap_or(u32::MAX);
+        let rise = match NonZeroU32::new(passed) {
+            Some(passed) if gain > 0 => Inverse::of(passed.get()).quotient(wide(gain, 1_000)),
+            _ => 0,
+        };
+        if now.since(newer.at) >= WINDOW_US / 2 {
+            self.anchors.swap(0, 1);
+            self.anchors[1] = Anchor { at: now, felt: *felt };
+        }
+        rise
+    }
+
+    /// What lies there rests as long as no more than a tenth is added: taking something away is none of its doing.
+    fn rests(&mut self, load: u32, now: Micros) {
+        if load > self.rest.saturating_add(self.rest / 10) {
+            (self.rest, self.since, self.whole) = (load, now, now);
+        } else if load > self.rest / 2 {
+            self.whole = now;
+        } else if now.since(self.whole) >= TAKEN_US {
+            self.rest = load;
+        }
+        if load > 0 {
+            self.still_ms = now.millis_since(self.since);
+        }
+    }
+
+    /// Steepest rise of the last time, counts/ms.
+    pub fn blow(&self) -> u32 {
+        self.blow.value
+    }
+
+    /// Greatest total pressure of the last time, counts.
+    pub fn load(&self) -> u32 {
+        self.load.value
+    }
+
+    /// Greatest pressure of a taxel of the last time, counts.
+    pub fn peak(&self) -> u32 {
+        self.peak.value
+    }
+
+    /// Largest area that was touched at once, mm2.
+    pub fn cover_mm2(&self) -> u32 {
+        self.cover_mm2
+    }
+
+    /// How often the force fell and rose again at the tempo of a hand.
+    pub fn beats(&self) -> u32 {
+        self.beats.count
+    }
+
+    /// How long nothing has been added, ms.
+    pub fn still_ms(&self) -> u32 {
+        self.still_ms
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    const MEMORY_US: u64 = 600_000;
+
+    /// A broad contact of `area` taxels on region 0.
+    fn felt(total: u32, area: u16) -> Felt {
+        let mut felt = Felt::default();
+        felt.add(0, total, (total / u32::from(area.max(1))) as u16, area, 100, 40);
+        felt
+    }
+
+    /// The steepest rise of a course of (total, area) over seconds, seen so often.
+    fn steepest(period_us: u64, course: impl Fn(f64) -> (u32, u16)) -> u32 {
+        let mut evidence = Evidence::default();
+        (0..1_000_000 / period_us).for_each(|frame| {
+            let now = frame * period_us;
+            let (total, area) = course(now as f64 / 1e6);
+            evidence.take(&felt(total, area), true, Micros(now), MEMORY_US * 10);
+        });
+        evidence.blow()
+    }
+
+    #[test]
+    fn what_has_its_whole_area_at_once_did_not_come_at_once() {
+        // 30 N in 0.5 s on 300 taxels: it is seen when each has 40 counts, 12 N at once.
+        let hug = |t: f64| {
+            let total = (60_000.0 * (t - 0.2)).clamp(0.0, 30_000.0) as u32;
+            if total >= 12_000 { (total, 300) } else { (0, 0) }
+        };
+        for period_us in [640, 5_128, 10_000, 40_000] {
+            let rise = steepest(period_us, hug);
+            assert!((30..=66).contains(&rise), "{rise} counts/ms at {period_us} us, 60 are true");
+        }
+    }
+
+    #[test]
+    fn a_blow_is_as_steep_at_any_rate_that_resolves_it() {
+        let slap = |t: f64| ((3_000_000.0 * (t - 0.5)).clamp(0.0, 40_000.0) as u32, 60);
+        for period_us in [640, 2_500, 5_128, 9_000] {
+            let rise = steepest(period_us, slap);
+            assert!((2_000..=3_000).contains(&rise), "{rise} at {period_us} us");
+        }
+        // Within 40 ms it may have come slowly.
+        assert!(steepest(40_000, slap) <= 1_000);
+    }
+
+    #[test]
+    fn a_contact_that_changes_its_region_has_not_come() {
+        let mut evidence = Evidence::default();
+        for frame in 0..100u64 {
+            let mut felt = Felt::default();
+            felt.add((frame / 50) as u8, 40_000, 900, 60, 100, 40);
+            evidence.take(&felt, true, Micros(5_000 * frame), MEMORY_US);
+            assert_eq!(evidence.rise, 0, "frame {frame}");
+        }
+    }
+
+    #[test]
+    fn beats_are_those_of_a_hand() {
+        let count = |hz: f64, part: f64| {
+            let mut evidence = Evidence::default();
+            for ms in (0..1_500u64).step_by(5) {
+                let wave = (std::f64::consts::TAU * hz * ms as f64 / 1e3).sin();
+                let felt = felt((20_000.0 * (1.0 - part / 2.0 + part / 2.0 * wave)) as u32, 60);
+                evidence.take(&felt, true, Micros(1_000 * ms), MEMORY_US);
+            }
+            evidence.beats()
+        };
+        assert!((3..=6).contains(&count(3.0, 0.5)), "a handshake");
+        assert_eq!(count(9.0, 0.06), 0, "tremor");
+        assert_eq!(count(1.0, 0.0), 0, "a grip");
+        assert!(count(25.0, 0.8) < 13, "nothing that a hand does");
+    }
+
+    #[test]
+    fn what_lies_is_still_though_it_is_taken_away_and_what_comes_to_it_is_not() {
+        let mut evidence = Evidence::default();
+        let mut take = |load: u32, ms: u64| {
+            evidence.take(&felt(load, 30), true, Micros(1_000 * ms), MEMORY_US);
+            evidence.still_ms()
+        };
+        assert_eq!(take(9_000, 0), 0);
+        assert_eq!((take(9_400, 1_000), take(8_800, 2_000)), (1_000, 2_000));
+        assert_eq!((take(4_000, 2_100), take(0, 2_200)), (2_100, 2_100));
+        assert_eq!(take(9_000, 3_000), 0);
+    }
+
+    #[test]
+    fn times_that_leap_or_stand_are_taken() {
+        let mut evidence = Evidence::default();
+        for (us, total) in [(0, 0), (0, u32::MAX), (u64::MAX, u32::MAX), (5, 0), (5, 90_000)] {
+            evidence.take(&felt(total, u16::MAX), true, Micros(us), MEMORY_US);
+        }
+        assert_eq!(evidence.load(), u32::MAX);
+    }
+}

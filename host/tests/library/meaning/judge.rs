@@ -1,0 +1,166 @@
+//! The judge: every touch through the pipeline with the shipped scene, and a table by family of what was said to it.
+
+use crate::meaning::family::{Act, Family, Told, Wish};
+use crate::meaning::{scripted, strangers};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::Layout;
+use taxel_core::intent::Leading;
+use taxel_core::pipeline::{Pipeline, PipelineState};
+use taxel_core::scene::Scene;
+
+const TAXELS: usize = 2048;
+/// Time of the tare at the start, us.
+const TARE_US: u64 = 200_000;
+/// How long after the end of its force what is announced still belongs to a touch, us.
+const AFTER_US: u64 = 1_500_000;
+/// Each frame's time is irregular by up to this part of the period.
+const JITTER: f64 = 0.05;
+
+/// What was said to one touch.
+pub struct Verdict {
+    pub told: Told,
+    /// Whether a person would agree.
+    pub agreed: bool,
+    /// Pins for an attack that were driven.
+    pub flinches: usize,
+    pub note: String,
+}
+
+/// Plays one touch.
+pub fn hear(mut act: Act) -> Verdict {
+    let layout = Layout::build(&act.garment, TAXELS, 4095).expect("the garment is good");
+    let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
+    let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
+    state.reset(&layout, false, 4095);
+    state.condition.tare((TARE_US / act.period_us) as u16);
+    let mut raw = vec![0u16; layout.taxels()];
+    let mut rng = fastrand::Rng::with_seed(act.span.1);
+    let (mut told, mut flinches, mut now) = (Told::new(), 0, 0);
+    while now < act.span.1 + AFTER_US {
+        (act.codes)(now, &mut raw);
+        let codes: Vec<Code> = raw.iter().map(|code| Code(*code)).collect();
+        let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(now), &mut ());
+        if let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) {
+            told.push((meaning.leading, (now as i64 - act.span.0 as i64) / 1000));
+        }
+        let pin = |name: &str, active: bool| active && name == "flinch";
+        flinches += percept.reactions.changes().iter().filter(|it| pin(&it.name, it.active)).count();
+        now += (act.period_us as f64 * (1.0 + JITTER * (rng.f64() - 0.5))) as u64;
+    }
+    let lasts_ms = ((act.span.1 - act.span.0) / 1000) as i64;
+    Verdict { agreed: act.family.wish.agrees(&told, lasts_ms), told, flinches, note: act.note }
+}
+
+/// One line of the table.
+pub struct Row {
+    pub family: Family,
+    pub count: usize,
+    pub agreed: usize,
+    pub kind: usize,
+    pub threat: usize,
+    pub attack: usize,
+    pub flinches: usize,
+    /// Until the first word, ms, ascending.
+    pub delays: Vec<i64>,
+    pub wrong: Vec<String>,
+}
+
+impl Row {
+    pub fn of(family: Family, verdicts: &[Verdict]) -> Row {
+        let any = |of: Leading| {
+            verdicts.iter().filter(|v| v.told.iter().any(|(leading, _)| *leading == of)).count()
+        };
+        let first = |v: &Verdict| v.told.iter().find(|(leading, _)| *leading != Leading::None).map(|it| it.1);
+        let mut delays: Vec<i64> = verdicts.iter().filter_map(first).collect();
+        delays.sort_unstable();
+        let wrong = verdicts.iter().filter(|v| !v.agreed);
+        Row {
+            family,
+            count: verdicts.len(),
+            agreed: verdicts.iter().filter(|v| v.agreed).count(),
+            kind: any(Leading::Kindness),
+            threat: any(Leading::Threat),
+            attack: any(Leading::Attack),
+            flinches: verdicts.iter().map(|v| v.flinches).sum(),
+            delays,
+            wrong: wrong.map(|v| format!("  {}: {:?}: {}", family.name, v.told, v.note)).collect(),
+        }
+    }
+
+    /// Pins that were driven though a person would not have called it an attack.
+    pub fn false_reflexes(&self) -> usize {
+        let harmless = !matches!(self.family.wish, Wish::Harmful | Wish::Attack);
+        if harmless { self.flinches } else { 0 }
+    }
+
+    pub fn print(&self) {
+        let median = self.delays.get(self.delays.len() / 2).map_or("-".into(), |ms| ms.to_string());
+        println!(
+            "{:18} {:9} {:5} {:6} {:8} {:6} {:6} {:9} {:8}",
+            self.family.name,
+            format!("{:?}", self.family.wish).to_lowercase(),
+            self.count,
+            self.agreed,
+            self.kind,
+            self.threat,
+            self.attack,
+            median,
+            self.false_reflexes()
+        );
+    }
+}
+
+/// Parts of all touches of the rows that a choice takes.
+fn share(rows: &[Row], of: impl Fn(&Row) -> bool, right: impl Fn(&Row) -> usize) -> f64 {
+    let chosen = || rows.iter().filter(|row| of(row));
+    let count: usize = chosen().map(|row| row.count).sum();
+    chosen().map(right).sum::<usize>() as f64 / count as f64
+}
+
+/// Holds a table against the bars.
+pub fn judge(rows: &[Row]) {
+    let friendly = |row: &Row| matches!(row.family.wish, Wish::Kind | Wish::Friendly);
+    let harmful = |row: &Row| matches!(row.family.wish, Wish::Harmful | Wish::Attack);
+    // The filter removes most of a single taxel before anything can be told of it.
+    let felt = |row: &Row| row.family.name != "needle";
+    let shares = [
+        ("friendly families without an attack", 0.98, share(rows, friendly, |row| row.count - row.attack)),
+        ("friendly families: kindness or nothing", 0.95, share(rows, friendly, |row| row.agreed)),
+        ("kindness told", 0.90, share(rows, |row| row.family.wish == Wish::Kind, |row| row.kind)),
+        ("attacks told", 0.95, share(rows, |row| row.family.wish == Wish::Attack, |row| row.attack)),
+        (
+            "harmful families: threat or attack",
+            0.99,
+            share(rows, |row| harmful(row) && felt(row), |row| row.agreed),
+        ),
+        ("needles", 0.0, share(rows, |row| !felt(row), |row| row.agreed)),
+        ("nothing from nothing", 1.0, share(rows, |row| row.family.wish == Wish::Nothing, |row| row.agreed)),
+        (
+            "at most once from what falls and lies",
+            0.95,
+            share(rows, |row| row.family.wish == Wish::Once, |row| row.agreed),
+        ),
+    ];
+    for (what, bar, have) in shares {
+        println!("{what}: {:.1} %, the bar is {:.0} %", 100.0 * have, 100.0 * bar);
+    }
+    shares.iter().for_each(|(what, bar, have)| assert!(have >= bar, "{what}: {have}"));
+}
+
+/// The rows of both authors, `each` touches of each family.
+pub fn table(each: u64) -> Vec<Row> {
+    println!("family             wish      count agreed kindness threat attack first, ms false reflexes");
+    let mut rows = Vec::new();
+    for (families, act) in
+        [(scripted::FAMILIES, scripted::act as fn(usize, u64) -> Act), (strangers::FAMILIES, strangers::act)]
+    {
+        for (index, family) in families.into_iter().enumerate() {
+            let verdicts: Vec<Verdict> = (0..each).map(|number| hear(act(index, number))).collect();
+            let row = Row::of(family, &verdicts);
+            row.print();
+            rows.push(row);
+        }
+    }
+    rows.iter().flat_map(|row| &row.wrong).for_each(|wrong| println!("{wrong}"));
+    rows
+}
