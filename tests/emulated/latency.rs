@@ -234,6 +234,8 @@ fn reflexes(agree: Agree) -> Times {
             _ => {}
         }
     }
+    // Its answer comes after all that was said before.
+    board.look("stats");
     let said = std::mem::take(&mut board.said);
     board.end();
     let edges: Vec<f64> = said
