@@ -153,8 +153,8 @@ mod tests {
             error.starts_with("there is no script of touches \"tickle\"; known are pat, lash, "),
             "{error}"
         );
-        let error = load("no/such.toml").unwrap_err().to_string();
-        assert!(error.starts_with("cannot read no/such.toml: "), "{error}");
+        let error = format!("{:#}", load("no/such.toml").unwrap_err());
+        assert!(error.starts_with("no/such.toml cannot be read: "), "{error}");
         let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };
         let error = script.load_garment().unwrap_err().to_string();
         assert!(
