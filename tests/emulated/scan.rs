@@ -109,6 +109,18 @@ fn the_whole_garment_interlaced() {
     assert!(spent.rate >= 195.0);
 }
 
+/// A wiring that a progressive chain cannot follow, as its taxels jump too often, is no matter to an interlaced one.
+#[test]
+fn a_mirrored_panel_is_interlaced_by_the_chain() {
+    let mut garment = Garment::reference();
+    garment.blocks.iter_mut().filter(|b| b.panel == 3).for_each(|b| b.orientation.mirror_x = true);
+    let mut board = tared(&garment, &Scene::shipped().interlaced(Agree::Two));
+    let spent = measure(&mut board, 100);
+    board.end();
+    assert_eq!((spent.wrong, spent.unseen), (0, 0));
+    assert!(spent.rate >= 195.0);
+}
+
 #[test]
 fn one_panel_alone() {
     let mut scene = Scene::shipped();

@@ -71,13 +71,12 @@ impl Reflexes {
 
     /// For a garment.
     pub fn of(layout: &Layout) -> Reflexes {
-        let panel = |area: &crate::garment::Area| Panel {
-            base: area.base,
-            rows: area.rows,
-            columns: area.columns,
-            row: None,
-        };
-        Reflexes { rows: Vec::new(), panels: layout.areas().iter().map(panel).collect() }
+        let mut reflexes = Reflexes::none();
+        for area in layout.areas() {
+            let panel = Panel { base: area.base, rows: area.rows, columns: area.columns, row: None };
+            let _ = reflexes.panels.push(panel); // a layout has at most PANELS of them
+        }
+        reflexes
     }
 
     /// Adds a row. `false`: another one watches a panel of its region.
