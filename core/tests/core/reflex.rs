@@ -20,7 +20,7 @@ const FIELD_US: u64 = 640;
 
 fn rows(agree: Agree) -> Vec<ReactionConfig> {
     let row = |region: &str, pin| ReactionConfig {
-        name: name("startle"),
+        name: name(region),
         cause: Cause::Reflex(agree),
         region: name(region),
         level: 1_000,
