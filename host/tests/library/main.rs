@@ -4,7 +4,6 @@ mod bases;
 mod calibrate;
 mod clock;
 mod drawn;
-mod drift;
 mod faults;
 mod fcm;
 mod ghosts;
