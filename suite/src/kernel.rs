@@ -54,6 +54,7 @@ pub struct Bench {
 }
 
 impl Default for Bench {
+    #[inline(never)] // what it takes of the stack to make one is needed only here
     fn default() -> Bench {
         let model = Model::read(Shipped::Gestures.bytes()).ok();
         let gestures = model.map(|model| Touches::new(model, 32, 16));
