@@ -5,9 +5,9 @@ use std::ffi::{OsStr, OsString};
 /// The variable that lists them.
 pub const VARIABLE: &str = "TAXEL_DATA";
 
-/// The list as tests can use it.
+/// The list as tests can use it. An empty one is none.
 pub fn listed() -> Option<OsString> {
-    absolute(&std::env::var_os(VARIABLE)?)
+    absolute(&std::env::var_os(VARIABLE).filter(|listed| !listed.is_empty())?)
 }
 
 /// Cargo starts each test in its package's folder, so no entry may depend on where one stands.

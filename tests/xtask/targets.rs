@@ -131,6 +131,9 @@ pub fn peers(args: &[String]) -> Result<(), String> {
 /// One of the workspace's test targets.
 pub fn test_target(name: &str) -> Command {
     let mut command = cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root());
-    command.envs(recordings::listed().map(|folders| (recordings::VARIABLE, folders)));
+    match recordings::listed() {
+        Some(folders) => command.env(recordings::VARIABLE, folders),
+        None => command.env_remove(recordings::VARIABLE),
+    };
     command
 }

@@ -1,4 +1,4 @@
-//! The family of touches that the map never saw.
+//! A second family of touches, of other courses and footprints. The shipped map's weights were chosen with both in sight.
 //!
 //! | kind | where | newtons | how |
 //! |---|---|--:|---|

@@ -36,7 +36,7 @@ fn people_are_understood_who_did_not() {
     let mut tally = Tally::default();
     let of_each = if is_campaign() { 25 } else { 1 };
     (0..PEOPLE).for_each(|person| tally.add(worn::wear(&mut hands::Person::new(person, of_each))));
-    println!("the family that the map never saw:");
+    println!("the second family:");
     tally.print();
     tally.judge();
 }
