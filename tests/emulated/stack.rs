@@ -108,7 +108,7 @@ fn greatest_garment() -> Garment {
 
 /// A scene for it with everything in it that a scene can have; what is touched is not filtered.
 fn greatest_scene() -> Scene {
-    let mut scene = Scene { name: name(&format!("sixteen-letters{index}")), ..Scene::shipped() };
+    let mut scene = Scene { name: name("sixteen-letters-"), ..Scene::shipped() };
     scene.condition.filter = Filter::Off;
     scene.stream.raw_hz = u16::MAX;
     let intent = scene.intent.as_mut().unwrap();
