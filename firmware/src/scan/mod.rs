@@ -88,6 +88,7 @@ impl Scanner {
     }
 
     /// Begins to scan something else, or the same anew.
+    #[inline(never)] // a copy of the circuit is on the stack only meanwhile
     fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
         self.chain.stop();
         self.frames.reset(self.circuit.as_ref() == Some(circuit));
