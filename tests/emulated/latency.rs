@@ -113,6 +113,14 @@ fn us(line: &serde_json::Value) -> f64 {
     line["us"].as_f64().unwrap()
 }
 
+/// Begins to play, in this scene, tared at rest: when the voltage of a touch rises, us of the board.
+fn begin(board: &mut Emulated, scene: &[u8]) -> impl Fn(usize) -> f64 + use<> {
+    let begun = board.play().0 as f64;
+    let requests = [Request::SetScene(scene), Request::Tare { frames: 16 }, Request::Start];
+    requests.iter().for_each(|request| board.ask(request));
+    move |touch| begun + (RESTS + 2 * touch) as f64 * PERIOD_US
+}
+
 #[test]
 fn from_voltage_to_message_and_pin() {
     let period = PERIOD_US.to_string();
@@ -120,11 +128,7 @@ fn from_voltage_to_message_and_pin() {
     let mut board = Emulated::start(&Garment::reference(), &codes(), 100, &options);
     let scene = postcard::to_allocvec(&scene()).unwrap();
     let mut bytes = board.receive().wire_bytes as u64;
-    let begun = board.play().0 as f64;
-    let rise = |touch: usize| begun + (RESTS + 2 * touch) as f64 * PERIOD_US;
-    [Request::SetScene(&scene), Request::Tare { frames: 16 }, Request::Start]
-        .iter()
-        .for_each(|r| board.ask(r));
+    let rise = begin(&mut board, &scene);
     // Number of bytes at the end of the message, and start of the scan, for each contact that begins.
     let mut onsets = Vec::new();
     loop {
@@ -219,11 +223,7 @@ fn reflexes(agree: Agree) -> Times {
     let mut board = Emulated::start(&Garment::reference(), &footprints(), 100, &options);
     let scene = postcard::to_allocvec(&scene().interlaced(agree)).unwrap();
     board.receive();
-    let begun = board.play().0 as f64;
-    let rise = |touch: usize| begun + (RESTS + 2 * touch) as f64 * PERIOD_US;
-    [Request::SetScene(&scene), Request::Tare { frames: 16 }, Request::Start]
-        .iter()
-        .for_each(|r| board.ask(r));
+    let rise = begin(&mut board, &scene);
     let mut told = Vec::new();
     loop {
         match board.receive().report() {
