@@ -59,16 +59,26 @@ fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
     }
 }
 
+/// The scanner over this board's parts. A function of its own, too: what is put into a static is built on the stack.
+#[inline(never)]
+fn scanner(
+    lines: [(u8, pins::Line); board::LINES],
+    converter: adc::Converter<{ board::INPUTS }>,
+    chain: scan::Chain,
+) -> &'static mut scan::Scanner {
+    let lines = LINES.init_with(|| Lines::new(lines));
+    SCANNER.init_with(|| {
+        let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
+        scan::Scanner::new(processor, chain)
+    })
+}
+
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
     let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
     let mut platform = platform::Board::start(watchdog, led, flash);
-    let lines = LINES.init_with(|| Lines::new(lines));
     const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
-    let scanner = SCANNER.init_with(|| {
-        let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
-        scan::Scanner::new(processor, chain)
-    });
+    let scanner = scanner(lines, converter, chain);
     let mut board = Board::bare(board::INFO);
     ship(&mut board);
     platform.recall(&mut board);

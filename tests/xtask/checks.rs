@@ -3,6 +3,7 @@
 
 use crate::counts::Counts;
 use crate::cross::Toolchain;
+use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
 use crate::{browser, firmware, locks, no_panic, paths, process, recordings, sizes, targets};
@@ -45,9 +46,6 @@ const RECORDED: &[(&str, Check)] =
 
 /// Checks that run at a time.
 const AT_ONCE: usize = 2;
-
-/// Lines of a failed check's log that are shown.
-const SHOWN: usize = 80;
 
 /// What the command line asks for.
 struct Asked {
@@ -134,9 +132,8 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
             Outcome::Passed(counts)
         }
         Ok(Err(why)) => {
-            let lines: Vec<&str> = text.lines().collect();
-            let lines = lines[lines.len().saturating_sub(SHOWN)..].join("\n");
-            println!("{lines}\n{name}: FAILED in {seconds:.1} s: {why}");
+            println!("{}\n{name}: FAILED in {seconds:.1} s: {why}", excerpt(&text));
+            println!("all that it said: {}", log.display());
             Outcome::Failed(counts.unwrap_or_default(), why)
         }
         Err(why) => {

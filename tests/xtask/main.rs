@@ -6,6 +6,7 @@ mod checks;
 mod counts;
 mod cross;
 mod elf;
+mod excerpt;
 mod firmware;
 mod install;
 mod locks;

@@ -109,6 +109,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     /// Shapes are recognised from the next frame on, by another base.
     pub fn recognise_shapes_anew(&mut self) {
         self.present.iter_mut().for_each(|placed| placed.shape.forget_class());
+        self.symbol.forget_classes();
     }
 
     /// The announced intention and what led to it.

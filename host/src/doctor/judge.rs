@@ -13,6 +13,9 @@ const OLD: u64 = 180;
 /// How far the host's time may be off, us.
 const CLOCK_US: u64 = 5_000;
 
+/// Frames a second from which a blow of 20 ms is seen twice, and its rise with it.
+const RESOLVING: f64 = 100.0;
+
 /// All findings, the host's own version and the day (year-month-day) being these.
 pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     let Some(firmware) = &facts.firmware else {
@@ -75,14 +78,19 @@ fn rate(facts: &Facts) -> Finding {
     let scans = f64::from(last.wrapping_sub(first)) / ((to - from) as f64 / 1e6);
     let [images, thinned, undecoded] = facts.images;
     let what = format!("{scans:.1} frames/s scanned; {images} images came, {thinned} were left out");
-    match undecoded {
-        0 => Finding::good("images", what),
-        _ => Finding::bad(
-            "images",
-            format!("{what}, {undecoded} could not be decoded"),
-            "a better cable, then report it",
-        ),
+    if undecoded > 0 {
+        let what = format!("{what}, {undecoded} could not be decoded");
+        return Finding::bad("images", what, "a better cable, then report it");
     }
+    if scans < RESOLVING {
+        let shortest = 2000.0 / scans;
+        return Finding::weak(
+            "images",
+            format!("{what}; a touch shorter than {shortest:.0} ms, as a slap or a lash, may be missed"),
+            "a higher `rate_hz`, a plainer `plan.depth`, or a shorter `settle_ns`",
+        );
+    }
+    Finding::good("images", what)
 }
 
 fn scans(first: &Health, last: &Health) -> Finding {
@@ -224,6 +232,7 @@ mod tests {
             (Facts { firmware: Some("taxel-rp2040 0.0.9".into()), ..well() }, "version", Grade::Weak),
             (Facts { frames: None, ..well() }, "images", Grade::Bad),
             (Facts { images: [9, 0, 1], ..well() }, "images", Grade::Bad),
+            (Facts { frames: Some([(1, 0), (26, 1_000_000)]), ..well() }, "images", Grade::Weak),
             (Facts { health: Some([Health::default(), failed]), ..well() }, "scan", Grade::Bad),
             (Facts { health: Some([Health::default(), overrun]), ..well() }, "scan", Grade::Weak),
             (Facts { ill: 1, ..well() }, "taxels", Grade::Weak),

@@ -5,7 +5,7 @@ use crate::client::{Client, Event, ImageNews};
 use crate::progress::{Progress, Unit};
 use crate::record::Play;
 use crate::recording::{Overview, Skipped};
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use std::cell::Cell;
 use std::num::NonZeroU64;
 use std::path::Path;
@@ -84,6 +84,7 @@ impl<'a> Frames<'a> {
         let mut progress = Progress::of(format!("{what} {}", self.file.display()), Unit::Bytes, Some(total));
         let (mut seen, mut count) = (0u64, 0);
         let mut current = Current::default();
+        let place = || self.file.display().to_string();
         while let Some((header, event)) = play.next_event()? {
             let client = play.client();
             match event {
@@ -95,7 +96,9 @@ impl<'a> Frames<'a> {
                 }
                 Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
                     current.give(&mut take)?;
-                    let Some(worn) = self.worn(client, current.worn(), frame)? else { continue };
+                    let Some(worn) = self.worn(client, current.worn(), frame).with_context(place)? else {
+                        continue;
+                    };
                     seen += 1;
                     if (seen - 1) % self.every == 0 {
                         count += 1;

@@ -45,34 +45,38 @@ pub fn run(args: ExportArgs) -> Result<()> {
             bail!(Fault::usage(format!("{} recordings: only --to lerobot takes more than one", all.len())))
         }
     };
-    let names: Vec<_> = args.files.iter().map(|file| file.display().to_string()).collect();
-    let count = done.with_context(|| format!("{} to {}", names.join(", "), args.output.display()))?;
-    eprintln!("{}: {count} frames", args.output.display());
+    eprintln!("{}: {} frames", args.output.display(), done?);
     for frames in recordings.iter().filter(|frames| !frames.skipped().is_none()) {
         eprintln!("{}: {}", frames.file().display(), frames.skipped());
     }
     Ok(())
 }
 
+/// What was going on when an error came; where a recording is at fault, the error names it.
+fn to(args: &ExportArgs) -> String {
+    format!("exporting to {}", args.output.display())
+}
+
 /// Writes a table; the number of frames.
 fn csv(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
     let mut draft = Output::stream(&args.output, args.force, &args.files)?.draft()?;
     let count =
-        if args.contacts { contacts::write(frames, &mut draft)? } else { taxels(frames, args, &mut draft)? };
+        if args.contacts { contacts::write(frames, &mut draft) } else { taxels(frames, args, &mut draft) };
+    let count = count.with_context(|| to(args))?;
     draft.keep()?;
     Ok(count)
 }
 
 fn npz(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
     let mut draft = Output::file(&args.output, args.force, &args.files)?.draft()?;
-    let count = npz::write(frames, &args.output, &mut draft)?;
+    let count = npz::write(frames, &args.output, &mut draft).with_context(|| to(args))?;
     draft.keep()?;
     Ok(count)
 }
 
 fn png(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
     let folder = Folder::begin(&args.output, args.force, &args.files, png::is_ours)?;
-    let count = png::write(frames, args.counts, &folder)?;
+    let count = png::write(frames, args.counts, &folder).with_context(|| to(args))?;
     folder.keep_unsynced()?;
     Ok(count)
 }
@@ -95,4 +99,5 @@ fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Resul
 fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
     let folder = Folder::begin(&args.output, args.force, &args.files, lerobot::is_ours)?;
     lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, folder)
+        .with_context(|| to(args))
 }

@@ -67,7 +67,7 @@ impl<S: Store> Writer<S> {
             let error = anyhow::Error::from(error);
             return Err(match self.store.cut(self.length) {
                 Ok(()) => error,
-                Err(_) => error.context("what was written in part cannot be cut off"),
+                Err(_) => error.context("its last record is written in part"),
             });
         }
         self.length += bytes.len() as u64;

@@ -1,6 +1,7 @@
 //! What simulated touches mean: 500 seeded variants of a pat and of a lash, and controls with the map's reason.
 
 mod family;
+mod flicker;
 mod judge;
 mod same;
 mod scripted;

@@ -177,11 +177,27 @@ fn a_recording_in_several_files_looks_for_all_its_names() {
     assert_eq!(folder.bytes("day-0003.mcap"), b"precious");
 }
 
+#[test]
+fn an_export_that_fails_names_its_recording_once() {
+    let folder = Folder::new("once");
+    fs::write(folder.0.join("torn.mcap"), &folder.bytes("in.mcap")[..40]).unwrap();
+    for to in ["csv", "npz", "png"] {
+        let done = folder.run(&["export", "torn.mcap", "--to", to, "-o", "out"]);
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert!(!done.status.success() && told.contains("torn.mcap holds no image"), "{told}");
+        assert_eq!(told.matches("torn.mcap").count(), 1, "{told}");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     let folder = Folder::new("full");
     folder.refused(&["report", "in.mcap", "-o", "/dev/full"], "/dev/full cannot be written");
+    folder.refused(
+        &["record", "--source", "sim:press", "--frames", "40", "-o", "/dev/full"],
+        "its last record is written in part: no space left on device",
+    );
     let done = folder.run(&["calibrate", "--simulate", "7", "-o", "/dev/full"]);
     assert!(!done.status.success());
     assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the numbers are printed");

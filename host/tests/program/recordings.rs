@@ -151,10 +151,13 @@ fn memory_does_not_grow_with_the_recording() {
         .map(memory)
         .to_vec()
     };
-    let (short, long) = (runs(&short), runs(&long));
+    // A look may come long before a run's end where the machine is busy: the most of three runs counts.
+    let most = |a: Vec<u64>, b: Vec<u64>| a.into_iter().zip(b).map(|(a, b)| a.max(b)).collect();
+    let short = [runs(&short), runs(&short), runs(&short)].into_iter().reduce(most).unwrap();
+    let long = runs(&long);
     for (what, (short, long)) in ["info", "npz", "csv", "report"].iter().zip(short.iter().zip(&long)) {
         println!("{what}: {:.1} MB of 120 s, {:.1} MB of 300 s", *short as f64 / 1e6, *long as f64 / 1e6);
-        // 35,000 frames more: a byte of each would be 35 kB.
-        assert!(*short > 1 << 20 && *long < short + (2 << 20), "{what}: {short} and {long} bytes");
+        // 35,000 frames more: their images would be 140 MB, their contacts 18.
+        assert!(*short > 1 << 20 && *long < short + (4 << 20), "{what}: {short} and {long} bytes");
     }
 }

@@ -5,7 +5,7 @@ use crate::meaning::{scripted, strangers};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
-use taxel_core::pipeline::{Pipeline, PipelineState};
+use taxel_core::pipeline::{Percept, Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
 const TAXELS: usize = 2048;
@@ -26,8 +26,8 @@ pub struct Verdict {
     pub note: String,
 }
 
-/// Plays one touch.
-pub fn hear(mut act: Act) -> Verdict {
+/// Plays one touch frame by frame, with a tare before it; calls `see` with the time and what was perceived.
+pub fn play(act: &mut Act, mut see: impl FnMut(u64, &Percept<'_>)) {
     let layout = Layout::build(&act.garment, TAXELS, 4095).expect("the garment is good");
     let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
     let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
@@ -35,18 +35,25 @@ pub fn hear(mut act: Act) -> Verdict {
     state.condition.tare((TARE_US / act.period_us) as u16);
     let mut raw = vec![0u16; layout.taxels()];
     let mut rng = fastrand::Rng::with_seed(act.span.1);
-    let (mut told, mut flinches, mut now) = (Told::new(), 0, 0);
+    let mut now = 0;
     while now < act.span.1 + AFTER_US {
         (act.codes)(now, &mut raw);
         let codes: Vec<Code> = raw.iter().map(|code| Code(*code)).collect();
-        let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(now), &mut ());
+        see(now, &pipeline.process(&mut *state, &layout, &codes, false, Micros(now), &mut ()));
+        now += (act.period_us as f64 * (1.0 + JITTER * (rng.f64() - 0.5))) as u64;
+    }
+}
+
+/// What is said to one touch.
+pub fn hear(mut act: Act) -> Verdict {
+    let (mut told, mut flinches, begin) = (Told::new(), 0, act.span.0);
+    play(&mut act, |now, percept| {
         if let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) {
-            told.push((meaning.leading, (now as i64 - act.span.0 as i64) / 1000));
+            told.push((meaning.leading, (now as i64 - begin as i64) / 1000));
         }
         let pin = |name: &str, active: bool| active && name == "flinch";
         flinches += percept.reactions.changes().iter().filter(|it| pin(&it.name, it.active)).count();
-        now += (act.period_us as f64 * (1.0 + JITTER * (rng.f64() - 0.5))) as u64;
-    }
+    });
     let lasts_ms = ((act.span.1 - act.span.0) / 1000) as i64;
     Verdict { agreed: act.family.wish.agrees(&told, lasts_ms), told, flinches, note: act.note }
 }

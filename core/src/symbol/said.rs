@@ -1,0 +1,208 @@
+//! What was said of a contact, and when that changes.
+
+use super::config::SymbolConfig;
+use super::words::{Extent, Span, Strength, Words};
+use crate::body::Placed;
+use crate::format::Q15;
+use crate::shape::Class;
+
+/// What was said of a contact.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Said {
+    /// Its id.
+    pub contact: u32,
+    /// What was said last.
+    pub words: Words,
+    /// What speaks for the class that was said: milliseconds with full confidence.
+    evidence: u16,
+    /// Time since it slid, ms; saturates.
+    still_ms: u8,
+}
+
+/// Evidence for the class of an onset, ms: the form of a touch that just begins changes soon.
+const FIRST: u16 = 20;
+
+/// Evidence for a class that another has given way to, ms.
+const CHANGED: u16 = 200;
+
+/// The most evidence that is held, ms: another class needs at most so long.
+const MOST: u16 = 400;
+
+/// What slid is said to move for so long, ms.
+const STILL: u8 = 150;
+
+impl Said {
+    /// What is said of a contact at first.
+    pub fn new(config: &SymbolConfig, placed: &Placed) -> Said {
+        let mut said =
+            Said { contact: placed.contact.id, words: Words::default(), evidence: FIRST, still_ms: u8::MAX };
+        said.words.class = placed.shape.class;
+        said.measure(config, placed, None);
+        said.slide(placed.contact.slip, 0);
+        said
+    }
+
+    /// What is to be said `ms` later; whether that is something else.
+    pub fn follow(&mut self, config: &SymbolConfig, placed: &Placed, ms: u8) -> bool {
+        let before = self.words;
+        self.measure(config, placed, Some(before));
+        self.slide(placed.contact.slip, ms);
+        if placed.contact.total >= placed.contact.peak_total / 2 {
+            self.weigh(placed.shape.class, placed.shape.confidence, ms);
+        }
+        self.words != before
+    }
+
+    /// Another base of shapes is in force: the class that was said has no name in it.
+    pub fn forget_class(&mut self) {
+        (self.words.class, self.evidence) = (Class::UNKNOWN, 0);
+    }
+
+    /// Words for how hard, how large and how long.
+    fn measure(&mut self, config: &SymbolConfig, placed: &Placed, before: Option<Words>) {
+        let contact = &placed.contact;
+        let limits = config.extent.map(u32::from);
+        let largest = before.map_or(0, |w| w.extent as usize);
+        let strength = word(contact.peak_total, &config.strength, before.map(|w| w.strength as usize));
+        let extent = word(contact.area.into(), &limits, before.map(|w| w.extent as usize)).max(largest);
+        let span = word(contact.duration_ms, &config.span_ms, None);
+        self.words.strength = match strength {
+            0 => Strength::Faint,
+            1 => Strength::Light,
+            2 => Strength::Firm,
+            _ => Strength::Hard,
+        };
+        self.words.extent = match extent {
+            0 => Extent::Point,
+            1 => Extent::Patch,
+            _ => Extent::Wide,
+        };
+        self.words.span = match span {
+            0 => Span::Brief,
+            1 => Span::Short,
+            _ => Span::Long,
+        };
+    }
+
+    /// Whether it moves, given whether it slides now.
+    fn slide(&mut self, slides: bool, ms: u8) {
+        self.still_ms = if slides { 0 } else { self.still_ms.saturating_add(ms) };
+        self.words.moving = self.still_ms < STILL;
+    }
+
+    /// A class was seen for some time with this confidence (Q15): a vote of the majority, whose lead is held between bounds.
+    fn weigh(&mut self, class: Class, confidence: Q15, ms: u8) {
+        // 16 + 8 bits, rounded up, so that any class gets through in the end.
+        let weight = (confidence.0.clamp(0, 1 << 15) as u32 * u32::from(ms)).div_ceil(1 << 15) as u16;
+        if class == self.words.class {
+            self.evidence = self.evidence.saturating_add(weight).min(MOST);
+        } else if let Some(left) = self.evidence.checked_sub(weight) {
+            self.evidence = left;
+        } else {
+            (self.words.class, self.evidence) = (class, CHANGED);
+        }
+    }
+}
+
+/// What was said of a contact. Those present are in the order in which they came, as what was said of them: it is mostly
+/// at `at`, after what was said of the one before.
+pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Option<&'a mut Said> {
+    if said.get(*at).is_none_or(|said| said.contact != id) {
+        *at = said.iter().position(|said| said.contact == id)?;
+    }
+    let found = said.get_mut(*at);
+    *at += 1;
+    found
+}
+
+/// Index of the word for `measure` among rising `limits`; from the word said before it moves only when a limit is passed
+/// by an eighth.
+fn word(measure: u32, limits: &[u32], before: Option<usize>) -> usize {
+    let plain = limits.iter().take_while(|limit| measure >= **limit).count();
+    match before {
+        Some(before) if plain > before => {
+            limits.iter().take_while(|limit| measure >= limit.saturating_add(**limit / 8)).count().max(before)
+        }
+        Some(before) if plain < before => {
+            limits.iter().take_while(|limit| measure >= **limit - **limit / 8).count().min(before)
+        }
+        _ => plain,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    #[test]
+    fn a_word_moves_only_past_an_eighth_of_its_limit() {
+        let limits = [80, 800];
+        let course = |measures: &[u32]| {
+            let mut said = None;
+            let mut words = std::vec::Vec::new();
+            for measure in measures {
+                said = Some(word(*measure, &limits, said));
+                words.extend(said);
+            }
+            words
+        };
+        assert_eq!(course(&[79, 80, 89, 90, 80, 71, 70, 69]), [0, 0, 0, 1, 1, 1, 1, 0]);
+        assert_eq!(course(&[80, 899, 900, 700, 699, 0]), [1, 1, 2, 2, 1, 0]);
+        assert_eq!(course(&[5000, 75, 0]), [2, 1, 0]);
+    }
+
+    /// Of a contact of which nothing but its id is known.
+    fn of(contact: u32) -> Said {
+        Said { contact, words: Words::default(), evidence: FIRST, still_ms: u8::MAX }
+    }
+
+    #[test]
+    fn what_was_said_is_found_in_any_order() {
+        let mut said = [7, 9, 12, 30].map(of);
+        for ids in [[7, 9, 12, 30], [30, 12, 9, 7], [9, 8, 30, 7], [1, 2, 3, 12]] {
+            let mut at = 0;
+            for id in ids {
+                let plain = said.iter().find(|said| said.contact == id).cloned();
+                assert_eq!(said_of(&mut said, &mut at, id).cloned(), plain, "{ids:?} {id}");
+            }
+        }
+    }
+
+    /// How often the class changes, and the last one.
+    fn classes(seen: impl Iterator<Item = Class>, ms: u8) -> (usize, Class) {
+        let (mut said, mut changes) = (of(1), 0);
+        for class in seen {
+            let before = said.words.class;
+            said.weigh(class, Q15(30_000), ms);
+            changes += usize::from(said.words.class != before);
+        }
+        (changes, said.words.class)
+    }
+
+    #[test]
+    fn a_class_changes_by_evidence_at_any_rate() {
+        let (round, rectangle) = (Class::ROUND, Class::RECTANGLE);
+        for ms in [1, 5, 40, 100] {
+            let frames = 4000 / usize::from(ms);
+            let each = |frame: usize| if frame % 2 == 0 { round } else { rectangle };
+            assert!(classes((0..frames).map(each), ms).0 <= 2, "two in turn, {ms} ms");
+            // A second of the one, then the other: it is said within half a second.
+            let (first, second) = (1000 / usize::from(ms), 500 / usize::from(ms));
+            let changed = core::iter::repeat_n(round, first).chain(core::iter::repeat_n(rectangle, second));
+            assert_eq!(classes(changed, ms), (2, rectangle), "{ms} ms");
+        }
+    }
+
+    #[test]
+    fn what_slid_is_said_to_move_for_a_while() {
+        let mut said = of(1);
+        said.slide(true, 5);
+        for _ in 0..29 {
+            said.slide(false, 5);
+            assert!(said.words.moving);
+        }
+        said.slide(false, 5);
+        assert!(!said.words.moving);
+    }
+}

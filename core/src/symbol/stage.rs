@@ -1,0 +1,180 @@
+//! The stage.
+
+use super::config::SymbolConfig;
+use super::said::{Said, said_of};
+use super::words::Words;
+use crate::body::Placed;
+use crate::contact::Phase;
+use crate::format::Micros;
+use crate::garment::PANELS;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Something that was said of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Symbol {
+    /// Id of the contact.
+    pub contact: u32,
+    /// Held stands for a change of words.
+    pub phase: Phase,
+    /// Index into the layout's regions.
+    pub region: u8,
+    /// The words.
+    pub words: Words,
+    /// Greatest total so far, counts.
+    pub peak_total: u32,
+    /// Time since onset, ms.
+    pub duration_ms: u32,
+}
+
+/// What happens in one region of the body.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionState {
+    /// Index into the layout's regions.
+    pub region: u8,
+    /// Number of contacts.
+    pub contacts: u8,
+    /// Sum of their totals, counts.
+    pub total: u32,
+    /// Greatest pressure of a taxel, counts.
+    pub peak: u16,
+    /// A contact slides.
+    pub moving: bool,
+    /// Since when the region has been touched, or left alone.
+    pub since: Micros,
+}
+
+/// What the stage remembers.
+#[derive(Debug, Clone)]
+pub struct SymbolState<const CONTACTS: usize> {
+    said: Vec<Said, CONTACTS>,
+    events: Vec<Symbol, EVENTS>,
+    /// Time of the last frame.
+    last: Micros,
+    regions: [RegionState; PANELS],
+}
+
+/// Most events of one frame, and of one message; those beyond are not said.
+pub const EVENTS: usize = 32;
+
+impl<const CONTACTS: usize> Default for SymbolState<CONTACTS> {
+    fn default() -> Self {
+        SymbolState {
+            said: Vec::new(),
+            events: Vec::new(),
+            last: Micros(0),
+            regions: [RegionState::default(); PANELS],
+        }
+    }
+}
+
+impl<const CONTACTS: usize> SymbolState<CONTACTS> {
+    /// Events of the last frame.
+    pub fn events(&self) -> &[Symbol] {
+        &self.events
+    }
+
+    /// Another base of shapes is in force: classes that were said have no name in it.
+    pub(crate) fn forget_classes(&mut self) {
+        self.said.iter_mut().for_each(Said::forget_class);
+    }
+
+    /// State of the first `count` regions.
+    pub fn regions(&self, count: usize) -> &[RegionState] {
+        self.regions.get(..count).unwrap_or(&self.regions)
+    }
+}
+
+/// A frame speaks for what it shows as if it came at most so long after the one before, ms.
+const MOST_MS: u32 = 100;
+
+/// The checked stage.
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
+pub struct Symbols {
+    config: SymbolConfig,
+}
+
+impl Symbols {
+    /// With limits that were checked.
+    pub(super) const fn new(config: SymbolConfig) -> Symbols {
+        Symbols { config }
+    }
+
+    /// Takes the contacts of the frame of time `now`: those `present`, then those `released`.
+    pub fn process<const CONTACTS: usize>(
+        &self,
+        state: &mut SymbolState<CONTACTS>,
+        present: &[Placed],
+        released: &[Placed],
+        now: Micros,
+    ) {
+        state.events.clear();
+        let ms = now.millis_since(state.last);
+        // What is left of a millisecond counts with the next frame.
+        state.last = if ms > MOST_MS { now } else { Micros(state.last.0 + u64::from(ms) * 1000) };
+        let ms = ms.min(MOST_MS) as u8;
+        let mut at = 0;
+        for placed in present {
+            let (phase, words) = match said_of(&mut state.said, &mut at, placed.contact.id) {
+                Some(said) => match said.follow(&self.config, placed, ms) {
+                    true => (Phase::Held, said.words),
+                    false => continue,
+                },
+                None => {
+                    let said = Said::new(&self.config, placed);
+                    let words = said.words;
+                    let _ = state.said.push(said);
+                    (Phase::Onset, words)
+                }
+            };
+            let _ = state.events.push(symbol(placed, phase, words));
+        }
+        for placed in released {
+            let last = state.said.iter().find(|said| said.contact == placed.contact.id);
+            let words = last.map_or_else(|| Said::new(&self.config, placed).words, |said| said.words);
+            let _ = state.events.push(symbol(placed, Phase::Released, words));
+        }
+        // Each contact is released before it is gone.
+        if !released.is_empty() {
+            state.said.retain(|said| released.iter().all(|gone| gone.contact.id != said.contact));
+        }
+        regions(&mut state.regions, present, now);
+    }
+}
+
+fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {
+    Symbol {
+        contact: placed.contact.id,
+        phase,
+        region: placed.region,
+        words,
+        peak_total: placed.contact.peak_total,
+        duration_ms: placed.contact.duration_ms,
+    }
+}
+
+fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) {
+    const { assert!(PANELS <= 32) };
+    // A bit for each region that was touched.
+    let mut touched = 0u32;
+    for (region, state) in (0u8..).zip(&mut *states) {
+        touched |= u32::from(state.contacts > 0) << region;
+        *state = RegionState { region, since: state.since, ..RegionState::default() };
+    }
+    // One by one: a loop over two at a time would divide.
+    let mut left = present;
+    while let [placed, rest @ ..] = left {
+        left = rest;
+        let Some(state) = states.get_mut(usize::from(placed.region)) else { continue };
+        state.contacts = state.contacts.saturating_add(1);
+        state.total = state.total.saturating_add(placed.contact.total);
+        state.peak = state.peak.max(placed.contact.peak);
+        state.moving |= placed.contact.slip;
+    }
+    for state in states {
+        if (touched & 1 == 1) != (state.contacts > 0) {
+            state.since = now;
+        }
+        touched >>= 1;
+    }
+}
