@@ -39,6 +39,7 @@ mod marks;
 mod median;
 #[cfg(target_pointer_width = "64")]
 mod plain;
+mod points;
 mod progress;
 mod row;
 mod rows;
@@ -57,6 +58,7 @@ pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
 pub use feedback::{CARRIED, Feedback};
 pub(crate) use held::Held;
 pub use image::Image;
+pub use points::{MARGIN, POINTS};
 pub use progress::Tare;
 pub use rows::Rows;
 pub(crate) use slices::{panel_of, row_of};

@@ -71,6 +71,7 @@ impl Condition {
 impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Makes the image of a frame.
     fn perceive(&mut self, layout: &Layout, codes: &[Code], falling: bool, panels: u8, filter: Filter) {
+        self.points.begin();
         let before = self.clear(layout, codes.len(), filter);
         for (panel, area) in areas_of(layout, panels) {
             self.active |= u8::from(self.calibrate(area, codes, falling)) << panel;
