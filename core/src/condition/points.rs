@@ -4,12 +4,13 @@ use super::rows::Rows;
 use crate::garment::Area;
 use heapless::Vec;
 
-/// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are smoothed in the next
-/// frame as if they had not been there.
+/// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are
+/// smoothed in the next frame as if they had not been there.
 pub const POINTS: usize = 48;
 
-/// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many counts: what is nearer
-/// may be noise, or the unevenness of what presses, and loses little by being smoothed.
+/// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many
+/// counts: what is nearer may be noise, or the unevenness of what presses, and loses little by being
+/// smoothed.
 pub const MARGIN: u16 = 64;
 
 /// Whether a taxel is a point, given what it is smoothed to.
@@ -52,8 +53,8 @@ impl Points {
         self.lists.iter_mut().for_each(Vec::clear);
     }
 
-    /// Gives back to the points of a panel what they had in the frame before, and no more than they have now. `values` are smoothed
-    /// to `out`, and held where `marks` says so.
+    /// Gives back to the points of a panel what they had in the frame before, and no more than they have now.
+    /// `values` are smoothed to `out`, and held where `marks` says so.
     #[inline(never)] // the few registers of an M0+ are for its loops
     pub fn restore(&mut self, values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
         let columns = usize::from(area.columns);
@@ -79,7 +80,8 @@ impl Points {
         }
     }
 
-    /// Remembers a point whose number is beyond that of the last one; the less of what it has and what it had in the frame before.
+    /// Remembers a point whose number is beyond that of the last one; the less of what it has and what it had
+    /// in the frame before.
     fn take(&mut self, point: Point) -> u16 {
         let [first, second] = &mut self.lists;
         let (before, now) = if self.second { (first, second) } else { (second, first) };
@@ -96,7 +98,8 @@ impl Points {
     }
 }
 
-/// Whether one of the taxels of a row is a point. Without a branch per taxel, so that a machine with vectors compares many at once.
+/// Whether one of the taxels of a row is a point. Without a branch per taxel, so that a machine with vectors
+/// compares many at once.
 #[inline(never)]
 fn has_points(values: &[u16], out: &[u16]) -> bool {
     values.iter().zip(out).fold(false, |any, (value, out)| any | stands_out(*value, *out))

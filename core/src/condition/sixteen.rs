@@ -16,13 +16,7 @@ pub(crate) type Sixteen = [u16; SIXTEEN];
 /// Clamps the latter of two rows, given the one below. Of four columns none of which is among `groups` nothing may be left.
 /// Sets `points` where a taxel [stands out](stands_out).
 #[inline(always)]
-pub(super) fn clamp_sixteen(
-    two: &Two,
-    below: &Sixteen,
-    groups: u16,
-    out: &mut Sixteen,
-    points: &mut bool,
-) {
+pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
     if groups == u16::MAX {
         clamp_groups::<true>(two, below, groups, out, points);
     } else {

@@ -1,4 +1,5 @@
-//! Small hard things through the shipped scene: how much of their force is told, wherever they land, and how soon they are felt.
+//! Small hard things through the shipped scene: how much of their force is told, wherever they land, and how
+//! soon they are felt.
 
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
 use taxel_core::format::{Code, Micros};
@@ -13,7 +14,8 @@ const BEGIN: u64 = 40;
 /// Counts of a newton.
 const COUNTS: f64 = 1000.0;
 
-/// What is told in each frame of something that presses the chest: the sum of all contacts, N, and the largest code.
+/// What is told in each frame of something that presses the chest: the sum of all contacts, N, and the
+/// largest code.
 fn told(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> Vec<(f64, u16)> {
     let start_s = (BEGIN * FRAME_PERIOD_US) as f64 / 1e6;
     let text = format!(
@@ -48,7 +50,8 @@ fn places() -> impl Iterator<Item = [f64; 2]> {
 #[test]
 fn the_force_of_small_things_is_told_wherever_they_land() {
     println!("size, mm   force, N   told, N: least, greatest");
-    for (size_mm, force_n) in [8.0, 12.0, 16.0].into_iter().flat_map(|size| [1.0, 2.0, 3.5].map(|f| (size, f)))
+    for (size_mm, force_n) in
+        [8.0, 12.0, 16.0].into_iter().flat_map(|size| [1.0, 2.0, 3.5].map(|f| (size, f)))
     {
         let (mut least, mut greatest) = (f64::MAX, 0f64);
         for at in places() {

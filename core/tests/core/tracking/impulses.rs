@@ -1,5 +1,5 @@
-//! Impulses on the reference garment, from the code of a taxel to the contact: none where each is one frame long and alone, and how
-//! many where nothing keeps them apart.
+//! Impulses on the reference garment, from the code of a taxel to the contact: none where each is one frame
+//! long and alone, and how many where nothing keeps them apart.
 
 use crate::tracking::rig::{FRAME_US, Noise};
 use taxel_core::condition::{Condition, ConditionState};
@@ -51,7 +51,8 @@ fn idle(noise: &mut Noise, codes: &mut [Code]) {
     codes.iter_mut().for_each(|code| code.0 = (f64::from(REST) + 3.0 * noise.gauss()).round() as u16);
 }
 
-/// 10,000 frames, or 100,000 in a campaign. In each, one taxel in a hundred is hit where it and its neighbours rested for 8 frames.
+/// 10,000 frames, or 100,000 in a campaign. In each, one taxel in a hundred is hit where it and its
+/// neighbours rested for 8 frames.
 #[test]
 fn impulses_of_one_frame_begin_no_contact() {
     let frames = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 100_000 } else { 10_000 };
@@ -85,13 +86,14 @@ fn impulses_of_one_frame_begin_no_contact() {
     assert!(impulses > 5 * frames);
 }
 
-/// Contacts that independent impulses begin in a frame, to first order: on 2,048 taxels two frames running, and on one of the 7,624
-/// pairs of neighbours at once.
+/// Contacts that independent impulses begin in a frame, to first order: on 2,048 taxels two frames running,
+/// and on one of the 7,624 pairs of neighbours at once.
 fn expected(part: f64) -> f64 {
     (2048.0 + 7624.0) * part * part
 }
 
-/// The table of `docs/bounds.md`. Where impulses are frequent a contact has several causes, so that fewer begin.
+/// The table of `docs/bounds.md`. Where impulses are frequent a contact has several causes, so that fewer
+/// begin.
 #[test]
 fn independent_impulses_begin_as_many_contacts_as_is_told() {
     let told = include_str!("../../../../docs/bounds.md");
