@@ -1,5 +1,6 @@
 //! Points: taxels that stand out of their neighbours, in this frame and in the one before.
 
+use super::clamp::VECTORS;
 use super::rows::Rows;
 use crate::garment::Area;
 use heapless::Vec;
@@ -61,14 +62,24 @@ impl Points {
         let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
         let mut next = first;
         while let Some(number) = marks.next(next..end) {
+            if self.is_done() {
+                return;
+            }
             next = number + 1;
             let start = usize::from(number - first) * columns;
             let row = start..start + columns;
             let (Some(values), Some(out)) = (values.get(row.clone()), out.get_mut(row)) else { return };
-            if has_points(values, out) {
+            if !VECTORS || has_points(values, out) {
                 self.restore_row(values, out, usize::from(area.base) + start);
             }
         }
+    }
+
+    /// Whether no further point is remembered or given back.
+    fn is_done(&self) -> bool {
+        let [first, second] = &self.lists;
+        let (before, now) = if self.second { (first, second) } else { (second, first) };
+        now.len() == POINTS && self.compared as usize >= before.len()
     }
 
     #[inline(never)]
@@ -100,7 +111,6 @@ impl Points {
 
 /// Whether one of the taxels of a row is a point. Without a branch per taxel, so that a machine with vectors
 /// compares many at once.
-#[inline(never)]
 fn has_points(values: &[u16], out: &[u16]) -> bool {
     values.iter().zip(out).fold(false, |any, (value, out)| any | stands_out(*value, *out))
 }
