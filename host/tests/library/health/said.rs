@@ -38,7 +38,11 @@ fn noisy_taxels_say_nothing() {
     for (seed, (count, counts)) in (1..=5).flat_map(|seed| kinds.map(|kind| (seed, kind))) {
         for from_s in [0.0, 30.0 * FRAME_S] {
             let noisy = |taxel, script: &mut Script| script.faults.noisy.push(Noisy { taxel, counts });
-            assert_eq!(said(count, from_s, seed, noisy), nothing(), "{count}: {counts} counts from {from_s} s on");
+            assert_eq!(
+                said(count, from_s, seed, noisy),
+                nothing(),
+                "{count}: {counts} counts from {from_s} s on"
+            );
         }
     }
 }
