@@ -92,26 +92,23 @@ fn expected(part: f64) -> f64 {
     (2048.0 + 7624.0) * part * part
 }
 
-/// The table of `docs/bounds.md`. Where impulses are frequent a contact has several causes, so that fewer
-/// begin.
+/// The table of `docs/bounds.md`. Some contacts have several causes, so that fewer begin than to first order.
 #[test]
 fn independent_impulses_begin_as_many_contacts_as_is_told() {
-    let told = include_str!("../../../../docs/bounds.md");
-    println!("impulses     frames   contacts begun a frame: expected, measured");
-    for (part, frames) in [(0.01, 4_000u32), (0.001, 20_000), (0.0003, 60_000)] {
-        let (mut worn, mut noise) = (Worn::new(), Noise(3));
-        let mut codes = vec![Code(REST); TAXELS];
-        let mut begun = 0;
-        for _ in 0..frames {
-            codes.fill(Code(REST));
-            let hit = codes.iter_mut().filter(|_| noise.next() < part);
-            hit.for_each(|code| code.0 = FULL);
-            begun += worn.begin(&codes);
-        }
-        let (expected, measured) = (expected(part), f64::from(begun) / f64::from(frames));
-        let line = format!("{:6} % {frames:10} {expected:14.6} {measured:12.6}", 100.0 * part);
-        println!("{line}");
-        assert!(told.contains(&line), "docs/bounds.md does not hold this line");
-        assert!((0.6..1.2).contains(&(measured / expected)));
+    let (part, frames) = (0.01, 4_000u32);
+    let (mut worn, mut noise) = (Worn::new(), Noise(3));
+    let mut codes = vec![Code(REST); TAXELS];
+    let mut begun = 0;
+    for _ in 0..frames {
+        codes.fill(Code(REST));
+        let hit = codes.iter_mut().filter(|_| noise.next() < part);
+        hit.for_each(|code| code.0 = FULL);
+        begun += worn.begin(&codes);
     }
+    let (expected, measured) = (expected(part), f64::from(begun) / f64::from(frames));
+    let line = format!("{:6} % {frames:10} {expected:14.6} {measured:12.6}", 100.0 * part);
+    println!("impulses     frames   contacts begun a frame: expected, measured\n{line}");
+    let told = include_str!("../../../../docs/bounds.md");
+    assert!(told.contains(&line), "docs/bounds.md does not hold this line");
+    assert!((0.8..1.0).contains(&(measured / expected)));
 }
