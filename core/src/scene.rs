@@ -129,7 +129,7 @@ impl Scene {
             plan: Plan::default(),
             rate_hz: 0,
             // Four and a half standard deviations of a noise of 3 counts; a pat gives 110 counts per taxel.
-            condition: ConditionConfig { floor: 14, filter: Filter::Conservative, track_baseline: true },
+            condition: ConditionConfig { floor: 14, filter: Filter::Persistent, track_baseline: true },
             contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
             shape: Some(ShapeConfig::default()),
             symbol: SymbolConfig::default(),

@@ -50,7 +50,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         let rows = area.first_row..area.first_row.saturating_add(area.rows);
         let end = usize::from(area.base) + usize::from(area.rows) * SIXTEEN;
         usize::from(area.columns) == SIXTEEN
-            && filter == Filter::Conservative
+            && matches!(filter, Filter::Conservative | Filter::Persistent)
             && end <= codes.min(TAXELS)
             && self.rows.places(rows).is_some()
     }

@@ -10,13 +10,21 @@ use super::sixteen::{SIXTEEN, clamp_sixteen};
 use crate::garment::Area;
 use core::ops::Range;
 
-/// Smooths a panel where it may hold something; `out` is empty elsewhere.
-pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
+/// Smooths a panel where it may hold something; `out` is empty elsewhere. Whether it may have
+/// [points](super::points::stands_out).
+pub(super) fn conservative(
+    values: &[u16],
+    out: &mut [u16],
+    area: &Area,
+    grain: u32,
+    marks: &mut Rows,
+) -> bool {
     let columns = usize::from(area.columns);
     if area.rows == 1 || columns == 1 {
         // A taxel has two neighbours, or one twice.
         narrow(values, out);
-        return mark_all(area, marks);
+        mark_all(area, marks);
+        return true;
     }
     let there = u16::MAX >> (15 - ((area.columns - 1) >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
@@ -44,29 +52,32 @@ pub(super) fn conservative(values: &[u16], out: &mut [u16], area: &Area, grain: 
             smooth(&row, values, out, piece);
         }
     }
+    true
 }
 
-/// Smooths a panel of sixteen columns and two rows at least. Not inlined, for the registers.
+/// Smooths a panel of sixteen columns and two rows at least; whether it has points. Not inlined, for the registers.
 #[inline(never)]
-fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) {
+fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
+    let mut points = false;
     let (rows, _) = values.as_chunks();
     let (out, _) = out.as_chunks_mut();
-    let ([top, second, ..], [.., last, bottom]) = (rows, rows) else { return };
+    let ([top, second, ..], [.., last, bottom]) = (rows, rows) else { return true };
     let ([top_out, out @ .., bottom_out], [top_groups, groups @ .., bottom_groups]) = (out, groups) else {
-        return;
+        return true;
     };
     // At both ends the other side lends what is missing.
     if widen(top_groups) {
-        clamp_sixteen(&[*second, *top], second, *top_groups, top_out);
+        clamp_sixteen(&[*second, *top], second, *top_groups, top_out, &mut points);
     }
     for ((three, out), groups) in rows.array_windows::<3>().zip(out).zip(groups) {
         if let (true, Some(two)) = (widen(groups), three.first_chunk()) {
-            clamp_sixteen(two, &three[2], *groups, out);
+            clamp_sixteen(two, &three[2], *groups, out, &mut points);
         }
     }
     if widen(bottom_groups) {
-        clamp_sixteen(&[*last, *bottom], last, *bottom_groups, bottom_out);
+        clamp_sixteen(&[*last, *bottom], last, *bottom_groups, bottom_out, &mut points);
     }
+    points
 }
 
 /// Adds what the filter may fill to the groups of a row of sixteen columns; whether it has any.

@@ -19,7 +19,14 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         let out = panel_mut(&mut self.filtered, area);
         match filter {
             Filter::Off => {}
-            Filter::Conservative => conservative(values, out, area, grain(area), &mut self.rows),
+            Filter::Conservative => {
+                conservative(values, out, area, grain(area), &mut self.rows);
+            }
+            Filter::Persistent => {
+                if conservative(values, out, area, grain(area), &mut self.rows) {
+                    self.points.restore(values, out, area, &self.rows);
+                }
+            }
             #[cfg(target_pointer_width = "64")]
             Filter::Median if usize::from(area.columns) >= FEWEST => {
                 median_by_eights(values, out, area, grain(area), &mut self.rows)

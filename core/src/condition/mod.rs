@@ -5,9 +5,9 @@
 //! | input | [`Code`] by taxel number; missing codes read as no pressure |
 //! | output | [`Image`]: `u16` counts above the baseline by taxel number, and which rows may hold something |
 //! | saturation | at 0 and at 65535 counts |
-//! | latency | none |
-//! | RAM | 10 bytes per taxel and 904 bytes |
-//! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 116 k (conservative), about 34 k more where gains are not 1 |
+//! | latency | none; a point that presses a single taxel passes one frame later |
+//! | RAM | 10 bytes per taxel and 1,296 bytes |
+//! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 31 k with five; with texture on all 2,048 taxels 147 k (persistent), about 34 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
 //! pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel, across the seams of its blocks.
@@ -15,6 +15,9 @@
 //! Work follows what is touched. A quiet taxel is compared with a limit of its own, which is kept beside its baseline, and left;
 //! what is beyond is calibrated and marked in [`Rows`], and only there the images are filtered and, one frame later, cleared or
 //! overwritten. The result is that of the plain definition, bit for bit.
+//!
+//! The filter that ships ([`Filter::Persistent`]) removes what is one frame long on one taxel, and keeps what stays. It remembers no
+//! image: only the [`POINTS`] first taxels of a frame that exceed their neighbours by more than noise does.
 //!
 //! One row of the garment follows drift in each frame. Where something touches, the baseline moves as the median of its panel
 //! does, so that a held contact neither is swallowed nor drifts.
@@ -39,6 +42,7 @@ mod marks;
 mod median;
 #[cfg(target_pointer_width = "64")]
 mod plain;
+mod points;
 mod progress;
 mod row;
 mod rows;
@@ -57,6 +61,7 @@ pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
 pub use feedback::{CARRIED, Feedback};
 pub(crate) use held::Held;
 pub use image::Image;
+pub use points::{MARGIN, POINTS};
 pub use progress::Tare;
 pub use rows::Rows;
 pub(crate) use slices::{panel_of, row_of};

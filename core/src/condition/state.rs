@@ -1,6 +1,7 @@
 //! What the stage remembers: the calibration of every taxel and the last image.
 
 use super::consensus::Consensus;
+use super::points::Points;
 use super::progress::{Progress, Tare};
 use super::rows::Rows;
 use super::slices::row_mut;
@@ -32,6 +33,8 @@ pub struct ConditionState<const TAXELS: usize> {
     pub(super) rows: Rows,
     /// Panels that may hold something.
     pub(super) active: u8,
+    /// Taxels that stand out of their neighbours.
+    pub(super) points: Points,
     pub(super) tracking: Progress,
     pub(super) consensus: Consensus,
 }
@@ -49,6 +52,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             filtered: [0; TAXELS],
             rows: Rows::NONE,
             active: 0,
+            points: Points::new(),
             tracking: Progress::new(),
             consensus: Consensus::new(),
         }
@@ -70,6 +74,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.calibrated.fill(0);
         self.filtered.fill(0);
         (self.rows, self.active) = (Rows::NONE, 0);
+        self.points.forget();
         self.tracking = Progress::new();
         self.consensus = Consensus::new();
     }

@@ -47,6 +47,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.calibrated.fill(0);
         self.filtered.fill(0);
         (self.rows, self.active) = (Rows::NONE, 0);
+        self.points.forget();
         self.limits_for = None;
         self.consensus.forget();
         for (_, area) in areas_of(layout, panels) {

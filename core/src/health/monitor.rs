@@ -134,14 +134,15 @@ impl Monitor {
         true
     }
 
-    /// Looks at one of the ill taxels: if it was called dead and answers to pressure, it is not, and is given back.
+    /// Looks at one of the ill taxels, and gives it back if it was called dead and answers to pressure, or if it was called shorted
+    /// and rests: a needle had filled it alone.
     pub fn acquit(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<IllTaxel> {
         let ill = self.ill.get(usize::from(self.asked)).copied();
         self.asked = ill.map_or(0, |_| self.asked + 1);
-        let ill = ill.filter(|ill| ill.health == TaxelHealth::Dead)?;
+        let ill = ill.filter(|ill| matches!(ill.health, TaxelHealth::Dead | TaxelHealth::Shorted))?;
         let taxel = usize::from(ill.taxel);
         let (code, rest) = shown.now.get(taxel).zip(shown.rest?.get(taxel))?;
-        if !is_pressed(code.0, *rest, circuit.falling()) {
+        if is_pressed(code.0, *rest, circuit.falling()) != (ill.health == TaxelHealth::Dead) {
             return None;
         }
         self.ill.retain(|other| other.taxel != ill.taxel);

@@ -7,6 +7,8 @@ use taxel_core::format::{Code, name};
 use taxel_core::garment::{Absent, Garment, Layout, Rect};
 
 const TAXELS: usize = 1024;
+const FILTERS: [Filter; 5] =
+    [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square, Filter::Persistent];
 
 /// A small generator: the frames of one case.
 struct Noise(u64);
@@ -43,6 +45,14 @@ fn scene(noise: &mut Noise, rest: &[u16], falling: bool, full: u32) -> Vec<Code>
         Code(code.clamp(0, full as i32) as u16)
     };
     rest.iter().map(one).collect()
+}
+
+/// Every second frame most codes are those of the frame before: what stands out stays so.
+fn stay(noise: &mut Noise, codes: &mut [Code], before: &[Code]) {
+    if noise.next(2) == 1 {
+        let same = codes.iter_mut().zip(before).filter(|_| noise.next(5) > 0);
+        same.for_each(|(code, before)| *code = *before);
+    }
 }
 
 /// The image, and that it says rightly what it leaves out.
@@ -87,7 +97,7 @@ proptest! {
         hole in proptest::option::of((0u16..300, 0u16..40)),
         falling: bool,
         wide: bool,
-        filters in proptest::collection::vec(0usize..4, 3),
+        filters in proptest::collection::vec(0usize..5, 3),
         floor in 1u16..200,
         seed: u64,
     ) {
@@ -99,8 +109,9 @@ proptest! {
         state.reset(&layout, Code(rest));
         let mut dense = Dense::new(&layout, ConditionConfig::default(), falling, rest);
         let mut feedback = Feedback::<4>::new();
+        let mut before = Vec::new();
         for frame in 0..60 {
-            let filter = [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square][filters[frame / 20]];
+            let filter = FILTERS[filters[frame / 20]];
             dense.config = ConditionConfig { floor, filter, track_baseline: frame % 9 != 8 };
             let stage = dense.config.build().expect("settings in range");
             if frame % 13 == 3 {
@@ -118,6 +129,8 @@ proptest! {
                 dense.forget();
             }
             let mut codes = scene(&mut noise, &dense.rest, falling, full);
+            stay(&mut noise, &mut codes, &before);
+            before.clone_from(&codes);
             if frame % 17 == 11 {
                 codes.truncate(noise.next(layout.taxels() as u32) as usize);
             }

@@ -2,7 +2,7 @@
 
 #![allow(dead_code)]
 
-use taxel_core::condition::{ConditionConfig, Filter};
+use taxel_core::condition::{ConditionConfig, Filter, MARGIN, POINTS};
 use taxel_core::format::Code;
 use taxel_core::garment::{Layout, Rect};
 
@@ -14,6 +14,8 @@ pub struct Dense {
     pub gain: Vec<u16>,
     pub tared: bool,
     turn: u16,
+    /// The points of the frame before: taxels that stood out of their neighbours, and what they had.
+    points: Vec<(usize, u16)>,
     /// For each panel: the baselines of its witnesses when they were first asked, its drift since, the last step of it.
     panels: Vec<Option<(Vec<u16>, i32, i32)>>,
 }
@@ -28,7 +30,8 @@ impl Dense {
             }
         }
         let rest = vec![rest; layout.taxels()];
-        Dense { config, falling, rest, gain, tared: false, turn: 0, panels: vec![None; layout.areas().len()] }
+        let panels = vec![None; layout.areas().len()];
+        Dense { config, falling, rest, gain, tared: false, turn: 0, points: Vec::new(), panels }
     }
 
     /// The witnesses are asked anew, as after a baseline was set.
@@ -40,11 +43,30 @@ impl Dense {
     pub fn process(&mut self, layout: &Layout, codes: &[Code], panels: u8, held: &[Rect]) -> Vec<u16> {
         let before: Vec<u16> =
             (0..layout.taxels()).map(|taxel| self.value(layout, codes, panels, taxel)).collect();
-        let after = filtered(layout, self.config.filter, &before);
+        let mut after = filtered(layout, self.config.filter, &before);
+        let points = std::mem::take(&mut self.points);
+        if self.config.filter == Filter::Persistent {
+            self.persist(&before, &mut after, &points);
+        }
         if self.config.track_baseline && self.tared {
             self.follow(layout, codes, panels, held, |taxel| before[taxel] != 0 || after[taxel] != 0);
         }
         after
+    }
+
+    /// Gives back to the points of a frame the lesser of what they have and had.
+    fn persist(&mut self, values: &[u16], after: &mut [u16], points: &[(usize, u16)]) {
+        for (taxel, (value, after)) in values.iter().zip(after).enumerate() {
+            if u32::from(*value) <= u32::from(*after) + u32::from(*after / 16) + u32::from(MARGIN) {
+                continue;
+            }
+            if self.points.len() < POINTS {
+                self.points.push((taxel, *value));
+            }
+            if let Some((_, had)) = points.iter().find(|(other, _)| *other == taxel) {
+                *after = (*value).min(*had).max(*after);
+            }
+        }
     }
 
     fn value(&self, layout: &Layout, codes: &[Code], panels: u8, taxel: usize) -> u16 {
@@ -126,7 +148,7 @@ fn filtered(layout: &Layout, filter: Filter, values: &[u16]) -> Vec<u16> {
                     let best = corners.map(sum).into_iter().max().unwrap_or(0);
                     at(y, x).min(((best + 2) / 4) as u16)
                 }
-                Filter::Conservative => {
+                Filter::Conservative | Filter::Persistent => {
                     let eight = nine.filter(|place| *place != (y, x)).filter(inside);
                     let eight: Vec<u16> = eight.map(|(y, x)| at(y, x)).collect();
                     match (eight.iter().min(), eight.iter().max()) {

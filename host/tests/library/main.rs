@@ -12,6 +12,7 @@ mod maps;
 mod mat;
 mod meaning;
 mod people;
+mod points;
 mod record;
 mod scan;
 mod settle;

@@ -13,6 +13,8 @@ use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
 const TAXELS: usize = 4096;
+const FILTERS: [Filter; 5] =
+    [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square, Filter::Persistent];
 
 /// The array files of a folder, in the order of their names.
 fn files(folder: &str) -> Vec<PathBuf> {
@@ -100,7 +102,7 @@ fn condition(frames: &Frames, filter: Filter, what: &str) {
 fn sparse_is_dense() {
     for file in files("pmatdata").into_iter().chain(files("smart_garment")) {
         for (array, recording) in arrays::read_all(&file).expect("a readable recording") {
-            for filter in [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square] {
+            for filter in FILTERS {
                 condition(&recording, filter, &format!("{} {array}", file.display()));
             }
         }

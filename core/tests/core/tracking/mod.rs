@@ -2,6 +2,7 @@
 
 mod filters;
 mod identity;
+mod impulses;
 mod rig;
 mod slip;
 mod speed;

@@ -78,3 +78,16 @@ fn lines_that_break_or_short_are_told_apart() {
     use TaxelHealth::{Open, Shorted};
     assert_eq!(classes, [(100, Open), (700, Shorted), (1500, Open), (2047, Shorted)]);
 }
+
+/// A needle fills one taxel alone, as a short circuit does: its taxel counts as shorted while it presses, and is given back.
+#[test]
+fn a_needle_costs_no_taxel() {
+    let text = "duration_s = 3\n[[touch]]\npanel = \"chest\"\nshape = \"finger\"\nsize_mm = 4\nat = [8, 15]\nforce_n = 8\n\
+                start_s = 0.3\nrise_s = 0.05\nhold_s = 1\nfall_s = 0.05\n";
+    let mut worn = Worn::new();
+    let found = worn.play(&Script::parse(text, "needle.toml").unwrap(), 400);
+    let taxel = 15 * 16 + 8;
+    let classes: Vec<_> = found.into_iter().map(|(taxel, (_, health))| (taxel, health)).collect();
+    assert_eq!(classes, [(taxel, TaxelHealth::Shorted)]);
+    assert_eq!(worn.board.health_of(taxel), TaxelHealth::Good);
+}

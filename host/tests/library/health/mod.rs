@@ -5,6 +5,7 @@ mod classes;
 mod healthy;
 mod lines;
 mod rings;
+mod said;
 mod scripts;
 mod worn;
 

@@ -1,6 +1,6 @@
 //! A simulated board, watched for the taxels it takes for ill.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use taxel::sim::{PINS, Script, SimBoard};
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
@@ -21,6 +21,8 @@ pub const FRAME_S: f64 = 5.128e-3;
 pub struct Worn {
     pub garment: Garment,
     pub board: Box<Board<TAXELS, 1024>>,
+    /// What it announced so far.
+    pub said: BTreeSet<&'static str>,
 }
 
 impl Worn {
@@ -35,7 +37,7 @@ impl Worn {
         let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
         let garment = Garment::reference();
         let board = Box::new(Board::new(info, garment.clone(), scene).unwrap());
-        Worn { garment, board }
+        Worn { garment, board, said: BTreeSet::new() }
     }
 
     /// Plays so many frames of a script after a tare; the frame in which each ill taxel was found, and its class.
@@ -104,6 +106,7 @@ impl Worn {
     fn take(&mut self, scan: Scan<'_>) {
         let now = Micros(scan.report.start.0 + 5_000);
         self.board.step(now, Input::Scanned(Ok(scan)), &mut ());
+        self.said.insert(self.board.state().intent().leading().as_str());
     }
 
     fn note(&self, frame: u32, found: &mut BTreeMap<usize, (u32, TaxelHealth)>) {

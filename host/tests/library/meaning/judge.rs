@@ -128,19 +128,12 @@ fn share(rows: &[Row], of: impl Fn(&Row) -> bool, right: impl Fn(&Row) -> usize)
 pub fn judge(rows: &[Row]) {
     let friendly = |row: &Row| matches!(row.family.wish, Wish::Kind | Wish::Friendly);
     let harmful = |row: &Row| matches!(row.family.wish, Wish::Harmful | Wish::Attack);
-    // The filter removes most of a single taxel before anything can be told of it.
-    let felt = |row: &Row| row.family.name != "needle";
     let shares = [
         ("friendly families without an attack", 0.98, share(rows, friendly, |row| row.count - row.attack)),
         ("friendly families: kindness or nothing", 0.95, share(rows, friendly, |row| row.agreed)),
         ("kindness told", 0.90, share(rows, |row| row.family.wish == Wish::Kind, |row| row.kind)),
         ("attacks told", 0.95, share(rows, |row| row.family.wish == Wish::Attack, |row| row.attack)),
-        (
-            "harmful families: threat or attack",
-            0.99,
-            share(rows, |row| harmful(row) && felt(row), |row| row.agreed),
-        ),
-        ("needles", 0.0, share(rows, |row| !felt(row), |row| row.agreed)),
+        ("harmful families: threat or attack", 0.99, share(rows, harmful, |row| row.agreed)),
         ("nothing from nothing", 1.0, share(rows, |row| row.family.wish == Wish::Nothing, |row| row.agreed)),
         (
             "at most once from what falls and lies",

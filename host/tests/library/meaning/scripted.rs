@@ -205,11 +205,11 @@ impl Hand<'_> {
             }
             "poke" => {
                 let size = self.pick([13.0, 17.0]);
-                vec![self.middle(Finger, [size; 2], ([18.0, 24.0], [0.03, 0.1], [0.05, 0.3], [0.03, 0.1]))]
+                vec![self.middle(Finger, [size; 2], ([8.0, 40.0], [0.03, 0.1], [0.05, 0.3], [0.03, 0.1]))]
             }
             "pen" => {
                 let size = self.pick([8.0, 10.0]);
-                vec![self.middle(Finger, [size; 2], ([12.0, 60.0], [0.02, 0.1], [0.1, 0.5], [0.03, 0.1]))]
+                vec![self.middle(Finger, [size; 2], ([5.0, 60.0], [0.02, 0.1], [0.1, 0.5], [0.03, 0.1]))]
             }
             "needle" => {
                 vec![self.middle(Finger, [4.0; 2], ([8.0, 12.0], [0.02, 0.08], [0.1, 0.4], [0.03, 0.1]))]

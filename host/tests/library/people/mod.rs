@@ -2,7 +2,7 @@
 //!
 //! The map was tuned on the sessions of `scripted.rs` only; it is judged by those of `hands.rs`, which have other
 //! envelopes, footprints, ways, noise and garments, and share no code with them. The gravest intention announced during a touch
-//! counts. `TAXEL_CAMPAIGN=1`: 25 touches of each kind from each person instead of one; else, a quarter of the people who tuned it.
+//! counts. `TAXEL_CAMPAIGN=1`: 25 touches of each kind from each person instead of one.
 
 mod course;
 mod hands;
@@ -24,8 +24,8 @@ fn is_campaign() -> bool {
 #[test]
 fn people_are_understood_who_tuned_the_map() {
     let mut tally = Tally::default();
-    let (people, of_each) = if is_campaign() { (PEOPLE, 25) } else { (PEOPLE / 4, 1) };
-    (0..people).for_each(|person| tally.add(worn::wear(&mut scripted::Person::new(person, of_each))));
+    let of_each = if is_campaign() { 25 } else { 1 };
+    (0..PEOPLE).for_each(|person| tally.add(worn::wear(&mut scripted::Person::new(person, of_each))));
     println!("the family that the map was tuned on:");
     tally.print();
     tally.judge();

@@ -1,0 +1,152 @@
+//! Points: taxels that stand out of their neighbours, in this frame and in the one before.
+
+use super::clamp::VECTORS;
+use super::rows::Rows;
+use crate::garment::Area;
+use heapless::Vec;
+
+/// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are
+/// smoothed in the next frame as if they had not been there.
+pub const POINTS: usize = 48;
+
+/// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many
+/// counts: what is nearer may be noise, or the unevenness of what presses, and loses little by being
+/// smoothed.
+pub const MARGIN: u16 = 64;
+
+/// Whether a taxel is a point, given what it is smoothed to.
+#[inline(always)]
+pub(super) const fn stands_out(value: u16, smooth: u16) -> bool {
+    value.saturating_sub(smooth) > (smooth >> 4) + MARGIN
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    taxel: u16,
+    value: u16,
+}
+
+/// The points of two frames, each by the numbers of their taxels.
+#[derive(Debug, Clone)]
+pub(super) struct Points {
+    lists: [Vec<Point, POINTS, u8>; 2],
+    /// The points of this frame are in the second list.
+    second: bool,
+    /// Points of the frame before that have been compared.
+    compared: u8,
+}
+
+impl Points {
+    pub const fn new() -> Self {
+        Points { lists: [Vec::new(), Vec::new()], second: false, compared: 0 }
+    }
+
+    /// Begins a frame: its points become those of the frame before.
+    pub fn begin(&mut self) {
+        self.second = !self.second;
+        self.compared = 0;
+        let [first, second] = &mut self.lists;
+        if self.second { second.clear() } else { first.clear() }
+    }
+
+    /// Forgets all, as where there was no frame before.
+    pub fn forget(&mut self) {
+        self.lists.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Gives back to the points of a panel what they had in the frame before, and no more than they have now.
+    /// `values` are smoothed to `out`, and held where `marks` says so.
+    #[inline(never)] // the few registers of an M0+ are for its loops
+    pub fn restore(&mut self, values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
+        let columns = usize::from(area.columns);
+        let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
+        let mut next = first;
+        while let Some(number) = marks.next(next..end) {
+            if self.is_done() {
+                return;
+            }
+            next = number + 1;
+            let start = usize::from(number - first) * columns;
+            let row = start..start + columns;
+            let (Some(values), Some(out)) = (values.get(row.clone()), out.get_mut(row)) else { return };
+            if !VECTORS || has_points(values, out) {
+                self.restore_row(values, out, usize::from(area.base) + start);
+            }
+        }
+    }
+
+    /// Whether no further point is remembered or given back.
+    fn is_done(&self) -> bool {
+        let [first, second] = &self.lists;
+        let (before, now) = if self.second { (first, second) } else { (second, first) };
+        now.len() == POINTS && self.compared as usize >= before.len()
+    }
+
+    #[inline(never)]
+    fn restore_row(&mut self, values: &[u16], out: &mut [u16], first: usize) {
+        for (taxel, (value, out)) in (first..).zip(values.iter().zip(out)) {
+            if stands_out(*value, *out) {
+                *out = self.take(Point { taxel: taxel as u16, value: *value }).max(*out);
+            }
+        }
+    }
+
+    /// Remembers a point whose number is beyond that of the last one; the less of what it has and what it had
+    /// in the frame before.
+    fn take(&mut self, point: Point) -> u16 {
+        let [first, second] = &mut self.lists;
+        let (before, now) = if self.second { (first, second) } else { (second, first) };
+        let _ = now.push(point);
+        while let Some(old) = before.get(usize::from(self.compared))
+            && old.taxel <= point.taxel
+        {
+            self.compared += 1;
+            if old.taxel == point.taxel {
+                return old.value.min(point.value);
+            }
+        }
+        0
+    }
+}
+
+/// Whether one of the taxels of a row is a point. Without a branch per taxel, so that a machine with vectors
+/// compares many at once.
+fn has_points(values: &[u16], out: &[u16]) -> bool {
+    values.iter().zip(out).fold(false, |any, (value, out)| any | stands_out(*value, *out))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn take(points: &mut Points, all: &[(u16, u16)]) -> [u16; 3] {
+        points.begin();
+        let mut had = [0; 3];
+        for ((taxel, value), had) in all.iter().zip(&mut had) {
+            *had = points.take(Point { taxel: *taxel, value: *value });
+        }
+        had
+    }
+
+    #[test]
+    fn a_point_has_what_it_has_in_two_frames() {
+        let mut points = Points::new();
+        assert_eq!(take(&mut points, &[(3, 900), (70, 500), (2000, 4000)]), [0; 3]);
+        assert_eq!(take(&mut points, &[(2, 800), (70, 700), (2000, 3000)]), [0, 500, 3000]);
+        assert_eq!(take(&mut points, &[(70, 600), (71, 600)]), [600, 0, 0]);
+        points.forget();
+        assert_eq!(take(&mut points, &[(70, 600)]), [0; 3]);
+    }
+
+    #[test]
+    fn those_that_are_too_many_are_forgotten() {
+        let mut points = Points::new();
+        for expected in [0, 700] {
+            points.begin();
+            for taxel in 0..POINTS as u16 + 1 {
+                let had = points.take(Point { taxel, value: 700 });
+                assert_eq!(had, if usize::from(taxel) < POINTS { expected } else { 0 });
+            }
+        }
+    }
+}
