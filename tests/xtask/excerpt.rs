@@ -9,7 +9,7 @@ const FAILURES: usize = 80;
 pub fn excerpt(log: &str) -> String {
     let lines: Vec<&str> = log.lines().collect();
     let last = lines.len().saturating_sub(LAST);
-    let mut shown = Vec::new();
+    let mut shown: Vec<&str> = Vec::new();
     let mut at = 0;
     while at < last {
         let is_failure = lines[at] == "failures:" || lines[at].starts_with("not ok ");
