@@ -1,11 +1,13 @@
-//! The baseline follows slow drift.
+//! The baseline follows drift, in counts per second.
 //!
-//! Each frame one row of the garment, in rotation, moves its baseline by one count towards the code, wherever the taxel
-//! reads 0 and is more than one taxel away from every contact. The other taxels, so that a held contact is never swallowed,
-//! move as the panel as a whole does ([`Consensus`](super::consensus::Consensus)). Only a tared baseline drifts: recordings
-//! are taken as they are.
+//! In each [turn](super::rates::TURN_US) every row is visited once, whatever the frame rate. Its taxels move by what their panel
+//! drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
+//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
+//! never swallowed, and neither is a slow one once it shows. Only a tared baseline drifts: recordings are taken as they are.
 
 use super::feedback::Feedback;
+use super::rates::{OWN, beside};
+use super::sampled::Sampled;
 use super::slices::{row_mut, row_of};
 use super::state::ConditionState;
 use super::terms::Terms;
@@ -13,41 +15,74 @@ use crate::format::Code;
 use crate::garment::{Area, Layout};
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Lets the next row of the rotation follow its codes.
+    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel its witnesses have a turn of their own, so
+    /// that all frames cost alike.
     pub(super) fn follow_drift<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,
-        codes: &[Code],
-        panels: u8,
+        sampled: &Sampled<'_>,
         feedback: &Feedback<CONTACTS>,
         terms: Terms,
     ) {
         if !self.tracking.tared {
             return;
         }
-        let turn = self.tracking.turn;
-        let here = (0u8..).zip(layout.areas()).find_map(|(panel, area)| {
-            let row = turn.checked_sub(area.first_row).filter(|row| *row < area.rows)?;
-            Some((panel, area, row))
-        });
-        // Past the last row: the rotation begins again, one frame later.
-        self.tracking.turn = if here.is_some() { turn.saturating_add(1) } else { 0 };
-        let Some((panel, area, row)) = here.filter(|(panel, ..)| panels >> panel & 1 == 1) else { return };
-        if row == 0 {
-            self.consensus.vote(panel, area, &self.baseline, &self.gain);
+        let rows = layout.areas().last().map_or(0, |area| area.first_row.saturating_add(area.rows));
+        let slots = rows.saturating_add(layout.areas().len() as u16);
+        while let Some(slot) = self.turn.next(sampled.now, slots) {
+            let here = (0u8..).zip(layout.areas()).find_map(|(panel, area)| {
+                let row = slot.checked_sub(area.first_row.saturating_add(panel.into()))?;
+                (row <= area.rows).then_some((panel, area, row))
+            });
+            let Some((panel, area, row)) = here.filter(|(panel, ..)| sampled.panels >> panel & 1 == 1) else {
+                continue;
+            };
+            match row.checked_sub(1) {
+                None => self.ask(panel, area, sampled, feedback),
+                Some(row) => self.follow(panel, area, row, sampled, feedback, terms),
+            }
         }
-        let touched = feedback.touches(panel, row, 0, area.columns);
-        if !touched && !self.rows.contains(turn) {
-            return self.follow_row(area, row, codes, terms, |_, _| None);
-        }
-        let step = self.consensus.step(panel);
-        self.follow_row(area, row, codes, terms, |column, quiet| {
-            (!quiet || touched && feedback.holds(panel, row, column)).then_some(step)
+    }
+
+    /// Asks the witnesses of a panel.
+    fn ask<const CONTACTS: usize>(
+        &mut self,
+        panel: u8,
+        area: &Area,
+        sampled: &Sampled<'_>,
+        feedback: &Feedback<CONTACTS>,
+    ) {
+        let columns = usize::from(area.columns).max(1);
+        self.consensus.vote(panel, area, sampled.codes, (&self.baseline, &self.gain), |at| {
+            feedback.holds(panel, (at / columns) as u16, (at % columns) as u16)
         });
     }
 
-    /// Moves the baseline of a row: each taxel towards its code, or as `frozen` says of its column and of whether it
-    /// reads 0.
+    fn follow<const CONTACTS: usize>(
+        &mut self,
+        panel: u8,
+        area: &Area,
+        row: u16,
+        sampled: &Sampled<'_>,
+        feedback: &Feedback<CONTACTS>,
+        terms: Terms,
+    ) {
+        let common = self.consensus.step(panel);
+        let beside = beside(common);
+        let touched = feedback.touches(panel, row, 0, area.columns);
+        if !touched && !self.rows.contains(area.first_row.saturating_add(row)) {
+            return self.follow_row(area, row, sampled.codes, terms, common, |_, _| beside + OWN);
+        }
+        self.follow_row(area, row, sampled.codes, terms, common, |column, quiet| {
+            match touched && feedback.holds(panel, row, column) {
+                true => 0,
+                false => beside + if quiet { OWN } else { 0 },
+            }
+        });
+    }
+
+    /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most what `own` says of
+    /// its column and of whether it reads 0.
     #[inline(always)]
     fn follow_row(
         &mut self,
@@ -55,7 +90,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         row: u16,
         codes: &[Code],
         terms: Terms,
-        frozen: impl Fn(u16, bool) -> Option<i32>,
+        common: i32,
+        own: impl Fn(u16, bool) -> i32,
     ) {
         let silent = terms.silent();
         let images = row_of(&self.calibrated, area, row).iter().zip(row_of(&self.filtered, area, row));
@@ -65,17 +101,18 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             (0u16..).zip(taxels.zip(row_of(codes, area, row).iter().zip(images)))
         {
             let was = i32::from(*rest);
-            let step = frozen(column, *before == 0 && *after == 0)
-                .unwrap_or_else(|| (i32::from(code.0) - was).signum());
-            let now = was + step;
-            if step == 0 || !(0..=0xffff).contains(&now) {
+            let own = own(column, *before == 0 && *after == 0);
+            let step = (i32::from(code.0) - was).min(common + own).max(common - own);
+            let now = (was + step).clamp(0, 0xffff);
+            let step = now - was;
+            if step == 0 {
                 continue;
             }
             *rest = now as u16;
             *limit = match *limit {
                 // It would be further away, if there were codes.
                 same if same == silent => terms.limit(*rest, terms.margin(*gain)),
-                limit => (i32::from(limit) + step) as u16,
+                limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };
         }
     }

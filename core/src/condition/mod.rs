@@ -19,8 +19,8 @@
 //! The filter that ships ([`Filter::Persistent`]) removes what is one frame long on one taxel, and keeps what stays. It remembers no
 //! image: only the [`POINTS`] first taxels of a frame that exceed their neighbours by more than noise does.
 //!
-//! One row of the garment follows drift in each frame. Where something touches, the baseline moves as the median of its panel
-//! does, so that a held contact neither is swallowed nor drifts.
+//! Each row follows drift once in 0.7 s, at any frame rate. Where something touches, the baseline moves as the witnesses of its panel
+//! agree, so that a held contact neither is swallowed nor drifts.
 
 mod calibrate;
 mod certificate;
@@ -44,8 +44,10 @@ mod median;
 mod plain;
 mod points;
 mod progress;
+mod rates;
 mod row;
 mod rows;
+mod sampled;
 mod sixteen;
 mod slices;
 mod square;
@@ -53,6 +55,7 @@ mod stage;
 mod state;
 mod tare;
 mod terms;
+mod turn;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
@@ -64,6 +67,7 @@ pub use image::Image;
 pub use points::{MARGIN, POINTS};
 pub use progress::Tare;
 pub use rows::Rows;
+pub use sampled::Sampled;
 pub(crate) use slices::{panel_of, row_of};
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};

@@ -6,6 +6,7 @@ use super::progress::{Progress, Tare};
 use super::rows::Rows;
 use super::slices::row_mut;
 use super::terms::Terms;
+use super::turn::Turn;
 use crate::format::Code;
 use crate::garment::Layout;
 
@@ -37,6 +38,7 @@ pub struct ConditionState<const TAXELS: usize> {
     pub(super) points: Points,
     pub(super) tracking: Progress,
     pub(super) consensus: Consensus,
+    pub(super) turn: Turn,
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -55,6 +57,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             points: Points::new(),
             tracking: Progress::new(),
             consensus: Consensus::new(),
+            turn: Turn::new(),
         }
     }
 
@@ -76,7 +79,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         (self.rows, self.active) = (Rows::NONE, 0);
         self.points.forget();
         self.tracking = Progress::new();
-        self.consensus = Consensus::new();
+        self.consensus.forget();
+        self.turn = Turn::new();
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.

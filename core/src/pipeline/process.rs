@@ -5,7 +5,7 @@ use super::percept::Percept;
 use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
 use crate::body::Placed;
-use crate::condition::Image;
+use crate::condition::{Image, Sampled};
 use crate::contact::hardness::cell_mm2;
 use crate::contact::{Contact, ContactState, Touches};
 use crate::format::{Code, Micros};
@@ -28,7 +28,8 @@ impl Pipeline {
         let PipelineState { condition, contact, present, released, symbol, intent, react, taught, .. } =
             state;
         probe.begin(Stage::Condition);
-        self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
+        let sampled = Sampled { codes, falling, panels: self.panels, now };
+        self.condition.process(condition, layout, &sampled, contact.feedback());
         let condition = &*condition;
         let image = self.condition.image(condition, layout);
         probe.begin(Stage::Contact);

@@ -2,8 +2,8 @@
 
 use crate::dense::Dense;
 use proptest::prelude::*;
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image};
-use taxel_core::format::{Code, name};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Sampled};
+use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Absent, Garment, Layout, Rect};
 
 const TAXELS: usize = 1024;
@@ -110,6 +110,7 @@ proptest! {
         let mut dense = Dense::new(&layout, ConditionConfig::default(), falling, rest);
         let mut feedback = Feedback::<4>::new();
         let mut before = Vec::new();
+        let mut now = 0;
         for frame in 0..60 {
             let filter = FILTERS[filters[frame / 20]];
             dense.config = ConditionConfig { floor, filter, track_baseline: frame % 9 != 8 };
@@ -135,8 +136,11 @@ proptest! {
                 codes.truncate(noise.next(layout.taxels() as u32) as usize);
             }
             let panels = if frame % 7 == 5 { noise.next(8) as u8 } else { 0xff };
-            let image = stage.process(&mut state, &layout, &codes, falling, panels, &feedback);
-            let want = dense.process(&layout, &codes, panels, &feedback.home);
+            // As far apart as frames may be: from a fraction of a row's turn to more than all of them.
+            now += [640, 5_128, 40_000, 900_000][noise.next(4) as usize];
+            let sampled = Sampled { codes: &codes, falling, panels, now: Micros(now) };
+            let image = stage.process(&mut state, &layout, &sampled, &feedback);
+            let want = dense.process(&layout, &sampled, &feedback.home);
             check(&layout, &image, &want)?;
             prop_assert_eq!(&state.baseline().expect("no tare")[..layout.taxels()], &dense.rest);
             feedback.home.clear();

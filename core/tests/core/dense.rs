@@ -2,9 +2,9 @@
 
 #![allow(dead_code)]
 
-use taxel_core::condition::{ConditionConfig, Filter, MARGIN, POINTS};
+use taxel_core::condition::{ConditionConfig, Filter, MARGIN, POINTS, Sampled};
 use taxel_core::format::Code;
-use taxel_core::garment::{Layout, Rect};
+use taxel_core::garment::{Area, Layout, Rect};
 
 /// Calibration, and what drift needs.
 pub struct Dense {
@@ -13,11 +13,13 @@ pub struct Dense {
     pub rest: Vec<u16>,
     pub gain: Vec<u16>,
     pub tared: bool,
-    turn: u16,
+    /// Whose turn it is to follow drift: panel after panel its witnesses, then its rows; and when, us.
+    slot: u16,
+    due: u64,
     /// The points of the frame before: taxels that stood out of their neighbours, and what they had.
     points: Vec<(usize, u16)>,
-    /// For each panel: the baselines of its witnesses when they were first asked, its drift since, the last step of it.
-    panels: Vec<Option<(Vec<u16>, i32, i32)>>,
+    /// What each panel drifts in this turn, and where its witnesses would be, had they drifted as it has.
+    common: Vec<(i32, Option<Vec<i32>>)>,
 }
 
 impl Dense {
@@ -30,17 +32,18 @@ impl Dense {
             }
         }
         let rest = vec![rest; layout.taxels()];
-        let panels = vec![None; layout.areas().len()];
-        Dense { config, falling, rest, gain, tared: false, turn: 0, points: Vec::new(), panels }
+        let common = vec![(0, None); layout.areas().len()];
+        Dense { config, falling, rest, gain, tared: false, slot: 0, due: 0, points: Vec::new(), common }
     }
 
-    /// The witnesses are asked anew, as after a baseline was set.
+    /// No drift is known, as after a baseline was set.
     pub fn forget(&mut self) {
-        self.panels.fill(None);
+        self.common.fill((0, None));
     }
 
     /// The image of a frame; then the baseline follows drift.
-    pub fn process(&mut self, layout: &Layout, codes: &[Code], panels: u8, held: &[Rect]) -> Vec<u16> {
+    pub fn process(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect]) -> Vec<u16> {
+        let Sampled { codes, panels, .. } = *sampled;
         let before: Vec<u16> =
             (0..layout.taxels()).map(|taxel| self.value(layout, codes, panels, taxel)).collect();
         let mut after = filtered(layout, self.config.filter, &before);
@@ -49,7 +52,8 @@ impl Dense {
             self.persist(&before, &mut after, &points);
         }
         if self.config.track_baseline && self.tared {
-            self.follow(layout, codes, panels, held, |taxel| before[taxel] != 0 || after[taxel] != 0);
+            let shows: Vec<bool> = before.iter().zip(&after).map(|(a, b)| *a != 0 || *b != 0).collect();
+            self.follow(layout, sampled, held, &shows);
         }
         after
     }
@@ -78,49 +82,83 @@ impl Dense {
         if value < self.config.floor { 0 } else { value }
     }
 
-    fn follow(
-        &mut self,
-        layout: &Layout,
-        codes: &[Code],
-        panels: u8,
-        held: &[Rect],
-        shows: impl Fn(usize) -> bool,
-    ) {
-        let turn = self.turn;
-        let last = layout.areas().last().map_or(0, |area| area.first_row + area.rows);
-        self.turn = if turn >= last { 0 } else { turn + 1 };
-        let here = layout.areas().iter().rposition(|area| area.first_row <= turn && turn < last);
-        let Some(panel) = here.filter(|panel| panels >> panel & 1 == 1) else { return };
-        let area = &layout.areas()[panel];
-        if turn == area.first_row {
-            self.vote(panel, area.base.into(), usize::from(area.rows * area.columns));
+    /// Every row once in 0.7 s, and before those of a panel its witnesses.
+    fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect], shows: &[bool]) {
+        let slots: u16 = layout.areas().iter().map(|area| area.rows + 1).sum();
+        while self.due <= sampled.now.0 {
+            let mut slot = self.slot;
+            self.slot = (self.slot + 1) % slots;
+            self.due = self.due.max(sampled.now.0.saturating_sub(700_000)) + 700_000 / u64::from(slots);
+            for (panel, area) in layout.areas().iter().enumerate() {
+                if slot <= area.rows {
+                    match slot.checked_sub(1) {
+                        _ if sampled.panels >> panel & 1 == 0 => {}
+                        None => self.vote(panel, area, sampled.codes, held),
+                        Some(row) => self.follow_row(panel, area, row, sampled.codes, held, shows),
+                    }
+                    break;
+                }
+                slot -= area.rows + 1;
+            }
         }
-        let step = self.panels[panel].as_ref().map_or(0, |(_, _, step)| *step);
-        let row = turn - area.first_row;
+    }
+
+    fn follow_row(
+        &mut self,
+        panel: usize,
+        area: &Area,
+        row: u16,
+        codes: &[Code],
+        held: &[Rect],
+        shows: &[bool],
+    ) {
+        let common = self.common[panel].0;
         for column in 0..area.columns {
             let taxel = usize::from(area.base + row * area.columns + column);
             let Some(code) = codes.get(taxel) else { continue };
             let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
-            let own = (i32::from(code.0) - i32::from(self.rest[taxel])).signum();
-            let step = if near || shows(taxel) { step } else { own };
+            // Five eighths of what is common, rounded up, and a count where nothing shows.
+            let beside = (f64::from(common.abs()) * 0.625).ceil() as i32 + i32::from(!shows[taxel]);
+            let beside = if near { 0 } else { beside };
+            let off = i32::from(code.0) - i32::from(self.rest[taxel]);
+            let step = off.clamp(common - beside, common + beside);
             self.rest[taxel] = (i32::from(self.rest[taxel]) + step).clamp(0, 65535) as u16;
         }
     }
 
-    /// Sixteen witnesses, an odd distance apart: the sign of the median of what they have drifted further than the panel.
-    fn vote(&mut self, panel: usize, base: usize, taxels: usize) {
-        let place = |witness: usize| base + witness * ((taxels / 16) | 1) % taxels;
-        let now: Vec<u16> = (0..16).map(|witness| self.rest[place(witness)]).collect();
-        let (first, drift, step) = self.panels[panel].get_or_insert_with(|| (now.clone(), 0, 0));
-        let asked = (0..16).filter(|witness| self.gain[place(*witness)] != 0);
-        let mut further: Vec<i32> =
-            asked.map(|witness| i32::from(now[witness]) - i32::from(first[witness]) - *drift).collect();
-        further.sort_unstable();
-        // With an even number of them, both in the middle.
-        let middle = |index: usize| further.get(index).map_or(0, |drift| drift.signum());
-        let (low, high) = (middle(further.len().saturating_sub(1) / 2), middle(further.len() / 2));
-        *step = if low == high { low } else { 0 };
-        *drift += *step;
+    /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what is known, the
+    /// same way and by a quarter of their median at least, the panel moves by that; if only most of them are, by one.
+    fn vote(&mut self, panel: usize, area: &Area, codes: &[Code], held: &[Rect]) {
+        let taxels = usize::from(area.rows * area.columns);
+        let places: Vec<usize> = (0..16).map(|witness| witness * ((taxels / 16) | 1) % taxels).collect();
+        let rest = |at: &usize| i32::from(self.rest[usize::from(area.base) + at]);
+        let mut known = self.common[panel].1.take().unwrap_or_else(|| places.iter().map(rest).collect());
+        let beyond = |(at, known): (&usize, &i32)| {
+            let taxel = usize::from(area.base) + at;
+            let (row, column) = (*at as u16 / area.columns, *at as u16 % area.columns);
+            let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
+            let code = codes.get(taxel).filter(|_| !near && self.gain[taxel] != 0)?;
+            let (code, rest) = (i32::from(code.0), rest(at));
+            Some(if code.abs_diff(rest) > 4 { code - known } else { rest - known })
+        };
+        let beyond: Vec<Option<i32>> = places.iter().zip(&known).map(beyond).collect();
+        let mut sorted: Vec<i32> = beyond.iter().flatten().copied().collect();
+        sorted.sort_unstable();
+        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+        let far = |one: &&i32| **one * middle.signum() * 4 >= middle.abs() && one.signum() == middle.signum();
+        let on = |way: i32| sorted.iter().filter(|one| one.signum() == way).count() * 2 > sorted.len();
+        let step = match sorted.len() {
+            ..4 => 0,
+            count if sorted.iter().filter(far).count() * 8 >= count * 7 => middle.clamp(-28, 28),
+            _ => i32::from(on(1)) - i32::from(on(-1)),
+        };
+        for (known, beyond) in known.iter_mut().zip(beyond) {
+            let apart = beyond.unwrap_or(middle) - middle;
+            let forgotten = if step.abs() > 4 { apart } else { i32::from(apart > 8) - i32::from(apart < -8) };
+            *known += step + forgotten;
+            *known = (*known).clamp(0, 65535);
+        }
+        self.common[panel] = (step, Some(known));
     }
 }
 

@@ -2,7 +2,7 @@
 //! long and alone, and how many where nothing keeps them apart.
 
 use crate::tracking::rig::{FRAME_US, Noise};
-use taxel_core::condition::{Condition, ConditionState};
+use taxel_core::condition::{Condition, ConditionState, Sampled};
 use taxel_core::contact::{ContactState, Contacts};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -36,9 +36,9 @@ impl Worn {
 
     /// How many contacts begin in a frame.
     fn begin(&mut self, codes: &[Code]) -> u32 {
-        let image =
-            self.condition.process(&mut self.image, &self.layout, codes, false, 0xf, self.state.feedback());
         let now = Micros(self.frame * FRAME_US);
+        let sampled = Sampled { codes, falling: false, panels: 0xf, now };
+        let image = self.condition.process(&mut self.image, &self.layout, &sampled, self.state.feedback());
         let touches = self.contacts.process(&mut self.state, &self.layout, &image, now);
         let newest = touches.present.iter().map(|contact| contact.id).max().unwrap_or(0).max(self.newest);
         self.frame += 1;
