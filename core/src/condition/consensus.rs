@@ -17,6 +17,9 @@ const NOISE: i32 = 4;
 /// Witnesses may stay so far apart, counts: their noise is remembered, or the panel would walk with it.
 const APART: i32 = 8;
 
+/// What moves all of a panel by more in a turn is no drift, but an input that broke, counts.
+const LOST: i32 = 2 * COMMON;
+
 /// A panel is fast that moves by more than so many counts in a turn.
 const FAST: i32 = 4;
 
@@ -93,7 +96,7 @@ impl Consensus {
         }
         let sorted = sorted.get(..asked).unwrap_or(&[]);
         let middle = sorted.get(asked / 2).copied().unwrap_or(0);
-        let step = agreed(sorted, middle).clamp(-COMMON, COMMON);
+        let step = agreed(sorted, middle, panel.step.into()).clamp(-COMMON, COMMON);
         for (known, beyond) in panel.known.iter_mut().zip(beyond) {
             let apart = beyond.map_or(0, |beyond| beyond - middle);
             let forgotten = match apart.abs() > APART {
@@ -107,13 +110,16 @@ impl Consensus {
     }
 }
 
-/// What witnesses agree on, given how far they are beyond what is known, in ascending order, and the one in the middle; 0 for nothing.
-fn agreed(beyond: &[i32], middle: i32) -> i32 {
+/// What witnesses agree on, given how far they are beyond what is known, in ascending order, the one in the middle, and the step
+/// before; 0 for nothing. Fast drift goes on while five eighths agree: noise may hide it from some.
+fn agreed(beyond: &[i32], middle: i32, before: i32) -> i32 {
     if beyond.len() < FEWEST {
         return 0;
     }
     let with = |other: &&i32| other.signum() == middle.signum() && 4 * other.abs() >= middle.abs();
-    if beyond.iter().filter(with).count() * 8 >= beyond.len() * 7 {
+    let goes_on = before.abs() > FAST && before.signum() == middle.signum();
+    let eighths = if goes_on { 5 } else { 7 };
+    if middle.abs() <= LOST && beyond.iter().filter(with).count() * 8 >= beyond.len() * eighths {
         return middle;
     }
     let side = |way: i32| beyond.iter().filter(|beyond| beyond.signum() == way).count() * 2 > beyond.len();
@@ -152,18 +158,21 @@ mod tests {
 
     #[test]
     fn most_move_it_by_a_count_and_seven_eighths_by_what_they_agree_on() {
-        let agreed = |numbers: [i32; 16]| {
+        let agreed_after = |before: i32, numbers: [i32; 16]| {
             let mut list = [0; WITNESSES];
             (0..).zip(numbers).for_each(|(count, number)| insert(&mut list, count, number));
             assert!(list.is_sorted());
-            agreed(&list, list[8])
+            agreed(&list, list[8], before)
         };
+        let agreed = |numbers| agreed_after(0, numbers);
         let spread = [14, 7, 21, 9, 12, 8, 20, 15, 11, 13, 10, 16, 17, 18, 19, 14];
         assert_eq!((agreed(spread), agreed(spread.map(|off| -off))), (14, -14));
         // Of 16 two may be elsewhere; then most decide, and half are not most.
         let but = |count: usize| core::array::from_fn(|at| if at < count { 0 } else { spread[at] });
         assert_eq!([2, 3, 7, 8].map(|count| agreed(but(count))), [14, 1, 1, 0]);
         assert_eq!(agreed([1, 1, 0, 0, -1, -1, 0, 2, 0, -2, 1, -1, 3, -3, 0, 0]), 0);
-        assert_eq!(super::agreed(&[5, 5, 5], 5), 0);
+        assert_eq!([6, 7].map(|count| agreed_after(9, but(count))), [13, 1]);
+        assert_eq!([9, -9, 4].map(|before| agreed_after(before, but(5))), [13, 1, 1]);
+        assert_eq!(super::agreed(&[5, 5, 5], 5, 0), 0);
     }
 }

@@ -117,8 +117,8 @@ impl Dense {
             let taxel = usize::from(area.base + row * area.columns + column);
             let Some(code) = codes.get(taxel) else { continue };
             let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
-            // Five eighths of what is common, rounded up, and a count where nothing shows.
-            let beside = (f64::from(common.abs()) * 0.625).ceil() as i32 + i32::from(!shows[taxel]);
+            // What is common and a quarter of it, and a count where nothing shows.
+            let beside = (f64::from(common.abs()) * 1.25).floor() as i32 + i32::from(!shows[taxel]);
             let beside = if near { 0 } else { beside };
             let off = i32::from(code.0) - i32::from(self.rest[taxel]);
             let step = off.clamp(common - beside, common + beside);
@@ -147,9 +147,13 @@ impl Dense {
         let middle = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
         let far = |one: &&i32| **one * middle.signum() * 4 >= middle.abs() && one.signum() == middle.signum();
         let on = |way: i32| sorted.iter().filter(|one| one.signum() == way).count() * 2 > sorted.len();
+        let before = self.common[panel].0;
+        let eighths = if before.abs() > 4 && before.signum() == middle.signum() { 5 } else { 7 };
         let step = match sorted.len() {
             ..4 => 0,
-            count if sorted.iter().filter(far).count() * 8 >= count * 7 => middle.clamp(-28, 28),
+            count if middle.abs() <= 56 && sorted.iter().filter(far).count() * 8 >= count * eighths => {
+                middle.clamp(-28, 28)
+            }
             _ => i32::from(on(1)) - i32::from(on(-1)),
         };
         for (known, beyond) in known.iter_mut().zip(beyond) {

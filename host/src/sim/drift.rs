@@ -10,6 +10,9 @@ use super::signal::{FULL_SCALE, World};
 use fastrand::Rng;
 use taxel_core::garment::Layout;
 
+/// Drift has causes, and they take time: a rate rises from 0 within so many seconds.
+const TURNING_S: f64 = 2.0;
+
 /// A rate that turns back when it has come so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
@@ -20,10 +23,25 @@ pub struct Course {
 }
 
 impl Course {
-    /// Counts at a time (s): 0 at the start, up to `way` and back.
+    /// Counts at a time (s): 0 at the start, up to `way` and back. At each end the rate rises from 0 within [`TURNING_S`], or half of the
+    /// time to the other end.
     pub fn at(&self, t_s: f64) -> f64 {
-        let far = (self.rate.abs() * t_s) % (2.0 * self.way);
-        far.min(2.0 * self.way - far).copysign(self.rate)
+        let rate = self.rate.abs();
+        if rate == 0.0 {
+            return 0.0;
+        }
+        let turning = TURNING_S.min(self.way / rate);
+        let leg = self.way / rate + turning;
+        let t_s = t_s % (2.0 * leg);
+        let t_s = t_s.min(2.0 * leg - t_s);
+        let from_end = t_s.min(leg - t_s);
+        let way = if from_end < turning {
+            rate * from_end * from_end / (2.0 * turning)
+        } else {
+            rate * (from_end - turning / 2.0)
+        };
+        let way = if t_s < leg / 2.0 { way } else { self.way - way };
+        way.copysign(self.rate)
     }
 }
 
@@ -115,7 +133,10 @@ mod tests {
     #[test]
     fn a_course_turns_and_a_patch_has_an_edge() {
         let course = Course { rate: -4.0, way: 10.0 };
-        assert_eq!([0.0, 1.0, 2.5, 4.0, 5.0].map(|t| course.at(t)), [-0.0, -4.0, -10.0, -4.0, -0.0]);
+        let at = [0.0, 1.0, 2.25, 3.5, 4.5, 9.0].map(|t| course.at(t));
+        assert_eq!(at, [-0.0, -1.0, -5.0, -9.0, -10.0, -0.0]);
+        let long = Course { rate: 4.0, way: 400.0 };
+        assert_eq!([2.0, 52.0, 100.0, 102.0].map(|t| long.at(t)), [4.0, 204.0, 396.0, 400.0]);
         let patch = Patch { panel: 0, at: [6.0, 6.0], size: [8.0, 8.0], edge: 4.0, course };
         let row = [1.0, 2.0, 3.0, 4.0, 6.0, 13.0, 14.0, 16.0, 17.0].map(|column| patch.share(column, 9.0));
         assert_eq!(row, [0.0, 0.0, 0.25, 0.5, 1.0, 1.0, 0.75, 0.25, 0.0]);
@@ -132,9 +153,9 @@ mod tests {
         let world = World::build(&script.unwrap(), &garment).unwrap();
         let drifting = Drifting::new(world, &layout, Course { rate: 10.0, way: 500.0 }, &[], 3);
         let mut codes = vec![0; layout.taxels()];
-        drifting.frame(20_000_000, &mut codes);
+        drifting.frame(21_000_000, &mut codes);
         assert!(codes.iter().all(|code| (1100..=1300).contains(code)));
         assert!(codes.iter().any(|code| *code < 1110) && codes.iter().any(|code| *code > 1290));
-        assert!((0..540).all(|taxel| (drifting.counts(taxel, 20.0) + 1000.0).round() as u16 == codes[taxel]));
+        assert!((0..540).all(|taxel| (drifting.counts(taxel, 21.0) + 1000.0).round() as u16 == codes[taxel]));
     }
 }
