@@ -29,7 +29,7 @@ const CHANGED: u16 = 200;
 const MOST: u16 = 400;
 
 /// What slid is said to move for so long, ms.
-const STILL: u8 = 150;
+const STILL: u8 = 250;
 
 impl Said {
     /// What is said of a contact at first.
@@ -198,7 +198,7 @@ mod tests {
     fn what_slid_is_said_to_move_for_a_while() {
         let mut said = of(1);
         said.slide(true, 5);
-        for _ in 0..29 {
+        for _ in 0..49 {
             said.slide(false, 5);
             assert!(said.words.moving);
         }

@@ -53,7 +53,7 @@ pub struct Words {
     pub extent: Extent,
     /// How long so far.
     pub span: Span,
-    /// It slides over the surface, or did 0.15 s ago.
+    /// It slides over the surface, or did within the last quarter of a second.
     pub moving: bool,
     /// What shape, by the evidence of the last 0.4 s in which it pressed with at least half of its greatest total: what is left of
     /// it later has another.

@@ -64,7 +64,7 @@ fn hertz(newton: f64, kpa: f64) -> [f64; 2] {
 #[test]
 fn soft_is_kind_and_hard_is_a_threat() {
     let soft = pressed(Shape::Ball, |newton| hertz(newton, 20.0));
-    let rubber = pressed(Shape::Ball, |newton| hertz(newton, 150.0));
+    let rubber = pressed(Shape::Ball, |newton| hertz(newton, 200.0));
     let hard = pressed(Shape::Plate, |_| [20.0, 20.0]);
     println!("counts per cm2: soft {}, rubber {}, a stamp {}", soft.0, rubber.0, hard.0);
     assert_eq!(
