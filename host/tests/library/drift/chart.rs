@@ -7,7 +7,7 @@ use taxel_core::garment::Garment;
 /// Times in which a touch rises, s.
 const RISES: [f64; 5] = [1.0, 5.0, 10.0, 20.0, 40.0];
 /// Common drift, counts/s.
-const RATES: [f64; 6] = [0.0, 1.0, 3.0, 10.0, 20.0, 60.0];
+const RATES: [f64; 5] = [0.0, 1.0, 3.0, 5.0, 10.0];
 
 /// What becomes of a touch on a garment that drifts.
 fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64) -> &'static str {
