@@ -6,7 +6,7 @@ use imageproc::contrast::{ThresholdType, threshold};
 use imageproc::filter::median_filter;
 use imageproc::gradients::sobel_gradients;
 use imageproc::region_labelling::{Connectivity, connected_components};
-use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Filter};
+use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Filter, Sampled};
 use taxel_core::contact::{ContactConfig, ContactState, Contacts};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -47,7 +47,8 @@ impl Ours {
     /// One frame, and the sums of what it found.
     pub fn segment(&mut self, codes: &[Code]) -> impl Iterator<Item = Sums> {
         let (condition, contact) = &mut self.state;
-        let image = self.condition.process(condition, &self.layout, codes, false, 1, contact.feedback());
+        let sampled = Sampled { codes, falling: false, panels: 1, now: Micros(0) };
+        let image = self.condition.process(condition, &self.layout, &sampled, contact.feedback());
         let found = self.contact.segment(contact, &self.layout, &image);
         found.iter().map(|found| (found.moments.m, found.moments.sx, found.moments.sy))
     }
@@ -56,8 +57,10 @@ impl Ours {
     pub fn follow(&mut self, codes: &[Code]) -> usize {
         self.frame += 1;
         let (condition, contact) = &mut self.state;
-        let image = self.condition.process(condition, &self.layout, codes, false, 1, contact.feedback());
-        self.contact.process(contact, &self.layout, &image, Micros(self.frame * 5128)).present.len()
+        let now = Micros(self.frame * 5128);
+        let sampled = Sampled { codes, falling: false, panels: 1, now };
+        let image = self.condition.process(condition, &self.layout, &sampled, contact.feedback());
+        self.contact.process(contact, &self.layout, &image, now).present.len()
     }
 }
 

@@ -113,6 +113,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     taring: bool,
     /// The garment has a baseline of its own.
     tared: bool,
+    /// Panels that were told to have an unsure baseline.
+    unsure: u8,
     monitor: Monitor,
     /// The calibration that the gains belong to.
     certificate: Option<Certificate>,
@@ -153,6 +155,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             frame: 0,
             taring: false,
             tared: false,
+            unsure: 0,
             monitor: const { Monitor::new() },
             certificate: None,
         }
@@ -302,7 +305,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, state, .. } = self;
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
-        let about = About { info, setup, monitor, examined, certificate, taught: &state.taught };
+        let unsure = state.condition.unsure();
+        let about = About { info, setup, monitor, examined, certificate, unsure, taught: &state.taught };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

@@ -11,6 +11,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let condition = &mut self.state.condition;
         let rest = condition.baseline().filter(|_| self.tared);
         let shown = Codes { now: codes, rest, full: self.info.full_scale, touched };
+        if core::mem::replace(&mut self.unsure, condition.unsure()) != condition.unsure() {
+            self.outbox.map_changed();
+        }
         if self.monitor.doubts(circuit, &scene.plan, &shown) {
             self.doubt.raise(now);
         }

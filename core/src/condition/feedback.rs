@@ -21,6 +21,11 @@ impl<const CONTACTS: usize> Feedback<CONTACTS> {
         Feedback { home: Vec::new(), beyond: Vec::new() }
     }
 
+    /// Whether a contact is on a panel.
+    pub fn is_on(&self, panel: u8) -> bool {
+        self.home.iter().chain(&self.beyond).any(|rect| rect.panel == panel)
+    }
+
     /// Whether a taxel lies within one taxel of a contact.
     pub fn holds(&self, panel: u8, row: u16, column: u16) -> bool {
         self.touches(panel, row, column, column)

@@ -33,8 +33,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::{ConditionConfig, ConditionState, Feedback, Filter};
-    use crate::format::Code;
+    use super::super::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
+    use crate::format::{Code, Micros};
     use crate::garment::{Garment, Layout};
     use std::vec::Vec;
 
@@ -47,7 +47,8 @@ mod tests {
             let mut state = ConditionState::<64>::new();
             state.reset(&layout, Code(0));
             let condition = ConditionConfig { filter, ..ConditionConfig::default() }.build().unwrap();
-            let image = condition.process(&mut state, &layout, &codes, false, 1, &Feedback::<1>::new());
+            let sampled = Sampled { codes: &codes, falling: false, panels: 1, now: Micros(0) };
+            let image = condition.process(&mut state, &layout, &sampled, &Feedback::<1>::new());
             image.values.iter().filter(|v| **v > 0).count()
         };
         let finger = [(20, 900), (21, 900), (36, 900), (37, 900)];

@@ -6,7 +6,7 @@
 //! | output | [`Image`]: `u16` counts above the baseline by taxel number, and which rows may hold something |
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none |
-//! | RAM | 10 bytes per taxel and 904 bytes |
+//! | RAM | 11 bytes per taxel and 2,048 bytes |
 //! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 116 k (conservative), about 34 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
@@ -16,20 +16,22 @@
 //! what is beyond is calibrated and marked in [`Rows`], and only there the images are filtered and, one frame later, cleared or
 //! overwritten. The result is that of the plain definition, bit for bit.
 //!
-//! One row of the garment follows drift in each frame. Where something touches, the baseline moves as the median of its panel
-//! does, so that a held contact neither is swallowed nor drifts.
+//! Every row follows drift once in 320 ms, whatever the frame rate. What the untouched taxels of a panel agree on moves the baseline of all
+//! of them, each by a factor of its own that is learnt; only what is slower than a touch does a taxel follow by itself. So a held contact
+//! neither is swallowed nor drifts. Where drift and touch cannot be told apart the panel is [unsure](ConditionState::unsure).
 
 mod calibrate;
 mod certificate;
 mod clamp;
 mod clear;
+mod common;
 mod config;
-mod consensus;
 mod conservative;
 mod drift;
 mod edge;
 #[cfg(target_pointer_width = "64")]
 mod eights;
+mod factor;
 mod feedback;
 mod filter;
 mod held;
@@ -37,18 +39,24 @@ mod image;
 mod limit;
 mod marks;
 mod median;
+mod own;
+mod patches;
 #[cfg(target_pointer_width = "64")]
 mod plain;
 mod progress;
+mod rates;
 mod row;
 mod rows;
+mod sampled;
 mod sixteen;
 mod slices;
+mod spread;
 mod square;
 mod stage;
 mod state;
 mod tare;
 mod terms;
+mod turn;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
@@ -59,6 +67,7 @@ pub(crate) use held::Held;
 pub use image::Image;
 pub use progress::Tare;
 pub use rows::Rows;
+pub use sampled::Sampled;
 pub(crate) use slices::{panel_of, row_of};
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};

@@ -1,4 +1,4 @@
-//! How far a tare is, and whose turn it is to follow drift.
+//! How far a tare is.
 
 /// How far a tare is.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub enum Tare {
     Done,
 }
 
-/// Progress of a tare, and the rotation of the drift.
+/// Progress of a tare.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Progress {
     pub(super) tare: Tare,
@@ -24,13 +24,11 @@ pub(super) struct Progress {
     /// Panels that are being tared; latched at its first frame.
     pub(super) panels: Option<u8>,
     pub(super) tared: bool,
-    /// Row that follows drift in the next frame, over all panels.
-    pub(super) turn: u16,
 }
 
 impl Progress {
     pub(super) const fn new() -> Self {
-        Progress { tare: Tare::Idle, frames: 0, panels: None, tared: false, turn: 0 }
+        Progress { tare: Tare::Idle, frames: 0, panels: None, tared: false }
     }
 
     pub(super) const fn tare(&self) -> Tare {

@@ -1,15 +1,21 @@
 //! What the stage remembers: the calibration of every taxel and the last image.
 
-use super::consensus::Consensus;
+use super::common::Common;
+use super::factor::ONE;
+use super::patches::Patch;
 use super::progress::{Progress, Tare};
 use super::rows::Rows;
 use super::slices::row_mut;
 use super::terms::Terms;
+use super::turn::Turn;
 use crate::format::Code;
 use crate::garment::Layout;
 
 /// A gain of 1.0 in Q4.12.
 pub const UNITY: u16 = 4096;
+
+/// Groups of taxels in which patches are told from touches.
+const PATCHES: usize = 256;
 
 /// Baseline, gain and image of every taxel.
 #[derive(Debug, Clone)]
@@ -33,7 +39,13 @@ pub struct ConditionState<const TAXELS: usize> {
     /// Panels that may hold something.
     pub(super) active: u8,
     pub(super) tracking: Progress,
-    pub(super) consensus: Consensus,
+    pub(super) turn: Turn,
+    /// How each panel drifts.
+    pub(super) common: Common,
+    /// How much more than its panel each taxel does, Q7.
+    pub(super) factor: [u8; TAXELS],
+    /// Patches that drift by themselves, by groups of taxels; a garment beyond the last group has none there.
+    pub(super) patches: [Patch; PATCHES],
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -50,7 +62,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             rows: Rows::NONE,
             active: 0,
             tracking: Progress::new(),
-            consensus: Consensus::new(),
+            turn: Turn::new(),
+            common: Common::new(),
+            factor: [0; TAXELS],
+            patches: [Patch::NONE; PATCHES],
         }
     }
 
@@ -71,7 +86,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.filtered.fill(0);
         (self.rows, self.active) = (Rows::NONE, 0);
         self.tracking = Progress::new();
-        self.consensus = Consensus::new();
+        self.turn = Turn::new();
+        self.common = Common::new();
+        self.factor.fill(ONE);
+        self.patches.fill(Patch::NONE);
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.
@@ -91,7 +109,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         let Some(held) = self.baseline.get_mut(taxel) else { return false };
         *held = rest.0;
         self.tracking.mark_tared();
-        self.consensus.forget();
+        self.common.forget();
         self.set_limit(taxel);
         true
     }
@@ -99,6 +117,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Code at rest by taxel number; none while a tare runs.
     pub fn baseline(&self) -> Option<&[u16]> {
         (!matches!(self.tracking.tare(), Tare::Running { .. })).then_some(&self.baseline)
+    }
+
+    /// A bit for each panel on which drift and touch cannot be told apart by anything that is measured.
+    pub fn unsure(&self) -> u8 {
+        self.common.unsure()
     }
 
     /// Gains by taxel number, Q4.12.

@@ -48,7 +48,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.filtered.fill(0);
         (self.rows, self.active) = (Rows::NONE, 0);
         self.limits_for = None;
-        self.consensus.forget();
+        self.common.forget();
         for (_, area) in areas_of(layout, panels) {
             for row in 0..area.rows {
                 row_mut(&mut self.baseline, area, row).fill(0);

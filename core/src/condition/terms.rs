@@ -24,6 +24,22 @@ impl Terms {
         if self.falling { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
     }
 
+    /// Moves a baseline and its limit by some counts towards pressure, if there are such codes.
+    pub fn shift(&self, rest: &mut u16, limit: &mut u16, gain: u16, counts: i32) {
+        let step = if self.falling { -counts } else { counts };
+        let now = i32::from(*rest) + step;
+        if step == 0 || !(0..=0xffff).contains(&now) {
+            return;
+        }
+        *rest = now as u16;
+        *limit = if *limit == self.silent() {
+            // It would be further away, if there were codes.
+            self.limit(*rest, self.margin(gain))
+        } else {
+            (i32::from(*limit) + step).clamp(0, 0xffff) as u16
+        };
+    }
+
     /// The limit that no code passes.
     pub fn silent(&self) -> u16 {
         if self.falling { 0 } else { u16::MAX }

@@ -13,6 +13,7 @@
 //! | open | no signal: below what it showed at rest, or dead there |
 //! | shorted | full scale, and nothing beside it is pressed |
 //! | noisy | its code goes to and fro, further than a touch of that size takes it, and those beside it do not |
+//! | baseline unsure | what its panel drifts cannot be told from a touch: [`ConditionState::unsure`](crate::condition::ConditionState::unsure) |
 //!
 //! What is pressed around one taxel alone may be a ring: a cup, a hollow finger. A ring whose hole is one taxel and whose wall is
 //! three or more cannot be told from what covers a dead taxel. So a dead taxel that answers to pressure later is taken back.

@@ -20,6 +20,8 @@ pub enum TaxelHealth {
     Shorted = 4,
     /// its noise is many times that of the others
     Noisy = 5,
+    /// nobody can tell its drift from a touch; no intention follows from its panel
+    Unsure = 6,
 }
 
 impl fmt::Display for TaxelHealth {
@@ -31,6 +33,7 @@ impl fmt::Display for TaxelHealth {
             TaxelHealth::Open => "open",
             TaxelHealth::Shorted => "shorted",
             TaxelHealth::Noisy => "noisy",
+            TaxelHealth::Unsure => "baseline unsure",
         })
     }
 }

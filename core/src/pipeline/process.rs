@@ -5,7 +5,7 @@ use super::percept::Percept;
 use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
 use crate::body::Placed;
-use crate::condition::Image;
+use crate::condition::{Image, Sampled};
 use crate::contact::hardness::cell_mm2;
 use crate::contact::{Contact, ContactState, Touches};
 use crate::format::{Code, Micros};
@@ -28,7 +28,8 @@ impl Pipeline {
         let PipelineState { condition, contact, present, released, symbol, intent, react, taught, .. } =
             state;
         probe.begin(Stage::Condition);
-        self.condition.process(condition, layout, codes, falling, self.panels, contact.feedback());
+        let sampled = Sampled { codes, falling, panels: self.panels, now };
+        self.condition.process(condition, layout, &sampled, contact.feedback());
         let condition = &*condition;
         let image = self.condition.image(condition, layout);
         probe.begin(Stage::Contact);
@@ -49,8 +50,10 @@ impl Pipeline {
         probe.begin(Stage::Intent);
         let meaning = self.intent.as_ref().and_then(|stage| {
             let press = |placed: &Placed| placed.contact.peak_total;
-            let strongest =
-                present.iter().reduce(|most, next| if press(next) > press(most) { next } else { most });
+            // Where the baseline is unsure nobody knows what a touch is, or whether it is one.
+            let sure = |placed: &&Placed| condition.unsure() >> placed.contact.panel & 1 == 0;
+            let touching = present.iter().filter(sure);
+            let strongest = touching.reduce(|most, next| if press(next) > press(most) { next } else { most });
             // The one that the stage would choose.
             let own = state.fold.moves(now);
             let touch = strongest.map(|placed| Touch { own, ..self.touch(layout, placed) });

@@ -1,6 +1,6 @@
 //! The baseline follows drift and swallows no touch; noise is no touch.
 
-use taxel_core::condition::{Condition, ConditionState};
+use taxel_core::condition::{Condition, ConditionState, Sampled};
 use taxel_core::contact::{Contact, ContactState, Contacts};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -69,8 +69,10 @@ impl Rig {
         }
         self.frame += 1;
         let Rig { layout, condition, contacts, calibration, tracks, codes, .. } = self;
-        let image = condition.process(calibration, layout, codes, false, 0xff, tracks.feedback());
-        contacts.process(tracks, layout, &image, Micros(self.frame * 5128)).present.to_vec()
+        let now = Micros(self.frame * 5128);
+        let sampled = Sampled { codes, falling: false, panels: 0xff, now };
+        let image = condition.process(calibration, layout, &sampled, tracks.feedback());
+        contacts.process(tracks, layout, &image, now).present.to_vec()
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::dense::Dense;
 use proptest::prelude::*;
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image};
-use taxel_core::format::{Code, name};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Sampled};
+use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Absent, Garment, Layout, Rect};
 
 const TAXELS: usize = 1024;
@@ -114,18 +114,16 @@ proptest! {
                     state.set_baseline(taxel, Code(code));
                     dense.rest[taxel] = code;
                 }
-                dense.tared = true;
-                dense.forget();
             }
             let mut codes = scene(&mut noise, &dense.rest, falling, full);
             if frame % 17 == 11 {
                 codes.truncate(noise.next(layout.taxels() as u32) as usize);
             }
             let panels = if frame % 7 == 5 { noise.next(8) as u8 } else { 0xff };
-            let image = stage.process(&mut state, &layout, &codes, falling, panels, &feedback);
-            let want = dense.process(&layout, &codes, panels, &feedback.home);
-            check(&layout, &image, &want)?;
-            prop_assert_eq!(&state.baseline().expect("no tare")[..layout.taxels()], &dense.rest);
+            let sampled = Sampled { codes: &codes, falling, panels, now: Micros(frame as u64 * 40_000) };
+            let image = stage.process(&mut state, &layout, &sampled, &feedback);
+            check(&layout, &image, &dense.process(&layout, &codes, panels))?;
+            dense.rest.copy_from_slice(&state.baseline().expect("no tare")[..layout.taxels()]);
             feedback.home.clear();
             let area = &layout.areas()[0];
             if noise.next(2) == 1 {

@@ -1,21 +1,17 @@
-//! Conditioning by its definition: every taxel of every frame, nothing left out and nothing carried from image to image.
+//! The image by its definition: every taxel of every frame, nothing left out and nothing carried from image to image.
 
 #![allow(dead_code)]
 
 use taxel_core::condition::{ConditionConfig, Filter};
 use taxel_core::format::Code;
-use taxel_core::garment::{Layout, Rect};
+use taxel_core::garment::Layout;
 
-/// Calibration, and what drift needs.
+/// Calibration; the baseline of each frame is for the caller to set.
 pub struct Dense {
     pub config: ConditionConfig,
     pub falling: bool,
     pub rest: Vec<u16>,
     pub gain: Vec<u16>,
-    pub tared: bool,
-    turn: u16,
-    /// For each panel: the baselines of its witnesses when they were first asked, its drift since, the last step of it.
-    panels: Vec<Option<(Vec<u16>, i32, i32)>>,
 }
 
 impl Dense {
@@ -27,24 +23,14 @@ impl Dense {
                 gain.push(if layout.is_absent(panel as u8, row, column) { 0 } else { 4096 });
             }
         }
-        let rest = vec![rest; layout.taxels()];
-        Dense { config, falling, rest, gain, tared: false, turn: 0, panels: vec![None; layout.areas().len()] }
+        Dense { config, falling, rest: vec![rest; layout.taxels()], gain }
     }
 
-    /// The witnesses are asked anew, as after a baseline was set.
-    pub fn forget(&mut self) {
-        self.panels.fill(None);
-    }
-
-    /// The image of a frame; then the baseline follows drift.
-    pub fn process(&mut self, layout: &Layout, codes: &[Code], panels: u8, held: &[Rect]) -> Vec<u16> {
-        let before: Vec<u16> =
+    /// The image of a frame.
+    pub fn process(&self, layout: &Layout, codes: &[Code], panels: u8) -> Vec<u16> {
+        let values: Vec<u16> =
             (0..layout.taxels()).map(|taxel| self.value(layout, codes, panels, taxel)).collect();
-        let after = filtered(layout, self.config.filter, &before);
-        if self.config.track_baseline && self.tared {
-            self.follow(layout, codes, panels, held, |taxel| before[taxel] != 0 || after[taxel] != 0);
-        }
-        after
+        filtered(layout, self.config.filter, &values)
     }
 
     fn value(&self, layout: &Layout, codes: &[Code], panels: u8, taxel: usize) -> u16 {
@@ -54,51 +40,6 @@ impl Dense {
         let difference = if self.falling { rest - code } else { code - rest }.max(0);
         let value = ((difference * i64::from(self.gain[taxel]) + 2048) >> 12).min(65535) as u16;
         if value < self.config.floor { 0 } else { value }
-    }
-
-    fn follow(
-        &mut self,
-        layout: &Layout,
-        codes: &[Code],
-        panels: u8,
-        held: &[Rect],
-        shows: impl Fn(usize) -> bool,
-    ) {
-        let turn = self.turn;
-        let last = layout.areas().last().map_or(0, |area| area.first_row + area.rows);
-        self.turn = if turn >= last { 0 } else { turn + 1 };
-        let here = layout.areas().iter().rposition(|area| area.first_row <= turn && turn < last);
-        let Some(panel) = here.filter(|panel| panels >> panel & 1 == 1) else { return };
-        let area = &layout.areas()[panel];
-        if turn == area.first_row {
-            self.vote(panel, area.base.into(), usize::from(area.rows * area.columns));
-        }
-        let step = self.panels[panel].as_ref().map_or(0, |(_, _, step)| *step);
-        let row = turn - area.first_row;
-        for column in 0..area.columns {
-            let taxel = usize::from(area.base + row * area.columns + column);
-            let Some(code) = codes.get(taxel) else { continue };
-            let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
-            let own = (i32::from(code.0) - i32::from(self.rest[taxel])).signum();
-            let step = if near || shows(taxel) { step } else { own };
-            self.rest[taxel] = (i32::from(self.rest[taxel]) + step).clamp(0, 65535) as u16;
-        }
-    }
-
-    /// Sixteen witnesses, an odd distance apart: the sign of the median of what they have drifted further than the panel.
-    fn vote(&mut self, panel: usize, base: usize, taxels: usize) {
-        let place = |witness: usize| base + witness * ((taxels / 16) | 1) % taxels;
-        let now: Vec<u16> = (0..16).map(|witness| self.rest[place(witness)]).collect();
-        let (first, drift, step) = self.panels[panel].get_or_insert_with(|| (now.clone(), 0, 0));
-        let asked = (0..16).filter(|witness| self.gain[place(*witness)] != 0);
-        let mut further: Vec<i32> =
-            asked.map(|witness| i32::from(now[witness]) - i32::from(first[witness]) - *drift).collect();
-        further.sort_unstable();
-        // With an even number of them, both in the middle.
-        let middle = |index: usize| further.get(index).map_or(0, |drift| drift.signum());
-        let (low, high) = (middle(further.len().saturating_sub(1) / 2), middle(further.len() / 2));
-        *step = if low == high { low } else { 0 };
-        *drift += *step;
     }
 }
 

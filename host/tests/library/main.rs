@@ -4,6 +4,7 @@ mod bases;
 mod calibrate;
 mod clock;
 mod drawn;
+mod drift;
 mod faults;
 mod fcm;
 mod ghosts;

@@ -1,7 +1,7 @@
 //! From an image to the shape of its greatest contact.
 #![allow(dead_code)] // each test that uses this takes a part of it
 
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image, Sampled};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -40,7 +40,8 @@ pub fn greatest_of_codes<T>(
     let mut state: Box<ConditionState<2048>> = Box::default();
     state.reset(layout, Code(0));
     let condition = ConditionConfig::default().build().unwrap();
-    greatest(layout, &condition.process(&mut state, layout, codes, false, 1, &Feedback::<8>::new()), of)
+    let sampled = Sampled { codes, falling: false, panels: 1, now: Micros(0) };
+    greatest(layout, &condition.process(&mut state, layout, &sampled, &Feedback::<8>::new()), of)
 }
 
 /// A garment of one panel, as recordings are.

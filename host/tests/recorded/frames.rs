@@ -6,7 +6,7 @@ use crate::data;
 use crate::dense::Dense;
 use std::path::PathBuf;
 use taxel::arrays::{self, Frames};
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
@@ -85,14 +85,12 @@ fn condition(frames: &Frames, filter: Filter, what: &str) {
         if number == 0 {
             codes.iter().enumerate().for_each(|(taxel, code)| assert!(state.set_baseline(taxel, *code)));
             dense.rest = frame.to_vec();
-            dense.tared = true;
         }
-        let image = stage.process(&mut state, &layout, &codes, false, 1, &Feedback::<1>::new());
-        assert_eq!(
-            image.values,
-            dense.process(&layout, &codes, 1, &[]),
-            "{what}, {filter:?}, frame {number}"
-        );
+        let now = Micros(number as u64 * 20_000);
+        let sampled = Sampled { codes: &codes, falling: false, panels: 1, now };
+        let image = stage.process(&mut state, &layout, &sampled, &Feedback::<1>::new());
+        assert_eq!(image.values, dense.process(&layout, &codes, 1), "{what}, {filter:?}, frame {number}");
+        dense.rest.copy_from_slice(&state.baseline().expect("no tare")[..layout.taxels()]);
     }
 }
 

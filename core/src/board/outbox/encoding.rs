@@ -6,7 +6,7 @@ use super::{About, Outbox, Waiting};
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
-use crate::health::Monitor;
+use crate::health::{Monitor, TaxelHealth};
 use crate::pipeline::CONTACTS;
 use crate::shape::Taught;
 use crate::wire::*;
@@ -18,7 +18,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, setup, monitor, examined, certificate, taught } = about;
+        let About { info, setup, monitor, examined, certificate, unsure, taught } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -55,7 +55,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some((level, text)) = self.logs.pop_front() {
             under_way.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {
-            self.put_map(now, first, setup.layout.taxels(), monitor)
+            self.put_map(now, first, &setup.layout, monitor, unsure)
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
             under_way.put(Report::HEALTH, &Health { time: now, ..*health })
@@ -73,19 +73,40 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost = health.lost.wrapping_add(u32::from(!fits));
     }
 
-    /// A part of the map of health, as much as fits a message.
+    /// A part of the map of health, as much as fits a message: the ill taxels, and all of panels whose baseline is unsure.
     #[inline(never)]
-    fn put_map(&mut self, time: Micros, first: u16, taxels: usize, monitor: &Monitor) -> bool {
+    fn put_map(&mut self, time: Micros, first: u16, layout: &Layout, monitor: &Monitor, unsure: u8) -> bool {
+        let taxels = layout.taxels();
         let mut map = HealthMap { time, first, end: taxels as u16, taxels: Vec::new() };
-        for ill in monitor.ill().iter().filter(|ill| ill.taxel >= first) {
+        let mut ill = monitor.ill().iter().skip_while(|ill| ill.taxel < first).peekable();
+        let unsure = layout.areas().iter().enumerate().filter(|(panel, _)| unsure >> panel & 1 == 1);
+        let mut unsure = unsure.flat_map(|(_, area)| {
+            let count = usize::from(area.rows) * usize::from(area.columns);
+            (usize::from(area.base)..usize::from(area.base) + count).map(|taxel| taxel as u16)
+        });
+        let mut next = unsure.find(|taxel| *taxel >= first);
+        loop {
+            // An ill taxel is that, sure or not.
+            let (taxel, health) = match (ill.peek(), next) {
+                (Some(one), Some(taxel)) if taxel < one.taxel => (taxel, TaxelHealth::Unsure),
+                (Some(one), _) => (one.taxel, one.health),
+                (None, Some(taxel)) => (taxel, TaxelHealth::Unsure),
+                (None, None) => break,
+            };
             match map.taxels.last_mut() {
-                Some(run) if run.health == ill.health && run.first + run.count == ill.taxel => run.count += 1,
+                Some(run) if run.health == health && run.first + run.count == taxel => run.count += 1,
                 _ => {
-                    if map.taxels.push(Ill { first: ill.taxel, count: 1, health: ill.health }).is_err() {
-                        map.end = ill.taxel;
+                    if map.taxels.push(Ill { first: taxel, count: 1, health }).is_err() {
+                        map.end = taxel;
                         break;
                     }
                 }
+            }
+            if ill.peek().is_some_and(|one| one.taxel == taxel) {
+                ill.next();
+            }
+            if next == Some(taxel) {
+                next = unsure.next();
             }
         }
         self.map = (usize::from(map.end) < taxels).then_some(map.end);

@@ -29,6 +29,8 @@ pub(super) struct About<'a> {
     pub examined: Option<&'a SelfTestReport>,
     /// The calibration in force.
     pub certificate: Option<&'a Certificate>,
+    /// A bit for each panel whose baseline is unsure.
+    pub unsure: u8,
     /// What it was taught.
     pub taught: &'a Taught<CONTACTS>,
 }

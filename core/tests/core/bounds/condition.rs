@@ -2,8 +2,8 @@
 
 use crate::bounds::images::Noise;
 use crate::bounds::table::bound;
-use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Feedback, Filter, UNITY};
-use taxel_core::format::Code;
+use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Feedback, Filter, Sampled, UNITY};
+use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 
 const TAXELS: usize = 2048;
@@ -25,7 +25,8 @@ impl Rig {
 
     fn frame(&mut self, codes: &[Code], falling: bool) -> &[u16] {
         let none = Feedback::<1>::new();
-        self.stage.process(&mut self.state, &self.layout, codes, falling, 1, &none).values
+        let sampled = Sampled { codes, falling, panels: 1, now: Micros(0) };
+        self.stage.process(&mut self.state, &self.layout, &sampled, &none).values
     }
 }
 

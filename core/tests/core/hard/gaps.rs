@@ -1,7 +1,7 @@
 //! Absent, dead and stuck taxels inside a contact, from codes to sums.
 
 use crate::plain::Plain;
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, UNITY};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled, UNITY};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Absent, Garment, Layout};
@@ -18,7 +18,8 @@ fn contact(filter: Filter, absent: Option<Absent>, dead: &[usize], codes: &[u16]
     dead.iter().for_each(|taxel| assert!(state.set_gain(*taxel, 0)));
     let stage = ConditionConfig { filter, ..ConditionConfig::default() }.build().unwrap();
     let codes: Vec<Code> = codes.iter().copied().map(Code).collect();
-    let image = stage.process(&mut state, &layout, &codes, false, 1, &Feedback::<4>::new());
+    let sampled = Sampled { codes: &codes, falling: false, panels: 1, now: Micros(0) };
+    let image = stage.process(&mut state, &layout, &sampled, &Feedback::<4>::new());
     let mut contacts: ContactState<4, 128> = ContactState::new();
     let stage = ContactConfig::default().build().unwrap();
     let touches = stage.process(&mut contacts, &layout, &image, Micros(0));

@@ -1,9 +1,9 @@
 //! Values at each threshold, and one off.
 
 use crate::hard::rig::Rig;
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
 use taxel_core::contact::{Contact, ContactConfig, Moments};
-use taxel_core::format::{Code, Q15, name};
+use taxel_core::format::{Code, Micros, Q15, name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{BUILT_IN, Base, Class, Prototype, Shape, ShapeConfig, features, nmi};
 
@@ -28,7 +28,8 @@ fn floor() {
         for d in [0, 1, 4, 5, first.map_or(9, |d| d - 1), first.unwrap_or(10), 65_435] {
             let Some(code) = d.checked_add(100) else { continue };
             let codes = [Code(code); 4];
-            let image = stage.process(&mut state, &layout, &codes, false, 1, &Feedback::<1>::new());
+            let sampled = Sampled { codes: &codes, falling: false, panels: 1, now: Micros(0) };
+            let image = stage.process(&mut state, &layout, &sampled, &Feedback::<1>::new());
             let want = if first.is_some_and(|first| d >= first) { value(d) } else { 0 };
             assert_eq!(image.values, [want; 4], "floor {floor}, gain {gain}, difference {d}");
             assert_eq!(image.rows.is_empty(), want == 0);

@@ -1,7 +1,7 @@
 //! Thin fingers on one coarse block of 4 x 16: which filter keeps them, from the code of a taxel to the contact.
 
 use crate::tracking::rig::FRAME_US;
-use taxel_core::condition::{ConditionConfig, ConditionState, Filter};
+use taxel_core::condition::{ConditionConfig, ConditionState, Filter, Sampled};
 use taxel_core::contact::{Contact, ContactConfig, ContactState};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -20,7 +20,8 @@ fn slide(filter: Filter, rows: usize, columns: usize) -> Vec<Option<Contact>> {
         for (row, column) in (1..=rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
             codes[row * 16 + 1 + frame / 4 + column] = Code(900);
         }
-        let image = condition.process(&mut image, &layout, &codes, false, 1, state.feedback());
+        let sampled = Sampled { codes: &codes, falling: false, panels: 1, now: Micros(0) };
+        let image = condition.process(&mut image, &layout, &sampled, state.feedback());
         let touches = contacts.process(&mut state, &layout, &image, Micros(frame as u64 * FRAME_US));
         assert!(touches.present.len() < 2);
         touches.present.first().cloned()

@@ -10,6 +10,7 @@ const CLASSES = {
   open: ["O", "#56b4e9"],
   shorted: ["X", "#d55e00"],
   noisy: ["N", "#cc79a7"],
+  "baseline unsure": ["U", "#f0e442"],
 };
 /** Ill taxels of the list at most; the map shows all. */
 const LISTED = 200;

@@ -1,0 +1,99 @@
+//! What drift is followed, and what slow touch is kept.
+
+use super::rig::{Felt, Trial, feel, garments};
+use taxel::sim::{Course, Patch};
+use taxel_core::garment::Garment;
+
+fn is_silent(felt: &Felt) -> bool {
+    felt.felt(0.0, f64::MAX) == 0.0 && felt.led.is_empty() && felt.unsure_s == 0.0
+}
+
+#[test]
+fn twenty_counts_per_second_are_followed_on_every_garment_at_every_rate() {
+    for (garment, quickest) in garments() {
+        for hz in [25.0, quickest] {
+            for rate in [0.5, -3.0, 20.0, -20.0] {
+                let felt = feel(&Trial::new(garment.clone(), hz).drifting(rate), 45.0);
+                let most = felt.course.iter().map(|(_, total, _)| *total).fold(0.0, f64::max);
+                assert!(
+                    is_silent(&felt),
+                    "{} at {hz} Hz, {rate} counts/s: {most}, {:?}",
+                    garment.name,
+                    felt.led
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn random_drift_on_random_garments_begins_no_contact() {
+    for seed in 0..40 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let (rows, columns) = (random.u16(4..40), random.u16(4..40));
+        let rate = 40.0 * random.f64() - 20.0;
+        let hz = 25.0 * 8f64.powf(random.f64());
+        let trial = Trial { seed, ..Trial::new(Garment::recorded(rows, columns), hz) };
+        let common = Course { rate, way: 200.0 + 600.0 * random.f64() };
+        let felt = feel(&Trial { common, ..trial }, 60.0);
+        assert!(is_silent(&felt), "seed {seed}: {rows} x {columns} at {hz} Hz, {common:?}: {:?}", felt.led);
+    }
+}
+
+#[test]
+fn a_patch_is_followed_at_five_counts_per_second() {
+    for (garment, hz) in [(Garment::mat(), 25.0), (Garment::mat(), 195.0), (Garment::recorded(24, 27), 60.0)]
+    {
+        let mut trial = Trial::new(garment, hz);
+        let course = Course { rate: 5.0, way: 300.0 };
+        trial.patches.push(Patch { panel: 0, at: [9.0, 7.0], size: [8.0, 8.0], edge: 4.0, course });
+        let felt = feel(&trial, 90.0);
+        assert!(is_silent(&felt), "{} at {hz} Hz: {:?}", trial.garment.name, felt.led);
+    }
+}
+
+/// How much of the pressure of a quick touch a slow one shows when it is all there, on a garment that drifts by so much.
+fn kept(garment: &Garment, hz: f64, (shape, force_n, rise_s): (&str, f64, f64), rate: f64) -> f64 {
+    let at_rest = Trial::new(garment.clone(), hz);
+    let quick = feel(&at_rest.clone().touched(shape, force_n, 2.0, 0.3, 6.0), 7.0).pressure(4.0, 7.0);
+    let drifting = Trial { common: Course { rate, way: 1_300.0 }, ..at_rest };
+    let end = 12.0 + rise_s;
+    let slow = feel(&drifting.touched(shape, force_n, 12.0, rise_s, 20.0), end + 10.0);
+    assert_eq!(slow.felt(end, end + 10.0), 1.0, "{} at {hz} Hz, {shape} at {rate} counts/s", garment.name);
+    slow.pressure(end, end + 10.0) / quick
+}
+
+#[test]
+fn a_fingertip_of_a_newton_that_rises_in_half_a_minute_is_kept() {
+    for (garment, quickest) in garments() {
+        for (hz, rate) in [(25.0, 3.0), (25.0, -3.0), (quickest.min(400.0), 0.0)] {
+            let part = kept(&garment, hz, ("finger", 1.0, 30.0), rate);
+            println!("{} at {hz} Hz, {rate} counts/s: {:.0} % of its pressure", garment.name, 100.0 * part);
+            assert!((0.75..1.15).contains(&part), "{part}");
+        }
+    }
+}
+
+#[test]
+fn a_palm_of_five_newtons_that_rises_in_ten_seconds_is_kept() {
+    for (garment, quickest) in garments().into_iter().filter(|(garment, _)| garment.name != "block-4x16") {
+        for (hz, rate) in [(25.0, 3.0), (25.0, -3.0), (quickest, 0.0)] {
+            let part = kept(&garment, hz, ("palm", 5.0, 10.0), rate);
+            println!("{} at {hz} Hz, {rate} counts/s: {:.0} % of its pressure", garment.name, 100.0 * part);
+            assert!((0.7..1.2).contains(&part), "{part}");
+        }
+    }
+}
+
+#[test]
+fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
+    for (garment, _) in garments() {
+        let trial = Trial { common: Course { rate: 20.0, way: 1_900.0 }, ..Trial::new(garment, 50.0) };
+        // 30 s of drift tell how much each taxel makes of it.
+        let felt = feel(&trial.clone().touched("finger", 3.0, 30.0, 0.3, 70.0), 91.0);
+        let [first, last] = [felt.pressure(31.0, 36.0), felt.pressure(85.0, 91.0)];
+        println!("{}: {first:.0} counts, a minute later {last:.0}", trial.garment.name);
+        assert_eq!((felt.felt(0.0, 30.0), felt.felt(30.5, 91.0)), (0.0, 1.0), "{}", trial.garment.name);
+        assert!((0.7..1.3).contains(&(last / first)), "{first} {last}");
+    }
+}
