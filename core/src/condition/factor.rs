@@ -1,7 +1,7 @@
 //! How much more than its panel each taxel drifts.
 //!
-//! What warms a garment moves all of its taxels, each by a part of its own: the factor, Q7 (128 is 1), learnt while nothing touches. Under a
-//! touch the baseline moves by the factor times the drift of the panel.
+//! What warms a garment moves all of its taxels, each by a part of its own: the factor, Q7 (128 is 1), learnt while
+//! nothing touches. Under a touch the baseline moves by the factor times the drift of the panel.
 
 /// A factor of 1.
 pub(super) const ONE: u8 = 128;
@@ -40,49 +40,55 @@ pub(super) struct Teacher {
     /// Drift that was seen since the garment was put on, counts.
     seen: u8,
     /// The way that the panel moves, times the gain.
-    gain: i32,
+    gain: i8,
     /// What all factors move by, lest they all grow or shrink.
-    level: i32,
+    level: i8,
 }
 
 impl Teacher {
     /// Nothing was seen, and nothing is to be learnt.
     pub const NONE: Teacher = Teacher { seen: 0, gain: 0, level: 0 };
 
-    /// A panel drifts at a steady `rate` (Q8 counts per second), and has moved by so many counts; its witnesses have these factors.
+    /// The same, while nothing drifts.
+    pub const fn at_rest(self) -> Teacher {
+        Teacher { gain: 0, level: 0, ..self }
+    }
+
+    /// A panel drifts at a steady `rate` (Q8 counts per second), and has moved by so many counts; so many of its
+    /// witnesses have a factor above 1, below 1, and any.
     ///
-    /// A taxel teaches in every turn in which the panel drifts at all, not only where the panel moves by a whole count: else what a taxel follows
-    /// before its panel does would not count, and what it takes back afterwards would.
-    pub fn renew(&mut self, rate: i32, moved: u32, factors: impl Iterator<Item = u8>) {
+    /// A taxel teaches in every turn in which the panel drifts at all, not only where the panel moves by a whole count:
+    /// else what a taxel follows before its panel does would not count, and what it takes back afterwards would.
+    pub fn renew(&mut self, rate: i32, moved: u32, [above, below, all]: [u8; 3]) {
         let gain = match self.seen {
             ..16 => 8,
             16..32 => 4,
             32..160 => 2,
             _ => 1,
         };
-        self.gain = if rate.abs() < STEADY { 0 } else { gain * rate.signum() };
+        self.gain = if rate.abs() < STEADY { 0 } else { gain * rate.signum() as i8 };
         self.level = 0;
         if moved != 0 {
-            let (mut above, mut below, mut all) = (0, 0, 0);
-            for factor in factors {
-                all += 1;
-                above += i32::from(factor > ONE);
-                below += i32::from(factor < ONE);
-            }
             // The middle one is 1.
-            self.level = i32::from(below > above + all / 16) - i32::from(above > below + all / 16);
+            let (above, below, some) = (u32::from(above), u32::from(below), u32::from(all / 16));
+            self.level = i8::from(below > above + some) - i8::from(above > below + some);
         }
         self.seen = self.seen.saturating_add(moved.min(255) as u8);
     }
 
     /// Whether factors change.
     pub const fn is_teaching(&self) -> bool {
-        self.gain != 0 || self.level != 0
+        self.gain != 0 || self.levels()
+    }
+
+    /// Whether the factors of taxels change that have moved as they say.
+    pub const fn levels(&self) -> bool {
+        self.level != 0
     }
 
     /// The factor of a taxel that has moved by so many counts beyond what it says.
     pub fn taught(&self, factor: u8, beyond: i32) -> u8 {
-        let lesson = beyond.clamp(-LESSON, LESSON) * self.gain + self.level;
+        let lesson = beyond.clamp(-LESSON, LESSON) * i32::from(self.gain) + i32::from(self.level);
         (i32::from(factor) + lesson).clamp(0, 255) as u8
     }
 
@@ -117,7 +123,7 @@ mod tests {
             for visit in 0..150 {
                 let shift = Shift { from: drift, to: drift + 1 + visit % 3 };
                 drift = shift.to;
-                teacher.renew(256, shift.counts() as u32, [factor].into_iter());
+                teacher.renew(256, shift.counts() as u32, [0; 3]);
                 let beyond = f64::round(truth * f64::from(drift) - rest) as i32 - shift.of(factor);
                 rest += f64::from(shift.of(factor) + beyond);
                 factor = Teacher { level: 0, ..teacher }.taught(factor, beyond);

@@ -31,6 +31,22 @@ impl<const CONTACTS: usize> Feedback<CONTACTS> {
         self.touches(panel, row, column, column)
     }
 
+    /// A bit for each of the columns `first .. first + 32` of a row that lie within one taxel of a contact.
+    pub fn held_columns(&self, panel: u8, row: u16, first: u16) -> u32 {
+        let mut held = 0;
+        for rect in self.home.iter().chain(&self.beyond) {
+            let (left, end) = (rect.left.saturating_sub(1), rect.right.saturating_add(2));
+            let here = rect.panel == panel
+                && row.saturating_add(1) >= rect.top
+                && row <= rect.bottom.saturating_add(1);
+            if here && end > first && left < first.saturating_add(32) {
+                let columns = (end - first).min(32) - left.saturating_sub(first);
+                held |= (u32::MAX >> (32 - u32::from(columns))) << left.saturating_sub(first);
+            }
+        }
+        held
+    }
+
     /// Whether columns `left ..= right` of a row come within one taxel of a contact.
     pub fn touches(&self, panel: u8, row: u16, left: u16, right: u16) -> bool {
         self.home.iter().chain(&self.beyond).any(|rect| {
@@ -46,5 +62,28 @@ impl<const CONTACTS: usize> Feedback<CONTACTS> {
 impl<const CONTACTS: usize> Default for Feedback<CONTACTS> {
     fn default() -> Self {
         Feedback::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn held_columns_are_those_that_are_held() {
+        let mut feedback = Feedback::<8>::new();
+        for (left, right) in [(0, 0), (5, 9), (30, 33), (62, 63), (40, 100)] {
+            let rect = Rect { panel: 1, top: 4, bottom: 6, left, right };
+            feedback.home.clear();
+            feedback.home.push(rect).unwrap();
+            for (panel, row) in [(0, 5), (1, 2), (1, 3), (1, 6), (1, 7), (1, 8)] {
+                for first in [0, 8, 16, 24, 32, 60] {
+                    let mask = feedback.held_columns(panel, row, first);
+                    for bit in 0..32 {
+                        assert_eq!(mask >> bit & 1 == 1, feedback.holds(panel, row, first + bit), "{rect:?}");
+                    }
+                }
+            }
+        }
     }
 }

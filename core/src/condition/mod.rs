@@ -16,7 +16,7 @@
 //! what is beyond is calibrated and marked in [`Rows`], and only there the images are filtered and, one frame later, cleared or
 //! overwritten. The result is that of the plain definition, bit for bit.
 //!
-//! Every row follows drift once in 320 ms, whatever the frame rate. What the untouched taxels of a panel agree on moves the baseline of all
+//! Every row follows drift once in 345 ms, whatever the frame rate. What the untouched taxels of a panel agree on moves the baseline of all
 //! of them, each by a factor of its own that is learnt; only what is slower than a touch does a taxel follow by itself. So a held contact
 //! neither is swallowed nor drifts. Where drift and touch cannot be told apart the panel is [unsure](ConditionState::unsure).
 
@@ -40,6 +40,7 @@ mod limit;
 mod marks;
 mod median;
 mod own;
+mod panel;
 mod patches;
 #[cfg(target_pointer_width = "64")]
 mod plain;
@@ -55,8 +56,10 @@ mod square;
 mod stage;
 mod state;
 mod tare;
+mod taxels;
 mod terms;
 mod turn;
+mod witness;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};

@@ -1,6 +1,12 @@
 //! Drift is followed and a touch is kept: the limits of docs/bounds.md, on garments of all kinds and at all rates.
 
 mod chart;
+mod held;
+mod hours;
 mod limits;
 mod rig;
 mod told;
+
+fn is_campaign() -> bool {
+    std::env::var_os("TAXEL_CAMPAIGN").is_some()
+}

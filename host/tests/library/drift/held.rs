@@ -1,0 +1,53 @@
+//! Touches that last while the garment drifts, and those that cover most of a small one.
+
+use super::rig::{Trial, feel, garments};
+use taxel::sim::Course;
+use taxel_core::garment::Garment;
+
+/// Held from 30 s on for so long, at so many counts per second: the pressure at the end, as a part of that at the
+/// beginning. 30 s of drift tell how much of it each taxel makes.
+fn left(trial: &Trial, course: Course, seconds: f64) -> f64 {
+    let end = 30.3 + seconds;
+    let trial = Trial { common: course, ..trial.clone() }.touched("finger", 3.0, 30.0, 0.3, seconds + 5.0);
+    let felt = feel(&trial, end);
+    let [first, last] = [felt.pressure(31.0, 36.0), felt.pressure(end - 6.0, end)];
+    println!(
+        "{}: {} counts/s: {first:.0} counts, {seconds:.0} s later {last:.0}",
+        trial.garment.name, course.rate
+    );
+    assert_eq!((felt.felt(0.0, 30.0), felt.felt(30.5, end)), (0.0, 1.0), "{}", trial.garment.name);
+    last / first
+}
+
+#[test]
+fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
+    for (garment, _) in garments() {
+        let trial = Trial::new(garment, 50.0);
+        let part = left(&trial, Course { rate: 20.0, way: 1_900.0 }, 60.0);
+        assert!((0.7..1.3).contains(&part), "{part}");
+    }
+}
+
+#[test]
+fn a_touch_is_held_for_an_hour_at_half_a_count_per_second() {
+    for garment in [Garment::block(), Garment::recorded(12, 12)] {
+        let trial = Trial::new(garment, 25.0);
+        for way in [60.0, 900.0] {
+            let part = left(&trial, Course { rate: 0.5, way }, 3_600.0);
+            assert!((0.7..1.3).contains(&part), "{part}");
+        }
+    }
+}
+
+/// Four rows at 1,562 frames a second: what was lost there, or never noticed.
+#[test]
+fn a_block_at_full_speed_feels_what_covers_most_of_it() {
+    for (shape, force_n, rise_s, hold_s) in
+        [("palm", 10.0, 0.3, 2.5), ("palm", 5.0, 0.3, 2.5), ("finger", 1.0, 1.5, 5.0), ("palm", 10.0, 0.3, 20.0)]
+    {
+        let trial = Trial::new(Garment::block(), 1_562.0).touched(shape, force_n, 3.0, rise_s, hold_s);
+        let felt = feel(&trial, 3.0 + rise_s + hold_s);
+        let all = felt.felt(3.0 + rise_s, 3.0 + rise_s + hold_s);
+        assert_eq!(all, 1.0, "{shape} of {force_n} N within {rise_s} s");
+    }
+}
