@@ -19,7 +19,7 @@ enum Run {
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 10] = [
+const RUNS: [(&str, Run, &str); 12] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -47,6 +47,12 @@ const RUNS: [(&str, Run, &str); 10] = [
         Run::Library("families_are_understood"),
         "intentions: 200 touches of 40 families against what a person would say (simulated)",
     ),
+    (
+        "drift",
+        Run::Library("drift::chart"),
+        "drift: palms on a mat and on a block that drift, kept, lost or unsure (simulated)",
+    ),
+    ("hours", Run::Library("drift::hours"), "drift: ten hours of drift, breath and noise (simulated)"),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
     (
         "view",

@@ -26,10 +26,10 @@ impl Common {
     }
 
     /// The first row of a panel has its turn.
-    pub fn begin(&mut self, panel: u8) {
+    pub fn begin(&mut self, panel: u8, floor: u16) {
         self.said = Said::NONE;
         if let Some(panel) = self.panels.get_mut(usize::from(panel)) {
-            panel.begin();
+            panel.begin(floor);
         }
     }
 

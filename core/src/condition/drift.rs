@@ -67,7 +67,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     ) {
         let Here { panel, row, .. } = here;
         if row == 0 {
-            self.common.begin(panel);
+            self.common.begin(panel, terms.floor);
         }
         self.ask(here, sampled, feedback, terms);
         let strongest = self.follow_row(here, sampled, feedback, terms);

@@ -16,7 +16,7 @@ const FETCHED: u8 = 8;
 enum Phase {
     /// Baselines have been set since.
     None,
-    /// They are being set, in the turn under way.
+    /// They are put where the baselines are, in the turn under way.
     Begins,
     /// They stand.
     Runs,
@@ -90,11 +90,12 @@ impl Panel {
     }
 
     /// A turn begins.
-    pub fn begin(&mut self) {
+    pub fn begin(&mut self, floor: u16) {
         if self.phase == Phase::None {
             let teacher = self.orders.teacher.at_rest();
             *self = Panel { phase: Phase::Begins, ..Panel::NONE };
             self.orders.teacher = teacher;
+            self.orders.own.renew(0, [0; 2], floor, 0);
         }
     }
 
@@ -110,7 +111,6 @@ impl Panel {
         let up = |value: i32| if falling { 0xffff - value } else { value };
         if self.phase != Phase::Runs {
             *anchor = up(seen.expected).clamp(0, 0xffff) as u16;
-            return;
         }
         said.ask(seen.factor);
         let mut at = up(i32::from(*anchor)) + self.moved.of(seen.factor);
@@ -145,12 +145,14 @@ impl Panel {
 
     /// Takes in what the witnesses have said: what the rows are to do in the next turn.
     pub fn decide(&mut self, said: &Said, now: Micros, touched: bool, floor: u16) {
-        let ms = now.millis_since(self.last).min(GAP_MS);
+        // Nobody knows when the first baselines were right: what codes are off by then tells no rate.
+        let first = self.phase != Phase::Runs;
+        let ms = if first { TURN_US / 1000 } else { now.millis_since(self.last).min(GAP_MS) };
         self.last = now;
-        if self.phase != Phase::Runs {
-            self.phase = if self.phase == Phase::Begins { Phase::Runs } else { self.phase };
-            return self.orders.own.renew(TURN_US / 1000, [0; 2], floor, 0);
+        if self.phase == Phase::None {
+            return;
         }
+        self.phase = Phase::Runs;
         // Where a touch hides nearly all of a panel it is taken to go on as before.
         let hidden = said.is_hidden();
         let known = if self.rate.signum() == self.steady.signum() { self.steady } else { 0 };
@@ -163,7 +165,7 @@ impl Panel {
         let fetches = self.turns == FETCHED && said.spread.count() > 0;
         self.fetched = fetches.then(|| said.spread.eighth(4) as i8);
         // After a pause a turn may follow the one before at once: that tells no rate.
-        if !hidden && 4_000 * ms >= TURN_US {
+        if !hidden && !first && 4_000 * ms >= TURN_US {
             let now = ((step * 1000) << 8).checked_div(ms as i32).unwrap_or(0);
             self.rate += (now - self.rate) / 3;
             self.steady += (now - self.steady) / 32;

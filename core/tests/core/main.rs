@@ -15,4 +15,5 @@ mod reflex;
 mod sweep;
 mod taught;
 mod tracking;
+mod unsure;
 mod wire;
