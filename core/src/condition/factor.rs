@@ -61,8 +61,7 @@ impl Teacher {
     /// else what a taxel follows before its panel does would not count, and what it takes back afterwards would.
     pub fn renew(&mut self, rate: i32, moved: u32, [above, below, all]: [u8; 3]) {
         let gain = match self.seen {
-            ..16 => 8,
-            16..32 => 4,
+            ..32 => 4,
             32..160 => 2,
             _ => 1,
         };

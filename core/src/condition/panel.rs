@@ -156,7 +156,7 @@ impl Panel {
         // Where a touch hides nearly all of a panel it is taken to go on as before.
         let hidden = said.is_hidden();
         let known = if self.rate.signum() == self.steady.signum() { self.steady } else { 0 };
-        let wanted = if hidden { counts(known, ms) } else { said.agreed() };
+        let wanted = if hidden { counts(known, ms) } else { said.agreed(i32::from(floor / 4)) };
         let most = counts(FASTEST as i32, ms).max(1);
         let step = wanted.clamp(-most, most);
         self.moved = Shift { from: self.drift, to: self.drift + step };
