@@ -75,6 +75,11 @@ impl Teacher {
         self.seen = self.seen.saturating_add(moved.min(255) as u8);
     }
 
+    /// Whether little drift was seen.
+    pub const fn is_fresh(&self) -> bool {
+        self.seen < 64
+    }
+
     /// Whether factors change.
     pub const fn is_teaching(&self) -> bool {
         self.gain != 0 || self.levels()

@@ -2,9 +2,7 @@
 
 use super::factor::{Shift, Teacher};
 use super::own::Own;
-use super::rates::{
-    BEYOND, CLUTTER, FASTEST, GAP_MS, HIDDEN, PAUSE_MS, TURN_US, UNSURE, counts, in_time,
-};
+use super::rates::{BEYOND, CLUTTER, FASTEST, GAP_MS, HIDDEN, PAUSE_MS, TURN_US, UNSURE, counts, in_time};
 use super::witness::{Said, Seen, WITNESSES};
 use crate::format::Micros;
 
@@ -156,7 +154,11 @@ impl Panel {
         // Where a touch hides nearly all of a panel it is taken to go on as before.
         let hidden = said.is_hidden();
         let known = if self.rate.signum() == self.steady.signum() { self.steady } else { 0 };
-        let wanted = if hidden { counts(known, ms) } else { said.agreed(i32::from(floor / 4)) };
+        let wanted = if hidden {
+            counts(known, ms)
+        } else {
+            said.agreed(i32::from(floor / 4), self.orders.teacher.is_fresh())
+        };
         let most = counts(FASTEST as i32, ms).max(1);
         let step = wanted.clamp(-most, most);
         self.moved = Shift { from: self.drift, to: self.drift + step };

@@ -34,7 +34,10 @@ impl Spread {
     /// The displacement below which there are so many eighths of them, fewer than eight; 0 if there are none.
     pub fn eighth(&self, eighths: u32) -> i32 {
         let at = u32::from(self.count) * eighths / 8;
-        self.sorted.get(at as usize).filter(|_| self.count > 0).map_or(0, |displacement| (*displacement).into())
+        self.sorted
+            .get(at as usize)
+            .filter(|_| self.count > 0)
+            .map_or(0, |displacement| (*displacement).into())
     }
 
     /// How far all have drifted: what three quarters agree on. A touch may cover nearly so many, and leaves others

@@ -80,26 +80,34 @@ impl Said {
         self.total += off.clamp(-256, 256);
     }
 
-    /// How far the panel has drifted.
-    pub fn agreed(&self, noise: i32) -> i32 {
+    /// How far the panel has drifted. While its factors are not known, they are `fresh`.
+    pub fn agreed(&self, noise: i32, fresh: bool) -> i32 {
         let half = self.spread.count() / 2;
         let far = i32::from(u32::from(self.ahead) > half) - i32::from(u32::from(self.behind) > half);
-        let unanimous = if 2 * self.free > self.asked { self.unanimous(noise) } else { 0 };
-        [unanimous, self.spread.agreed(), far].into_iter().find(|step| *step != 0).unwrap_or(0)
+        let together = if fresh { self.together(noise) } else { 0 };
+        let unanimous = if 2 * self.free > self.asked { self.unanimous() } else { 0 };
+        let steps = [together, unanimous, self.spread.agreed(), far];
+        steps.into_iter().find(|step| *step != 0).unwrap_or(0)
+    }
+
+    /// How far the middle one has drifted if nearly all have drifted the same way, further than noise.
+    fn together(&self, noise: i32) -> i32 {
+        let most = 2 * self.spread.count() > self.asked.into();
+        let together = self.spread.eighth(1) > noise || self.spread.eighth(7) < -noise;
+        if most && together { self.spread.eighth(4) } else { 0 }
     }
 
     /// How far they have come if nearly all have gone the same way, further than noise, as no touch makes them.
-    fn unanimous(&self, noise: i32) -> i32 {
-        // What they have followed already counts, too, unless most are further off than is looked at.
-        if 2 * self.spread.count() > self.asked.into() {
-            let together = self.spread.eighth(1) > noise || self.spread.eighth(7) < -noise;
-            return if together { self.spread.eighth(4) } else { 0 };
-        }
+    fn unanimous(&self) -> i32 {
         let most = self.free - self.free / 8;
         if self.up < most && self.down < most {
             return 0;
         }
-        self.total.checked_div(self.free.into()).unwrap_or(0)
+        let off = self.total.checked_div(self.free.into()).unwrap_or(0);
+        // What they have followed already counts, too, unless most are further off than is looked at.
+        let middle = self.spread.eighth(4);
+        let seen = 2 * self.spread.count() > self.asked.into() && middle.signum() == off.signum();
+        if seen { middle } else { off }
     }
 
     /// A touch hides nearly all of the panel.
@@ -130,7 +138,7 @@ mod tests {
                 said.ask(ONE);
                 said.show(if at < share { by } else { 0 }, 3);
             });
-            said.unanimous(3)
+            said.unanimous()
         };
         assert_eq!([of(32, 9), of(28, 9), of(27, 9), of(32, -9), of(32, 3)], [9, 7, 0, -9, 0]);
     }

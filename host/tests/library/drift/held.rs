@@ -42,9 +42,12 @@ fn a_touch_is_held_for_an_hour_at_half_a_count_per_second() {
 /// Four rows at 1,562 frames a second: what was lost there, or never noticed.
 #[test]
 fn a_block_at_full_speed_feels_what_covers_most_of_it() {
-    for (shape, force_n, rise_s, hold_s) in
-        [("palm", 10.0, 0.3, 2.5), ("palm", 5.0, 0.3, 2.5), ("finger", 1.0, 1.5, 5.0), ("palm", 10.0, 0.3, 20.0)]
-    {
+    for (shape, force_n, rise_s, hold_s) in [
+        ("palm", 10.0, 0.3, 2.5),
+        ("palm", 5.0, 0.3, 2.5),
+        ("finger", 1.0, 1.5, 5.0),
+        ("palm", 10.0, 0.3, 20.0),
+    ] {
         let trial = Trial::new(Garment::block(), 1_562.0).touched(shape, force_n, 3.0, rise_s, hold_s);
         let felt = feel(&trial, 3.0 + rise_s + hold_s);
         let all = felt.felt(3.0 + rise_s, 3.0 + rise_s + hold_s);

@@ -24,6 +24,7 @@ fn nothing_is_announced_in_hours_of_drift_breath_and_noise() {
         felt_s += felt.course.iter().filter(|(.., contacts)| *contacts > 0).count() as f64 / trial.hz;
         led += felt.led.len();
         unsure_s += felt.unsure_s;
+        println!("part {part}, {}: {led} intentions, {felt_s:.0} s, {unsure_s:.0} s unsure", garment.name);
     }
     let hours = parts as f64 * seconds / 3_600.0;
     println!(
