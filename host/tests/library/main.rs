@@ -8,6 +8,7 @@ mod faults;
 mod fcm;
 mod ghosts;
 mod health;
+mod kinds;
 mod maps;
 mod mat;
 mod meaning;

@@ -1,11 +1,16 @@
 //! Recordings through the pipeline, and what is learned from them. `cargo xtask test --recorded` runs these; they read the
 //! folders that TAXEL_DATA lists.
 
+mod base;
 mod data;
 #[path = "../../../core/tests/core/dense.rs"]
 mod dense;
+#[path = "../library/drawn.rs"]
+mod drawn;
 mod features;
 mod frames;
+#[path = "../library/kinds/mod.rs"]
+mod kinds;
 #[path = "../program/reference.rs"]
 mod reference;
 #[path = "../library/shape_of.rs"]
