@@ -125,7 +125,7 @@ fn features_outside_their_range_saturate() {
     };
     assert_eq!(ends(Fixed24(0), -5, 0, &mut any), [0, 0, 0, 0]);
     assert_eq!(ends(Fixed24(u32::MAX), i32::MAX, u16::MAX, &mut any), [32767, 32767, 1024, 1023]);
-    // Just below 4 and 8, nothing is lost but what is cut.
-    assert_eq!(ends(Fixed24((4 << 24) - 1), 32768, 2048, &mut any), [32767, 16383, 1024, 704]);
-    assert_eq!(ends(Fixed24((8 << 24) - 1), 16384, 3, &mut any), [32767, 32767, 512, 96]);
+    // Just below 8 and 16, nothing is lost but what is cut.
+    assert_eq!(ends(Fixed24((8 << 24) - 1), 32768, 2048, &mut any), [32767, 16383, 1024, 704]);
+    assert_eq!(ends(Fixed24((16 << 24) - 1), 16384, 3, &mut any), [32767, 32767, 512, 96]);
 }
