@@ -18,7 +18,7 @@ const NOISE: i32 = 4;
 const APART: i32 = 8;
 
 /// What moves all of a panel by more in a turn is no drift, but an input that broke, counts.
-const LOST: i32 = 2 * COMMON;
+const BROKEN: i32 = 2 * COMMON;
 
 /// A panel is fast that moves by more than so many counts in a turn.
 const FAST: i32 = 4;
@@ -119,7 +119,7 @@ fn agreed(beyond: &[i32], middle: i32, before: i32) -> i32 {
     let with = |other: &&i32| other.signum() == middle.signum() && 4 * other.abs() >= middle.abs();
     let goes_on = before.abs() > FAST && before.signum() == middle.signum();
     let eighths = if goes_on { 5 } else { 7 };
-    if middle.abs() <= LOST && beyond.iter().filter(with).count() * 8 >= beyond.len() * eighths {
+    if middle.abs() <= BROKEN && beyond.iter().filter(with).count() * 8 >= beyond.len() * eighths {
         return middle;
     }
     let side = |way: i32| beyond.iter().filter(|beyond| beyond.signum() == way).count() * 2 > beyond.len();

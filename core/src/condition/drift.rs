@@ -52,9 +52,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         sampled: &Sampled<'_>,
         feedback: &Feedback<CONTACTS>,
     ) {
-        let columns = usize::from(area.columns).max(1);
+        let columns = usize::from(area.columns);
         self.consensus.vote(panel, area, sampled.codes, (&self.baseline, &self.gain), |at| {
-            feedback.holds(panel, (at / columns) as u16, (at % columns) as u16)
+            let row = at.checked_div(columns).unwrap_or(0);
+            feedback.holds(panel, row as u16, at.wrapping_sub(row * columns) as u16)
         });
     }
 
