@@ -5,7 +5,7 @@ use super::said::{Said, said_of};
 use super::words::Words;
 use crate::body::Placed;
 use crate::contact::Phase;
-use crate::format::Micros;
+use crate::format::{Invalid, Micros};
 use crate::garment::PANELS;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -94,12 +94,24 @@ pub struct Symbols {
     config: SymbolConfig,
 }
 
-impl Symbols {
-    /// With limits that were checked.
-    pub(super) const fn new(config: SymbolConfig) -> Symbols {
-        Symbols { config }
+impl SymbolConfig {
+    /// Checks the limits.
+    pub fn build(&self) -> Result<Symbols, Invalid> {
+        let must = "must rise";
+        if !self.strength.is_sorted_by(|a, b| a < b) {
+            return Err(Invalid { parameter: "symbol.strength", must });
+        }
+        if !self.extent.is_sorted_by(|a, b| a < b) {
+            return Err(Invalid { parameter: "symbol.extent", must });
+        }
+        if !self.span_ms.is_sorted_by(|a, b| a < b) {
+            return Err(Invalid { parameter: "symbol.span_ms", must });
+        }
+        Ok(Symbols { config: *self })
     }
+}
 
+impl Symbols {
     /// Takes the contacts of the frame of time `now`: those `present`, then those `released`.
     pub fn process<const CONTACTS: usize>(
         &self,
@@ -176,5 +188,22 @@ fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) 
             state.since = now;
         }
         touched >>= 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_that_do_not_rise_are_refused_by_name() {
+        let refused = |edit: fn(&mut SymbolConfig)| {
+            let mut config = SymbolConfig::default();
+            edit(&mut config);
+            config.build().unwrap_err().parameter
+        };
+        assert_eq!(refused(|c| c.strength[1] = c.strength[0]), "symbol.strength");
+        assert_eq!(refused(|c| c.extent = [9, 8]), "symbol.extent");
+        assert_eq!(refused(|c| c.span_ms = [800, 150]), "symbol.span_ms");
     }
 }
