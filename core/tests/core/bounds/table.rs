@@ -18,9 +18,11 @@ impl Bound {
     }
 }
 
+/// Those of the first table.
 fn rows() -> impl Iterator<Item = Vec<&'static str>> {
     let cells = |line: &'static str| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>();
-    TABLE.lines().filter(|line| line.starts_with('|')).map(cells).skip(2)
+    let is_row = |line: &&str| line.starts_with('|');
+    TABLE.lines().skip_while(move |line| !is_row(line)).take_while(is_row).map(cells).skip(2)
 }
 
 /// `0.5`, `1.3e-6`, `2^-25` or `2^-16 + 1e-8`.
