@@ -7,7 +7,7 @@ use heapless::Vec;
 
 /// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are
 /// smoothed in the next frame as if they had not been there.
-pub const POINTS: usize = 48;
+pub const POINTS: usize = 24;
 
 /// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many
 /// counts: what is nearer may be noise, or the unevenness of what presses, and loses little by being

@@ -23,7 +23,7 @@ pub struct Course {
 }
 
 impl Course {
-    /// Counts at a time (s): 0 at the start, up to `way` and back. At each end the rate rises from 0 within [`TURNING_S`], or half of the
+    /// Counts at a time (s): 0 at the start, up to `way` and back. At each end the rate rises from 0 within 2 s, or half of the
     /// time to the other end.
     pub fn at(&self, t_s: f64) -> f64 {
         let rate = self.rate.abs();

@@ -16,6 +16,9 @@ struct Count {
     events: usize,
 }
 
+/// Families, and how one of them touches.
+type Author = (&'static [Family], fn(usize, u64) -> Act);
+
 fn count(mut act: Act) -> Count {
     let mut count = Count { seconds: (act.span.1 - act.span.0) as f64 / 1e6, ..Count::default() };
     let mut said = std::collections::BTreeMap::new();
@@ -36,8 +39,7 @@ fn count(mut act: Act) -> Count {
 
 #[test]
 fn a_held_touch_keeps_its_name() {
-    let authors: [(&[Family], fn(usize, u64) -> Act); 2] =
-        [(&scripted::FAMILIES, scripted::act), (&strangers::FAMILIES, strangers::act)];
+    let authors: [Author; 2] = [(&scripted::FAMILIES, scripted::act), (&strangers::FAMILIES, strangers::act)];
     println!("touch        author      seconds   ids  classes  moves  events");
     for (author, (families, act)) in ["scripted", "strangers"].into_iter().zip(authors) {
         for name in ["hug", "caress", "tickle", "handshake", "massage"] {
