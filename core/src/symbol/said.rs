@@ -185,7 +185,7 @@ mod tests {
         let (round, rectangle) = (Class::ROUND, Class::RECTANGLE);
         for ms in [1, 5, 40, 100] {
             let frames = 4000 / usize::from(ms);
-            let each = |frame: usize| if frame % 2 == 0 { round } else { rectangle };
+            let each = |frame: usize| if frame.is_multiple_of(2) { round } else { rectangle };
             assert!(classes((0..frames).map(each), ms).0 <= 2, "two in turn, {ms} ms");
             // A second of the one, then the other: it is said within half a second.
             let (first, second) = (1000 / usize::from(ms), 500 / usize::from(ms));
