@@ -7,7 +7,7 @@
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none; a point that presses a single taxel passes one frame later |
 //! | RAM | 10 bytes per taxel and 1,312 bytes |
-//! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 149 k (persistent), about 34 k more where gains are not 1 |
+//! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 138 k (persistent), about 34 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code` where
 //! pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel, across the seams of its blocks.
