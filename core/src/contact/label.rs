@@ -173,6 +173,13 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
+    /// Contact `second` has become a piece of `first`, and those after it move up.
+    pub fn renumber(&mut self, first: u16, second: u16) {
+        for part in self.parts.iter_mut().filter(|part| part.contact != NONE && part.contact >= second) {
+            part.contact = if part.contact == second { first } else { part.contact - 1 };
+        }
+    }
+
     /// The parts that are whole, with their indices.
     pub fn whole_parts(&self) -> impl Iterator<Item = (u16, &Part)> {
         (0u16..).zip(&self.parts).filter(|(index, part)| part.parent == *index)
