@@ -173,10 +173,11 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
-    /// Contact `second` has become a piece of `first`, and those after it move up.
-    pub fn renumber(&mut self, first: u16, second: u16) {
-        for part in self.parts.iter_mut().filter(|part| part.contact != NONE && part.contact >= second) {
-            part.contact = if part.contact == second { first } else { part.contact - 1 };
+    /// Component `lost` has become a part of `whole`, and those after it move up.
+    pub fn renumber(&mut self, whole: u16, lost: u16) {
+        for part in self.parts.iter_mut().filter(|part| part.contact != NONE) {
+            let contact = if part.contact == lost { whole } else { part.contact };
+            part.contact = contact - u16::from(contact > lost);
         }
     }
 

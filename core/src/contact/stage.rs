@@ -154,8 +154,8 @@ impl Contacts {
         now: Micros,
     ) -> Touches<'a> {
         let ContactState { labels, joins, components, matching, tracks, .. } = state;
-        components.reunite(labels, layout, tracks.contacts());
         matching.assign(&self.config, tracks, &components.list, layout, now);
+        components.reunite(labels, layout, tracks);
         tracks.merge(labels, layout);
         tracks.update(&self.config, &components.list, labels, layout, image, now);
         Touches {

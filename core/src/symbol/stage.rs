@@ -160,7 +160,8 @@ impl Symbols {
 
 fn area_mm2(layout: &Layout, placed: &Placed) -> u32 {
     let area = layout.areas().get(usize::from(placed.contact.panel));
-    u32::from(placed.contact.area).saturating_mul(area.map_or(0, |area| area.cell_mm2))
+    // 16 bits each: no taxel is a quarter of a metre wide.
+    u32::from(placed.contact.area) * area.map_or(0, |area| area.cell_mm2.min(0xffff))
 }
 
 fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {

@@ -27,7 +27,8 @@ fn sharp(peaks: &[u16]) -> Vec<Extent> {
     let stage = SymbolConfig::default().build().unwrap();
     let mut said = Vec::new();
     for (peak, ms) in peaks.iter().zip(0..) {
-        let placed = [Placed::new(&rig.layout, rig.set(0, 3, 3, *peak).only(), Shape::default())];
+        let contact = rig.set(0, 3, 3, *peak).only();
+        let placed = [Placed::new(&rig.layout, contact, Shape::default())];
         stage.process(&mut state, &rig.layout, &placed, &[], Micros(1_000 * ms));
         said.extend(state.events().iter().map(|event| event.words.extent));
     }
