@@ -31,7 +31,11 @@ const FAST: i32 = 4;
 /// What sets a witness apart from the others by more than noise is forgotten by a count a turn, and at once where the panel moves
 /// fast, so that it does not hide what all have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Consensus([Panel; PANELS]);
+pub(super) struct Consensus {
+    panels: [Panel; PANELS],
+    /// One of them drifts fast.
+    fast: bool,
+}
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Panel {
@@ -51,22 +55,24 @@ impl Panel {
 
 impl Consensus {
     pub const fn new() -> Self {
-        Consensus([Panel { known: [0; WITNESSES], begun: false, steps: [0; 2] }; PANELS])
+        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2] };
+        Consensus { panels: [panel; PANELS], fast: false }
     }
 
     /// Begins anew, since baselines have been set.
     pub fn forget(&mut self) {
-        self.0.iter_mut().for_each(|panel| (panel.begun, panel.steps) = (false, [0; 2]));
+        self.panels.iter_mut().for_each(|panel| (panel.begun, panel.steps) = (false, [0; 2]));
+        self.fast = false;
     }
 
     /// What a panel moves by in this turn, counts.
     pub fn step(&self, panel: u8) -> i32 {
-        self.0.get(usize::from(panel)).map_or(0, Panel::in_turn)
+        self.panels.get(usize::from(panel)).map_or(0, Panel::in_turn)
     }
 
     /// Whether one of the panels drifts fast.
-    pub fn is_fast(&self) -> bool {
-        self.0.iter().any(|panel| panel.in_turn().abs() > FAST)
+    pub const fn is_fast(&self) -> bool {
+        self.fast
     }
 
     /// Asks the witnesses of a panel, given the baselines and gains of all taxels; `whole`: a turn begins, else it is half over; `touched`
@@ -81,7 +87,7 @@ impl Consensus {
         whole: bool,
         touched: impl Fn(usize) -> bool,
     ) {
-        let Some(panel) = self.0.get_mut(usize::from(panel)) else { return };
+        let Some(panel) = self.panels.get_mut(usize::from(panel)) else { return };
         let (baseline, gain) = (panel_of(baseline, area), panel_of(gain, area));
         let codes = panel_of(codes, area);
         let places = || witnesses(baseline.len());
@@ -105,7 +111,12 @@ impl Consensus {
                 };
             }
         }
-        let mut sorted = Sorted::of(&beyond);
+        // As mostly: fewer than half of them have moved, so that the one in the middle has not.
+        let (asked, moved) = (beyond.iter().flatten().count(), |beyond: &&i32| **beyond != 0);
+        let mut sorted = match beyond.iter().flatten().filter(moved).count() * 2 < asked {
+            true => Sorted::NONE,
+            false => Sorted::of(&beyond),
+        };
         if sorted.middle().abs() > NOISE + 1 {
             // That is more than noise: those who have moved less are believed, too.
             for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
@@ -117,7 +128,10 @@ impl Consensus {
         }
         let middle = sorted.middle();
         let step = agreed(&sorted, panel.steps[1].into(), whole).clamp(-COMMON / 2, COMMON / 2);
-        for (known, beyond) in panel.known.iter_mut().zip(beyond) {
+        panel.steps = [panel.steps[1], step as i8];
+        // In the middle of a turn in which nothing moves, nothing is forgotten either.
+        let changed = if whole || step != 0 { WITNESSES } else { 0 };
+        for (known, beyond) in panel.known.iter_mut().zip(beyond).take(changed) {
             let apart = beyond.map_or(0, |beyond| beyond - middle);
             let forgotten = match apart.abs() > APART {
                 _ if step.abs() > FAST / 2 => apart,
@@ -126,7 +140,7 @@ impl Consensus {
             };
             *known = (i32::from(*known) + step + forgotten).clamp(0, 0xffff) as u16;
         }
-        panel.steps = [panel.steps[1], step as i8];
+        self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
     }
 }
 
@@ -154,8 +168,10 @@ struct Sorted {
 }
 
 impl Sorted {
+    const NONE: Sorted = Sorted { numbers: [0; WITNESSES], count: 0 };
+
     fn of(told: &[Option<i32>]) -> Sorted {
-        let mut sorted = Sorted { numbers: [0; WITNESSES], count: 0 };
+        let mut sorted = Sorted::NONE;
         told.iter().flatten().for_each(|number| sorted.insert(*number));
         sorted
     }
@@ -205,7 +221,7 @@ mod tests {
     #[test]
     fn most_move_it_by_a_count_and_seven_eighths_by_what_they_agree_on() {
         let sorted = |numbers: &[i32]| {
-            let mut list = Sorted::of(&[]);
+            let mut list = Sorted::NONE;
             numbers.iter().for_each(|number| list.insert(*number));
             assert!(list.all().is_sorted() && list.all().len() == numbers.len());
             list

@@ -18,6 +18,10 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         layout: &Layout,
         tracks: &mut Tracks<CONTACTS>,
     ) {
+        if tracks.trails.iter().filter(|trail| trail.component != NONE).count() == self.list.len() {
+            // As mostly: each is somebody's.
+            return;
+        }
         let known = tracks.known();
         // Those after one that is taken away move up: they have had their turn.
         for lost in (0..self.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {

@@ -158,6 +158,7 @@ impl Symbols {
     }
 }
 
+#[inline(always)] // twice
 fn area_mm2(layout: &Layout, placed: &Placed) -> u32 {
     let area = layout.areas().get(usize::from(placed.contact.panel));
     // 16 bits each: no taxel is a quarter of a metre wide.

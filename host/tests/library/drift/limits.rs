@@ -9,10 +9,10 @@ fn is_silent(felt: &Felt) -> bool {
 }
 
 #[test]
-fn ten_counts_per_second_are_followed_on_every_garment_at_every_rate() {
+fn twenty_counts_per_second_are_followed_on_every_garment_at_every_rate() {
     for (garment, quickest) in garments() {
         for hz in [25.0, quickest] {
-            for rate in [0.5, -3.0, 10.0, -10.0] {
+            for rate in [0.5, -3.0, 20.0, -20.0] {
                 let felt = feel(&Trial::new(garment.clone(), hz).drifting(rate), 45.0);
                 let felt_s: Vec<f64> =
                     felt.course.iter().filter(|(.., contacts)| *contacts > 0).map(|(t, ..)| *t).collect();
@@ -34,7 +34,7 @@ fn random_drift_on_random_garments_begins_no_contact() {
     for seed in 0..40 {
         let mut random = fastrand::Rng::with_seed(seed);
         let (rows, columns) = (random.u16(4..40), random.u16(4..40));
-        let rate = 20.0 * random.f64() - 10.0;
+        let rate = 40.0 * random.f64() - 20.0;
         let hz = 25.0 * 8f64.powf(random.f64());
         let trial = Trial { seed, ..Trial::new(Garment::recorded(rows, columns), hz) };
         let common = Course { rate, way: 200.0 + 600.0 * random.f64() };
