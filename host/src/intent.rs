@@ -2,15 +2,23 @@
 
 use crate::arrays;
 use crate::touches::{
-    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
+    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, Windows,
+    grid, labels,
 };
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::Shipped;
 
 /// Chosen by cross-validation by day.
-const SETTINGS: Settings =
-    Settings { pressed: 200, halves: true, penalty: 10.0, balance: 1.0, mirrored: true };
+const SETTINGS: Settings = Settings {
+    pressed: 200,
+    halves: true,
+    penalty: 10.0,
+    balance: 1.0,
+    mirrored: true,
+    early: [Some(Windows { shortest: 3, longest: 11, every: 0 }), None],
+    concludes: true,
+};
 
 const TASK: Task = Task {
     shipped: Shipped::Intent,
@@ -79,7 +87,7 @@ pub fn across_days(files: &Files) -> Result<Report> {
 
 fn times() -> Times {
     let steps = FRAMES.iter().map(|frames| (f64::from(*frames), usize::from(*frames))).collect();
-    Times { unit: "frames", steps }
+    Times { unit: "frames", frame: 1.0, steps, every: 1 }
 }
 
 /// Reads recorded touches: each stretch of frames of one label is one.

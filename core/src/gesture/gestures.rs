@@ -1,17 +1,17 @@
 //! What goes on on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
 
-use super::announce::Announced;
+use super::announce::{Announced, Demand};
 use super::config::{GestureConfig, GestureError};
 use super::model::Model;
 use super::stage::{Decision, Touches};
 use super::state::TouchState;
 use crate::condition::Image;
-use crate::format::{Micros, Name};
+use crate::format::{Micros, Name, Q15};
 use crate::garment::{Area, Layout};
 use core::num::NonZeroU32;
 
-/// One natural logarithm of odds, in the unit of a lead.
-const NAT: u64 = 1 << 18;
+/// A score of 1, in the unit of a lead.
+const ONE: u64 = 1 << 18;
 
 /// Recognises the touches of a garment; see the [module](super).
 #[derive(Debug, Clone, Copy)]
@@ -50,8 +50,10 @@ pub struct Gesture {
     pub class: u8,
     /// What the class scores, Q18.
     pub score: i32,
-    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    /// By how much it scores more than the second, Q18.
     pub lead: u32,
+    /// The share of such touches that are of that class.
+    pub confidence: Q15,
     /// For how long the touch was observed, ms.
     pub observed_ms: u32,
     /// The touch is over.
@@ -141,14 +143,21 @@ impl Gestures {
         }
         state.due = self.later(now);
         let decision = touches.decide(&state.touch);
-        let (onset, lead) =
-            (1000 * u64::from(self.config.onset_ms), u64::from(self.config.lead) * NAT / 1000);
-        state.announced.take(&decision, now, onset, lead as u32)?;
+        state.announced.take(&decision, now, &self.demand())?;
         Some(told(state, panel, &decision, now, false))
     }
 
     fn touches(&self, area: &Area) -> Touches<'static> {
         Touches::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
+    }
+
+    fn demand(&self) -> Demand {
+        let GestureConfig { onset_ms, lead, certainty, .. } = self.config;
+        Demand {
+            onset_us: 1000 * u64::from(onset_ms),
+            lead: (u64::from(lead) * ONE / 1000) as u32,
+            certainty: Q15::ratio(certainty.into(), 1000),
+        }
     }
 
     /// A decision later than `now`.
@@ -168,7 +177,7 @@ impl Gestures {
     /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed, but the model has
     /// seen it, as it has in training.
     fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
-        let decision = self.touches(area).decide(&state.touch);
+        let decision = self.touches(area).conclude(&state.touch);
         let panel = state.panel.take().unwrap_or_default();
         told(state, panel, &decision, state.touched, true)
     }
@@ -181,6 +190,7 @@ fn told(state: &GestureState, panel: u8, decision: &Decision, now: Micros, ended
         class: decision.class as u8,
         score: decision.scores.get(decision.class).copied().unwrap_or(0),
         lead: decision.lead,
+        confidence: decision.confidence.unwrap_or_default(),
         observed_ms: (now.since(state.began) / 1000).min(u32::MAX.into()) as u32,
         ended,
     }

@@ -322,12 +322,14 @@ pub struct GestureReport {
     pub name: Name,
     /// What it scores, Q18.
     pub score: i32,
-    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    /// By how much it scores more than the second, Q18.
     pub lead: u32,
     /// For how long the touch was observed, ms.
     pub observed_ms: u32,
     /// The touch is over, and this is what it was as a whole.
     pub ended: bool,
+    /// The share of touches of that age and lead that are of that class.
+    pub confidence: Q15,
 }
 
 /// Which shapes the board was taught: the class of a contact is 1 + its place among these names.

@@ -140,6 +140,7 @@ fn gesture() -> GestureReport {
         lead: 65_536,
         observed_ms: 1500,
         ended: true,
+        confidence: Q15(24_576),
     }
 }
 

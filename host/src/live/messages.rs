@@ -185,7 +185,7 @@ fn self_test(report: &SelfTestReport) -> Value {
     line
 }
 
-/// A lead of 2^18 is odds of e to 1.
+/// A model is fitted to score 2^18 for what a touch is and -2^18 for the others.
 fn gesture(client: &Client, report: &GestureReport) -> Value {
     let mut line = at("gesture", report.frame, report.time);
     let more = json!({
@@ -196,6 +196,7 @@ fn gesture(client: &Client, report: &GestureReport) -> Value {
         "lead": f64::from(report.lead) / f64::from(1 << 18),
         "observed_ms": report.observed_ms,
         "ended": report.ended,
+        "confidence": report.confidence.to_f64(),
     });
     merge(&mut line, more);
     line

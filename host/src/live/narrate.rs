@@ -90,7 +90,11 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
     let (time, panel, name) = (seconds(report.time), panel_name(client, report.panel), &report.name);
     let observed = f64::from(report.observed_ms) / 1e3;
     let verb = if report.ended { "was" } else { "looks like" };
-    format!("{time} touch {} of the {panel} {verb}: {name} ({observed:.1} s)", report.touch)
+    let sure = 100.0 * report.confidence.to_f64();
+    format!(
+        "{time} touch {} of the {panel} {verb}: {name} ({sure:.0} % sure after {observed:.1} s)",
+        report.touch
+    )
 }
 
 /// An onset or a release in words.

@@ -1,8 +1,9 @@
 //! What `taxel gestures` and `taxel intent` have in common: training and evaluation of a model of touches.
 
-use super::compare::{Times, as_it_is, cross};
+use super::compare::{Times, as_it_is, cross, example};
+use super::course::courses;
 use super::data::Data;
-use super::model::{Provenance, Settings, courses, read, train};
+use super::model::{Provenance, Settings, read, train};
 use super::nested::nested;
 use super::report::Report;
 use crate::fault::Fault;
@@ -82,7 +83,7 @@ impl Task {
         eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
         let courses = courses(data, &self.settings);
         let examples: Vec<_> =
-            courses.iter().zip(&data.touches).map(|(course, touch)| (course, touch.class)).collect();
+            courses.iter().zip(&data.touches).map(|(course, touch)| example(touch, course)).collect();
         let bytes = train(data, &examples, &self.settings)?;
         let name = output.name().display().to_string();
         output.write(&bytes)?;
@@ -141,9 +142,13 @@ fn add_classes(data: &mut Data, model: &Model<'_>) -> Result<()> {
 
 /// Settings that differ from `one` in what is chosen by trial.
 pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
-    let with =
-        |penalty: f64| balances.iter().map(move |balance| Settings { penalty, balance: *balance, ..one });
-    penalties.iter().flat_map(|penalty| with(*penalty)).collect()
+    let mut all = Vec::new();
+    for penalty in penalties {
+        for balance in balances {
+            all.push(Settings { penalty: *penalty, balance: *balance, ..one });
+        }
+    }
+    all
 }
 
 /// The labels of recorded touches; the error says that they are missing.

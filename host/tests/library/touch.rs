@@ -1,9 +1,9 @@
 //! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and whether it fits.
 
 use proptest::prelude::*;
-use taxel::touches::{Head, Provenance, Ridge, export};
+use taxel::touches::{Head, Provenance, Ridge, Trained, export};
 use taxel_core::gesture::{
-    FEATURES, Features, LARGEST, Model, ModelError, Sheet, Shipped, TouchState, Touches, checksum,
+    FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchState, Touches, checksum,
 };
 
 /// Touches of a sheet that differ by how fast they go to and fro.
@@ -28,7 +28,9 @@ fn trained() -> (Ridge, Vec<u8>) {
     let examples: Vec<_> = examples.iter().map(|(features, class)| (features, *class)).collect();
     let ridge = Ridge::fit(&examples, 2, 10.0, 0.0);
     let names = ["fast".to_string(), "slow".to_string()];
-    let bytes = export(&ridge, Head { names: &names, pressed: 12, notes: "{}" }).unwrap();
+    let alone = Trained { from: 0, ridge: ridge.clone(), rows: vec![(0, [0.75; LEADS])] };
+    let head = Head { names: &names, pressed: 12, concludes: false, notes: "{}" };
+    let bytes = export(&[alone], head).unwrap();
     (ridge, bytes)
 }
 
@@ -50,7 +52,7 @@ fn the_board_scores_as_the_planes_do() {
     let model = Model::read(&bytes).unwrap();
     for seed in 0..20 {
         let features = features(rubbing(5 + seed, seed));
-        let scores = model.scores(&features);
+        let scores = model.expert(9).unwrap().scores(&features);
         for (class, weights) in ridge.weights.iter().enumerate() {
             let away =
                 |i: usize| ((f64::from(features[i]) - ridge.middle[i]) / ridge.deviation[i]).clamp(-2.5, 2.5);
@@ -85,15 +87,18 @@ fn bad_models_are_refused_with_a_sentence() {
         Model::read(&bytes).unwrap_err()
     };
     assert_eq!(with(0, b'T'), ModelError::Foreign);
-    assert_eq!(with(7, 1).to_string(), "a model of version 1, known is 2");
+    assert_eq!(with(7, 1).to_string(), "a model of version 1, known are 2 and 3");
     let notes = u32::from_le_bytes(good[8..12].try_into().unwrap()) as usize;
     assert_eq!(with(12 + notes, 9).to_string(), "9 classes, expected 2 to 8");
-    let names = 12 + notes + 6;
+    assert_eq!(with(12 + notes + 2, 4).to_string(), "4 experts, expected 1 to 3");
+    let names = 12 + notes + 8;
     assert_eq!(with(names, 0), ModelError::Nameless(0));
     assert_eq!(with(names, 0xff), ModelError::Nameless(0));
-    let features = names + 7 * 20;
+    let expert = names + 7 * 16;
+    assert_eq!(with(expert, 1), ModelError::Age(0, 1));
+    let features = expert + 6 + 7 * 4;
     assert_eq!(with(features + 1, 9), ModelError::Feature(0, 9 << 8));
-    assert_eq!(with(names + 7 * 16 + 3, 0x7f), ModelError::Heavy(0));
+    assert_eq!(with(expert + 6 + 3, 0x7f), ModelError::Heavy(0));
     assert_eq!(Model::read(&[0; LARGEST + 1]), Err(ModelError::Large(LARGEST + 1)));
     let longer = [good, &[0]].concat();
     assert_eq!(Model::read(&longer), Err(ModelError::Longer(1)));
