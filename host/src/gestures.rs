@@ -1,6 +1,7 @@
 //! `taxel gestures`: which gesture a touch is, by a model that fits the board.
 
 use crate::arrays;
+use crate::doubts::start_ups;
 use crate::fault::Fault;
 use crate::touches::{
     self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, Windows,
@@ -122,7 +123,12 @@ fn load(files: &Files) -> Result<Data> {
         label: gesture.to_string(),
         group: group.to_string(),
     });
-    let touches = touches.collect();
+    let touches: Vec<Touch> = touches.collect();
+    let area = usize::from(frames.rows) * usize::from(frames.columns);
+    let named = touches.iter().enumerate();
+    let named = named.map(|(n, touch)| (format!("recording {n}"), touch.values.chunks_exact(area)));
+    let doubts = start_ups(named).into_iter().collect();
     let sources = vec![Source::of(path)?, Source::of(labels)?];
-    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle: Vec::new(), sources })
+    let (rows, columns, idle) = (frames.rows, frames.columns, Vec::new());
+    Ok(Data { rows, columns, classes, touches, idle, doubts, sources })
 }

@@ -1,6 +1,7 @@
 //! `taxel intent`: what a touch means, by a model that fits the board.
 
 use crate::arrays;
+use crate::doubts::start_ups;
 use crate::touches::{
     self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, Windows,
     grid, labels,
@@ -116,9 +117,16 @@ fn load(files: &Files, apart: Cross) -> Result<Data> {
         }
     }
     ensure!(!touches.is_empty(), "{}: there are no touches", labels.display());
+    let mut rest = frames.values.chunks_exact(area);
+    let recordings = lines.chunk_by(|a, b| a.0 == b.0);
+    let named = recordings.map(|lines| {
+        let own: Vec<&[u16]> = rest.by_ref().take(lines.len()).collect();
+        (lines[0].0.to_string(), own.into_iter())
+    });
+    let doubts = start_ups(named).into_iter().collect();
     let classes = MEANINGS.iter().map(|(name, _)| name.to_string()).collect();
     let sources = vec![Source::of(path)?, Source::of(labels)?];
-    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, sources })
+    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, doubts, sources })
 }
 
 fn meaning(label: &str) -> Option<usize> {

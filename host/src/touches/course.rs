@@ -66,11 +66,14 @@ fn cut(cells: &[Cells], windows: &Windows, settings: &Settings) -> Vec<Features>
     windows.starts(cells.len()).into_iter().flat_map(from).collect()
 }
 
+/// Which cell is seen at a place.
+type Mirror = fn(usize, usize) -> (usize, usize);
+
 /// The mirror images of a touch: by columns, by rows, by both.
 fn mirrored(cells: &[Cells]) -> Vec<Vec<Cells>> {
-    let images: [fn(usize, usize) -> (usize, usize); 3] =
+    let images: [Mirror; 3] =
         [|x, y| (SIDE - 1 - x, y), |x, y| (x, SIDE - 1 - y), |x, y| (SIDE - 1 - x, SIDE - 1 - y)];
-    let of = |frame: &Cells, image: fn(usize, usize) -> (usize, usize)| -> Cells {
+    let of = |frame: &Cells, image: Mirror| -> Cells {
         std::array::from_fn(|cell| {
             let (x, y) = image(cell % SIDE, cell / SIDE);
             frame[y * SIDE + x]

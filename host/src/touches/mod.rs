@@ -9,6 +9,7 @@ mod course;
 mod data;
 mod experts;
 mod export;
+mod fitting;
 mod knn;
 mod map;
 mod model;
