@@ -13,7 +13,7 @@
 //! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
 //! | on a garment | [`Gestures`]: the panel that is touched becomes the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, a decision is announced when it has lasted |
 //! | RAM | [`TouchState`], at most 4 KiB |
-//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.5 KB |
+//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.6 KB |
 
 mod announce;
 mod bands;

