@@ -1,5 +1,5 @@
-//! What speaks against recorded frames before anything is concluded from them: a transient of the start, values that stop at a
-//! top, units that do not fit.
+//! What speaks against recorded frames before anything is concluded from them: a transient of the start, values
+//! that stop at a top, units that do not fit.
 
 /// First frames of a recording that a transient may spoil.
 const FIRST: usize = 3;

@@ -11,7 +11,8 @@ use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::{CLASSES, Shipped};
 
-/// Chosen by cross-validation by participant. Recordings are cut out of touches that go on, so that windows may begin anywhere.
+/// Chosen by cross-validation by participant. Recordings are cut out of touches that go on, so that windows may
+/// begin anywhere.
 const SETTINGS: Settings = Settings {
     pressed: 12,
     halves: true,

@@ -108,7 +108,8 @@ impl<'a> Expert<'a> {
         scores
     }
 
-    /// The share of touches of that age that are what is taken to lead by so much (Q18); none: the model does not know.
+    /// The share of touches of that age that are what is taken to lead by so much (Q18); none: the model does
+    /// not know.
     pub fn confidence(&self, lead: u32, frames: u32) -> Option<Q15> {
         let rows = || self.rows.chunks_exact(ROW).filter_map(|row| row.split_first_chunk::<2>());
         let old = rows().take_while(|(from, _)| u32::from(u16::from_le_bytes(**from)) <= frames).last();

@@ -1,9 +1,10 @@
 //! Touch over time: what a touch is by how it goes on, recognised by a model that was trained on recordings.
 //!
-//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of the cells, sums are
-//! kept while the touch goes on, from which 127 features follow: levels, rise and fall, change over six lags, how the cells share
-//! in that, how neighbours change together, and the octaves of its rhythm. A linear expert for touches of that age scores the classes,
-//! and a table of its leads tells how sure that is.
+//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of
+//! the cells, sums are kept while the touch goes on, from which 127 features follow: levels, rise and fall,
+//! change over six lags, how the cells share in that, how neighbours change together, and the octaves of its
+//! rhythm. A linear expert for touches of that age scores the classes, and a table of its leads tells how sure
+//! that is.
 //!
 //! | | |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! A model of touches, read in place from the bytes of its file: linear experts, each for touches from an age on.
+//! A model of touches, read in place from the bytes of its file: linear experts, each for touches from an age
+//! on.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -13,8 +14,8 @@
 //! | | the experts, by age: see `expert.rs` |
 //! | 4 | CRC-32 of all before |
 //!
-//! All numbers are little-endian. Version 2, which is still read, has one expert: instead of the number of experts stands that of
-//! its features, and head, rows and the word on the last expert are missing.
+//! All numbers are little-endian. Version 2, which is still read, has one expert: instead of the number of
+//! experts stands that of its features, and head, rows and the word on the last expert are missing.
 
 use super::expert::{Expert, Head};
 use super::state::FEATURES;

@@ -22,7 +22,8 @@ pub struct Decision {
     pub scores: Scores,
     /// By how much it scores more than the second, Q18.
     pub lead: u32,
-    /// The share of touches of that age and lead that are what they are taken for; none: the model does not know.
+    /// The share of touches of that age and lead that are what they are taken for; none: the model does not
+    /// know.
     pub confidence: Option<Q15>,
 }
 

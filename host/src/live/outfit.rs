@@ -48,8 +48,8 @@ pub enum GestureModel {
     Intent,
 }
 
-/// Queues `SetGestures` for a model with its usual settings but the gain and the certainty. Whoever names a certainty is told as
-/// soon as the model is that sure, without a time for which it must have been so.
+/// Queues `SetGestures` for a model with its usual settings but the gain and the certainty. Whoever names a
+/// certainty is told as soon as the model is that sure, without a time for which it must have been so.
 pub fn recognise(
     client: &mut Client,
     model: GestureModel,

@@ -1,4 +1,5 @@
-//! How sure a decision is: the share of right ones by lead and age, fitted to predictions of touches that were kept apart.
+//! How sure a decision is: the share of right ones by lead and age, fitted to predictions of touches that were
+//! kept apart.
 
 use crate::learn::linear::{Square, back, forward};
 use taxel_core::gesture::LEADS;
@@ -14,7 +15,8 @@ pub struct Judged {
     pub right: bool,
 }
 
-/// The logarithm of the odds as a function of the lead and of the logarithm of the age: constant, lead, age, lead times age.
+/// The logarithm of the odds as a function of the lead and of the logarithm of the age: constant, lead, age,
+/// lead times age.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calibration([f64; 4]);
 

@@ -12,8 +12,9 @@ const CERTAINTIES: [f64; 7] = [0.0, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 /// A prediction: its confidence, and whether it was right.
 pub type Prediction = (f64, bool);
 
-/// The table of reliability: for each bin of confidence its predictions, their mean confidence and the share that was right; and
-/// the expected calibration error: how far these two are apart, on average over the predictions.
+/// The table of reliability: for each bin of confidence its predictions, their mean confidence and the share
+/// that was right; and the expected calibration error: how far these two are apart, on average over the
+/// predictions.
 pub fn reliability(predictions: &[Prediction]) -> Value {
     let bin = |confidence: f64| ((confidence * BINS as f64) as usize).min(BINS - 1);
     let (mut bins, mut error) = (Vec::new(), 0.0);
@@ -36,8 +37,9 @@ pub fn reliability(predictions: &[Prediction]) -> Value {
     json!({ "predictions": count, "expected_error": error / count.max(1) as f64, "bins": bins })
 }
 
-/// For each certainty: which share of touches is announced before the end, after how long (the median, in `unit`s, of which a
-/// frame is `frame`), and which shares are right of those announced and of all, where the rest are told at the end.
+/// For each certainty: which share of touches is announced before the end, after how long (the median, in
+/// `unit`s, of which a frame is `frame`), and which shares are right of those announced and of all, where the
+/// rest are told at the end.
 pub fn waits(touches: &[(usize, Applied)], unit: &str, frame: f64) -> Value {
     let row = |certainty: f64| {
         let sure = |(_, taken): &&(usize, Taken)| taken.confidence.is_some_and(|sure| sure >= certainty);

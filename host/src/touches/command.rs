@@ -119,7 +119,8 @@ impl Task {
         Ok(())
     }
 
-    /// Applies the model of a file, else the shipped one, as it is; adds to the doubts whether the touches fit it.
+    /// Applies the model of a file, else the shipped one, as it is; adds to the doubts whether the touches fit
+    /// it.
     fn apply(
         &self,
         mut data: Data,

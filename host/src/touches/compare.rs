@@ -179,8 +179,9 @@ pub(super) fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
     Example { course, class: touch.class, group: &touch.group }
 }
 
-/// Trains on the touches of the groups that are known and applies to those of another group as a whole. For these the last expert
-/// speaks, which alone is trained; and one group alone spares the search for what is not asked here, hand-over and confidence.
+/// Trains on the touches of the groups that are known and applies to those of another group as a whole. For
+/// these the last expert speaks, which alone is trained; and one group alone spares the search for what is not
+/// asked here, hand-over and confidence.
 pub(super) fn apart(
     data: &Data,
     courses: &[Course],

@@ -1,4 +1,5 @@
-//! What is learnt of a touch: features of the whole, of parts of it, of its mirror images, and of its beginnings.
+//! What is learnt of a touch: features of the whole, of parts of it, of its mirror images, and of its
+//! beginnings.
 
 use super::data::{Data, Touch};
 use super::model::{EARLY, Settings};

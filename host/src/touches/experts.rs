@@ -1,6 +1,8 @@
-//! Training the experts of a model: each on touches of its age, where one hands over to the next, and how sure they are.
+//! Training the experts of a model: each on touches of its age, where one hands over to the next, and how sure
+//! they are.
 //!
-//! Hand-over and confidence are learnt from decisions about groups that were kept apart within what is trained on.
+//! Hand-over and confidence are learnt from decisions about groups that were kept apart within what is trained
+//! on.
 
 use super::calibration::{Calibration, Judged};
 use super::course::Course;
@@ -138,8 +140,8 @@ fn handovers(trials: &[Trial], ages: &[usize], experts: usize) -> Vec<usize> {
     from
 }
 
-/// How many are recognised at most from the age number `start` on, where the first of the experts begins there, and with which
-/// beginnings. Each has one age at least, as far as they reach.
+/// How many are recognised at most from the age number `start` on, where the first of the experts begins there,
+/// and with which beginnings. Each has one age at least, as far as they reach.
 fn best(right: &[Vec<usize>], start: usize) -> (usize, Vec<usize>) {
     let own = &right[0][start.min(right[0].len())..];
     if right.len() == 1 {
@@ -161,7 +163,8 @@ fn best(right: &[Vec<usize>], start: usize) -> (usize, Vec<usize>) {
     chosen
 }
 
-/// The ages where nothing was kept apart: each expert from the shortest of its windows on, the last after all others'.
+/// The ages where nothing was kept apart: each expert from the shortest of its windows on, the last after all
+/// others'.
 fn assumed(settings: &Settings) -> Vec<usize> {
     let early: Vec<_> = settings.early.iter().flatten().collect();
     let mut from: Vec<usize> = early.iter().map(|windows| windows.shortest).collect();

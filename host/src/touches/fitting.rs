@@ -1,4 +1,5 @@
-//! What speaks against conclusions from labelled touches: force that saturates in several classes, units of another sheet.
+//! What speaks against conclusions from labelled touches: force that saturates in several classes, units of
+//! another sheet.
 
 use super::data::{Data, Touch};
 use crate::doubts::top;
@@ -7,7 +8,8 @@ use taxel_core::gesture::{Model, Sheet, TouchState};
 /// The feature by which levels are compared: the mean over the frames of the total, log2 in Q8.
 const LEVEL: usize = 0;
 
-/// The sentence on classes of which most touches reach the value at which values stop; none where at most one does.
+/// The sentence on classes of which most touches reach the value at which values stop; none where at most one
+/// does.
 pub fn saturation(data: &Data) -> Option<String> {
     let top = top(data.touches.iter().flat_map(|touch| touch.values.iter().copied()))?;
     let classes = data.classes.iter().enumerate().filter_map(|(class, name)| {
@@ -36,7 +38,8 @@ pub fn units(data: &Data, model: &Model<'_>) -> Option<String> {
     let above = mean - f64::from(middle);
     (above.abs() > f64::from(deviation)).then(|| {
         let times = 2f64.powf(above / 256.0);
-        format!("units: the touches press {times:.2} times as hard as those that the model was trained on; levels are features")
+        let as_trained = "as hard as those that the model was trained on; levels are features";
+        format!("units: the touches press {times:.2} times {as_trained}")
     })
 }
 

@@ -29,8 +29,8 @@ pub struct Settings {
     /// What the experts for early touches learn from, by age.
     #[serde(default)]
     pub early: [Option<Windows>; EARLY],
-    /// What is learnt from are touches from their beginning to their end, so that the last expert tells what a touch was, however
-    /// short; else they are cut, and the expert of its age does.
+    /// What is learnt from are touches from their beginning to their end, so that the last expert tells what a
+    /// touch was, however short; else they are cut, and the expert of its age does.
     #[serde(default)]
     pub concludes: bool,
 }

@@ -68,7 +68,8 @@ impl Report {
     }
 }
 
-/// What was measured: a table where it is a list of objects, an object's parts one by one where one of them is such, else a line.
+/// What was measured: a table where it is a list of objects, an object's parts one by one where one of them is
+/// such, else a line.
 fn line(key: &str, value: &Value) -> String {
     let is_table =
         |value: &Value| value.as_array().is_some_and(|rows| rows.first().is_some_and(Value::is_object));

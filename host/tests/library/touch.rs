@@ -130,7 +130,8 @@ fn the_expert_of_its_age_decides_and_the_last_concludes_where_touches_are_whole(
 #[test]
 fn a_model_of_version_2_is_read_and_knows_no_confidence() {
     let (_, three) = trained();
-    // Without the word on the last expert and its head and row; instead of the number of experts that of the features.
+    // Without the word on the last expert and its head and row; instead of the number of experts that of the
+    // features.
     let notes = 12 + 2;
     let mut two = three[..three.len() - 4 - 20].to_vec();
     two[7] = 2;

@@ -109,7 +109,8 @@ fn what_speaks_against_recorded_frames_is_told() {
     assert!(process("stopped.npy", &stopped).contains("saturation: values stop at 1500"));
     assert!(process("soft.npy", &soft).contains("no value is above 59 of a full scale of 4095"));
 
-    // Two gestures by three people, eight times each, which all saturate; the first recording begins with a transient.
+    // Two gestures by three people, eight times each, which all saturate; the first recording begins with a
+    // transient.
     let two = started.iter().chain(&stopped).map(|value| (*value).min(500));
     let mut all = two.collect::<Vec<u16>>().repeat(24);
     all[..64 * 20].iter_mut().for_each(|value| *value /= 50);
