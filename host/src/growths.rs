@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::contact::Growth;
-use taxel_core::contact::hardness::cell_mm2;
 use taxel_core::garment::Layout;
 
 /// By the contact's id, with the panel that it was on last.
@@ -25,6 +24,6 @@ impl Growths {
     /// How hard a contact seems, counts per cm2; none where that is not known.
     pub fn hardness(&self, contact: u32, layout: &Layout) -> Option<u32> {
         let (growth, panel) = self.0.get(&contact)?;
-        growth.hardness(cell_mm2(layout.areas().get(usize::from(*panel))?.pitch_um))
+        growth.hardness(layout.areas().get(usize::from(*panel))?.cell_mm2)
     }
 }

@@ -19,7 +19,7 @@ enum Run {
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 12] = [
+const RUNS: [(&str, Run, &str); 13] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -46,6 +46,11 @@ const RUNS: [(&str, Run, &str); 12] = [
         "families",
         Run::Library("families_are_understood"),
         "intentions: 200 touches of 40 families against what a person would say (simulated)",
+    ),
+    (
+        "garments",
+        Run::Library("meaning::garments"),
+        "1,000 touches on random garments at random rates, beside the reference garment (simulated)",
     ),
     (
         "drift",

@@ -143,10 +143,13 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
     }
 }
 
-/// Cargo in a folder.
+/// Cargo in a folder. What a later build would reuse takes longer to write than it is worth here, unless somebody asks for it.
 pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     let mut command = Command::new("cargo");
     command.args(args).current_dir(folder);
+    if std::env::var_os("CARGO_INCREMENTAL").is_none() {
+        command.env("CARGO_INCREMENTAL", "0");
+    }
     command
 }
 

@@ -25,9 +25,9 @@ const FAST: i32 = 4;
 
 /// What each panel drifts in a turn, counts.
 ///
-/// Once in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the panel is known to
+/// Twice in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the panel is known to
 /// have. It moves by their median if seven eighths of them are beyond it the same way, by a quarter of the median at least: drift
-/// is common, and where something presses slowly a part of a panel stays at rest. If only most of them are beyond it, it moves by one count.
+/// is common, and where something presses slowly a part of a panel stays at rest. If only most of them are beyond it, it moves by one count a turn.
 /// What sets a witness apart from the others by more than noise is forgotten by a count a turn, and at once where the panel moves
 /// fast, so that it does not hide what all have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,27 +38,39 @@ struct Panel {
     /// Where each witness would be, had it drifted as the panel has; below 0 or beyond 65535 it is held there.
     known: [u16; WITNESSES],
     begun: bool,
-    /// Drift in this turn.
-    step: i8,
+    /// Drift in the half of a turn before, and in this one.
+    steps: [i8; 2],
+}
+
+impl Panel {
+    /// Drift in a whole turn.
+    fn in_turn(&self) -> i32 {
+        i32::from(self.steps[0]) + i32::from(self.steps[1])
+    }
 }
 
 impl Consensus {
     pub const fn new() -> Self {
-        Consensus([Panel { known: [0; WITNESSES], begun: false, step: 0 }; PANELS])
+        Consensus([Panel { known: [0; WITNESSES], begun: false, steps: [0; 2] }; PANELS])
     }
 
     /// Begins anew, since baselines have been set.
     pub fn forget(&mut self) {
-        self.0.iter_mut().for_each(|panel| (panel.begun, panel.step) = (false, 0));
+        self.0.iter_mut().for_each(|panel| (panel.begun, panel.steps) = (false, [0; 2]));
     }
 
     /// What a panel moves by in this turn, counts.
     pub fn step(&self, panel: u8) -> i32 {
-        self.0.get(usize::from(panel)).map_or(0, |panel| panel.step.into())
+        self.0.get(usize::from(panel)).map_or(0, Panel::in_turn)
     }
 
-    /// Asks the witnesses of a panel, given the baselines and gains of all taxels; `touched` tells which of its taxels a contact
-    /// holds.
+    /// Whether one of the panels drifts fast.
+    pub fn is_fast(&self) -> bool {
+        self.0.iter().any(|panel| panel.in_turn().abs() > FAST)
+    }
+
+    /// Asks the witnesses of a panel, given the baselines and gains of all taxels; `whole`: a turn begins, else it is half over; `touched`
+    /// tells which of its taxels a contact holds.
     #[inline(never)] // M0+: out of line
     pub fn vote(
         &mut self,
@@ -66,6 +78,7 @@ impl Consensus {
         area: &Area,
         codes: &[Code],
         (baseline, gain): (&[u16], &[u16]),
+        whole: bool,
         touched: impl Fn(usize) -> bool,
     ) {
         let Some(panel) = self.0.get_mut(usize::from(panel)) else { return };
@@ -78,64 +91,97 @@ impl Consensus {
                 *known = baseline.get(at).copied().unwrap_or(0);
             });
         }
-        // How far each is beyond what is known, if it was asked; and these in ascending order.
+        // How far each is beyond what is known, if it was asked.
         let mut beyond = [None; WITNESSES];
-        let (mut sorted, mut asked) = ([0; WITNESSES], 0);
         for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
-            // Absent and dead ones are not asked.
+            // Absent and dead ones are not asked, nor what is held.
             if gain.get(at).is_some_and(|gain| *gain != 0)
                 && let (Some(code), Some(rest)) = (codes.get(at), baseline.get(at))
-                && !touched(at)
             {
-                let (code, rest) = (i32::from(code.0), i32::from(*rest));
-                let now = if (code - rest).abs() > NOISE { code } else { rest };
-                *beyond = Some(now - i32::from(*known));
-                insert(&mut sorted, asked, now - i32::from(*known));
-                asked += 1;
+                let (code, rest, known) = (i32::from(code.0), i32::from(*rest), i32::from(*known));
+                *beyond = match (code - rest).abs() > NOISE {
+                    true => (!touched(at)).then_some(code - known),
+                    false => Some(rest - known),
+                };
             }
         }
-        let sorted = sorted.get(..asked).unwrap_or(&[]);
-        let middle = sorted.get(asked / 2).copied().unwrap_or(0);
-        let step = agreed(sorted, middle, panel.step.into()).clamp(-COMMON, COMMON);
+        let mut sorted = Sorted::of(&beyond);
+        if sorted.middle().abs() > NOISE + 1 {
+            // That is more than noise: those who have moved less are believed, too.
+            for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
+                if let (Some(beyond), Some(code)) = (beyond, codes.get(at)) {
+                    *beyond = i32::from(code.0) - i32::from(*known);
+                }
+            }
+            sorted = Sorted::of(&beyond);
+        }
+        let middle = sorted.middle();
+        let step = agreed(&sorted, panel.steps[1].into(), whole).clamp(-COMMON / 2, COMMON / 2);
         for (known, beyond) in panel.known.iter_mut().zip(beyond) {
             let apart = beyond.map_or(0, |beyond| beyond - middle);
             let forgotten = match apart.abs() > APART {
-                _ if step.abs() > FAST => apart,
-                true => apart.signum(),
-                false => 0,
+                _ if step.abs() > FAST / 2 => apart,
+                true if whole => apart.signum(),
+                _ => 0,
             };
             *known = (i32::from(*known) + step + forgotten).clamp(0, 0xffff) as u16;
         }
-        panel.step = step as i8;
+        panel.steps = [panel.steps[1], step as i8];
     }
 }
 
-/// What witnesses agree on, given how far they are beyond what is known, in ascending order, the one in the middle, and the step
-/// before; 0 for nothing. Fast drift goes on while five eighths agree: noise may hide it from some.
-fn agreed(beyond: &[i32], middle: i32, before: i32) -> i32 {
-    if beyond.len() < FEWEST {
+/// What witnesses agree on, given how far they are beyond what is known and the step before; 0 for nothing. Fast drift goes on while
+/// five eighths agree: noise may hide it from some.
+fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
+    let (all, middle) = (beyond.all(), beyond.middle());
+    if all.len() < FEWEST {
         return 0;
     }
     let with = |other: &&i32| other.signum() == middle.signum() && 4 * other.abs() >= middle.abs();
-    let goes_on = before.abs() > FAST && before.signum() == middle.signum();
+    let goes_on = before.abs() > FAST / 2 && before.signum() == middle.signum();
     let eighths = if goes_on { 5 } else { 7 };
-    if middle.abs() <= BROKEN && beyond.iter().filter(with).count() * 8 >= beyond.len() * eighths {
+    if middle.abs() <= BROKEN && all.iter().filter(with).count() * 8 >= all.len() * eighths {
         return middle;
     }
-    let side = |way: i32| beyond.iter().filter(|beyond| beyond.signum() == way).count() * 2 > beyond.len();
-    i32::from(side(1)) - i32::from(side(-1))
+    let side = |way: i32| all.iter().filter(|beyond| beyond.signum() == way).count() * 2 > all.len();
+    if whole { i32::from(side(1)) - i32::from(side(-1)) } else { 0 }
 }
 
-/// Puts a number where it belongs among the first `count`, which ascend.
-fn insert(list: &mut [i32; WITNESSES], count: usize, number: i32) {
-    let mut carried = number;
-    for held in list.iter_mut().take(count) {
-        if carried < *held {
-            core::mem::swap(held, &mut carried);
+/// What witnesses told, in ascending order.
+struct Sorted {
+    numbers: [i32; WITNESSES],
+    count: usize,
+}
+
+impl Sorted {
+    fn of(told: &[Option<i32>]) -> Sorted {
+        let mut sorted = Sorted { numbers: [0; WITNESSES], count: 0 };
+        told.iter().flatten().for_each(|number| sorted.insert(*number));
+        sorted
+    }
+
+    fn insert(&mut self, number: i32) {
+        let Some(end) = self.numbers.get_mut(self.count) else { return };
+        *end = number;
+        self.count += 1;
+        // Down to its place: mostly none of those before is greater.
+        let mut left = self.numbers.get_mut(..self.count).unwrap_or(&mut []);
+        while let [rest @ .., before, last] = left
+            && *before > *last
+        {
+            core::mem::swap(before, last);
+            let length = rest.len() + 1;
+            left = left.get_mut(..length).unwrap_or(&mut []);
         }
     }
-    if let Some(end) = list.get_mut(count) {
-        *end = carried;
+
+    fn all(&self) -> &[i32] {
+        self.numbers.get(..self.count).unwrap_or(&[])
+    }
+
+    /// The one in the middle; 0 of none.
+    fn middle(&self) -> i32 {
+        self.all().get(self.count / 2).copied().unwrap_or(0)
     }
 }
 
@@ -158,12 +204,13 @@ mod tests {
 
     #[test]
     fn most_move_it_by_a_count_and_seven_eighths_by_what_they_agree_on() {
-        let agreed_after = |before: i32, numbers: [i32; 16]| {
-            let mut list = [0; WITNESSES];
-            (0..).zip(numbers).for_each(|(count, number)| insert(&mut list, count, number));
-            assert!(list.is_sorted());
-            agreed(&list, list[8], before)
+        let sorted = |numbers: &[i32]| {
+            let mut list = Sorted::of(&[]);
+            numbers.iter().for_each(|number| list.insert(*number));
+            assert!(list.all().is_sorted() && list.all().len() == numbers.len());
+            list
         };
+        let agreed_after = |before: i32, numbers: [i32; 16]| agreed(&sorted(&numbers), before, true);
         let agreed = |numbers| agreed_after(0, numbers);
         let spread = [14, 7, 21, 9, 12, 8, 20, 15, 11, 13, 10, 16, 17, 18, 19, 14];
         assert_eq!((agreed(spread), agreed(spread.map(|off| -off))), (14, -14));
@@ -172,7 +219,9 @@ mod tests {
         assert_eq!([2, 3, 7, 8].map(|count| agreed(but(count))), [14, 1, 1, 0]);
         assert_eq!(agreed([1, 1, 0, 0, -1, -1, 0, 2, 0, -2, 1, -1, 3, -3, 0, 0]), 0);
         assert_eq!([6, 7].map(|count| agreed_after(9, but(count))), [13, 1]);
-        assert_eq!([9, -9, 4].map(|before| agreed_after(before, but(5))), [13, 1, 1]);
-        assert_eq!(super::agreed(&[5, 5, 5], 5, 0), 0);
+        assert_eq!([9, -9, 2].map(|before| agreed_after(before, but(5))), [13, 1, 1]);
+        assert_eq!(super::agreed(&sorted(&[5, 5, 5]), 0, true), 0);
+        // In the middle of a turn most alone decide nothing.
+        assert_eq!([2, 3].map(|count| super::agreed(&sorted(&but(count)), 0, false)), [14, 0]);
     }
 }

@@ -1,6 +1,6 @@
 //! The baseline follows drift, in counts per second.
 //!
-//! In each [turn](super::rates::TURN_US) every row is visited once, whatever the frame rate. Its taxels move by what their panel
+//! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once, whatever the frame rate. Its taxels move by what their panel
 //! drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
 //! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
 //! never swallowed, and neither is a slow one once it shows. Only a tared baseline drifts: recordings are taken as they are.
@@ -15,8 +15,8 @@ use crate::format::Code;
 use crate::garment::{Area, Layout};
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel its witnesses have a turn of their own, so
-    /// that all frames cost alike.
+    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel, and before the second half of them, its
+    /// witnesses have a turn of their own, so that all frames cost alike.
     pub(super) fn follow_drift<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,
@@ -28,32 +28,35 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             return;
         }
         let rows = layout.areas().last().map_or(0, |area| area.first_row.saturating_add(area.rows));
-        let slots = rows.saturating_add(layout.areas().len() as u16);
-        while let Some(slot) = self.turn.next(sampled.now, slots) {
+        let slots = rows.saturating_add(2 * layout.areas().len() as u16);
+        while let Some(slot) = self.turn.next(sampled.now, slots, self.consensus.is_fast()) {
             let here = (0u8..).zip(layout.areas()).find_map(|(panel, area)| {
-                let row = slot.checked_sub(area.first_row.saturating_add(panel.into()))?;
-                (row <= area.rows).then_some((panel, area, row))
+                let at = slot.checked_sub(area.first_row.saturating_add(2 * u16::from(panel)))?;
+                (at <= area.rows + 1).then_some((panel, area, at))
             });
-            let Some((panel, area, row)) = here.filter(|(panel, ..)| sampled.panels >> panel & 1 == 1) else {
+            let Some((panel, area, at)) = here.filter(|(panel, ..)| sampled.panels >> panel & 1 == 1) else {
                 continue;
             };
-            match row.checked_sub(1) {
-                None => self.ask(panel, area, sampled, feedback),
-                Some(row) => self.follow(panel, area, row, sampled, feedback, terms),
+            let half = 1 + area.rows / 2;
+            if at == 0 || at == half {
+                self.ask(panel, area, sampled, feedback, at == 0);
+            } else {
+                self.follow(panel, area, at - 1 - u16::from(at > half), sampled, feedback, terms);
             }
         }
     }
 
-    /// Asks the witnesses of a panel.
+    /// Asks the witnesses of a panel; `whole`: its turn begins.
     fn ask<const CONTACTS: usize>(
         &mut self,
         panel: u8,
         area: &Area,
         sampled: &Sampled<'_>,
         feedback: &Feedback<CONTACTS>,
+        whole: bool,
     ) {
         let columns = usize::from(area.columns);
-        self.consensus.vote(panel, area, sampled.codes, (&self.baseline, &self.gain), |at| {
+        self.consensus.vote(panel, area, sampled.codes, (&self.baseline, &self.gain), whole, |at| {
             let row = at.checked_div(columns).unwrap_or(0);
             feedback.holds(panel, row as u16, at.wrapping_sub(row * columns) as u16)
         });

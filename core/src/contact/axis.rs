@@ -2,9 +2,7 @@
 
 use super::moments::{Central, Moments};
 use crate::format::{Inverse, Q15, Scaled, Turn, left, right, root, signed_wide, wide};
-
-/// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
-pub const ASSUMED_PITCH_UM: u32 = 10_000;
+use crate::garment::ASSUMED_PITCH_UM;
 
 /// The principal axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

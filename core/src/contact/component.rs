@@ -274,6 +274,22 @@ impl Component {
         labels.in_rows(rows.0, rows.1)
     }
 
+    /// Takes in another one, of the same home panel.
+    pub(super) fn absorb(&mut self, other: &Component) {
+        let place = |component: &Component| component.peak_at.map(|at| (at.panel, at.row, at.column));
+        if (other.peak, place(self)) > (self.peak, place(other)) {
+            (self.peak, self.peak_at) = (other.peak, other.peak_at);
+        }
+        self.joined |= other.joined;
+        self.total = self.total.saturating_add(other.total);
+        self.area = self.area.saturating_add(other.area);
+        self.moments.add(&other.moments);
+        let (bounds, more) = (&mut self.bounds, &other.bounds);
+        (bounds.top, bounds.bottom) = (bounds.top.min(more.top), bounds.bottom.max(more.bottom));
+        (bounds.left, bounds.right) = (bounds.left.min(more.left), bounds.right.max(more.right));
+        self.locate();
+    }
+
     /// Finds the centroid, rounded once to the nearest 2^-16 taxel.
     fn locate(&mut self) {
         self.inverse = Inverse::of(self.total);

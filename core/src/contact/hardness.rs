@@ -15,7 +15,6 @@
 //! shape; a sharper thing of the same stuff also seems harder. A thing that shows no taxel more than in its first frame counts as
 //! one taxel: this is as hard as the garment can tell.
 
-use super::axis::ASSUMED_PITCH_UM;
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +39,7 @@ impl Growth {
         self.first.get_or_insert((force, area));
     }
 
-    /// Rise of the force over that of the area, counts per cm2, where a taxel has `cell_mm2` ([`cell_mm2`]). None before the force has
+    /// Rise of the force over that of the area, counts per cm2, where a taxel has `cell_mm2` ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has
     /// doubled. Total.
     pub fn hardness(&self, cell_mm2: u32) -> Option<u32> {
         let (force, area) = self.first?;
@@ -49,12 +48,6 @@ impl Growth {
         let cells = NonZeroU32::new(spread.saturating_mul(cell_mm2.max(1)))?;
         Some(rise.saturating_mul(100) / cells)
     }
-}
-
-/// Area of a taxel in mm2 on a panel of this pitch (0: unknown, 10 mm are assumed), rounded down, at least 1.
-pub fn cell_mm2(pitch_um: [u32; 2]) -> u32 {
-    let [x, y] = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.min(655_399) } / 100);
-    (x * y / 100).max(1)
 }
 
 /// How hard the thing is that touches. Variants are only appended.
@@ -94,6 +87,7 @@ mod tests {
     extern crate std;
 
     use super::*;
+    use crate::garment::cell_mm2;
 
     /// A taxel of 1 cm2.
     const CM: u32 = 100;

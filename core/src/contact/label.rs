@@ -173,6 +173,14 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
+    /// Component `lost` has become a part of `whole`, and those after it move up.
+    pub fn renumber(&mut self, whole: u16, lost: u16) {
+        for part in self.parts.iter_mut().filter(|part| part.contact != NONE) {
+            let contact = if part.contact == lost { whole } else { part.contact };
+            part.contact = contact - u16::from(contact > lost);
+        }
+    }
+
     /// The parts that are whole, with their indices.
     pub fn whole_parts(&self) -> impl Iterator<Item = (u16, &Part)> {
         (0u16..).zip(&self.parts).filter(|(index, part)| part.parent == *index)

@@ -17,7 +17,7 @@
 //! Contacts and components are paired by distance, the nearest first, from where each contact should be by its velocity.
 //! Of two contacts that become one, that with the greater total goes on and the other is released; of equals the one that
 //! is nearer. Of one that comes apart, the part nearest to where it should be goes on, which is the greater one, and the other
-//! begins anew. One that has lost its component goes on as the one that covers its peak, if that is nobody else's. When contacts
+//! begins anew; but as long as at most a row and a column of taxels lie between two parts, they stay one. One that has lost its component goes on as the one that covers its peak, if that is nobody else's. When contacts
 //! merge or part, or a quarter of the total comes or goes at once, the centroid leaps, and that counts neither as way nor as velocity.
 //!
 //! Motion is that of the centroid, or that of the pattern of pressure inside a contact where there is one (`pattern`): a flat
@@ -52,6 +52,7 @@ mod piece;
 mod place;
 mod point;
 mod record;
+mod reunite;
 mod runs;
 mod side;
 mod sixteens;
@@ -66,7 +67,7 @@ mod trail;
 mod words;
 
 pub(crate) use axis::tenths;
-pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
+pub use axis::{Axis, axis, breadth};
 pub use component::Component;
 pub use config::{ContactConfig, NO_SLIP};
 pub use hardness::{Growth, Hardness};

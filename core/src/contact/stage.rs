@@ -155,6 +155,7 @@ impl Contacts {
     ) -> Touches<'a> {
         let ContactState { labels, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
+        components.reunite(labels, layout, tracks);
         tracks.merge(labels, layout);
         tracks.update(&self.config, &components.list, labels, layout, image, now);
         Touches {

@@ -185,7 +185,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Components that a contact became.
-    fn known(&self) -> [bool; CONTACTS] {
+    pub fn known(&self) -> [bool; CONTACTS] {
         let mut known = [false; CONTACTS];
         for trail in &self.trails {
             if let Some(known) = known.get_mut(usize::from(trail.component)) {

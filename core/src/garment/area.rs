@@ -22,6 +22,17 @@ pub struct Area {
     pub columns: u16,
     /// Distance of taxel centres along x and y, micrometres; 0 where unknown.
     pub pitch_um: [u32; 2],
+    /// Area of a taxel, see [`cell_mm2`].
+    pub cell_mm2: u32,
+}
+
+/// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
+pub const ASSUMED_PITCH_UM: u32 = 10_000;
+
+/// Area of a taxel in mm2 on a panel of this pitch (0: unknown, 10 mm are assumed), rounded down, at least 1.
+pub fn cell_mm2(pitch_um: [u32; 2]) -> u32 {
+    let [x, y] = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.min(655_399) } / 100);
+    (x * y / 100).max(1)
 }
 
 /// Where a taxel is.

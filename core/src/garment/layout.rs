@@ -1,6 +1,6 @@
 //! The checked geometry of a garment.
 
-use super::area::{Area, Place};
+use super::area::{Area, Place, cell_mm2};
 use super::config::{ABSENT, Absent, Garment, PANELS, PITCH_UM, Panel, SEAMS};
 use super::error::GarmentError;
 use super::seam::Joint;
@@ -91,6 +91,7 @@ impl Layout {
                 rows: panel.rows,
                 columns: panel.columns,
                 pitch_um: panel.pitch_um,
+                cell_mm2: cell_mm2(panel.pitch_um),
             });
             self.taxels += panel.rows * panel.columns;
             first_row += panel.rows;

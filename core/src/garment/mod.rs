@@ -14,7 +14,7 @@ mod pins;
 mod presets;
 mod seam;
 
-pub use area::{Area, Place, Rect};
+pub use area::{ASSUMED_PITCH_UM, Area, Place, Rect, cell_mm2};
 pub use circuit::{CIRCUIT_LINES, Circuit, Site};
 pub use config::{
     Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, PITCH_UM, Panel,

@@ -6,7 +6,6 @@ use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
 use crate::body::Placed;
 use crate::condition::{Image, Sampled};
-use crate::contact::hardness::cell_mm2;
 use crate::contact::{Contact, ContactState, Touches};
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
@@ -41,7 +40,7 @@ impl Pipeline {
             look(taught, present, contact, layout, &image);
         }
         probe.begin(Stage::Symbol);
-        self.symbol.process(symbol, present, released, now);
+        self.symbol.process(symbol, layout, present, released, now);
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
             let told = stage.process(&mut state.gesture, layout, &image, totals, now)?;
@@ -135,7 +134,7 @@ impl Pipeline {
         for Placed { contact, region, .. } in present {
             if contact.panel != panel.0 {
                 let area = layout.areas().get(usize::from(contact.panel));
-                panel = (contact.panel, cell_mm2(area.map_or([0, 0], |area| area.pitch_um)));
+                panel = (contact.panel, area.map_or(0, |area| area.cell_mm2));
             }
             felt.add(*region, contact.total, contact.peak, contact.area, panel.1, high);
         }
@@ -148,7 +147,7 @@ impl Pipeline {
             return 0;
         }
         let area = layout.areas().get(usize::from(placed.contact.panel));
-        cell_mm2(area.map_or([0, 0], |area| area.pitch_um))
+        area.map_or(0, |area| area.cell_mm2)
     }
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct SymbolConfig {
     /// Total pressure in counts from which a touch is light, firm, hard; below it is faint.
     pub strength: [u32; 3],
-    /// Area in taxels from which a touch is a patch, a wide one; below it is a point.
+    /// Area in cm2 from which a touch is a patch, a wide one; below it is a point.
     pub extent: [u16; 2],
     /// Duration in ms from which a touch is short, long; below it is brief.
     pub span_ms: [u32; 2],

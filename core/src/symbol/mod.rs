@@ -17,4 +17,4 @@ mod words;
 
 pub use config::SymbolConfig;
 pub use stage::{EVENTS, RegionState, Symbol, SymbolState, Symbols};
-pub use words::{Extent, Span, Strength, Words};
+pub use words::{Extent, SHARP, Span, Strength, Words};

@@ -1,7 +1,7 @@
 //! What was said of a contact, and when that changes.
 
 use super::config::SymbolConfig;
-use super::words::{Extent, Span, Strength, Words};
+use super::words::{Extent, SHARP, Span, Strength, Words};
 use crate::body::Placed;
 use crate::format::Q15;
 use crate::shape::Class;
@@ -33,19 +33,19 @@ const STILL: u8 = 250;
 
 impl Said {
     /// What is said of a contact at first.
-    pub fn new(config: &SymbolConfig, placed: &Placed) -> Said {
+    pub fn new(config: &SymbolConfig, placed: &Placed, area_mm2: u32) -> Said {
         let mut said =
             Said { contact: placed.contact.id, words: Words::default(), evidence: FIRST, still_ms: u8::MAX };
         said.words.class = placed.shape.class;
-        said.measure(config, placed, None);
+        said.measure(config, placed, area_mm2, None);
         said.slide(placed.contact.slip, 0);
         said
     }
 
     /// What is to be said `ms` later; whether that is something else.
-    pub fn follow(&mut self, config: &SymbolConfig, placed: &Placed, ms: u8) -> bool {
+    pub fn follow(&mut self, config: &SymbolConfig, placed: &Placed, area_mm2: u32, ms: u8) -> bool {
         let before = self.words;
-        self.measure(config, placed, Some(before));
+        self.measure(config, placed, area_mm2, Some(before));
         self.slide(placed.contact.slip, ms);
         if placed.contact.total >= placed.contact.peak_total / 2 {
             self.weigh(placed.shape.class, placed.shape.confidence, ms);
@@ -59,12 +59,12 @@ impl Said {
     }
 
     /// Words for how hard, how large and how long.
-    fn measure(&mut self, config: &SymbolConfig, placed: &Placed, before: Option<Words>) {
+    fn measure(&mut self, config: &SymbolConfig, placed: &Placed, area_mm2: u32, before: Option<Words>) {
         let contact = &placed.contact;
-        let limits = config.extent.map(u32::from);
-        let largest = before.map_or(0, |w| w.extent as usize);
+        let limits = config.extent.map(|cm2| u32::from(cm2) * 100);
+        let largest = before.map_or(0, |w| w.extent.size());
         let strength = word(contact.peak_total, &config.strength, before.map(|w| w.strength as usize));
-        let extent = word(contact.area.into(), &limits, before.map(|w| w.extent as usize)).max(largest);
+        let extent = word(area_mm2, &limits, before.map(|w| w.extent.size())).max(largest);
         let span = word(contact.duration_ms, &config.span_ms, None);
         self.words.strength = match strength {
             0 => Strength::Faint,
@@ -73,6 +73,7 @@ impl Said {
             _ => Strength::Hard,
         };
         self.words.extent = match extent {
+            0 if contact.peak >= SHARP || before.is_some_and(|w| w.extent == Extent::Sharp) => Extent::Sharp,
             0 => Extent::Point,
             1 => Extent::Patch,
             _ => Extent::Wide,

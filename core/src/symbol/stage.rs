@@ -6,7 +6,7 @@ use super::words::Words;
 use crate::body::Placed;
 use crate::contact::Phase;
 use crate::format::{Invalid, Micros};
-use crate::garment::PANELS;
+use crate::garment::{Layout, PANELS};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -116,6 +116,7 @@ impl Symbols {
     pub fn process<const CONTACTS: usize>(
         &self,
         state: &mut SymbolState<CONTACTS>,
+        layout: &Layout,
         present: &[Placed],
         released: &[Placed],
         now: Micros,
@@ -128,12 +129,12 @@ impl Symbols {
         let mut at = 0;
         for placed in present {
             let (phase, words) = match said_of(&mut state.said, &mut at, placed.contact.id) {
-                Some(said) => match said.follow(&self.config, placed, ms) {
+                Some(said) => match said.follow(&self.config, placed, area_mm2(layout, placed), ms) {
                     true => (Phase::Held, said.words),
                     false => continue,
                 },
                 None => {
-                    let said = Said::new(&self.config, placed);
+                    let said = Said::new(&self.config, placed, area_mm2(layout, placed));
                     let words = said.words;
                     let _ = state.said.push(said);
                     (Phase::Onset, words)
@@ -143,7 +144,10 @@ impl Symbols {
         }
         for placed in released {
             let last = state.said.iter().find(|said| said.contact == placed.contact.id);
-            let words = last.map_or_else(|| Said::new(&self.config, placed).words, |said| said.words);
+            let words = last.map_or_else(
+                || Said::new(&self.config, placed, area_mm2(layout, placed)).words,
+                |said| said.words,
+            );
             let _ = state.events.push(symbol(placed, Phase::Released, words));
         }
         // Each contact is released before it is gone.
@@ -152,6 +156,12 @@ impl Symbols {
         }
         regions(&mut state.regions, present, now);
     }
+}
+
+fn area_mm2(layout: &Layout, placed: &Placed) -> u32 {
+    let area = layout.areas().get(usize::from(placed.contact.panel));
+    // 16 bits each: no taxel is a quarter of a metre wide.
+    u32::from(placed.contact.area) * area.map_or(0, |area| area.cell_mm2.min(0xffff))
 }
 
 fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {

@@ -18,8 +18,8 @@ pub enum Strength {
     Hard,
 }
 
-/// How large.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+/// How large. Variants are only appended.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Extent {
     /// below the first limit
@@ -29,6 +29,22 @@ pub enum Extent {
     Patch,
     /// from the second
     Wide,
+    /// a point with [`SHARP`] counts on a taxel: a needle, a pen, the edge of a key
+    Sharp,
+}
+
+/// A taxel is as good as full, counts: the middle of what is sharp to the shipped map.
+pub const SHARP: u16 = 3_000;
+
+impl Extent {
+    /// Its place among the sizes.
+    pub(super) const fn size(self) -> usize {
+        match self {
+            Extent::Point | Extent::Sharp => 0,
+            Extent::Patch => 1,
+            Extent::Wide => 2,
+        }
+    }
 }
 
 /// How long.
@@ -49,7 +65,7 @@ pub enum Span {
 pub struct Words {
     /// How hard, at its hardest so far.
     pub strength: Strength,
-    /// How large, at its largest so far.
+    /// How large, at its largest so far; a point that was sharp stays so.
     pub extent: Extent,
     /// How long so far.
     pub span: Span,

@@ -18,8 +18,8 @@ pub struct Dense {
     due: u64,
     /// The points of the frame before: taxels that stood out of their neighbours, and what they had.
     points: Vec<(usize, u16)>,
-    /// What each panel drifts in this turn, and where its witnesses would be, had they drifted as it has.
-    common: Vec<(i32, Option<Vec<i32>>)>,
+    /// What each panel drifted in the half of a turn before and drifts in this one, and where its witnesses would be, had they drifted as it has.
+    common: Vec<([i32; 2], Option<Vec<i32>>)>,
 }
 
 impl Dense {
@@ -32,13 +32,13 @@ impl Dense {
             }
         }
         let rest = vec![rest; layout.taxels()];
-        let common = vec![(0, None); layout.areas().len()];
+        let common = vec![([0; 2], None); layout.areas().len()];
         Dense { config, falling, rest, gain, tared: false, slot: 0, due: 0, points: Vec::new(), common }
     }
 
     /// No drift is known, as after a baseline was set.
     pub fn forget(&mut self) {
-        self.common.fill((0, None));
+        self.common.fill(([0; 2], None));
     }
 
     /// The image of a frame; then the baseline follows drift.
@@ -82,23 +82,33 @@ impl Dense {
         if value < self.config.floor { 0 } else { value }
     }
 
-    /// Every row once in 0.7 s, and before those of a panel its witnesses.
+    /// What a panel drifts in a whole turn.
+    fn in_turn(&self, panel: usize) -> i32 {
+        self.common[panel].0.iter().sum()
+    }
+
+    /// Every row once in 0.7 s, or in 0.35 s while a panel drifts fast, and before either half of a panel's rows its witnesses.
     fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect], shows: &[bool]) {
-        let slots: u16 = layout.areas().iter().map(|area| area.rows + 1).sum();
+        let slots: u16 = layout.areas().iter().map(|area| area.rows + 2).sum();
         while self.due <= sampled.now.0 {
             let mut slot = self.slot;
             self.slot = (self.slot + 1) % slots;
-            self.due = self.due.max(sampled.now.0.saturating_sub(700_000)) + 700_000 / u64::from(slots);
+            let fast = (0..layout.areas().len()).any(|panel| self.in_turn(panel).abs() > 4);
+            let row_us = 700_000 / u64::from(slots) / if fast { 2 } else { 1 };
+            self.due = self.due.max(sampled.now.0.saturating_sub(700_000)) + row_us;
             for (panel, area) in layout.areas().iter().enumerate() {
-                if slot <= area.rows {
-                    match slot.checked_sub(1) {
-                        _ if sampled.panels >> panel & 1 == 0 => {}
-                        None => self.vote(panel, area, sampled.codes, held),
-                        Some(row) => self.follow_row(panel, area, row, sampled.codes, held, shows),
+                if slot < area.rows + 2 {
+                    let first = area.rows / 2;
+                    if sampled.panels >> panel & 1 == 0 {
+                    } else if slot == 0 || slot == first + 1 {
+                        self.vote(panel, area, sampled.codes, held, slot == 0);
+                    } else {
+                        let row = if slot <= first { slot - 1 } else { slot - 2 };
+                        self.follow_row(panel, area, row, sampled.codes, held, shows);
                     }
                     break;
                 }
-                slot -= area.rows + 1;
+                slot -= area.rows + 2;
             }
         }
     }
@@ -112,7 +122,7 @@ impl Dense {
         held: &[Rect],
         shows: &[bool],
     ) {
-        let common = self.common[panel].0;
+        let common = self.in_turn(panel);
         for column in 0..area.columns {
             let taxel = usize::from(area.base + row * area.columns + column);
             let Some(code) = codes.get(taxel) else { continue };
@@ -127,42 +137,55 @@ impl Dense {
     }
 
     /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what is known, the
-    /// same way and by a quarter of their median at least, the panel moves by that; if only most of them are, by one.
-    fn vote(&mut self, panel: usize, area: &Area, codes: &[Code], held: &[Rect]) {
+    /// same way and by a quarter of their median at least, the panel moves by that; if only most of them are, by one, where a turn begins.
+    fn vote(&mut self, panel: usize, area: &Area, codes: &[Code], held: &[Rect], whole: bool) {
         let taxels = usize::from(area.rows * area.columns);
         let places: Vec<usize> = (0..16).map(|witness| witness * ((taxels / 16) | 1) % taxels).collect();
         let rest = |at: &usize| i32::from(self.rest[usize::from(area.base) + at]);
         let mut known = self.common[panel].1.take().unwrap_or_else(|| places.iter().map(rest).collect());
-        let beyond = |(at, known): (&usize, &i32)| {
+        let beyond = |(at, known): (&usize, &i32), noise: u32| {
             let taxel = usize::from(area.base) + at;
             let (row, column) = (*at as u16 / area.columns, *at as u16 % area.columns);
             let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
-            let code = codes.get(taxel).filter(|_| !near && self.gain[taxel] != 0)?;
+            let code = codes.get(taxel).filter(|_| self.gain[taxel] != 0)?;
             let (code, rest) = (i32::from(code.0), rest(at));
-            Some(if code.abs_diff(rest) > 4 { code - known } else { rest - known })
+            if near && code.abs_diff(rest) > 4 {
+                return None;
+            }
+            Some(if code.abs_diff(rest) > noise { code - known } else { rest - known })
         };
-        let beyond: Vec<Option<i32>> = places.iter().zip(&known).map(beyond).collect();
-        let mut sorted: Vec<i32> = beyond.iter().flatten().copied().collect();
-        sorted.sort_unstable();
-        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+        let told = |noise: u32| -> (Vec<Option<i32>>, Vec<i32>, i32) {
+            let all: Vec<Option<i32>> = places.iter().zip(&known).map(|of| beyond(of, noise)).collect();
+            let mut sorted: Vec<i32> = all.iter().flatten().copied().collect();
+            sorted.sort_unstable();
+            let middle = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+            (all, sorted, middle)
+        };
+        let quiet = told(4);
+        let (beyond, sorted, middle) = if quiet.2.abs() > 5 { told(0) } else { quiet };
         let far = |one: &&i32| **one * middle.signum() * 4 >= middle.abs() && one.signum() == middle.signum();
         let on = |way: i32| sorted.iter().filter(|one| one.signum() == way).count() * 2 > sorted.len();
-        let before = self.common[panel].0;
-        let eighths = if before.abs() > 4 && before.signum() == middle.signum() { 5 } else { 7 };
+        let [_, before] = self.common[panel].0;
+        let eighths = if before.abs() > 2 && before.signum() == middle.signum() { 5 } else { 7 };
         let step = match sorted.len() {
             ..4 => 0,
             count if middle.abs() <= 56 && sorted.iter().filter(far).count() * 8 >= count * eighths => {
-                middle.clamp(-28, 28)
+                middle.clamp(-14, 14)
             }
-            _ => i32::from(on(1)) - i32::from(on(-1)),
+            _ if whole => i32::from(on(1)) - i32::from(on(-1)),
+            _ => 0,
         };
         for (known, beyond) in known.iter_mut().zip(beyond) {
             let apart = beyond.unwrap_or(middle) - middle;
-            let forgotten = if step.abs() > 4 { apart } else { i32::from(apart > 8) - i32::from(apart < -8) };
+            let forgotten = match step.abs() {
+                3.. => apart,
+                _ if whole => i32::from(apart > 8) - i32::from(apart < -8),
+                _ => 0,
+            };
             *known += step + forgotten;
             *known = (*known).clamp(0, 65535);
         }
-        self.common[panel] = (step, Some(known));
+        self.common[panel] = ([before, step], Some(known));
     }
 }
 

@@ -113,14 +113,17 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
         Extent::Point => "point",
         Extent::Patch => "patch",
         Extent::Wide => "wide",
+        Extent::Sharp => "sharp",
     };
     let moving = if symbol.words.moving { ", sliding" } else { "" };
     let feels = match client.hardness(symbol.contact).map(Hardness::of) {
         None | Some(Hardness::Firm) => String::new(),
         Some(word) => format!(", feels {}", word.as_str()),
     };
+    // A full taxel does not tell how much more it carried.
+    let bound = if symbol.words.extent == Extent::Sharp { "at least" } else { "at most" };
     format!(
-        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, at most {}{feels}",
+        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, {bound} {}{feels}",
         symbol.contact,
         client.shape_name(symbol.words.class),
         symbol.duration_ms,

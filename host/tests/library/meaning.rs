@@ -2,6 +2,7 @@
 
 mod family;
 mod flicker;
+mod garments;
 mod judge;
 mod same;
 mod scripted;

@@ -73,16 +73,45 @@ fn of_one_that_splits_the_greater_part_goes_on() {
     let mut rig = Rig::mat();
     let whole = show(&mut rig, &[([10, 13], [8, 19], 900)]);
     assert_eq!(ids(&whole.present), [1]);
-    // The fourth of it at the right comes away.
-    let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10, 13], [17, 19], 900)]);
+    // The sixth of it at the right comes away.
+    let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10, 13], [18, 19], 900)]);
     assert_eq!((ids(&frame.present), frame.released.len()), (vec![1, 2], 0));
     assert_eq!(frame.present[0].x.to_f64(), 11.5);
     assert_eq!((frame.present[0].dx.0, frame.present[0].vx.0), (0, 0), "no motion");
     // And both go their ways.
     for step in 1..10 {
-        let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10 + step, 13 + step], [17, 19], 900)]);
+        let frame = show(&mut rig, &[([10, 13], [8, 15], 900), ([10 + step, 13 + step], [18, 19], 900)]);
         assert_eq!(ids(&frame.present), [1, 2]);
         assert_eq!(frame.present[1].dy.to_f64(), f64::from(step));
+    }
+}
+
+#[test]
+fn a_gap_of_a_taxel_parts_nothing() {
+    let mut rig = Rig::mat();
+    let halves = |gap: u16| [([10, 13], [8, 13], 900), ([10, 13], [14 + gap, 19 + gap], 800)];
+    show(&mut rig, &halves(0));
+    let whole = show(&mut rig, &halves(1)).present;
+    assert_eq!(ids(&whole), [1]);
+    // All of it is measured, its contour too.
+    let contact = &whole[0];
+    assert_eq!((contact.total, contact.area, contact.perimeter), (24 * 1_700, 48, 32));
+    assert_eq!((contact.bounds.left, contact.bounds.right), (8, 20));
+    assert_eq!((contact.y.to_f64(), contact.peak_at.column), (11.5, 8));
+    // What began apart stays apart, and so does what has come apart.
+    assert_eq!(ids(&show(&mut rig, &halves(2)).present), [1, 2]);
+    assert_eq!(ids(&show(&mut rig, &halves(1)).present), [1, 2]);
+    assert_eq!(ids(&show(&mut rig, &halves(0)).present), [1]);
+    assert_eq!(ids(&show(&mut rig, &halves(1)).present), [1]);
+}
+
+#[test]
+fn fingers_beside_each_other_that_do_not_touch_stay_two() {
+    let mut rig = Rig::mat();
+    for frame in 0..20u16 {
+        let pressed = 800 + 20 * (frame % 3);
+        let frame = show(&mut rig, &[([10, 12], [8, 10], pressed), ([10, 12], [12, 14], 900)]);
+        assert_eq!(ids(&frame.present), [1, 2]);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::meaning::family::Act;
 use crate::meaning::judge::hear;
-use crate::meaning::strangers::{self, FAMILIES};
+use crate::meaning::strangers::{self, FAMILIES, Make};
 use std::collections::BTreeSet;
 use taxel_core::garment::Garment;
 
@@ -34,10 +34,10 @@ fn one_touch_has_one_meaning_on_every_garment_at_every_rate() {
             }
             _ => continue,
         };
-        let wanted = said(strangers::worn(family, 0, Garment::reference(), Some(5_128)));
+        let wanted = said(strangers::worn(family, 0, (Garment::reference(), Make::Worn), Some(5_128)));
         for garment in garments {
             for period_us in PERIODS_US.into_iter().filter(|period_us| is_resolved(of.name, *period_us)) {
-                let have = said(strangers::worn(family, 0, garment.clone(), Some(period_us)));
+                let have = said(strangers::worn(family, 0, (garment.clone(), Make::Worn), Some(period_us)));
                 count += 1;
                 if have != wanted {
                     let name = garment.name.clone();

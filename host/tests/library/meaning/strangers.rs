@@ -83,14 +83,23 @@ impl Force {
     }
 }
 
+/// What the taxels are like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Make {
+    /// Alike, and without a memory.
+    Even,
+    /// Of unequal gain; they creep under a load.
+    Worn,
+}
+
 /// The touch of that number of a family.
 pub fn act(family: usize, number: u64) -> Act {
     let garment = if number.is_multiple_of(2) { Garment::reference() } else { sheet() };
-    worn(family, number, garment, None)
+    worn(family, number, (garment, Make::Worn), None)
 }
 
 /// The same on any garment, seen once in a period (us).
-pub fn worn(family: usize, number: u64, garment: Garment, period_us: Option<u64>) -> Act {
+pub fn worn(family: usize, number: u64, (garment, make): (Garment, Make), period_us: Option<u64>) -> Act {
     let mut rng = Rng::with_seed(0x5742_0000 ^ (family as u64) << 8 ^ number);
     let Family { name, .. } = FAMILIES[family];
     let patches = Stranger { rng: rng.fork() }.does(name);
@@ -98,7 +107,7 @@ pub fn worn(family: usize, number: u64, garment: Garment, period_us: Option<u64>
     let note =
         patches.first().map(|patch| format!("half axes {:.0?} mm, {}", patch.half, told(&patch.force)));
     let drift = if name == "drift" { 1.5 } else { 0.0 };
-    let mut cloth = Cloth::new(&garment, drift, rng.fork());
+    let mut cloth = Cloth::new(&garment, make, drift, rng.fork());
     let codes = move |start_us: u64, codes: &mut [u16]| {
         cloth.scan(start_us as f64 / 1e6 - BEGIN_S, &patches, codes);
     };
@@ -298,6 +307,8 @@ struct Cloth {
     rest: Vec<f64>,
     gain: Vec<f64>,
     creep: Vec<f64>,
+    /// Part of a force that a taxel creeps by.
+    memory: f64,
     drift: f64,
     newtons: Vec<f64>,
     rng: Rng,
@@ -305,7 +316,7 @@ struct Cloth {
 }
 
 impl Cloth {
-    fn new(garment: &Garment, drift: f64, mut rng: Rng) -> Cloth {
+    fn new(garment: &Garment, make: Make, drift: f64, mut rng: Rng) -> Cloth {
         let layout = Layout::build(garment, 2048, 4095).expect("the garment is good");
         let mut first = 0;
         let panels = garment.panels.iter().map(|panel| {
@@ -314,12 +325,23 @@ impl Cloth {
             (first - columns * rows, columns, rows, panel.pitch_um.map(|um| f64::from(um) / 1e3))
         });
         let panels = panels.collect();
-        let (count, spread) = (layout.taxels(), 0.2 * rng.f64());
+        let worn = if make == Make::Worn { 1.0 } else { 0.0 };
+        let (count, spread) = (layout.taxels(), worn * 0.2 * rng.f64());
         let mut many = |middle: f64, width: f64| -> Vec<f64> {
             (0..count).map(|_| middle + width * (rng.f64() - 0.5)).collect()
         };
         let (rest, gain, creep) = (many(110.0, 40.0), many(1.0, spread), vec![0.0; count]);
-        Cloth { panels, rest, gain, creep, drift, newtons: vec![0.0; count], rng, before_s: 0.0 }
+        Cloth {
+            panels,
+            rest,
+            gain,
+            creep,
+            memory: worn * 0.04,
+            drift,
+            newtons: vec![0.0; count],
+            rng,
+            before_s: 0.0,
+        }
     }
 
     /// The codes of a scan that starts so long after the first force began and takes 5 ms.
@@ -332,7 +354,7 @@ impl Cloth {
         self.before_s = start_s;
         for (index, code) in codes.iter_mut().enumerate().take(self.rest.len()) {
             let force = self.newtons[index];
-            self.creep[index] += (0.04 * force - self.creep[index]) * passed / 0.8;
+            self.creep[index] += (self.memory * force - self.creep[index]) * passed / 0.8;
             self.rest[index] += self.drift * (0.5 + self.gain[index].fract()) * passed;
             let hum = 8.0 * (self.rng.f64() + self.rng.f64() - 1.0);
             let signal = 1000.0 * self.gain[index] * (force + self.creep[index]);

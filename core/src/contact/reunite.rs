@@ -1,0 +1,117 @@
+//! Parts of one former contact stay one while no more than a taxel has opened between them: a hand that lies on ribs, or an arm on
+//! a crease, keeps its name.
+
+use super::component::Components;
+use super::label::Labels;
+use super::part::NONE;
+use super::piece::Piece;
+use super::record::Contact;
+use super::track::Tracks;
+use crate::garment::{Layout, Place, Rect};
+
+impl<const CONTACTS: usize> Components<CONTACTS> {
+    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and have hardly come off.
+    #[inline(never)] // a stack frame of its own is near
+    pub fn reunite<const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        labels: &mut Labels<RUNS, PARTS>,
+        layout: &Layout,
+        tracks: &mut Tracks<CONTACTS>,
+    ) {
+        let known = tracks.known();
+        // Those after one that is taken away move up: they have had their turn.
+        for lost in (0..self.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {
+            let whole = self.whole_of(lost, labels, layout, tracks);
+            if let Some(whole) = whole {
+                self.join(usize::from(whole), lost);
+                labels.renumber(whole, lost as u16);
+                tracks.renumber(lost as u16);
+            }
+        }
+    }
+
+    /// The component that one belongs to, if it has hardly come off a contact.
+    fn whole_of<const RUNS: usize, const PARTS: usize>(
+        &self,
+        lost: usize,
+        labels: &Labels<RUNS, PARTS>,
+        layout: &Layout,
+        tracks: &Tracks<CONTACTS>,
+    ) -> Option<u16> {
+        let part = self.list.get(lost)?;
+        let whole = tracks.component_of(only_at(tracks.contacts(), part.peak_at?)?)?;
+        let mut pieces = part.pieces(labels, layout).map(|(_, piece)| piece);
+        let near = are_near(&part.bounds, &self.list.get(usize::from(whole))?.bounds)
+            && pieces
+                .any(|piece| labels.contact_of(piece) == Some(lost as u16) && labels.is_beside(piece, whole));
+        near.then_some(whole)
+    }
+
+    /// Makes one of two.
+    fn join(&mut self, whole: usize, lost: usize) {
+        let part = self.list.get(lost).cloned();
+        if let (Some(whole), Some(part)) = (self.list.get_mut(whole), part) {
+            whole.absorb(&part);
+        }
+        let mut index = 0;
+        self.list.retain(|_| {
+            index += 1;
+            index - 1 != lost
+        });
+    }
+}
+
+/// Index of the contact that was at a place, if only one was.
+fn only_at(contacts: &[Contact], at: Place) -> Option<usize> {
+    let mut there = contacts
+        .iter()
+        .enumerate()
+        .filter(|(_, contact)| contact.bounds.holds(at.panel, at.row, at.column, 0))
+        .map(|(index, _)| index);
+    let only = there.next()?;
+    there.next().is_none().then_some(only)
+}
+
+/// Whether two rectangles have at most a row and a column between them.
+fn are_near(a: &Rect, b: &Rect) -> bool {
+    let near = |a: [u16; 2], b: [u16; 2]| a[0].max(b[0]) <= a[1].min(b[1]).saturating_add(2);
+    a.panel == b.panel
+        && near([a.left, a.right], [b.left, b.right])
+        && near([a.top, a.bottom], [b.top, b.bottom])
+}
+
+impl<const CONTACTS: usize> Tracks<CONTACTS> {
+    /// The component that a contact became.
+    fn component_of(&self, contact: usize) -> Option<u16> {
+        self.trails.get(contact).map(|trail| trail.component).filter(|component| *component != NONE)
+    }
+
+    /// Component `lost`, which was nobody's, is none of its own any more; those after it move up.
+    fn renumber(&mut self, lost: u16) {
+        for trail in self.trails.iter_mut().filter(|trail| trail.component != NONE && trail.component > lost)
+        {
+            trail.component -= 1;
+        }
+    }
+}
+
+impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
+    /// Whether a piece has a taxel at most two from one of a component, in the same panel.
+    fn is_beside(&self, piece: &Piece, component: u16) -> bool {
+        let panel = |piece: &Piece| self.parts.get(usize::from(piece.part)).map(|part| part.panel);
+        let mut near = self.in_rows(piece.row.saturating_sub(2), piece.row.saturating_add(2));
+        near.any(|(_, other)| {
+            self.contact_of(other) == Some(component)
+                && panel(other) == panel(piece)
+                && have_near_columns(piece, other)
+        })
+    }
+}
+
+/// Whether some of their columns are at most two apart.
+fn have_near_columns(a: &Piece, b: &Piece) -> bool {
+    let first = a.column().min(b.column());
+    let bits = |piece: &Piece| u64::from(piece.taxels).checked_shl((piece.column() - first).into());
+    let (Some(a), Some(b)) = (bits(a), bits(b)) else { return false };
+    (a | a << 1 | a << 2 | a >> 1 | a >> 2) & b != 0
+}
