@@ -1,7 +1,8 @@
 //! When a decision is announced: what leads on the edge of two classes does not flicker.
 
+use super::certainty::Certainty;
 use super::stage::Decision;
-use crate::format::{Micros, Q15};
+use crate::format::Micros;
 
 /// What a decision must have to be announced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,7 +12,7 @@ pub struct Demand {
     /// The lead that it takes to displace another class, Q18.
     pub lead: u32,
     /// The confidence that it takes.
-    pub certainty: Q15,
+    pub certainty: Certainty,
 }
 
 /// What was announced of a touch, and what may follow it.
@@ -47,7 +48,7 @@ impl Announced {
         }
         let new = self.class != Some(class);
         let clear = self.class.is_none() || decision.lead >= demand.lead;
-        let certain = decision.confidence.unwrap_or(Q15(0)) >= demand.certainty;
+        let certain = demand.certainty.allows(decision.confidence);
         if !(new && clear && certain && now.since(self.since) >= demand.onset_us) {
             return None;
         }
@@ -59,13 +60,14 @@ impl Announced {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::Q15;
 
     #[test]
     fn a_class_must_lead_for_its_time_and_clearly_to_displace_another() {
         let mut announced = Announced::new();
         let mut take = |class: usize, lead: u32, ms: u64| {
             let decision = Decision { class, scores: [0; 8], lead, confidence: None };
-            let demand = Demand { onset_us: 200_000, lead: 50, certainty: Q15(0) };
+            let demand = Demand { onset_us: 200_000, lead: 50, certainty: Certainty::default() };
             announced.take(&decision, Micros(1000 * ms), &demand)
         };
         assert_eq!((take(2, 1, 0), take(2, 1, 199), take(2, 1, 200)), (None, None, Some(2)));
@@ -81,11 +83,11 @@ mod tests {
         let mut announced = Announced::new();
         let mut take = |class: usize, confidence: Option<i32>, ms: u64| {
             let decision = Decision { class, scores: [0; 8], lead: 99, confidence: confidence.map(Q15) };
-            let demand = Demand { onset_us: 0, lead: 50, certainty: Q15(20_000) };
+            let demand = Demand { onset_us: 0, lead: 50, certainty: Certainty::of(600).unwrap() };
             announced.take(&decision, Micros(1000 * ms), &demand)
         };
-        assert_eq!((take(2, None, 0), take(2, Some(19_999), 100)), (None, None));
-        assert_eq!(take(2, Some(20_000), 200), Some(2));
-        assert_eq!((take(3, Some(19_999), 300), take(3, Some(30_000), 400)), (None, Some(3)));
+        assert_eq!((take(2, None, 0), take(2, Some(19_660), 100)), (None, None));
+        assert_eq!(take(2, Some(19_661), 200), Some(2));
+        assert_eq!((take(3, Some(19_660), 300), take(3, Some(30_000), 400)), (None, Some(3)));
     }
 }

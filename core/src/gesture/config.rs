@@ -45,9 +45,6 @@ pub struct GestureConfig {
     /// Lead over the second that another class needs to take the place of the announced one, in thousandths of
     /// a score: a model is fitted to score 1 for what a touch is, and -1 for the others.
     pub lead: u16,
-    /// Confidence that an announcement takes, in thousandths, at most 999. What never gets so sure is told at
-    /// the end of the touch.
-    pub certainty: u16,
 }
 
 impl Default for GestureConfig {
@@ -60,7 +57,6 @@ impl Default for GestureConfig {
             decide_ms: 250,
             onset_ms: 250,
             lead: 200,
-            certainty: 0,
         }
     }
 }
@@ -115,9 +111,6 @@ impl GestureConfig {
         if self.decide_ms < 50 {
             return refuse("gestures.decide_ms", "must be at least 50");
         }
-        if self.certainty > 999 {
-            return refuse("gestures.certainty", "must be at most 999 (0.999)");
-        }
         Ok(Model::read(self.model.bytes())?)
     }
 }
@@ -144,6 +137,5 @@ mod tests {
         assert_eq!(refused(|c| c.gain = 0), "gestures.gain");
         assert_eq!(refused(|c| c.gain = 4097), "gestures.gain");
         assert_eq!(refused(|c| c.decide_ms = 49), "gestures.decide_ms");
-        assert_eq!(refused(|c| c.certainty = 1000), "gestures.certainty");
     }
 }

@@ -19,6 +19,7 @@
 mod announce;
 mod bands;
 mod cells;
+mod certainty;
 mod config;
 mod course;
 mod expert;
@@ -36,6 +37,7 @@ mod state;
 pub use announce::{Announced, Demand};
 pub use bands::BANDS;
 pub use cells::{CELLS, Cells, SIDE, Sheet};
+pub use certainty::Certainty;
 pub use config::{GestureConfig, GestureError, Shipped};
 pub use course::{COURSE, LAGS};
 pub use expert::{Expert, LEADS};

@@ -141,6 +141,11 @@ fn small(client: &Client, event: &Event) -> Value {
             line
         }
         Event::Gesture(report) => gesture(client, report),
+        Event::Confidence(report) => {
+            let mut line = at("confidence", report.frame, report.time);
+            merge(&mut line, json!({ "touch": report.touch, "confidence": report.confidence.to_f64() }));
+            line
+        }
         Event::Shapes { names, prototypes } => {
             json!({ "type": "shapes", "classes": names, "prototypes": prototypes })
         }
@@ -196,9 +201,11 @@ fn gesture(client: &Client, report: &GestureReport) -> Value {
         "lead": f64::from(report.lead) / f64::from(1 << 18),
         "observed_ms": report.observed_ms,
         "ended": report.ended,
-        "confidence": report.confidence.to_f64(),
     });
     merge(&mut line, more);
+    if let Some(confidence) = client.confidence(report) {
+        line["confidence"] = json!(confidence.to_f64());
+    }
     line
 }
 

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;
 use taxel_core::garment::{Circuit, Layout, Pins};
-use taxel_core::gesture::{GestureConfig, Gestures, Shipped};
+use taxel_core::gesture::{Certainty, GestureConfig, Gestures, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
@@ -48,8 +48,8 @@ pub enum GestureModel {
     Intent,
 }
 
-/// Queues `SetGestures` for a model with its usual settings but the gain and the certainty. Whoever names a
-/// certainty is told as soon as the model is that sure, without a time for which it must have been so.
+/// Queues `SetGestures` for a model with its usual settings but the gain, and before it the certainty. Whoever
+/// names a certainty is told as soon as the model is that sure, without a time for which it must have been so.
 pub fn recognise(
     client: &mut Client,
     model: GestureModel,
@@ -65,7 +65,10 @@ pub fn recognise(
         config.gain = (gain * 256.0).round() as u16;
     }
     if let Some(certainty) = certainty {
-        config.certainty = if certainty >= 0.0 { (certainty * 1000.0).round() as u16 } else { u16::MAX };
+        // What is below 0, or no number, becomes one that is refused.
+        let thousandths = if certainty >= 0.0 { (certainty * 1000.0).round() as u16 } else { u16::MAX };
+        Certainty::of(thousandths).context("--gesture-certainty").usage()?;
+        client.request(&Request::SetCertainty(thousandths))?;
         (config.decide_ms, config.onset_ms) = (100, 0);
     }
     Gestures::build(&config).context("--gestures").usage()?;

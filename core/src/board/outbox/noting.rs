@@ -69,20 +69,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let Some((gesture, name)) = &percept.gesture else { return };
         let Gesture { touch, panel, class, score, lead, confidence, observed_ms, ended } = *gesture;
         let name = name.clone();
-        let report = GestureReport {
-            frame,
-            time,
-            touch,
-            panel,
-            class,
-            name,
-            score,
-            lead,
-            observed_ms,
-            ended,
-            confidence,
-        };
-        health.lost += u32::from(self.gestures.push_back(report).is_err());
+        let report =
+            GestureReport { frame, time, touch, panel, class, name, score, lead, observed_ms, ended };
+        health.lost += u32::from(self.gestures.push_back((report, confidence)).is_err());
     }
 
     /// The newest state of each contact; onsets and releases stay until they are told.
