@@ -39,8 +39,8 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ContactList, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request,
-    SelfTestReport, WireError, decode, decode_image,
+    Budget, ConfidenceReport, ContactList, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver,
+    Report, Request, SelfTestReport, WireError, decode, decode_image,
 };
 
 /// Longest frame from a board.
@@ -69,6 +69,8 @@ pub struct Client {
     intention: Option<IntentReport>,
     /// The last report in which the announced intention led.
     led: Option<IntentReport>,
+    /// How sure the gesture is that was told last, or is told next.
+    confidence: Option<ConfidenceReport>,
     health: Option<Health>,
     budget: Option<Budget>,
     celsius: Option<Celsius>,
@@ -106,6 +108,7 @@ impl Client {
             regions: Vec::new(),
             intention: None,
             led: None,
+            confidence: None,
             health: None,
             budget: None,
             celsius: None,
@@ -175,6 +178,7 @@ impl Client {
         self.ill.clear();
         self.self_test = None;
         (self.intention, self.led) = (None, None);
+        self.confidence = None;
     }
 
     fn take(&mut self, report: Report<'_>) -> Event {
@@ -194,6 +198,10 @@ impl Client {
                 Event::Intent(Box::new(report))
             }
             Report::Gesture(report) => Event::Gesture(report),
+            Report::Confidence(report) => {
+                self.confidence = Some(report);
+                Event::Confidence(report)
+            }
             Report::Shapes(report) => {
                 self.shapes = report.names.iter().map(ToString::to_string).collect();
                 self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());

@@ -1,17 +1,30 @@
 //! `taxel gestures`: which gesture a touch is, by a model that fits the board.
 
 use crate::arrays;
+use crate::doubts::start_ups;
 use crate::fault::Fault;
 use crate::touches::{
-    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
+    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, Windows,
+    grid, labels,
 };
 use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::{CLASSES, Shipped};
 
-/// Chosen by cross-validation by participant.
-const SETTINGS: Settings =
-    Settings { pressed: 12, halves: true, penalty: 40.0, balance: 0.0, mirrored: false };
+/// Chosen by cross-validation by participant. Recordings are cut out of touches that go on, so that windows may
+/// begin anywhere.
+const SETTINGS: Settings = Settings {
+    pressed: 12,
+    halves: true,
+    penalty: 40.0,
+    balance: 0.0,
+    mirrored: false,
+    early: [
+        Some(Windows { shortest: 5, longest: 28, every: 54 }),
+        Some(Windows { shortest: 28, longest: 80, every: 54 }),
+    ],
+    concludes: false,
+};
 
 const TASK: Task = Task {
     shipped: Shipped::Gestures,
@@ -79,7 +92,8 @@ fn times(rate: f64) -> Result<Times> {
         Fault::usage(format!("--rate {rate}: expected a number above 0"))
     );
     let frames = |seconds: &f64| ((seconds * rate).round() as usize).max(1);
-    Ok(Times { unit: "seconds", steps: TIMES.iter().map(|t| (*t, frames(t))).collect() })
+    let steps = TIMES.iter().map(|t| (*t, frames(t))).collect();
+    Ok(Times { unit: "seconds", frame: 1.0 / rate, steps, every: frames(&0.1) })
 }
 
 /// Reads recorded gestures.
@@ -110,7 +124,12 @@ fn load(files: &Files) -> Result<Data> {
         label: gesture.to_string(),
         group: group.to_string(),
     });
-    let touches = touches.collect();
+    let touches: Vec<Touch> = touches.collect();
+    let area = usize::from(frames.rows) * usize::from(frames.columns);
+    let named = touches.iter().enumerate();
+    let named = named.map(|(n, touch)| (format!("recording {n}"), touch.values.chunks_exact(area)));
+    let doubts = start_ups(named).into_iter().collect();
     let sources = vec![Source::of(path)?, Source::of(labels)?];
-    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle: Vec::new(), sources })
+    let (rows, columns, idle) = (frames.rows, frames.columns, Vec::new());
+    Ok(Data { rows, columns, classes, touches, idle, doubts, sources })
 }

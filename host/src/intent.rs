@@ -1,16 +1,25 @@
 //! `taxel intent`: what a touch means, by a model that fits the board.
 
 use crate::arrays;
+use crate::doubts::start_ups;
 use crate::touches::{
-    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, grid, labels,
+    self, Data, EvalArgs, Files, Report, Settings, Source, Table, Task, Times, Touch, TrainArgs, Windows,
+    grid, labels,
 };
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::Shipped;
 
 /// Chosen by cross-validation by day.
-const SETTINGS: Settings =
-    Settings { pressed: 200, halves: true, penalty: 10.0, balance: 1.0, mirrored: true };
+const SETTINGS: Settings = Settings {
+    pressed: 200,
+    halves: true,
+    penalty: 10.0,
+    balance: 1.0,
+    mirrored: true,
+    early: [Some(Windows { shortest: 3, longest: 11, every: 0 }), None],
+    concludes: true,
+};
 
 const TASK: Task = Task {
     shipped: Shipped::Intent,
@@ -79,7 +88,7 @@ pub fn across_days(files: &Files) -> Result<Report> {
 
 fn times() -> Times {
     let steps = FRAMES.iter().map(|frames| (f64::from(*frames), usize::from(*frames))).collect();
-    Times { unit: "frames", steps }
+    Times { unit: "frames", frame: 1.0, steps, every: 1 }
 }
 
 /// Reads recorded touches: each stretch of frames of one label is one.
@@ -108,9 +117,16 @@ fn load(files: &Files, apart: Cross) -> Result<Data> {
         }
     }
     ensure!(!touches.is_empty(), "{}: there are no touches", labels.display());
+    let mut rest = frames.values.chunks_exact(area);
+    let recordings = lines.chunk_by(|a, b| a.0 == b.0);
+    let named = recordings.map(|lines| {
+        let own: Vec<&[u16]> = rest.by_ref().take(lines.len()).collect();
+        (lines[0].0.to_string(), own.into_iter())
+    });
+    let doubts = start_ups(named).into_iter().collect();
     let classes = MEANINGS.iter().map(|(name, _)| name.to_string()).collect();
     let sources = vec![Source::of(path)?, Source::of(labels)?];
-    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, sources })
+    Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, doubts, sources })
 }
 
 fn meaning(label: &str) -> Option<usize> {

@@ -10,6 +10,7 @@ pub mod clock;
 pub mod config;
 pub mod date;
 pub mod doctor;
+pub mod doubts;
 pub mod export;
 pub mod fault;
 pub mod fcm;

@@ -1,6 +1,7 @@
 //! `taxel process`: the board's pipeline over recorded frames, one JSON object a frame.
 
 use crate::arrays::{self, Frames};
+use crate::doubts;
 use crate::fault::Fault;
 use crate::growths::Growths;
 use crate::json;
@@ -94,6 +95,7 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     if args.tare > 0 {
         replay.state.condition.tare(args.tare);
     }
+    doubt(&place(), frames, args.full_scale);
     let mut progress = Progress::of(place(), Unit::Frames, Some(frames.count as u64));
     for (number, frame) in frames.iter().enumerate() {
         let time = Micros((number as f64 * 1e6 / args.rate).round() as u64);
@@ -112,6 +114,17 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     progress.clear();
     eprintln!("{}: {} frames", place(), frames.count);
     Ok(())
+}
+
+/// Tells what speaks against a recording.
+fn doubt(place: &str, frames: &Frames, full_scale: u16) {
+    let greatest = frames.values.iter().copied().max().unwrap_or(0);
+    let start_up = doubts::start_ups([(place.to_string(), frames.iter())].into_iter());
+    let scale = doubts::full_scale(greatest, full_scale).map(|why| format!("{place}: {why}"));
+    let top = doubts::top(frames.values.iter().copied());
+    let top =
+        top.map(|top| format!("{place}: saturation: values stop at {top}; greater forces look the same"));
+    [start_up, scale, top].into_iter().flatten().for_each(|doubt| eprintln!("warning: {doubt}"));
 }
 
 fn array_of(name: &str) -> String {

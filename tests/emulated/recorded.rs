@@ -70,6 +70,7 @@ fn keep(kept: &mut Reports, report: &Report<'_>) {
         Report::Intent(intent) => (intent.frame, "Intent"),
         Report::Reaction(reaction) => (reaction.frame, "Reaction"),
         Report::Gesture(gesture) => (gesture.frame, "Gesture"),
+        Report::Confidence(confidence) => (confidence.frame, "Confidence"),
         _ => return,
     };
     kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));

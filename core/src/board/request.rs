@@ -6,7 +6,7 @@ use super::{Board, Work, reading};
 use crate::condition::Certificate;
 use crate::format::{Invalid, Micros};
 use crate::garment::Garment;
-use crate::gesture::{GestureConfig, Gestures};
+use crate::gesture::{Certainty, GestureConfig, Gestures};
 use crate::pipeline::CONTACTS;
 use crate::scene::Scene;
 use crate::shape::{Exemplar, Taught};
@@ -100,6 +100,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             },
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::SetGestures(config) => self.set_gestures(config.as_ref()),
+            Request::SetCertainty(thousandths) => self.set_certainty(thousandths),
             Request::SetCalibration(certificate) => self.certify(certificate),
             Request::SetShapes(bytes) => self.set_shapes(bytes),
             Request::AddShapes(bytes) => self.add_shapes(bytes),
@@ -137,6 +138,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub(super) fn set_gestures(&mut self, config: Option<&GestureConfig>) -> Result<(), Refusal> {
         self.setup.pipeline.gestures = config.map(Gestures::build).transpose().map_err(Refusal::of)?;
         self.state.recognise_anew();
+        Ok(())
+    }
+
+    fn set_certainty(&mut self, thousandths: u16) -> Result<(), Refusal> {
+        self.setup.pipeline.certainty = Certainty::of(thousandths).map_err(Refusal::of)?;
         Ok(())
     }
 

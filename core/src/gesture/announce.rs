@@ -1,7 +1,19 @@
 //! When a decision is announced: what leads on the edge of two classes does not flicker.
 
+use super::certainty::Certainty;
 use super::stage::Decision;
 use crate::format::Micros;
+
+/// What a decision must have to be announced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Demand {
+    /// The time for which the class has led in all decisions, us.
+    pub onset_us: u64,
+    /// The lead that it takes to displace another class, Q18.
+    pub lead: u32,
+    /// The confidence that it takes.
+    pub certainty: Certainty,
+}
 
 /// What was announced of a touch, and what may follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,16 +40,16 @@ impl Announced {
         self.class
     }
 
-    /// Takes a decision at `now`; the class, if it is announced with that. It must have led in all decisions for `onset_us`, and
-    /// to take the place of another it must lead by at least `lead` (Q18) now.
-    pub fn take(&mut self, decision: &Decision, now: Micros, onset_us: u64, lead: u32) -> Option<u8> {
+    /// Takes a decision at `now`; the class, if it is announced with that.
+    pub fn take(&mut self, decision: &Decision, now: Micros, demand: &Demand) -> Option<u8> {
         let class = decision.class as u8;
         if class != self.candidate {
             (self.candidate, self.since) = (class, now);
         }
         let new = self.class != Some(class);
-        let clear = self.class.is_none() || decision.lead >= lead;
-        if !(new && clear && now.since(self.since) >= onset_us) {
+        let clear = self.class.is_none() || decision.lead >= demand.lead;
+        let certain = demand.certainty.allows(decision.confidence);
+        if !(new && clear && certain && now.since(self.since) >= demand.onset_us) {
             return None;
         }
         self.class = Some(class);
@@ -48,13 +60,15 @@ impl Announced {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::Q15;
 
     #[test]
     fn a_class_must_lead_for_its_time_and_clearly_to_displace_another() {
         let mut announced = Announced::new();
         let mut take = |class: usize, lead: u32, ms: u64| {
-            let decision = Decision { class, scores: [0; 8], lead };
-            announced.take(&decision, Micros(1000 * ms), 200_000, 50)
+            let decision = Decision { class, scores: [0; 8], lead, confidence: None };
+            let demand = Demand { onset_us: 200_000, lead: 50, certainty: Certainty::default() };
+            announced.take(&decision, Micros(1000 * ms), &demand)
         };
         assert_eq!((take(2, 1, 0), take(2, 1, 199), take(2, 1, 200)), (None, None, Some(2)));
         assert_eq!(take(2, 1, 900), None, "it is announced already");
@@ -63,5 +77,17 @@ mod tests {
             assert_eq!(take(usize::from(ms % 200 == 0), 99, ms), None);
         }
         assert_eq!((take(4, 49, 3000), take(4, 49, 3300), take(4, 50, 3400)), (None, None, Some(4)));
+    }
+    #[test]
+    fn what_is_not_certain_enough_waits() {
+        let mut announced = Announced::new();
+        let mut take = |class: usize, confidence: Option<i32>, ms: u64| {
+            let decision = Decision { class, scores: [0; 8], lead: 99, confidence: confidence.map(Q15) };
+            let demand = Demand { onset_us: 0, lead: 50, certainty: Certainty::of(600).unwrap() };
+            announced.take(&decision, Micros(1000 * ms), &demand)
+        };
+        assert_eq!((take(2, None, 0), take(2, Some(19_660), 100)), (None, None));
+        assert_eq!(take(2, Some(19_661), 200), Some(2));
+        assert_eq!((take(3, Some(19_660), 300), take(3, Some(30_000), 400)), (None, Some(3)));
     }
 }

@@ -42,8 +42,8 @@ pub struct GestureConfig {
     pub decide_ms: u16,
     /// Time that a class must lead before it is announced, ms.
     pub onset_ms: u16,
-    /// Lead over the second that another class needs to take the place of the announced one, in thousandths of the natural
-    /// logarithm of the odds.
+    /// Lead over the second that another class needs to take the place of the announced one, in thousandths of
+    /// a score: a model is fitted to score 1 for what a touch is, and -1 for the others.
     pub lead: u16,
 }
 

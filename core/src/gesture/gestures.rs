@@ -1,17 +1,18 @@
 //! What goes on on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
 
-use super::announce::Announced;
+use super::announce::{Announced, Demand};
+use super::certainty::Certainty;
 use super::config::{GestureConfig, GestureError};
 use super::model::Model;
 use super::stage::{Decision, Touches};
 use super::state::TouchState;
 use crate::condition::Image;
-use crate::format::{Micros, Name};
+use crate::format::{Micros, Name, Q15};
 use crate::garment::{Area, Layout};
 use core::num::NonZeroU32;
 
-/// One natural logarithm of odds, in the unit of a lead.
-const NAT: u64 = 1 << 18;
+/// A score of 1, in the unit of a lead.
+const ONE: u64 = 1 << 18;
 
 /// Recognises the touches of a garment; see the [module](super).
 #[derive(Debug, Clone, Copy)]
@@ -50,8 +51,10 @@ pub struct Gesture {
     pub class: u8,
     /// What the class scores, Q18.
     pub score: i32,
-    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    /// By how much it scores more than the second, Q18.
     pub lead: u32,
+    /// The share of such touches that are of that class; none: the model does not know.
+    pub confidence: Option<Q15>,
     /// For how long the touch was observed, ms.
     pub observed_ms: u32,
     /// The touch is over.
@@ -105,12 +108,14 @@ impl Gestures {
 
     /// Takes the frame of time `now` with the panels and totals of the contacts that are `present`; what is new about the touch. A touch begins on the panel
     /// of the contact with the greatest total and has that panel alone; it ends when nothing has touched the panel for a while.
+    /// While it goes on, an announcement takes that certainty.
     pub fn process(
         &self,
         state: &mut GestureState,
         layout: &Layout,
         image: &Image<'_>,
         present: impl Iterator<Item = (u8, u32)> + Clone,
+        certainty: Certainty,
         now: Micros,
     ) -> Option<Gesture> {
         let panel = match state.panel {
@@ -141,14 +146,21 @@ impl Gestures {
         }
         state.due = self.later(now);
         let decision = touches.decide(&state.touch);
-        let (onset, lead) =
-            (1000 * u64::from(self.config.onset_ms), u64::from(self.config.lead) * NAT / 1000);
-        state.announced.take(&decision, now, onset, lead as u32)?;
+        state.announced.take(&decision, now, &self.demand(certainty))?;
         Some(told(state, panel, &decision, now, false))
     }
 
     fn touches(&self, area: &Area) -> Touches<'static> {
         Touches::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
+    }
+
+    fn demand(&self, certainty: Certainty) -> Demand {
+        let GestureConfig { onset_ms, lead, .. } = self.config;
+        Demand {
+            onset_us: 1000 * u64::from(onset_ms),
+            lead: (u64::from(lead) * ONE / 1000) as u32,
+            certainty,
+        }
     }
 
     /// A decision later than `now`.
@@ -168,7 +180,7 @@ impl Gestures {
     /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed, but the model has
     /// seen it, as it has in training.
     fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
-        let decision = self.touches(area).decide(&state.touch);
+        let decision = self.touches(area).conclude(&state.touch);
         let panel = state.panel.take().unwrap_or_default();
         told(state, panel, &decision, state.touched, true)
     }
@@ -181,6 +193,7 @@ fn told(state: &GestureState, panel: u8, decision: &Decision, now: Micros, ended
         class: decision.class as u8,
         score: decision.scores.get(decision.class).copied().unwrap_or(0),
         lead: decision.lead,
+        confidence: decision.confidence,
         observed_ms: (now.since(state.began) / 1000).min(u32::MAX.into()) as u32,
         ended,
     }
@@ -226,7 +239,8 @@ mod tests {
             self.frame += 1;
             let image = Image { values: &values, rows: &Rows::NONE };
             let now = Micros(self.frame * SCAN_US);
-            self.stage.process(&mut self.state, &self.layout, &image, present.into_iter(), now)
+            let present = present.into_iter();
+            self.stage.process(&mut self.state, &self.layout, &image, present, Certainty::default(), now)
         }
 
         fn told(&mut self, frames: u64, panel: u8, of: fn(u64) -> (usize, u16)) -> Vec<Gesture> {

@@ -1,24 +1,28 @@
 //! Touch over time: what a touch is by how it goes on, recognised by a model that was trained on recordings.
 //!
-//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of the cells, sums are
-//! kept while the touch goes on, from which 127 features follow: levels, rise and fall, change over six lags, how the cells share
-//! in that, how neighbours change together, and the octaves of its rhythm. A linear model scores the classes.
+//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of
+//! the cells, sums are kept while the touch goes on, from which 127 features follow: levels, rise and fall,
+//! change over six lags, how the cells share in that, how neighbours change together, and the octaves of its
+//! rhythm. A linear expert for touches of that age scores the classes, and a table of its leads tells how sure
+//! that is.
 //!
 //! | | |
 //! |---|---|
 //! | input | images of rows of pressures, `u16` |
-//! | output | [`Decision`]: class, scores in Q18 |
+//! | output | [`Decision`]: class, scores in Q18, confidence in Q15 |
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
 //! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
 //! | on a garment | [`Gestures`]: the panel that is touched becomes the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, a decision is announced when it has lasted |
 //! | RAM | [`TouchState`], at most 4 KiB |
-//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 2.9 KB |
+//! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.6 KB |
 
 mod announce;
 mod bands;
 mod cells;
+mod certainty;
 mod config;
 mod course;
+mod expert;
 mod gestures;
 mod grid;
 mod histogram;
@@ -30,14 +34,16 @@ mod signal;
 mod stage;
 mod state;
 
-pub use announce::Announced;
+pub use announce::{Announced, Demand};
 pub use bands::BANDS;
 pub use cells::{CELLS, Cells, SIDE, Sheet};
+pub use certainty::Certainty;
 pub use config::{GestureConfig, GestureError, Shipped};
 pub use course::{COURSE, LAGS};
+pub use expert::{Expert, LEADS};
 pub use gestures::{Gesture, GestureState, Gestures};
 pub use grid::GRID;
-pub use model::{CLASSES, LARGEST, LIMIT, MAGIC, Model, ModelError, Scores, checksum};
+pub use model::{CLASSES, EXPERTS, LARGEST, LIMIT, MAGIC, Model, ModelError, Scores, checksum};
 pub use motion::MOTION;
 pub use signal::{NAMES, SIGNALS, Signals};
 pub use stage::{Decision, Touches};

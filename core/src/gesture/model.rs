@@ -1,21 +1,24 @@
-//! A linear model of a touch, read in place from the bytes of its file.
+//! A model of touches, read in place from the bytes of its file: linear experts, each for touches from an age
+//! on.
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `taxel-t` and the version, 2 |
+//! | 8 | `taxel-t` and the version, 3 |
 //! | 4 | length of the notes |
 //! | n | notes: the provenance as JSON, which the board passes over |
 //! | 2 | classes, 2 ..= 8 |
-//! | 2 | features that are used |
+//! | 2 | experts, 1 ..= 3 |
 //! | 2 | a cell above this counts as touched |
+//! | 2 | 1: the last expert tells what a touch was, whatever its age; 0: the one of its age |
 //! | 16 each | names of the classes, padded with zeros |
-//! | 4 each | offsets of the classes, Q18, signed |
-//! | 6 + 2 c each | a feature: its index, its middle, its scale (65,536 / deviation), its weights, Q10, signed |
+//! | | the experts, by age: see `expert.rs` |
 //! | 4 | CRC-32 of all before |
 //!
-//! All numbers are little-endian.
+//! All numbers are little-endian. Version 2, which is still read, has one expert: instead of the number of
+//! experts stands that of its features, and head, rows and the word on the last expert are missing.
 
-use super::state::{FEATURES, Features};
+use super::expert::{Expert, Head};
+use super::state::FEATURES;
 use crate::format::{Name, name};
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
@@ -25,8 +28,14 @@ pub const CLASSES: usize = 8;
 /// Most bytes of a model.
 pub const LARGEST: usize = 48 << 10;
 
+/// Most experts of a model.
+pub const EXPERTS: usize = 3;
+
 /// How a model begins; the last byte is the version.
-pub const MAGIC: [u8; 8] = *b"taxel-t\x02";
+pub const MAGIC: [u8; 8] = *b"taxel-t\x03";
+
+/// How a model of the version before begins.
+const BEFORE: [u8; 8] = *b"taxel-t\x02";
 
 /// A feature lies within 2.5 deviations of its middle, Q8; what is beyond counts as that.
 pub const LIMIT: i32 = 640;
@@ -51,6 +60,10 @@ pub enum ModelError {
     Damaged,
     /// Not 2 ..= 8 classes.
     Classes(u16),
+    /// Not 1 ..= 3 experts.
+    Experts(u16),
+    /// The expert at a place does not speak from a later age than that before it, or the first not from 0.
+    Age(usize, u16),
     /// A class without a name, or with one that is not text.
     Nameless(usize),
     /// The feature at a place has an index that is not above that before it, or that does not exist.
@@ -66,13 +79,20 @@ impl core::fmt::Display for ModelError {
                 write!(f, "{bytes} bytes are too many for a board: at most {LARGEST}")
             }
             ModelError::Foreign => write!(f, "not a model of touches"),
-            ModelError::Version(version) => write!(f, "a model of version {version}, known is 2"),
+            ModelError::Version(version) => write!(f, "a model of version {version}, known are 2 and 3"),
             ModelError::Truncated(bytes) => {
                 write!(f, "truncated: {bytes} bytes are fewer than the head says")
             }
             ModelError::Longer(bytes) => write!(f, "{bytes} bytes more than the head says"),
             ModelError::Damaged => write!(f, "damaged: the checksum differs"),
             ModelError::Classes(count) => write!(f, "{count} classes, expected 2 to {CLASSES}"),
+            ModelError::Experts(count) => write!(f, "{count} experts, expected 1 to {EXPERTS}"),
+            ModelError::Age(place, from) => {
+                write!(
+                    f,
+                    "expert {place} speaks from frame {from}: expected 0 for the first, then ascending ones"
+                )
+            }
             ModelError::Nameless(class) => write!(f, "class {class} has no name"),
             ModelError::Feature(place, index) => {
                 write!(f, "feature {index} at place {place}: expected ascending ones below {FEATURES}")
@@ -89,10 +109,11 @@ impl core::error::Error for ModelError {}
 pub struct Model<'a> {
     notes: &'a [u8],
     classes: u8,
+    count: u8,
+    concludes: bool,
     pressed: u16,
     names: &'a [u8],
-    offsets: &'a [u8],
-    features: &'a [u8],
+    experts: [Expert<'a>; EXPERTS],
 }
 
 impl<'a> Model<'a> {
@@ -106,23 +127,14 @@ impl<'a> Model<'a> {
             Some(name) if !name.is_empty() => Ok(()),
             _ => Err(ModelError::Nameless(class)),
         })?;
-        let mut next = 0;
-        for (place, feature) in model.used().enumerate() {
-            if feature.index < next || usize::from(feature.index) >= FEATURES {
-                return Err(ModelError::Feature(place, feature.index));
+        let mut before = None;
+        for (place, expert) in model.experts().enumerate() {
+            if before.map_or(expert.from() != 0, |before| expert.from() <= before) {
+                return Err(ModelError::Age(place, expert.from()));
             }
-            next = feature.index + 1;
+            before = Some(expert.from());
+            expert.check()?;
         }
-        (0..model.classes()).try_for_each(|class| {
-            let weights = model.used().filter_map(|feature| feature.weights().nth(class));
-            let most: i64 = weights.map(|w| i64::from(w.unsigned_abs()) * i64::from(LIMIT)).sum();
-            let offset = model.offset(class).unsigned_abs();
-            if most + i64::from(offset) < i64::from(i32::MAX) {
-                Ok(())
-            } else {
-                Err(ModelError::Heavy(class))
-            }
-        })?;
         Ok(model)
     }
 
@@ -131,7 +143,7 @@ impl<'a> Model<'a> {
         let short = ModelError::Truncated(bytes.len());
         let (magic, rest) = bytes.split_first_chunk::<8>().ok_or(short)?;
         match (magic, magic.last().copied()) {
-            (magic, _) if *magic == MAGIC => {}
+            (magic, _) if [MAGIC, BEFORE].contains(magic) => {}
             (magic, Some(version)) if magic.starts_with(b"taxel-t") => {
                 return Err(ModelError::Version(version));
             }
@@ -141,24 +153,33 @@ impl<'a> Model<'a> {
         let (notes, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize).ok_or(short)?;
         let (head, rest) = rest.split_first_chunk::<6>().ok_or(short)?;
         let [c0, c1, f0, f1, p0, p1] = *head;
-        let [classes, count] = [u16::from_le_bytes([c0, c1]), u16::from_le_bytes([f0, f1])];
+        let [classes, number, pressed] = [[c0, c1], [f0, f1], [p0, p1]].map(u16::from_le_bytes);
         if !(2..=CLASSES as u16).contains(&classes) {
             return Err(ModelError::Classes(classes));
         }
-        let classes = usize::from(classes);
-        let (names, rest) = rest.split_at_checked(16 * classes).ok_or(short)?;
-        let (offsets, rest) = rest.split_at_checked(4 * classes).ok_or(short)?;
-        let (features, rest) = rest.split_at_checked(usize::from(count) * (6 + 2 * classes)).ok_or(short)?;
-        let (sum, rest) = rest.split_first_chunk::<4>().ok_or(short)?;
-        if !rest.is_empty() {
-            return Err(ModelError::Longer(rest.len()));
+        let classes = classes as u8;
+        // Of version 2 the number is that of the features of its one expert.
+        let alone = (*magic == BEFORE).then(|| Head::alone(number));
+        let count = if alone.is_some() { 1 } else { number };
+        if !(1..=EXPERTS as u16).contains(&count) {
+            return Err(ModelError::Experts(count));
         }
-        let summed = bytes.split_last_chunk::<4>().ok_or(short)?.0;
-        if checksum(summed) != u32::from_le_bytes(*sum) {
-            return Err(ModelError::Damaged);
+        let (concludes, rest) = match alone {
+            Some(_) => ([0, 0], rest),
+            None => rest.split_first_chunk::<2>().map(|(word, rest)| (*word, rest)).ok_or(short)?,
+        };
+        let (names, mut rest) = rest.split_at_checked(16 * usize::from(classes)).ok_or(short)?;
+        let mut experts = [Expert::NONE; EXPERTS];
+        for place in experts.iter_mut().take(count.into()) {
+            let (head, body) = match alone {
+                Some(head) => (head, rest),
+                None => Head::split(rest).ok_or(short)?,
+            };
+            (*place, rest) = Expert::split(head, classes, body).ok_or(short)?;
         }
-        let pressed = u16::from_le_bytes([p0, p1]);
-        Ok(Model { notes, classes: classes as u8, pressed, names, offsets, features })
+        check_end(bytes, rest)?;
+        let concludes = u16::from_le_bytes(concludes) != 0;
+        Ok(Model { notes, classes, count: count as u8, concludes, pressed, names, experts })
     }
 
     /// The provenance, as JSON.
@@ -183,46 +204,31 @@ impl<'a> Model<'a> {
         core::str::from_utf8(text).ok().map(name)
     }
 
-    /// What each class scores for the features of a touch.
-    pub fn scores(&self, features: &Features) -> Scores {
-        let mut scores: Scores = core::array::from_fn(|class| self.offset(class));
-        for used in self.used() {
-            let Some(value) = features.get(usize::from(used.index)) else { continue };
-            let away = (i32::from(*value) - i32::from(used.middle)).clamp(-0x7fff, 0x7fff);
-            let away = ((away * i32::from(used.scale)) >> 8).clamp(-LIMIT, LIMIT);
-            for (score, weight) in scores.iter_mut().zip(used.weights()) {
-                *score = score.wrapping_add(away * i32::from(weight));
-            }
-        }
-        scores
+    /// The experts, by age.
+    pub fn experts(&self) -> impl Iterator<Item = &Expert<'a>> {
+        self.experts.iter().take(self.count.into())
     }
 
-    fn offset(&self, class: usize) -> i32 {
-        let bytes = self.offsets.chunks_exact(4).nth(class).and_then(|bytes| bytes.first_chunk());
-        bytes.map_or(0, |bytes| i32::from_le_bytes(*bytes))
+    /// The expert of touches that go on and have lasted so many frames.
+    pub fn expert(&self, frames: u32) -> Option<&Expert<'a>> {
+        self.experts().take_while(|expert| u32::from(expert.from()) <= frames).last()
     }
 
-    fn used(&self) -> impl Iterator<Item = Used<'a>> {
-        self.features.chunks_exact(6 + 2 * self.classes()).filter_map(|record| {
-            let ([i0, i1, m0, m1, s0, s1], weights) = record.split_first_chunk::<6>()?;
-            let [index, middle] = [[*i0, *i1], [*m0, *m1]].map(u16::from_le_bytes);
-            Some(Used { index, middle, scale: u16::from_le_bytes([*s0, *s1]), weights })
-        })
+    /// The expert of touches that are over and have lasted so many frames.
+    pub fn concluding(&self, frames: u32) -> Option<&Expert<'a>> {
+        if self.concludes { self.experts().last() } else { self.expert(frames) }
     }
 }
 
-/// A feature that is used.
-struct Used<'a> {
-    index: u16,
-    middle: u16,
-    scale: u16,
-    weights: &'a [u8],
-}
-
-impl Used<'_> {
-    fn weights(&self) -> impl Iterator<Item = i16> {
-        self.weights.as_chunks().0.iter().map(|pair| i16::from_le_bytes(*pair))
+/// Nothing but a checksum, which is right, is left of a model.
+fn check_end(bytes: &[u8], rest: &[u8]) -> Result<(), ModelError> {
+    let short = ModelError::Truncated(bytes.len());
+    let (sum, rest) = rest.split_first_chunk::<4>().ok_or(short)?;
+    if !rest.is_empty() {
+        return Err(ModelError::Longer(rest.len()));
     }
+    let summed = bytes.split_last_chunk::<4>().ok_or(short)?.0;
+    if checksum(summed) == u32::from_le_bytes(*sum) { Ok(()) } else { Err(ModelError::Damaged) }
 }
 
 /// The checksum that ends a model.

@@ -1,8 +1,10 @@
 //! What a touch is, while it goes on.
 
 use super::cells::Sheet;
-use super::model::{Model, Scores};
+use super::expert::Expert;
+use super::model::{CLASSES, Model, Scores};
 use super::state::TouchState;
+use crate::format::Q15;
 
 /// Recognises touches of one sheet by a model.
 #[derive(Debug, Clone, Copy)]
@@ -18,8 +20,11 @@ pub struct Decision {
     pub class: usize,
     /// What each class scores.
     pub scores: Scores,
-    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    /// By how much it scores more than the second, Q18.
     pub lead: u32,
+    /// The share of touches of that age and lead that are what they are taken for; none: the model does not
+    /// know.
+    pub confidence: Option<Q15>,
 }
 
 impl<'a> Touches<'a> {
@@ -43,9 +48,18 @@ impl<'a> Touches<'a> {
         state.add(&self.sheet.cells(image), self.model.pressed());
     }
 
-    /// What the touch is taken for so far.
+    /// What the touch, which goes on, is taken for so far.
     pub fn decide(&self, state: &TouchState) -> Decision {
-        let scores = self.model.scores(&state.features());
+        self.by(self.model.expert(state.frames()), state)
+    }
+
+    /// What the touch, which is over, is taken for.
+    pub fn conclude(&self, state: &TouchState) -> Decision {
+        self.by(self.model.concluding(state.frames()), state)
+    }
+
+    fn by(&self, expert: Option<&Expert<'_>>, state: &TouchState) -> Decision {
+        let scores = expert.map_or([0; CLASSES], |expert| expert.scores(&state.features()));
         let mut leading = (0, i32::MIN);
         let mut second = i32::MIN;
         for (class, score) in scores.iter().copied().enumerate().take(self.model.classes()) {
@@ -55,6 +69,8 @@ impl<'a> Touches<'a> {
                 second = second.max(score);
             }
         }
-        Decision { class: leading.0, scores, lead: leading.1.abs_diff(second) }
+        let lead = leading.1.abs_diff(second);
+        let confidence = expert.and_then(|expert| expert.confidence(lead, state.frames()));
+        Decision { class: leading.0, scores, lead, confidence }
     }
 }

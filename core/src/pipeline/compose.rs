@@ -5,7 +5,7 @@ use crate::condition::Condition;
 use crate::contact::Contacts;
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Layout, PANELS};
-use crate::gesture::Gestures;
+use crate::gesture::{Certainty, Gestures};
 use crate::intent::Intent;
 use crate::react::Reactions;
 use crate::scene::Scene;
@@ -22,6 +22,8 @@ pub struct Pipeline {
     pub(super) symbol: Symbols,
     /// Touch over time; none: not recognised. It is no part of a scene, and stays where the scene or the garment changes.
     pub gestures: Option<Gestures>,
+    /// Confidence that an announcement of a gesture takes. It stays as well, also where another model is asked for.
+    pub certainty: Certainty,
     pub(super) friendliness: [i8; PANELS],
     pub(super) intent: Option<Intent>,
     pub(super) react: Reactions,

@@ -43,7 +43,7 @@ impl Pipeline {
         self.symbol.process(symbol, layout, present, released, now);
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
-            let told = stage.process(&mut state.gesture, layout, &image, totals, now)?;
+            let told = stage.process(&mut state.gesture, layout, &image, totals, self.certainty, now)?;
             Some((told, stage.name(told.class)))
         });
         probe.begin(Stage::Intent);

@@ -71,6 +71,8 @@ pub enum Report<'a> {
     Shapes(ShapesReport),
     /// A reaction began within a frame.
     Reflex(ReflexReport),
+    /// How sure the gesture is that is told next.
+    Confidence(ConfidenceReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -111,6 +113,8 @@ impl Report<'_> {
     pub const SHAPES: u32 = 16;
     /// Of `Reflex`.
     pub const REFLEX: u32 = 17;
+    /// Of `Confidence`.
+    pub const CONFIDENCE: u32 = 18;
 }
 
 /// Frozen.
@@ -322,12 +326,25 @@ pub struct GestureReport {
     pub name: Name,
     /// What it scores, Q18.
     pub score: i32,
-    /// By how much it leads, Q18 of the natural logarithm of the odds against the second.
+    /// By how much it scores more than the second, Q18.
     pub lead: u32,
     /// For how long the touch was observed, ms.
     pub observed_ms: u32,
     /// The touch is over, and this is what it was as a whole.
     pub ended: bool,
+}
+
+/// How sure the [`GestureReport`] is that follows, which is of the same frame and touch. Not told where the model does not know.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ConfidenceReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Number of the touch, from 1.
+    pub touch: u32,
+    /// The share of touches of that age and lead that are of that class.
+    pub confidence: Q15,
 }
 
 /// Which shapes the board was taught: the class of a contact is 1 + its place among these names.
@@ -459,6 +476,9 @@ pub enum Request<'a> {
     /// postcard of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery, a list. With the last of them
     /// the gallery is in force, or refused and forgotten.
     AddShapes(&'a [u8]),
+    /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the start. Not a part of
+    /// the scene; it stays when `SetGestures` comes.
+    SetCertainty(u16),
 }
 
 impl Request<'_> {
@@ -483,6 +503,7 @@ impl Request<'_> {
             Request::SetCalibration(_) => 15,
             Request::SetShapes(_) => 16,
             Request::AddShapes(_) => 17,
+            Request::SetCertainty(_) => 18,
         }
     }
 }

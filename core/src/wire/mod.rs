@@ -29,6 +29,7 @@
 //! | 15 | [`GestureReport`] | after `SetGestures`: when another class is announced for a touch, and at the end of a touch; always |
 //! | 16 | [`ShapesReport`] | when a gallery was taught or given up; in answer to `Start` where one is in force |
 //! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
+//! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model knows how sure it is; always |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.

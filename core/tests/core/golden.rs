@@ -154,10 +154,11 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 18] {
+fn reports() -> [(&'static str, Report<'static>); 19] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
+    let confidence = ConfidenceReport { frame, time, touch: 3, confidence: Q15(24_576) };
     let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
     let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
     [
@@ -179,10 +180,11 @@ fn reports() -> [(&'static str, Report<'static>); 18] {
         ("Gesture", Report::Gesture(gesture())),
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
         ("Reflex", Report::Reflex(reflex)),
+        ("Confidence", Report::Confidence(confidence)),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 18] {
+fn requests() -> [(&'static str, Request<'static>); 19] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -207,6 +209,7 @@ fn requests() -> [(&'static str, Request<'static>); 18] {
         ("SetCalibration", Request::SetCalibration(certificate)),
         ("SetShapes", Request::SetShapes(&[6, 7])),
         ("AddShapes", Request::AddShapes(&[1, 0, 2])),
+        ("SetCertainty", Request::SetCertainty(800)),
     ]
 }
 

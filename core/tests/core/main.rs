@@ -3,6 +3,7 @@
 mod baseline;
 mod board;
 mod bounds;
+mod certainty;
 mod condition;
 mod dense;
 mod garment;

@@ -3,8 +3,8 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport, SelfTestReport,
-    SymbolList, SyncReport, Temperature, WireError,
+    Budget, ConfidenceReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
+    SelfTestReport, SymbolList, SyncReport, Temperature, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -40,8 +40,10 @@ pub enum Event {
     Symbols(Box<SymbolList>),
     /// What the touch means.
     Intent(Box<IntentReport>),
-    /// Which gesture goes on.
+    /// Which gesture goes on; how sure that is, is found in the client.
     Gesture(GestureReport),
+    /// How sure the gesture is that is told next.
+    Confidence(ConfidenceReport),
     /// What the board was taught; the names are in the client, too.
     Shapes {
         /// Names of the classes; none: the built-in base is in force.

@@ -8,7 +8,7 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base, Class};
 use taxel_core::symbol::RegionState;
-use taxel_core::wire::{Budget, Health, IntentReport, SelfTestReport};
+use taxel_core::wire::{Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport};
 
 impl Client {
     /// What was counted on the line.
@@ -84,6 +84,12 @@ impl Client {
         let mut all = self.led.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
         all.resize(self.concepts().len(), Q15(0));
         all
+    }
+
+    /// How sure a gesture is that has just been told; none: the board does not know.
+    pub fn confidence(&self, gesture: &GestureReport) -> Option<Q15> {
+        let of_it = |told: &&ConfidenceReport| (told.frame, told.touch) == (gesture.frame, gesture.touch);
+        self.confidence.as_ref().filter(of_it).map(|told| told.confidence)
     }
 
     /// The taxels that are ill, by number, as told last.

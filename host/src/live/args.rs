@@ -37,6 +37,9 @@ pub struct BoardArgs {
     /// With --gestures: scale factor from the garment's counts to those that the model was trained on [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
+    /// With --gestures: announce a class as soon as the model is that sure, 0 to 0.999; the board keeps this until it restarts [default: when it has led for 250 ms]
+    #[arg(long, value_name = "SHARE", requires = "gestures")]
+    pub gesture_certainty: Option<f64>,
     /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default: never]; the value that counts then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
@@ -60,6 +63,7 @@ impl BoardArgs {
             budget: None,
             gestures: None,
             gesture_gain: None,
+            gesture_certainty: None,
             feed: Vec::new(),
             shapes: None,
             seed: None,

@@ -141,6 +141,11 @@ fn small(client: &Client, event: &Event) -> Value {
             line
         }
         Event::Gesture(report) => gesture(client, report),
+        Event::Confidence(report) => {
+            let mut line = at("confidence", report.frame, report.time);
+            merge(&mut line, json!({ "touch": report.touch, "confidence": report.confidence.to_f64() }));
+            line
+        }
         Event::Shapes { names, prototypes } => {
             json!({ "type": "shapes", "classes": names, "prototypes": prototypes })
         }
@@ -185,7 +190,7 @@ fn self_test(report: &SelfTestReport) -> Value {
     line
 }
 
-/// A lead of 2^18 is odds of e to 1.
+/// A model is fitted to score 2^18 for what a touch is and -2^18 for the others.
 fn gesture(client: &Client, report: &GestureReport) -> Value {
     let mut line = at("gesture", report.frame, report.time);
     let more = json!({
@@ -198,6 +203,9 @@ fn gesture(client: &Client, report: &GestureReport) -> Value {
         "ended": report.ended,
     });
     merge(&mut line, more);
+    if let Some(confidence) = client.confidence(report) {
+        line["confidence"] = json!(confidence.to_f64());
+    }
     line
 }
 

@@ -90,7 +90,9 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
     let (time, panel, name) = (seconds(report.time), panel_name(client, report.panel), &report.name);
     let observed = f64::from(report.observed_ms) / 1e3;
     let verb = if report.ended { "was" } else { "looks like" };
-    format!("{time} touch {} of the {panel} {verb}: {name} ({observed:.1} s)", report.touch)
+    let sure = client.confidence(report).map(|share| format!("{:.0} % sure after ", 100.0 * share.to_f64()));
+    let sure = sure.unwrap_or_default();
+    format!("{time} touch {} of the {panel} {verb}: {name} ({sure}{observed:.1} s)", report.touch)
 }
 
 /// An onset or a release in words.
@@ -147,7 +149,7 @@ pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 18] = [
+    const NAMES: [&str; 19] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -166,6 +168,7 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "set-calibration",
         "set-shapes",
         "add-shapes",
+        "set-certainty",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;
 use taxel_core::garment::{Circuit, Layout, Pins};
-use taxel_core::gesture::{GestureConfig, Gestures, Shipped};
+use taxel_core::gesture::{Certainty, GestureConfig, Gestures, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
@@ -48,8 +48,14 @@ pub enum GestureModel {
     Intent,
 }
 
-/// Queues `SetGestures` for a model with its usual settings but the gain.
-pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) -> Result<()> {
+/// Queues `SetGestures` for a model with its usual settings but the gain, and before it the certainty. Whoever
+/// names a certainty is told as soon as the model is that sure, without a time for which it must have been so.
+pub fn recognise(
+    client: &mut Client,
+    model: GestureModel,
+    gain: Option<f64>,
+    certainty: Option<f64>,
+) -> Result<()> {
     let mut config = GestureConfig::of(match model {
         GestureModel::Gestures => Shipped::Gestures,
         GestureModel::Intent => Shipped::Intent,
@@ -57,6 +63,13 @@ pub fn recognise(client: &mut Client, model: GestureModel, gain: Option<f64>) ->
     if let Some(gain) = gain {
         // What is out of range, not a number included, becomes one that is refused.
         config.gain = (gain * 256.0).round() as u16;
+    }
+    if let Some(certainty) = certainty {
+        // What is below 0, or no number, becomes one that is refused.
+        let thousandths = if certainty >= 0.0 { (certainty * 1000.0).round() as u16 } else { u16::MAX };
+        Certainty::of(thousandths).context("--gesture-certainty").usage()?;
+        client.request(&Request::SetCertainty(thousandths))?;
+        (config.decide_ms, config.onset_ms) = (100, 0);
     }
     Gestures::build(&config).context("--gestures").usage()?;
     Ok(client.request(&Request::SetGestures(Some(config)))?)

@@ -135,7 +135,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     }
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {
-        outfit::recognise(client, model, args.gesture_gain)?;
+        outfit::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
     }
     if let Some(base) = &args.shapes {
         teach(client, &Base::open(base)?)?;

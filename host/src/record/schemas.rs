@@ -188,6 +188,7 @@ pub fn gestures() -> Value {
         ("lead", number()),
         ("observed_ms", integer()),
         ("ended", flag()),
+        ("confidence", number()),
     ];
     of_frame(&fields)
 }

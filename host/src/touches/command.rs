@@ -1,8 +1,10 @@
 //! What `taxel gestures` and `taxel intent` have in common: training and evaluation of a model of touches.
 
-use super::compare::{Times, as_it_is, cross};
+use super::compare::{Times, as_it_is, cross, example};
+use super::course::courses;
 use super::data::Data;
-use super::model::{Provenance, Settings, courses, read, train};
+use super::fitting::{saturation, units};
+use super::model::{Provenance, Settings, read, train};
 use super::nested::nested;
 use super::report::Report;
 use crate::fault::Fault;
@@ -80,13 +82,16 @@ impl Task {
     /// Trains on all touches and writes the model.
     pub fn train(&self, data: &Data, output: Output) -> Result<()> {
         eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
+        tell(&doubts(data));
         let courses = courses(data, &self.settings);
         let examples: Vec<_> =
-            courses.iter().zip(&data.touches).map(|(course, touch)| (course, touch.class)).collect();
+            courses.iter().zip(&data.touches).map(|(course, touch)| example(touch, course)).collect();
         let bytes = train(data, &examples, &self.settings)?;
         let name = output.name().display().to_string();
         output.write(&bytes)?;
-        eprintln!("{name}: {} bytes", bytes.len());
+        let from: Vec<String> =
+            Model::read(&bytes)?.experts().map(|expert| expert.from().to_string()).collect();
+        eprintln!("{name}: {} bytes, experts from frames {}", bytes.len(), from.join(", "));
         Ok(())
     }
 
@@ -98,11 +103,14 @@ impl Task {
         if let (Some(model), Some(_)) = (&args.model, &args.cross) {
             eprintln!("note: --cross trains anew on the files, {} is not asked", model.display());
         }
-        let report = match (&args.cross, args.nested) {
-            (None, _) => self.apply(data, args.model.as_deref(), times)?,
+        let mut doubts = doubts(&data);
+        let mut report = match (&args.cross, args.nested) {
+            (None, _) => self.apply(data, args.model.as_deref(), times, &mut doubts)?,
             (Some(_), false) => cross(&data, &self.settings, times)?,
             (Some(_), true) => nested(&data, &(self.candidates)())?,
         };
+        tell(&doubts);
+        report.add("doubts", doubts.into());
         if args.json {
             println!("{}", report.json());
         } else {
@@ -111,11 +119,19 @@ impl Task {
         Ok(())
     }
 
-    /// Applies the model of a file, else the shipped one, as it is.
-    fn apply(&self, mut data: Data, model: Option<&Path>, times: &Times) -> Result<Report> {
+    /// Applies the model of a file, else the shipped one, as it is; adds to the doubts whether the touches fit
+    /// it.
+    fn apply(
+        &self,
+        mut data: Data,
+        model: Option<&Path>,
+        times: &Times,
+        doubts: &mut Vec<String>,
+    ) -> Result<Report> {
         let bytes = model.map_or_else(|| Ok(self.shipped.bytes().to_vec()), read)?;
         let model = Model::read(&bytes)?;
         add_classes(&mut data, &model)?;
+        doubts.extend(units(&data, &model));
         let trained_on = Provenance::of(&model)?.knows(&data.sources);
         let mut report = as_it_is(&model, &data, times)?;
         if trained_on {
@@ -127,6 +143,16 @@ impl Task {
         report.add("model_bytes", bytes.len().into());
         Ok(report)
     }
+}
+
+/// What speaks against conclusions from touches, in sentences.
+fn doubts(data: &Data) -> Vec<String> {
+    data.doubts.iter().cloned().chain(saturation(data)).collect()
+}
+
+/// Tells doubts.
+fn tell(doubts: &[String]) {
+    doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
 }
 
 /// Adds the classes that a model knows and the labels do not name; an error where they have none in common.
@@ -141,9 +167,13 @@ fn add_classes(data: &mut Data, model: &Model<'_>) -> Result<()> {
 
 /// Settings that differ from `one` in what is chosen by trial.
 pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
-    let with =
-        |penalty: f64| balances.iter().map(move |balance| Settings { penalty, balance: *balance, ..one });
-    penalties.iter().flat_map(|penalty| with(*penalty)).collect()
+    let mut all = Vec::new();
+    for penalty in penalties {
+        for balance in balances {
+            all.push(Settings { penalty: *penalty, balance: *balance, ..one });
+        }
+    }
+    all
 }
 
 /// The labels of recorded touches; the error says that they are missing.
@@ -171,6 +201,7 @@ mod tests {
             classes: classes.iter().map(ToString::to_string).collect(),
             touches: Vec::new(),
             idle: Vec::new(),
+            doubts: Vec::new(),
             sources: Vec::new(),
         };
         let mut few = data(&["attack", "tango"]);

@@ -1,13 +1,17 @@
 //! Evaluation of a model as it is, and of the method on groups that were kept apart.
 
+use super::apply::{Applied, Taken, apply};
+use super::certainty::{Prediction, reliability, waits};
+use super::course::{Course, courses};
 use super::data::{Data, Touch};
+use super::experts::Example;
 use super::knn::nearest;
 use super::map::mapped;
-use super::model::{Course, Settings, apply, courses, train};
+use super::model::{EARLY, Settings, train};
 use super::report::{Outcome, Report, accuracy};
 use crate::progress::{Progress, Unit};
 use anyhow::{Result, ensure};
-use serde_json::json;
+use serde_json::{Value, json};
 use taxel_core::gesture::{Features, Model};
 
 /// Touches observed for a time only.
@@ -15,16 +19,29 @@ use taxel_core::gesture::{Features, Model};
 pub struct Times {
     /// What time is told in.
     pub unit: &'static str,
+    /// How long a frame is.
+    pub frame: f64,
     /// Times, and how many frames each is; they ascend.
     pub steps: Vec<(f64, usize)>,
+    /// Frames from one decision to the next where is told what it costs to wait for certainty.
+    pub every: usize,
 }
 
-/// What was recognised, in the order of the touches.
+impl Times {
+    /// The numbers of frames after which a touch of `longest` frames at most is decided upon.
+    fn asked(&self, longest: usize) -> Vec<usize> {
+        let steps = self.steps.iter().map(|(_, frames)| *frames);
+        let mut asked: Vec<usize> = steps.chain((self.every..=longest).step_by(self.every.max(1))).collect();
+        asked.sort_unstable();
+        asked.dedup();
+        asked
+    }
+}
+
+/// What was recognised, in the order of the touches, each with its class.
 #[derive(Debug, Clone, Default)]
 struct Found {
-    last: Vec<Outcome>,
-    /// For each of the times.
-    early: Vec<Vec<Outcome>>,
+    touches: Vec<(usize, Applied)>,
     /// What stretches in which nobody touches were taken for.
     idle: Vec<usize>,
 }
@@ -37,53 +54,76 @@ impl Found {
         of: impl Fn(&Touch) -> bool,
         times: &Times,
     ) -> Result<()> {
-        let frames: Vec<usize> = times.steps.iter().map(|(_, frames)| *frames).collect();
         let touches: Vec<&Touch> = data.touches.iter().filter(|touch| of(touch)).collect();
-        self.early.resize(frames.len(), Vec::new());
-        for (touch, (last, early)) in touches.iter().zip(apply(model, data, &touches, &frames)?) {
-            self.last.push((touch.class, last));
-            self.early.iter_mut().zip(early).for_each(|(list, class)| list.push((touch.class, class)));
-        }
+        let longest = touches.iter().map(|touch| data.frames(touch).len()).max().unwrap_or(0);
+        let applied = apply(model, data, &touches, &times.asked(longest))?;
+        self.touches.extend(touches.iter().map(|touch| touch.class).zip(applied));
         let idle: Vec<&Touch> = data.idle.iter().filter(|touch| of(touch)).collect();
-        self.idle.extend(apply(model, data, &idle, &[])?.into_iter().map(|(last, _)| last));
+        self.idle.extend(apply(model, data, &idle, &[])?.into_iter().map(|applied| applied.last.class));
         Ok(())
     }
 
+    /// What touches were taken for at their end.
+    fn last(&self) -> Vec<Outcome> {
+        self.touches.iter().map(|(was, applied)| (*was, applied.last.class)).collect()
+    }
+
+    /// What touches were taken for after so many frames, or at the end of a shorter one.
+    fn after(&self, frames: usize) -> Vec<Outcome> {
+        self.touches.iter().map(|(was, applied)| (*was, applied.after(frames).class)).collect()
+    }
+
     fn report(self, data: &Data, times: &Times) -> Report {
-        let mut report = Report::new(&data.classes, self.last.clone());
-        let steps = || times.steps.iter().map(|(time, _)| *time);
-        let reached: Vec<f64> = self.early.iter().map(|list| accuracy(list)).collect();
-        let over = steps().zip(&reached).map(|(time, share)| json!({ times.unit: time, "accuracy": share }));
-        let first = steps().zip(&reached).find(|(_, share)| **share >= 0.9 * report.accuracy());
+        let last = self.last();
+        let mut report = Report::new(&data.classes, last.clone());
+        let by_class = |value: &dyn Fn(usize) -> Value| -> Value {
+            let each = data.classes.iter().enumerate().map(|(class, name)| (name.clone(), value(class)));
+            serde_json::Map::from_iter(each).into()
+        };
+        let reached: Vec<(f64, f64)> =
+            times.steps.iter().map(|(time, frames)| (*time, accuracy(&self.after(*frames)))).collect();
+        let over = reached.iter().map(|(time, share)| json!({ times.unit: time, "accuracy": share }));
+        let first = reached.iter().find(|(_, share)| *share >= 0.9 * report.accuracy());
         report.add("over_time", over.collect());
         report.add(&format!("{}_to_90_percent_of_final", times.unit), json!(first.map(|(time, _)| time)));
-        let onsets = data
-            .classes
-            .iter()
-            .enumerate()
-            .map(|(class, name)| (name.clone(), json!(self.onset(class, times))));
-        report.add(&format!("median_onset_{}", times.unit), serde_json::Map::from_iter(onsets).into());
+        let onset = |class| json!(self.onset(class, times));
+        report.add(&format!("median_onset_{}", times.unit), by_class(&onset));
         let recall = |class: usize| {
-            let own: Vec<Outcome> = self.last.iter().filter(|(was, _)| *was == class).copied().collect();
-            accuracy(&own)
+            let own: Vec<Outcome> = last.iter().filter(|(was, _)| *was == class).copied().collect();
+            json!(accuracy(&own))
         };
-        let recalls =
-            data.classes.iter().enumerate().map(|(class, name)| (name.clone(), json!(recall(class))));
-        report.add("recall", serde_json::Map::from_iter(recalls).into());
+        report.add("recall", by_class(&recall));
         if !self.idle.is_empty() {
-            let count = |class: usize| self.idle.iter().filter(|taken| **taken == class).count();
-            let counts =
-                data.classes.iter().enumerate().map(|(class, name)| (name.clone(), json!(count(class))));
-            report.add("idle_stretches_taken_for", serde_json::Map::from_iter(counts).into());
+            let count = |class: usize| json!(self.idle.iter().filter(|taken| **taken == class).count());
+            report.add("idle_stretches_taken_for", by_class(&count));
+        }
+        let predictions = self.predictions(times);
+        if !predictions.is_empty() {
+            report.add("reliability", reliability(&predictions));
+            report.add("announced_when_certain", waits(&self.touches, times.unit, times.frame));
         }
         report
     }
 
+    /// The decisions after each of the times that touches lasted, and at their ends, with their confidence.
+    fn predictions(&self, times: &Times) -> Vec<Prediction> {
+        let mut predictions = Vec::new();
+        for (was, applied) in &self.touches {
+            let step = |(frames, _): &&(usize, Taken)| times.steps.iter().any(|(_, step)| step == frames);
+            let steps: Vec<&(usize, Taken)> = applied.early.iter().filter(step).collect();
+            let ended = steps.last().is_some_and(|(frames, _)| *frames == applied.frames);
+            let last = (!ended).then_some(&applied.last);
+            let all = steps.into_iter().map(|(_, taken)| taken).chain(last);
+            predictions.extend(all.filter_map(|taken| Some((taken.confidence?, taken.class == *was))));
+        }
+        predictions
+    }
+
     /// The median time from which touches of a class that are recognised at their end are taken for it without a break.
     fn onset(&self, class: usize, times: &Times) -> Option<f64> {
-        let right = self.last.iter().enumerate().filter(|(_, outcome)| **outcome == (class, class));
-        let since = right.map(|(touch, _)| {
-            let wrong = self.early.iter().rposition(|list| list[touch].1 != class);
+        let right = self.touches.iter().filter(|(was, applied)| (*was, applied.last.class) == (class, class));
+        let since = right.map(|(_, applied)| {
+            let wrong = times.steps.iter().rposition(|(_, frames)| applied.after(*frames).class != class);
             let step = wrong.map_or(0, |step| step + 1).min(times.steps.len().saturating_sub(1));
             times.steps.get(step).map_or(0.0, |(time, _)| *time)
         });
@@ -113,16 +153,16 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
         progress.at(done);
         let (apart, known): (Vec<usize>, Vec<usize>) =
             (0..data.touches.len()).partition(|i| data.touches[*i].group == *group);
-        let examples: Vec<_> = known.iter().map(|i| (&courses[*i], data.touches[*i].class)).collect();
+        let examples: Vec<_> = known.iter().map(|i| example(&data.touches[*i], &courses[*i])).collect();
         let bytes = train(data, &examples, settings)?;
-        let before = found.last.len();
+        let before = found.touches.len();
         found.add(&Model::read(&bytes)?, data, |touch| touch.group == *group, times)?;
-        let share = accuracy(&found.last[before..]);
+        let share = accuracy(&found.last()[before..]);
         progress.clear();
         eprintln!("{group}: {:.1} % of {} touches", 100.0 * share, apart.len());
         by_group.insert(group.clone(), json!(share));
         let whole: Vec<(&Features, usize)> =
-            examples.iter().map(|(course, class)| (&course.whole, *class)).collect();
+            examples.iter().map(|example| (&example.course.whole, example.class)).collect();
         let asked: Vec<&Features> = apart.iter().map(|i| &courses[*i].whole).collect();
         let was = || apart.iter().map(|i| data.touches[*i].class);
         near.extend(was().zip(nearest(&whole, data.classes.len(), &asked)));
@@ -134,7 +174,14 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
     Ok(report)
 }
 
-/// Trains on the touches of the groups that are known and applies to another group.
+/// A touch and what is learnt of it.
+pub(super) fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
+    Example { course, class: touch.class, group: &touch.group }
+}
+
+/// Trains on the touches of the groups that are known and applies to those of another group as a whole. For
+/// these the last expert speaks, which alone is trained; and one group alone spares the search for what is not
+/// asked here, hand-over and confidence.
 pub(super) fn apart(
     data: &Data,
     courses: &[Course],
@@ -145,10 +192,10 @@ pub(super) fn apart(
     let touches = || data.touches.iter().zip(courses);
     let examples: Vec<_> = touches()
         .filter(|(touch, _)| known.contains(&touch.group.as_str()))
-        .map(|(touch, course)| (course, touch.class))
+        .map(|(touch, course)| Example { group: "", ..example(touch, course) })
         .collect();
-    let bytes = train(data, &examples, settings)?;
+    let bytes = train(data, &examples, &Settings { early: [None; EARLY], ..*settings })?;
     let asked: Vec<&Touch> = data.touches.iter().filter(|touch| touch.group == group).collect();
-    let taken = apply(&Model::read(&bytes)?, data, &asked, &[])?;
-    Ok(asked.iter().zip(taken).map(|(touch, (last, _))| (touch.class, last)).collect())
+    let applied = apply(&Model::read(&bytes)?, data, &asked, &[])?;
+    Ok(asked.iter().zip(applied).map(|(touch, applied)| (touch.class, applied.last.class)).collect())
 }

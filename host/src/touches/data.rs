@@ -51,6 +51,8 @@ pub struct Data {
     pub touches: Vec<Touch>,
     /// Stretches in which nobody touches; their class means nothing.
     pub idle: Vec<Touch>,
+    /// What speaks against the recordings, in sentences.
+    pub doubts: Vec<String>,
     /// The files.
     pub sources: Vec<Source>,
 }

@@ -1,34 +1,49 @@
 //! A trained model as the bytes that a board reads.
 
-use super::ridge::Ridge;
+use super::experts::Trained;
 use anyhow::{Context, Result, ensure};
 use taxel_core::gesture::{MAGIC, Model, checksum};
 
-/// What a model has beside its planes.
+/// What a model has beside its experts.
 #[derive(Debug, Clone, Copy)]
 pub struct Head<'a> {
     /// Names of the classes.
     pub names: &'a [String],
     /// A cell above this counts as touched.
     pub pressed: u16,
+    /// The last expert tells what a touch was, whatever its age.
+    pub concludes: bool,
     /// The provenance as JSON.
     pub notes: &'a str,
 }
 
 /// The bytes of a model; the layout is that of [`Model`].
-pub fn export(ridge: &Ridge, head: Head<'_>) -> Result<Vec<u8>> {
+pub fn export(experts: &[Trained], head: Head<'_>) -> Result<Vec<u8>> {
     let mut bytes = MAGIC.to_vec();
     bytes.extend(u32::try_from(head.notes.len())?.to_le_bytes());
     bytes.extend(head.notes.as_bytes());
-    let count = ridge.middle.len();
-    for number in [head.names.len().try_into()?, count.try_into()?, head.pressed] {
-        bytes.extend(u16::to_le_bytes(number));
-    }
+    let numbers =
+        [head.names.len().try_into()?, experts.len().try_into()?, head.pressed, head.concludes.into()];
+    numbers.into_iter().for_each(|number: u16| bytes.extend(number.to_le_bytes()));
     for name in head.names {
         ensure!(name.len() <= 16, "class {name}: the name is longer than 16 bytes");
         let mut padded = [0; 16];
         padded[..name.len()].copy_from_slice(name.as_bytes());
         bytes.extend(padded);
+    }
+    experts.iter().try_for_each(|expert| add(&mut bytes, expert))?;
+    let sum = checksum(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    Model::read(&bytes).context("the trained model does not fit a board")?;
+    Ok(bytes)
+}
+
+/// Adds the bytes of an expert.
+fn add(bytes: &mut Vec<u8>, expert: &Trained) -> Result<()> {
+    let Trained { from, ridge, rows } = expert;
+    let count = ridge.middle.len();
+    for number in [*from, count, rows.len()] {
+        bytes.extend(u16::try_from(number)?.to_le_bytes());
     }
     // A score of 1 is 2^18.
     ridge.offsets.iter().for_each(|offset| bytes.extend(((offset * 262_144.0).round() as i32).to_le_bytes()));
@@ -41,8 +56,9 @@ pub fn export(ridge: &Ridge, head: Head<'_>) -> Result<Vec<u8>> {
             bytes.extend(((weights[index] * 1024.0).round() as i16).to_le_bytes());
         }
     }
-    let sum = checksum(&bytes);
-    bytes.extend(sum.to_le_bytes());
-    Model::read(&bytes).context("the trained model does not fit a board")?;
-    Ok(bytes)
+    for (age, row) in rows {
+        bytes.extend(u16::try_from(*age)?.to_le_bytes());
+        row.iter().for_each(|share| bytes.extend(((share * 32_768.0).round() as u16).to_le_bytes()));
+    }
+    Ok(())
 }

@@ -1,9 +1,15 @@
 //! Learning from recorded touches: examples, a model that fits the board, what it is compared with, and the report.
 
+mod apply;
+mod calibration;
+mod certainty;
 mod command;
 mod compare;
+mod course;
 mod data;
+mod experts;
 mod export;
+mod fitting;
 mod knn;
 mod map;
 mod model;
@@ -11,15 +17,20 @@ mod nested;
 mod report;
 mod ridge;
 mod table;
+mod windows;
 
+pub use apply::{Applied, Taken, apply};
 pub use command::{EvalArgs, Files, Task, TrainArgs, grid, labels};
 pub use compare::{Times, cross};
+pub use course::Course;
 pub use data::{Data, Source, Touch};
+pub use experts::{Example, Trained};
 pub use export::{Head, export};
-pub use model::{Provenance, Settings, apply, decide, train};
+pub use model::{EARLY, Provenance, Settings, train};
 pub use report::{Outcome, Report, accuracy};
 pub use ridge::Ridge;
 pub use table::Table;
+pub use windows::Windows;
 
 /// Cards of the models that ship.
 pub const CARDS: &str = include_str!("../../../docs/models.md");

@@ -1,8 +1,9 @@
 //! An honest figure: settings are chosen without the touches that they are judged by.
 
 use super::compare::apart;
+use super::course::courses;
 use super::data::Data;
-use super::model::{Settings, courses};
+use super::model::Settings;
 use super::report::{Outcome, Report, accuracy};
 use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};

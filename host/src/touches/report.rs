@@ -63,9 +63,42 @@ impl Report {
             row.iter().for_each(|count| text += &format!(" {count:>width$}"));
         }
         text.push('\n');
-        self.more.iter().for_each(|(key, value)| text += &format!("{key}: {value}\n"));
+        self.more.iter().for_each(|(key, value)| text += &line(key, value));
         text
     }
+}
+
+/// What was measured: a table where it is a list of objects, an object's parts one by one where one of them is
+/// such, else a line.
+fn line(key: &str, value: &Value) -> String {
+    let is_table =
+        |value: &Value| value.as_array().is_some_and(|rows| rows.first().is_some_and(Value::is_object));
+    match value {
+        value if is_table(value) => format!("{key}:\n{}", table(value)),
+        Value::Object(parts) if parts.values().any(is_table) => {
+            parts.iter().map(|(part, value)| line(&format!("{key} {part}"), value)).collect()
+        }
+        value => format!("{key}: {value}\n"),
+    }
+}
+
+/// A list of objects with the keys of the first, a row each.
+fn table(rows: &Value) -> String {
+    let rows: Vec<&Map<String, Value>> =
+        rows.as_array().into_iter().flatten().filter_map(Value::as_object).collect();
+    let keys: Vec<&String> = rows.first().into_iter().flat_map(|row| row.keys()).collect();
+    let cell = |value: &Value| match value.as_f64() {
+        Some(number) if value.is_f64() => format!("{number:.3}"),
+        _ => value.to_string(),
+    };
+    let cells = |row: &&Map<String, Value>| -> String {
+        let each = keys
+            .iter()
+            .map(|key| format!(" {:>1$}", row.get(*key).map_or(String::new(), cell), key.len().max(6)));
+        each.collect()
+    };
+    let head: String = keys.iter().map(|key| format!(" {key:>0$}", key.len().max(6))).collect();
+    std::iter::once(head).chain(rows.iter().map(cells)).map(|row| row + "\n").collect()
 }
 
 /// Share of the touches that were taken for what they were.
@@ -84,5 +117,15 @@ mod tests {
         let json = report.json();
         assert_eq!((report.accuracy(), &json["confusion"]), (0.5, &json!([[1, 2], [0, 1]])));
         assert!(report.text().starts_with("accuracy 50.0 % of 4 touches\n"));
+    }
+
+    #[test]
+    fn lists_of_objects_are_tables() {
+        let mut report = Report::new(&["pat".to_string()], Vec::new());
+        report.add("recall", json!({ "pat": 1 }));
+        report
+            .add("sure", json!({ "count": 2, "bins": [{ "from": 0.5, "n": 12 }, { "from": 0.75, "n": 3 }] }));
+        let want = "recall: {\"pat\":1}\nsure count: 2\nsure bins:\n   from      n\n  0.500     12\n  0.750      3\n";
+        assert!(report.text().ends_with(want), "{}", report.text());
     }
 }

@@ -53,6 +53,16 @@ impl Ridge {
         }
         Ridge { middle, deviation, weights, offsets }
     }
+
+    /// What each class scores.
+    pub fn scores(&self, features: &Features) -> Vec<f64> {
+        let mut row = vec![1.0; FEATURES + 1];
+        standardise(features, &self.middle, &self.deviation, &mut row);
+        let plane = |(weights, offset): (&Vec<f64>, &f64)| {
+            weights.iter().zip(&row).map(|(weight, value)| weight * value).sum::<f64>() + offset
+        };
+        self.weights.iter().zip(&self.offsets).map(plane).collect()
+    }
 }
 
 /// Mean and standard deviation of each feature.

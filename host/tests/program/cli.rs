@@ -84,6 +84,54 @@ fn bad_arrays_are_refused_by_name() {
     }
 }
 
+/// What a command says on its error output, and what it prints.
+fn said(args: &[&str]) -> (String, String) {
+    let output = run(args);
+    let [error, text] =
+        [&output.stderr, &output.stdout].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    assert!(output.status.success(), "{args:?}: {error}");
+    (error, text)
+}
+
+#[test]
+fn what_speaks_against_recorded_frames_is_told() {
+    let frames = |value: &dyn Fn(usize, usize) -> u16| -> Vec<u16> {
+        (0..20 * 64).map(|i| value(i / 64, i % 64)).collect()
+    };
+    let quiet = frames(&|frame, cell| (frame * 37 + cell * 11) as u16 % 600);
+    let started =
+        frames(&|frame, cell| if frame == 1 { 4000 } else { (frame * 37 + cell * 11) as u16 % 600 });
+    let stopped = frames(&|frame, cell| ((frame * 379 + cell * 113) as u16 % 2000).min(1500));
+    let soft = frames(&|frame, cell| (frame * 37 + cell * 11) as u16 % 60);
+    let process = |name: &str, values: &[u16]| said(&["process", &file(name, &npy(&[20, 8, 8], values))]).0;
+    assert!(!process("quiet.npy", &quiet).contains("warning"));
+    assert!(process("started.npy", &started).contains("started.npy: frame 1 has "));
+    assert!(process("stopped.npy", &stopped).contains("saturation: values stop at 1500"));
+    assert!(process("soft.npy", &soft).contains("no value is above 59 of a full scale of 4095"));
+
+    // Two gestures by three people, eight times each, which all saturate; the first recording begins with a
+    // transient.
+    let two = started.iter().chain(&stopped).map(|value| (*value).min(500));
+    let mut all = two.collect::<Vec<u16>>().repeat(24);
+    all[..64 * 20].iter_mut().for_each(|value| *value /= 50);
+    all[64..128].fill(500);
+    let frames = file("touches.npy", &npy(&[48 * 20, 8, 8], &all));
+    let labels: String =
+        (0..48).map(|n| format!("{},{}\n", ["pat", "rub"][n % 2], ["ann", "bob", "cid"][n / 16])).collect();
+    let labels = file("touches.csv", format!("gesture,participant\n{labels}").as_bytes());
+    let cross = ["--cross", "participant", "--json"];
+    let files = ["--frames", frames.as_str(), "--labels", labels.as_str()];
+    let (error, text) = said(&[&["gestures", "eval"][..], &files, &cross].concat());
+    assert!(error.contains("warning: 1 of 48 recordings, recording 0: frame 1 has "), "{error}");
+    assert!(
+        error.contains("warning: saturation: values stop at 500 in 100 % of pat, 100 % of rub"),
+        "{error}"
+    );
+    let report: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(report["doubts"].as_array().map(Vec::len), Some(2));
+    assert!(report["reliability"]["predictions"].as_u64() > Some(0), "{report}");
+}
+
 #[test]
 fn what_is_not_in_a_file_is_refused_by_name() {
     let two = file("two.npz", &two_images());

@@ -367,7 +367,25 @@ fn gestures_are_told_where_they_are_asked_for() {
     let lines = parsed(&json(&intent));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
     assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["class"].as_str().unwrap())));
+    let mut certain = asked.clone();
+    certain.board.gesture_certainty = Some(0.7);
+    let lines = parsed(&json(&certain));
+    let sure = |line: &&Value| line["confidence"].as_f64().unwrap() >= 0.7;
+    assert!(of_type(&lines, "gesture").filter(|line| line["ended"] == false).all(|line| sure(&line)));
+    // Each is told before the gesture that it is of.
+    let pair = |line: &Value| (line["frame"].clone(), line["touch"].clone(), line["confidence"].clone());
+    let [told, before] =
+        ["gesture", "confidence"].map(|kind| of_type(&lines, kind).map(pair).collect::<Vec<_>>());
+    assert!(!told.is_empty() && told == before, "{told:?} {before:?}");
+    assert!(
+        lines.iter().position(|line| line["type"] == "confidence")
+            < lines.iter().position(|line| line["type"] == "gesture")
+    );
     let mut refused = asked;
+    refused.board.gesture_certainty = Some(-0.1);
+    let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
+    assert_eq!(format!("{why:#}"), "--gesture-certainty: gestures.certainty must be at most 999 (0.999)");
+    refused.board.gesture_certainty = None;
     refused.board.gesture_gain = Some(17.0);
     let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");

@@ -17,6 +17,12 @@ fn gestures_of_people_who_were_kept_apart() {
     let report = gestures::across_people(&files).unwrap().json();
     println!("gestures by participant: {report}");
     is_in_docs("models.md", &report);
+    // Decisions after 0.2 s and 0.5 s, and of the whole.
+    for (step, least) in [(1, 0.55), (2, 0.68), (6, 0.82)] {
+        let reached = share(&report, &format!("/over_time/{step}/accuracy"));
+        assert!(reached >= least, "{reached} of {least}");
+    }
+    is_sure_as_it_says(&report);
     // Above the 78.6 % of 800 trees, and above what it is compared with.
     assert!(share(&report, "/accuracy") > 0.80);
     assert!(share(&report, "/accuracy") > share(&report, "/beside/knn"));
@@ -32,6 +38,7 @@ fn intentions_on_days_that_were_kept_apart() {
     let report = intent::across_days(&files).unwrap().json();
     println!("intentions by day: {report}");
     is_in_docs("models.md", &report);
+    is_sure_as_it_says(&report);
     assert!(share(&report, "/accuracy") > 0.75 && share(&report, "/recall/attack") > 0.75);
 }
 
@@ -53,6 +60,21 @@ fn objects_that_were_kept_apart() {
     println!("objects: {objects:.3}, in groups {groups:.3}");
     // Moments and k-NN 71 %, SURF and SVM 77.6 %, a CNN 95 %.
     assert!(objects > 0.90 && groups > 0.97);
+}
+
+/// The confidence is that of a thousand decisions and more, on average to 5 %, and the docs have its table.
+fn is_sure_as_it_says(report: &Value) {
+    let (count, error) =
+        (share(report, "/reliability/predictions"), share(report, "/reliability/expected_error"));
+    assert!(count >= 1000.0 && error <= 0.05, "{error} over {count}");
+    says("models.md", &format!("expected calibration error {error:.3} over {count}"));
+    for bin in report["reliability"]["bins"].as_array().unwrap() {
+        let percent = |key: &str| format!("{:.0} %", 100.0 * bin[key].as_f64().unwrap());
+        says(
+            "models.md",
+            &format!("| {} | {} | {} |", bin["predictions"], percent("confidence"), percent("right")),
+        );
+    }
 }
 
 fn says(file: &str, words: &str) {

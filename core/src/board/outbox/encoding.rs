@@ -2,7 +2,7 @@
 
 use super::super::under_way::UnderWay;
 use super::super::{BoardInfo, Setup};
-use super::{About, Outbox, Waiting};
+use super::{About, Gestures, Outbox, Waiting};
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
@@ -50,8 +50,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
                 self.intent = None;
             }
             fits
-        } else if let Some(report) = self.gestures.pop_front() {
-            under_way.put(Report::GESTURE, &report)
+        } else if !self.gestures.is_empty() {
+            put_gesture(under_way, &mut self.gestures)
         } else if let Some((level, text)) = self.logs.pop_front() {
             under_way.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {
@@ -128,6 +128,18 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let head = Raw { frame, time, data: &[] };
         length.is_some_and(|length| self.under_way.put_data(Report::RAW, &head, length))
     }
+}
+
+/// The confidence of the first that waits, then that gesture itself: whoever reads it knows by then how sure it is.
+fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
+    let Some((report, confidence)) = waiting.front_mut() else { return true };
+    let GestureReport { frame, time, touch, .. } = *report;
+    if let Some(confidence) = confidence.take() {
+        return under_way.put(Report::CONFIDENCE, &ConfidenceReport { frame, time, touch, confidence });
+    }
+    let fits = under_way.put(Report::GESTURE, report);
+    waiting.pop_front();
+    fits
 }
 
 /// As a [`ShapesReport`].

@@ -9,7 +9,7 @@ use super::under_way::UnderWay;
 use super::{BoardInfo, Setup};
 use super::{Codes, Sentence};
 use crate::condition::{Certificate, Image};
-use crate::format::{Celsius, Code, Micros};
+use crate::format::{Celsius, Code, Micros, Q15};
 use crate::health::Monitor;
 use crate::pipeline::{CONTACTS, Probe, Stage};
 use crate::react::REACTIONS;
@@ -33,6 +33,9 @@ pub(super) struct About<'a> {
     pub taught: &'a Taught<CONTACTS>,
 }
 
+/// Gestures that wait, each with its confidence until that is told.
+type Gestures = Deque<(GestureReport, Option<Q15>), 4>;
+
 /// What waits to be sent.
 pub(super) struct Outbox<const TAXELS: usize> {
     under_way: UnderWay,
@@ -44,7 +47,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     reactions: Deque<ReactionReport, 16>,
     reflexes: Deque<ReflexReport, REACTIONS>,
     changes: Deque<IntentReport, 8>,
-    gestures: Deque<GestureReport, 4>,
+    gestures: Gestures,
     intent: Option<IntentReport>,
     symbols: SymbolList,
     symbols_wait: bool,

@@ -67,11 +67,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     fn note_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let Some((gesture, name)) = &percept.gesture else { return };
-        let Gesture { touch, panel, class, score, lead, observed_ms, ended } = *gesture;
+        let Gesture { touch, panel, class, score, lead, confidence, observed_ms, ended } = *gesture;
         let name = name.clone();
         let report =
             GestureReport { frame, time, touch, panel, class, name, score, lead, observed_ms, ended };
-        health.lost += u32::from(self.gestures.push_back(report).is_err());
+        health.lost += u32::from(self.gestures.push_back((report, confidence)).is_err());
     }
 
     /// The newest state of each contact; onsets and releases stay until they are told.

@@ -1,0 +1,37 @@
+//! How sure a decision must be to be announced.
+
+use crate::format::{Invalid, Q15};
+
+/// Confidence that an announcement takes; 0 at first. What never gets so sure is told at the end of the touch.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Certainty(Q15);
+
+impl Certainty {
+    /// Of thousandths, at most 999.
+    pub const fn of(thousandths: u16) -> Result<Certainty, Invalid> {
+        if thousandths > 999 {
+            return Err(Invalid { parameter: "gestures.certainty", must: "must be at most 999 (0.999)" });
+        }
+        Ok(Certainty(Q15::ratio(thousandths as u64, 1000)))
+    }
+
+    /// Whether a decision is sure enough; one without a confidence is not sure at all.
+    pub fn allows(self, confidence: Option<Q15>) -> bool {
+        confidence.unwrap_or_default() >= self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousandths_are_shares_and_1000_are_refused_by_name() {
+        let half = Certainty::of(500).unwrap();
+        assert!(half.allows(Some(Q15(16_384))) && !half.allows(Some(Q15(16_383))) && !half.allows(None));
+        assert_eq!(Certainty::of(0), Ok(Certainty::default()));
+        assert!(Certainty::default().allows(None));
+        assert!(Certainty::of(999).unwrap().allows(Some(Q15::ONE)));
+        assert_eq!(Certainty::of(1000).unwrap_err().parameter, "gestures.certainty");
+    }
+}
