@@ -15,7 +15,7 @@ use taxel_core::symbol::{Symbol, SymbolConfig};
 const PERIOD_US: u64 = 5_128;
 /// A taxel with that pressure is full, or nearly.
 const FULL: u16 = 3_800;
-/// A signal that is clear of the threshold of contacts, twice as high: counts of a taxel.
+/// A signal that is clear of the threshold of contacts, which is 40: counts of a taxel.
 const CLEAR: u16 = 240;
 /// Taxels from which on a touch covers 3 x 3.
 const LARGE: u16 = 9;
@@ -144,7 +144,7 @@ struct Tally {
 /// Touches that are no touch, or that lie elsewhere on another garment: arms and fingers as far apart as its panels are wide.
 const ELSEWHERE: [&str; 5] = ["drift", "breath", "drops", "hug", "stroke by fingers"];
 
-/// What is compared, and of how many in a hundred it has to agree. A touch that comes slowly begins when a taxel has 120 counts, which
+/// What is compared, and of how many in a hundred it has to agree. A touch that comes slowly begins when a taxel has 40 counts, which
 /// smaller taxels have later.
 const COMPARED: [(&str, usize); 5] =
     [("onset", 80), ("duration", 92), ("force", 99), ("words", 95), ("intention", 90)];
