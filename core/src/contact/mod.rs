@@ -30,7 +30,7 @@
 //!
 //! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the parts above (`piece`, `sums`, `part`, `label`; `sixteens` and `runs` in rows of one word, `words` in others); joins
 //! across seams (`side`, `join`); the choice of contacts (`near`); and the moments of the chosen ones only (`strip`, `component`). So far goes [`Contacts::segment`]; then they are
-//! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`): what a contact's form
+//! matched to those of the last frame (`track`), and one of them is looked at closely (`form`, `contour`, `axis`, `kurtosis`): what a contact's form
 //! is costs as much as all the rest of it, and changes slowly.
 
 mod axis;
@@ -42,6 +42,7 @@ mod flow;
 mod form;
 pub mod hardness;
 mod join;
+mod kurtosis;
 mod label;
 mod matching;
 mod moments;
@@ -70,6 +71,7 @@ pub use axis::{ASSUMED_PITCH_UM, Axis, axis, breadth};
 pub use component::Component;
 pub use config::{ContactConfig, NO_SLIP};
 pub use hardness::{Growth, Hardness};
+pub use kurtosis::Kurtosis;
 pub use moments::{Central, Moments};
 pub use record::{Contact, Phase};
 pub use stage::{ContactState, Contacts, Touches};

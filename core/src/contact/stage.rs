@@ -3,6 +3,7 @@
 use super::component::{Component, Components};
 use super::config::ContactConfig;
 use super::join::Joins;
+use super::kurtosis::Kurtosis;
 use super::label::Labels;
 use super::matching::Matching;
 use super::moments::Moments;
@@ -40,6 +41,8 @@ pub struct Touches<'a> {
     pub moments: &'a [Moments],
     /// Whether the form of each is of this frame, in the same order: see [`Contact`].
     pub looked: &'a [bool],
+    /// Of those whose form is of this frame, in the same order; of the others 0.
+    pub kurtosis: &'a [Kurtosis],
     /// Those that have gone since the last frame.
     pub released: &'a [Contact],
     /// Contacts that did not fit into this frame: those with the smallest totals.
@@ -161,6 +164,7 @@ impl Contacts {
             present: tracks.contacts(),
             moments: tracks.moments(),
             looked: tracks.looked(),
+            kurtosis: tracks.kurtosis(),
             released: tracks.released(),
             dropped: components.dropped,
             overflow: labels.overflow.saturating_add(joins.overflow),

@@ -3,6 +3,7 @@
 use super::component::Component;
 use super::config::ContactConfig;
 use super::form::Sight;
+use super::kurtosis::Kurtosis;
 use super::label::Labels;
 use super::moments::Moments;
 use super::part::NONE;
@@ -22,6 +23,8 @@ pub(super) struct Tracks<const CONTACTS: usize> {
     released: Vec<Contact, CONTACTS>,
     /// Whether the form of each is of this frame.
     looked: Vec<bool, CONTACTS>,
+    /// Of those that were looked at.
+    kurtosis: Vec<Kurtosis, CONTACTS>,
     /// Whose turn it is to be looked at.
     turn: usize,
     id: u32,
@@ -36,6 +39,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             moments: Vec::new(),
             released: Vec::new(),
             looked: Vec::new(),
+            kurtosis: Vec::new(),
             turn: 0,
             id: 0,
             clock: Clock::new(),
@@ -48,6 +52,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.moments.clear();
         self.released.clear();
         self.looked.clear();
+        self.kurtosis.clear();
     }
 
     pub fn contacts(&self) -> &[Contact] {
@@ -64,6 +69,10 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     pub fn looked(&self) -> &[bool] {
         &self.looked
+    }
+
+    pub fn kurtosis(&self) -> &[Kurtosis] {
+        &self.kurtosis
     }
 
     /// Index of the contact that a component became.
@@ -170,14 +179,16 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     ) {
         self.turn = if self.turn + 1 < held { self.turn + 1 } else { 0 };
         self.looked.clear();
+        self.kurtosis.clear();
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
             let due = index == self.turn || index >= held;
             // As many places as contacts.
             let _ = self.looked.push(due);
             let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
+                let _ = self.kurtosis.push(Kurtosis::default());
                 continue;
             };
-            sight.look(contact, trail.component, component);
+            let _ = self.kurtosis.push(sight.look(contact, trail.component, component));
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }

@@ -86,10 +86,10 @@ impl Pipeline {
     ) {
         let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
         replace(released, touches.released.iter().map(gone));
-        let forms = touches.moments.iter().zip(touches.looked);
-        for (index, (contact, (moments, looked))) in touches.present.iter().zip(forms).enumerate() {
+        let forms = touches.moments.iter().zip(touches.kurtosis).zip(touches.looked);
+        for (index, (contact, ((moments, kurtosis), looked))) in touches.present.iter().zip(forms).enumerate() {
             let shape = match &self.shape {
-                Some(stage) if *looked => stage.process(moments, contact),
+                Some(stage) if *looked => stage.process(moments, kurtosis, contact),
                 Some(_) => match present.get_mut(index) {
                     // As nearly always: it has its shape already.
                     Some(placed) if placed.contact.id == contact.id => {

@@ -1,5 +1,6 @@
 //! The library: simulated boards and garments, maps, shapes, touches, recordings.
 
+mod base;
 mod bases;
 mod calibrate;
 mod clock;
@@ -9,6 +10,7 @@ mod faults;
 mod fcm;
 mod ghosts;
 mod health;
+mod kinds;
 mod maps;
 mod mat;
 mod meaning;

@@ -4,7 +4,7 @@ use crate::drawn::{CLASSES, Rng, Touch};
 use crate::shape_of::*;
 use taxel::fcm::{board::BoardMap, load};
 use taxel_core::condition::{Image, Rows};
-use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Kurtosis, Moments};
 use taxel_core::format::{Code, Micros, Q15};
 
 use taxel_core::shape::{BUILT_IN, Base, Class, ShapeConfig, nmi};
@@ -83,7 +83,7 @@ fn settings_are_checked() {
         let image = Image { values: &values, rows: &Rows::ALL };
         let stage = ContactConfig::default().build().unwrap();
         let touches = stage.process(&mut state, &layout, &image, Micros(0));
-        let shape = shape.process(&touches.moments[0], &touches.present[0]);
+        let shape = shape.process(&touches.moments[0], &touches.kurtosis[0], &touches.present[0]);
         assert_eq!(shape.class, Class::FINGER);
         assert!(shape.confidence.0 > 16384 && shape.confidence.0 <= 32768);
     }
@@ -101,7 +101,7 @@ fn the_shape_map_stands_beside_the_knn() {
         let mut confusion = [[0; 3]; 3];
         for (index, class) in CLASSES.into_iter().enumerate().cycle().take(300) {
             let touch = Touch::random(class, rows, columns, &mut rng);
-            let form = |moments: &Moments, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
+            let form = |moments: &Moments, _: &Kurtosis, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
             let form = greatest_of_codes(&layout, &touch.codes(rows, columns), form).expect("a contact");
             let run = map.infer(&map.map.encode(None, &[Q15((form.0 >> 9) as i32)]));
             let answer = (0..3).max_by_key(|answer| run.state[concepts[*answer]]).expect("there are three");
