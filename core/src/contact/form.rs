@@ -17,7 +17,8 @@ pub(super) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
 }
 
 impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
-    /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`. Its kurtosis is no part of the record.
+    /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`. Its
+    /// kurtosis is no part of the record.
     #[inline(never)] // a stack frame of its own is near
     pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) -> Kurtosis {
         let Contour { length, slope } = Contour::of(index, component, self.labels, self.layout, self.image);

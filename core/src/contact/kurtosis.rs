@@ -1,7 +1,8 @@
 //! How the pressure of a contact lies along its principal axes, in moments of the fourth order.
 //!
-//! Moments of the second order take a rectangle and the ellipse with the same axes for one thing. Those of the fourth tell them
-//! apart: along the axes (u, v) of a rectangle, pressure at u says nothing of that at v, and in the corners of an ellipse there is none.
+//! Moments of the second order take a rectangle and the ellipse with the same axes for one thing. Those of the
+//! fourth tell them apart: along the axes (u, v) of a rectangle, pressure at u says nothing of that at v, and
+//! in the corners of an ellipse there is none.
 
 use super::component::Component;
 use super::form::Sight;
@@ -10,12 +11,13 @@ use super::strip::values_of;
 use crate::format::{Fixed16, Turn};
 use crate::garment::{Area, Rect};
 
-/// Standardised moments of the fourth order along the major axis (u) and across it (v), as logarithms to base 2 in 1/1024; all 0
-/// where there are none.
+/// Standardised moments of the fourth order along the major axis (u) and across it (v), as logarithms to base 2
+/// in 1/1024; all 0 where there are none.
 ///
-/// u^2 and v^2 are those of a taxel's centre and 1/12 for its own width. Where a contact has no direction, u is x. Of a
-/// contact that crosses a seam, what lies on its home panel counts. Pressures are cut to 8 bits, and squares to 16 bits
-/// of that of the extent: 10 steps off at most in contacts of up to 32 x 32 taxels (asserted against floats).
+/// u^2 and v^2 are those of a taxel's centre and 1/12 for its own width. Where a contact has no direction, u is
+/// x. Of a contact that crosses a seam, what lies on its home panel counts. Pressures are cut to 8 bits, and
+/// squares to 16 bits of that of the extent: 10 steps off at most in contacts of up to 32 x 32 taxels (asserted
+/// against floats).
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Kurtosis {
     /// `E u^4 / (E u^2)^2`: 1.8 for a rectangle of even pressure, 2 for an ellipse
@@ -92,7 +94,14 @@ struct Sums {
 impl Sums {
     /// Adds those of at most 32 values that some bits name, bit 0 the first, which lies at (u, v).
     #[inline(never)] // the few registers of an M0+ are for its loop
-    fn add(&mut self, values: &[u16], mut taxels: u32, down: u16, axes: &[Axis; 2], [mut u, mut v]: [i32; 2]) {
+    fn add(
+        &mut self,
+        values: &[u16],
+        mut taxels: u32,
+        down: u16,
+        axes: &[Axis; 2],
+        [mut u, mut v]: [i32; 2],
+    ) {
         let [along, across] = axes;
         let [mut m, mut a_f, mut b_f, mut aa_f, mut bb_f, mut ab_f] = [0u32; 6];
         for value in values {
@@ -153,7 +162,8 @@ impl Kurtosis {
         };
         let centre = if component.joined { centroid(pieces(), area) } else { [component.x, component.y] };
         let (cos, sin) = azimuth.map_or((i32::MAX, 0), |turn| idsp::cossin(turn.0));
-        let axes = [[cos, sin], [sin.saturating_neg(), cos]].map(|direction| Axis::of(direction, centre, &component.bounds));
+        let axes = [[cos, sin], [sin.saturating_neg(), cos]]
+            .map(|direction| Axis::of(direction, centre, &component.bounds));
         // Eight bits are left of the peak.
         let down = 8u32.saturating_sub(component.peak.leading_zeros()) as u16;
         let mut sums = Sums::default();
@@ -179,7 +189,8 @@ fn centroid<'a>(pieces: impl Iterator<Item = &'a Piece>, area: &Area) -> [Fixed1
     [x, y].map(|sum| Fixed16((sum << 16).checked_div(m).unwrap_or(0) as i32))
 }
 
-/// Logarithm to base 2 in 1/1024, two steps off at most, 0 for 0: that of the mantissa 1 + f is `f + f (1 - f) (P - Q f)`.
+/// Logarithm to base 2 in 1/1024, two steps off at most, 0 for 0: that of the mantissa 1 + f is `f + f (1 - f)
+/// (P - Q f)`.
 fn log2(value: u64) -> i32 {
     let zeros = (value | 1).leading_zeros();
     let f = ((value << zeros << 1) >> 48) as u32;

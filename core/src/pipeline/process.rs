@@ -87,7 +87,8 @@ impl Pipeline {
         let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
         replace(released, touches.released.iter().map(gone));
         let forms = touches.moments.iter().zip(touches.kurtosis).zip(touches.looked);
-        for (index, (contact, ((moments, kurtosis), looked))) in touches.present.iter().zip(forms).enumerate() {
+        for (index, (contact, ((moments, kurtosis), looked))) in touches.present.iter().zip(forms).enumerate()
+        {
             let shape = match &self.shape {
                 Some(stage) if *looked => stage.process(moments, kurtosis, contact),
                 Some(_) => match present.get_mut(index) {

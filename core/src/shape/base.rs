@@ -1,9 +1,10 @@
 //! The base of shapes that comes with the program: rectangle, round, finger.
 //!
-//! The prototypes are learned, not measured: 16 per class, placed by k-means and moved by generalised learning vector
-//! quantisation (GLVQ) in the space of [`features`](super::features). The examples are drawn by three generators that share no formula for
-//! pressure (`host/tests/library/kinds`), on grids of 4 x 16, 16 x 16 and 32 x 64. `host/tests/library/base` learns them anew, asserts that
-//! they are these, and judges each generator by a base that was learned without it; `docs/shapes.md` tells what they are worth.
+//! The prototypes are learned, not measured: 16 per class, placed by k-means and moved by generalised learning
+//! vector quantisation (GLVQ) in the space of [`features`](super::features). The examples are drawn by three
+//! generators that share no formula for pressure (`host/tests/library/kinds`), on grids of 4 x 16, 16 x 16 and
+//! 32 x 64. `host/tests/library/base` learns them anew, asserts that they are these, and judges each generator
+//! by a base that was learned without it; `docs/shapes.md` tells what they are worth.
 
 use super::features::Features;
 use super::knn::{Base, Class, Prototype};

@@ -124,7 +124,8 @@ fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, C
 /// The squared distance if it is below a limit; most prototypes are told apart by size and anisotropy.
 fn distance_below(limit: u32, prototype: &Prototype, features: &Features) -> Option<u32> {
     let [nmi, anisotropy, size, along, across, mixed] = *features;
-    let [other_nmi, other_anisotropy, other_size, other_along, other_across, other_mixed] = prototype.features;
+    let [other_nmi, other_anisotropy, other_size, other_along, other_across, other_mixed] =
+        prototype.features;
     // What is left of the limit: no sum can pass the end of a word.
     let left = below(limit, square(size, other_size))?;
     let left = below(left, square(anisotropy, other_anisotropy))?;

@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | input | exact [`Moments`](crate::contact::Moments) of a [`Contact`](crate::contact::Contact) |
+//! | input | exact [`Moments`](crate::contact::Moments) and [`Kurtosis`](crate::contact::Kurtosis) of a [`Contact`](crate::contact::Contact) |
 //! | output | [`Shape`]: forms of the NMI in Q8.24, class, confidence in Q15 |
 //! | saturation | forms just below 256 |
 //! | latency | none; there is no state |

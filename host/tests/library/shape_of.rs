@@ -18,7 +18,11 @@ pub fn shape_of(layout: &Layout, image: &Image) -> Option<Shape> {
 }
 
 /// What is made of the greatest contact of an image.
-pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Kurtosis, &Contact) -> T) -> Option<T> {
+pub fn greatest<T>(
+    layout: &Layout,
+    image: &Image,
+    of: impl Fn(&Moments, &Kurtosis, &Contact) -> T,
+) -> Option<T> {
     let mut state: ContactState<8, 1024> = ContactState::new();
     let contacts = ContactConfig::default().build().unwrap();
     let touches = contacts.process(&mut state, layout, image, Micros(0));
@@ -29,7 +33,9 @@ pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Kurtos
 
 /// The shape of the greatest contact of a frame of codes.
 pub fn shape_of_codes(layout: &Layout, codes: &[Code]) -> Option<Shape> {
-    greatest_of_codes(layout, codes, |moments, kurtosis, contact| shapes().process(moments, kurtosis, contact))
+    greatest_of_codes(layout, codes, |moments, kurtosis, contact| {
+        shapes().process(moments, kurtosis, contact)
+    })
 }
 
 /// What is made of the greatest contact of a frame of codes.

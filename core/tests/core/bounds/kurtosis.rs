@@ -20,10 +20,14 @@ fn seen(layout: &Layout, values: &[u16]) -> (Contact, Kurtosis) {
 
 /// By the definition, with the direction that the contact was found to have.
 fn defined(values: &[u16], contact: &Contact) -> [f64; 3] {
-    let angle = contact.azimuth.map_or(0.0, |turn| f64::from(turn.0) / f64::from(1u32 << 31) * std::f64::consts::PI);
+    let angle =
+        contact.azimuth.map_or(0.0, |turn| f64::from(turn.0) / f64::from(1u32 << 31) * std::f64::consts::PI);
     let (s, c) = angle.sin_cos();
     let columns = usize::from(PANEL[1]);
-    let taxels = values.iter().enumerate().map(|(at, f)| ((at % columns) as f64, (at / columns) as f64, f64::from(*f)));
+    let taxels = values
+        .iter()
+        .enumerate()
+        .map(|(at, f)| ((at % columns) as f64, (at / columns) as f64, f64::from(*f)));
     let mean = |of: &dyn Fn(f64, f64) -> f64| {
         let weighed = |(sum, mass): (f64, f64), (x, y, f): (f64, f64, f64)| (sum + of(x, y) * f, mass + f);
         let (sum, mass) = taxels.clone().fold((0.0, 0.0), weighed);
@@ -50,7 +54,8 @@ fn patch(noise: &mut Noise, side: u64) -> Vec<u16> {
     let mut values = vec![0; (rows * columns) as usize];
     // At least a quarter of the peak, so that no taxel is apart.
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        values[((top + y) * columns + left + x) as usize] = (peak / 4 + noise.below(peak - peak / 4 + 1)) as u16;
+        values[((top + y) * columns + left + x) as usize] =
+            (peak / 4 + noise.below(peak - peak / 4 + 1)) as u16;
     }
     values
 }
@@ -78,7 +83,8 @@ fn kurtosis_is_that_of_the_definition() {
 fn a_rectangle_has_corners_and_an_ellipse_has_none() {
     let layout = Layout::build(&Garment::recorded(PANEL[0], PANEL[1]), 2048, u16::MAX).unwrap();
     let form = |inside: &dyn Fn(i32, i32) -> bool| {
-        let values: Vec<u16> = (0..2048).map(|i| if inside(i % 64 - 32, i / 64 - 16) { 1000 } else { 0 }).collect();
+        let values: Vec<u16> =
+            (0..2048).map(|i| if inside(i % 64 - 32, i / 64 - 16) { 1000 } else { 0 }).collect();
         let Kurtosis { along, across, mixed } = seen(&layout, &values).1;
         [along, across, mixed].map(|log| (f64::from(log) / 1024.0).exp2())
     };

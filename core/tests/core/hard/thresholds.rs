@@ -88,7 +88,13 @@ fn gate() {
 }
 
 /// The shape of a contact by a base of one prototype that lies `apart` from it.
-fn shape(contact: &Contact, moments: &Moments, kurtosis: &Kurtosis, apart: [i16; FEATURES], reject: u16) -> Shape {
+fn shape(
+    contact: &Contact,
+    moments: &Moments,
+    kurtosis: &Kurtosis,
+    apart: [i16; FEATURES],
+    reject: u16,
+) -> Shape {
     let mut base = Base::<BUILT_IN>::built_in();
     base.names.clear();
     base.names.push(name("it")).unwrap();

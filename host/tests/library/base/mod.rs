@@ -1,7 +1,7 @@
 //! Learns the base of shapes that is built in, and tells what it is worth on a generator that it has not seen.
 //!
-//! It is learned from three generators of shapes alone. `cargo test -p taxel --test library base:: -- --nocapture` prints the tables of
-//! `core/src/shape/base.rs` and the figures of `docs/shapes.md`.
+//! It is learned from three generators of shapes alone. `cargo test -p taxel --test library base:: --
+//! --nocapture` prints the tables of `core/src/shape/base.rs` and the figures of `docs/shapes.md`.
 
 mod examples;
 mod glvq;

@@ -33,8 +33,9 @@ pub enum End {
 const BEYOND: f64 = 0.3;
 
 impl Body {
-    /// Rectangles have sides of 1 : 1 to 1 : 4, fingers of 1 : 1.3 to 1 : 5. Places and directions are any at which the body
-    /// lies on the panel; one in seven is nearly upright. Areas are those of discs of 0.9 to 2 taxels (4 rows), 1.4 to 5 (16) and 2 to 10.
+    /// Rectangles have sides of 1 : 1 to 1 : 4, fingers of 1 : 1.3 to 1 : 5. Places and directions are any at
+    /// which the body lies on the panel; one in seven is nearly upright. Areas are those of discs of 0.9 to 2
+    /// taxels (4 rows), 1.4 to 5 (16) and 2 to 10.
     pub fn random(class: Class, [rows, columns]: [u16; 2], rng: &mut Rng) -> Body {
         loop {
             if let Some(body) = Body::drawn(class, [rows, columns], rng) {

@@ -12,8 +12,7 @@ pub fn image(body: &Body, rng: &mut Rng) -> Vec<f64> {
     let stiffening = rng.range(1.0, 1.5);
     let answer = |depth: f64| depth.max(0.0).powf(stiffening);
     if body.class == Class::FINGER {
-        let (end, bulge) =
-            (one_of(&[End::Capsule, End::Ellipse, End::Blunt], rng), rng.range(0.4, 1.0));
+        let (end, bulge) = (one_of(&[End::Capsule, End::Ellipse, End::Blunt], rng), rng.range(0.4, 1.0));
         return body.image(|u, v| {
             let rim = body.rim(end, u, v);
             let rise = bulge * (1.0 - (1.0 - rim * rim).max(0.0).sqrt());

@@ -38,7 +38,8 @@ pub enum View {
     Clean,
     /// Blurred by up to 0.6 taxel, noise of 0.1 to 1 % of the full scale, conservative filter.
     Noisy,
-    /// Blurred by 0.3 to 0.9 taxel, noise of up to 3 % of the full scale, median filter, nothing below 128 counts.
+    /// Blurred by 0.3 to 0.9 taxel, noise of up to 3 % of the full scale, median filter, nothing below 128
+    /// counts.
     Hard,
 }
 
@@ -64,7 +65,9 @@ impl Kind {
         let body = Body::random(class, [rows, columns], rng);
         let image = match self {
             Kind::Polygon => polygon::image(&body, rng),
-            Kind::Elastic => sensor::blurred(&elastic::image(&body, rng), columns.into(), rng.range(0.15, 0.5)),
+            Kind::Elastic => {
+                sensor::blurred(&elastic::image(&body, rng), columns.into(), rng.range(0.15, 0.5))
+            }
             Kind::Depth => {
                 let leaky = sensor::leaky(&depth::image(&body, rng), columns.into(), rng.range(0.0, 0.04));
                 let spread = rng.range(0.0, 0.06);
