@@ -194,7 +194,7 @@ fn centroid<'a>(pieces: impl Iterator<Item = &'a Piece>, area: &Area) -> [Fixed1
 fn log2(value: u64) -> i32 {
     let zeros = (value | 1).leading_zeros();
     let f = ((value << zeros << 1) >> 48) as u32;
-    let bend = (f * (65_536 - f) >> 16) * (BEND - (f * TILT >> 16)) >> 10;
+    let bend = (((f * (65_536 - f)) >> 16) * (BEND - ((f * TILT) >> 16))) >> 10;
     (63 - zeros as i32) * 1024 + ((f + bend + 32) >> 6) as i32
 }
 
