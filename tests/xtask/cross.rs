@@ -8,6 +8,7 @@
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
 
 /// The microcontroller's target.
 pub const TARGET: &str = "thumbv6m-none-eabi";
@@ -165,7 +166,10 @@ impl Toolchain {
     }
 }
 
+/// One at a time: two checks may miss the same thing at once, and of two downloads into one folder one fails.
 fn rustup(args: &[&str]) -> Result<(), String> {
+    static ONE: Mutex<()> = Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(|broken| broken.into_inner());
     let mut rustup = Command::new("rustup");
     let typed = process::shown(rustup.args(args));
     eprintln!("xtask: {typed}");
