@@ -75,8 +75,8 @@ impl Consensus {
         self.fast
     }
 
-    /// Asks the witnesses of a panel, given the baselines and gains of all taxels; `whole`: a turn begins, else it is half over; `touched`
-    /// tells which of its taxels a contact holds.
+    /// Asks the witnesses of a panel, given the baselines and gains of all taxels. `whole`: a turn begins, else
+    /// it is half over; `touched` tells which of its taxels a contact holds.
     #[inline(never)] // M0+: out of line
     pub fn vote(
         &mut self,
@@ -144,8 +144,8 @@ impl Consensus {
     }
 }
 
-/// What witnesses agree on, given how far they are beyond what is known and the step before; 0 for nothing. Fast drift goes on while
-/// five eighths agree: noise may hide it from some.
+/// What witnesses agree on, given how far they are beyond what is known and the step before; 0 for nothing.
+/// Fast drift goes on while five eighths agree: noise may hide it from some.
 fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
     let (all, middle) = (beyond.all(), beyond.middle());
     if all.len() < FEWEST {

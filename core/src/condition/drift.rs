@@ -1,7 +1,7 @@
 //! The baseline follows drift, in counts per second.
 //!
-//! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once, whatever the frame rate. Its taxels move by what their panel
-//! drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
+//! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
+//! whatever the frame rate. Its taxels move by what their panel drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
 //! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
 //! never swallowed, and neither is a slow one once it shows. Only a tared baseline drifts: recordings are taken as they are.
 

@@ -19,7 +19,7 @@
 //! The filter that ships ([`Filter::Persistent`]) removes what is one frame long on one taxel, and keeps what stays. It remembers no
 //! image: only the [`POINTS`] first taxels of a frame that exceed their neighbours by more than noise does.
 //!
-//! Each row follows drift once in 0.7 s, at any frame rate. Where something touches, the baseline moves as the witnesses of its panel
+//! Each row follows drift once in 0.7 s, twice while its garment drifts fast, at any frame rate. Where something touches, the baseline moves as the witnesses of its panel
 //! agree, so that a held contact neither is swallowed nor drifts.
 
 mod calibrate;

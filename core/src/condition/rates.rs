@@ -1,7 +1,7 @@
 //! How fast the baseline may move, in counts and seconds, whatever the garment and the frame rate.
 
-/// Every row is visited once in this time, us, and once in half of it while a panel drifts fast: on the reference garment one row a frame,
-/// or two.
+/// Every row is visited once in this time, us, and once in half of it while a panel drifts fast: on the
+/// reference garment one row a frame, or two.
 pub(super) const TURN_US: u32 = 700_000;
 
 /// Most that a panel follows in a turn, counts: 40 counts per second, 80 while it drifts fast.

@@ -1,5 +1,5 @@
-//! Parts of one former contact stay one while no more than a taxel has opened between them: a hand that lies on ribs, or an arm on
-//! a crease, keeps its name.
+//! Parts of one former contact stay one while no more than a taxel has opened between them: a hand that lies
+//! on ribs, or an arm on a crease, keeps its id.
 
 use super::component::Components;
 use super::label::Labels;
@@ -10,7 +10,8 @@ use super::track::Tracks;
 use crate::garment::{Layout, Place, Rect};
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
-    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and have hardly come off.
+    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and have
+    /// hardly come off.
     #[inline(never)] // a stack frame of its own is near
     pub fn reunite<const RUNS: usize, const PARTS: usize>(
         &mut self,
