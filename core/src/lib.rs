@@ -2,7 +2,7 @@
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
 //! [`reflex`] (check of a sub-field), [`selftest`] (of lines and inputs), [`health`] (of every taxel), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
-//! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
+//! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`unsure`] (what may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes),
 //! [`scene`] (all their settings), [`pipeline`] (their composition), [`wire`] (messages, frames), [`board`] (a function
 //! of what happened) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
 #![no_std]
@@ -32,6 +32,8 @@ pub mod gesture;
 pub mod shape;
 
 pub mod body;
+
+pub mod unsure;
 
 pub mod symbol;
 

@@ -71,6 +71,8 @@ pub struct Client {
     led: Option<IntentReport>,
     /// How sure the gesture is that was told last, or is told next.
     confidence: Option<ConfidenceReport>,
+    /// Ids of contacts that may be drift.
+    unsure: Vec<u32>,
     health: Option<Health>,
     budget: Option<Budget>,
     celsius: Option<Celsius>,
@@ -109,6 +111,7 @@ impl Client {
             intention: None,
             led: None,
             confidence: None,
+            unsure: Vec::new(),
             health: None,
             budget: None,
             celsius: None,
@@ -179,6 +182,7 @@ impl Client {
         self.self_test = None;
         (self.intention, self.led) = (None, None);
         self.confidence = None;
+        self.unsure.clear();
     }
 
     fn take(&mut self, report: Report<'_>) -> Event {
@@ -201,6 +205,10 @@ impl Client {
             Report::Confidence(report) => {
                 self.confidence = Some(report);
                 Event::Confidence(report)
+            }
+            Report::Unsure(report) => {
+                self.unsure = report.contacts.to_vec();
+                Event::Unsure(Box::new(report))
             }
             Report::Shapes(report) => {
                 self.shapes = report.names.iter().map(ToString::to_string).collect();

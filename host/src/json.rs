@@ -11,8 +11,8 @@ use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base};
 
-/// A contact with its shape and place.
-pub fn contact(placed: &Placed, layout: &Layout) -> Value {
+/// A contact with its shape and place; `unsure`: it may be drift.
+pub fn contact(placed: &Placed, layout: &Layout, unsure: bool) -> Value {
     let Placed { contact, shape, region } = placed;
     let area = layout.areas().get(usize::from(contact.panel));
     let base = Base::<BUILT_IN>::built_in();
@@ -45,6 +45,7 @@ pub fn contact(placed: &Placed, layout: &Layout) -> Value {
         "vx": contact.vx.to_f64(),
         "vy": contact.vy.to_f64(),
         "slip": contact.slip,
+        "unsure": unsure,
         "duration": f64::from(contact.duration_ms) / 1000.0,
         "peak_total": contact.peak_total,
         "peak_breadth_mm": f64::from(contact.peak_breadth) / 10.0,

@@ -203,12 +203,12 @@ impl Replay {
 
 /// What was perceived in a frame, but for its meaning.
 fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
-    let contact = |placed: &Placed| {
-        let mut object = json::contact(placed, layout);
+    let contact = |(index, placed): (usize, &Placed)| {
+        let mut object = json::contact(placed, layout, percept.unsure.is_unsure(index));
         object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
         object
     };
-    let mut object = json!({ "contacts": percept.present.iter().map(contact).collect::<Vec<_>>() });
+    let mut object = json!({ "contacts": percept.present.iter().enumerate().map(contact).collect::<Vec<_>>() });
     if !percept.released.is_empty() {
         object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
     }

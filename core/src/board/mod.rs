@@ -302,7 +302,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, state, .. } = self;
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
-        let about = About { info, setup, monitor, examined, certificate, taught: &state.taught };
+        let (unsure, taught) = (state.unsure(), &state.taught);
+        let about = About { info, setup, monitor, examined, certificate, unsure, taught };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

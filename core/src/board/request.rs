@@ -74,6 +74,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 if self.state.taught.gallery().is_some() {
                     self.outbox.tell_shapes();
                 }
+                if self.state.unsure().ids().next().is_some() {
+                    self.outbox.tell_unsure();
+                }
                 Ok(())
             }
             Request::Stop => {

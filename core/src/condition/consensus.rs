@@ -44,6 +44,8 @@ struct Panel {
     begun: bool,
     /// Drift in the half of a turn before, and in this one.
     steps: [i8; 2],
+    /// All of it so far, modulo 2^32.
+    drifted: i32,
 }
 
 impl Panel {
@@ -55,7 +57,7 @@ impl Panel {
 
 impl Consensus {
     pub const fn new() -> Self {
-        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2] };
+        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0 };
         Consensus { panels: [panel; PANELS], fast: false }
     }
 
@@ -68,6 +70,11 @@ impl Consensus {
     /// What a panel moves by in this turn, counts.
     pub fn step(&self, panel: u8) -> i32 {
         self.panels.get(usize::from(panel)).map_or(0, Panel::in_turn)
+    }
+
+    /// What a panel has drifted so far, counts modulo 2^32.
+    pub fn drifted(&self, panel: u8) -> i32 {
+        self.panels.get(usize::from(panel)).map_or(0, |panel| panel.drifted)
     }
 
     /// Whether one of the panels drifts fast.
@@ -129,6 +136,7 @@ impl Consensus {
         let middle = sorted.middle();
         let step = agreed(&sorted, panel.steps[1].into(), whole).clamp(-COMMON / 2, COMMON / 2);
         panel.steps = [panel.steps[1], step as i8];
+        panel.drifted = panel.drifted.wrapping_add(step);
         // In the middle of a turn in which nothing moves, nothing is forgotten either.
         let changed = if whole || step != 0 { WITNESSES } else { 0 };
         for (known, beyond) in panel.known.iter_mut().zip(beyond).take(changed) {

@@ -110,6 +110,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         (!matches!(self.tracking.tare(), Tare::Running { .. })).then_some(&self.baseline)
     }
 
+    /// What a panel has drifted since the start, as its witnesses agree: counts modulo 2^32, of which only differences mean something.
+    pub fn drifted(&self, panel: u8) -> i32 {
+        self.consensus.drifted(panel)
+    }
+
     /// Gains by taxel number, Q4.12.
     pub fn gain(&self) -> &[u16] {
         &self.gain

@@ -8,6 +8,7 @@ use crate::gesture::Gesture;
 use crate::intent::Meaning;
 use crate::react::ReactState;
 use crate::symbol::SymbolState;
+use crate::unsure::UnsureState;
 
 /// What was perceived in one frame.
 #[derive(Debug, Clone)]
@@ -20,6 +21,8 @@ pub struct Percept<'a> {
     pub released: &'a [Placed],
     /// Contacts that did not fit, and runs that did not.
     pub dropped: u16,
+    /// Which of those that are there may be drift.
+    pub unsure: &'a UnsureState<CONTACTS>,
     /// What was said of them.
     pub symbols: &'a SymbolState<CONTACTS>,
     /// What the touch means, if that is new.

@@ -24,7 +24,7 @@ impl Pipeline {
         now: Micros,
         probe: &mut impl Probe,
     ) -> Percept<'s> {
-        let PipelineState { condition, contact, present, released, symbol, intent, react, taught, .. } =
+        let PipelineState { condition, contact, present, released, unsure, symbol, intent, react, taught, .. } =
             state;
         probe.begin(Stage::Condition);
         let sampled = Sampled { codes, falling, panels: self.panels, now };
@@ -39,6 +39,8 @@ impl Pipeline {
         if taught.gallery().is_some() {
             look(taught, present, contact, layout, &image);
         }
+        unsure.process(present, self.contact.config().high, |panel| condition.drifted(panel), now);
+        let unsure = &*unsure;
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, layout, present, released, now);
         let gesture = self.gestures.as_ref().and_then(|stage| {
@@ -49,12 +51,14 @@ impl Pipeline {
         probe.begin(Stage::Intent);
         let meaning = self.intent.as_ref().and_then(|stage| {
             let press = |placed: &Placed| placed.contact.peak_total;
-            let strongest =
-                present.iter().reduce(|most, next| if press(next) > press(most) { next } else { most });
+            let sure = || present.iter().enumerate().filter(|(index, _)| !unsure.is_unsure(*index));
+            let strongest = sure()
+                .map(|(_, placed)| placed)
+                .reduce(|most, next| if press(next) > press(most) { next } else { most });
             // The one that the stage would choose.
             let own = state.fold.moves(now);
             let touch = strongest.map(|placed| Touch { own, ..self.touch(layout, placed) });
-            let felt = self.felt(layout, present);
+            let felt = self.felt(layout, sure().map(|(_, placed)| placed));
             stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
@@ -65,6 +69,7 @@ impl Pipeline {
             present,
             released,
             dropped,
+            unsure,
             symbols: symbol,
             meaning,
             gesture,
@@ -126,12 +131,12 @@ impl Pipeline {
         }
     }
 
-    /// What the map is told of all contacts together.
-    fn felt(&self, layout: &Layout, present: &[Placed]) -> Felt {
+    /// What the map is told of all contacts together that are no drift.
+    fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>) -> Felt {
         let mut felt = Felt::default();
         let high = self.contact.config().high;
         let mut panel = (u8::MAX, 0);
-        for Placed { contact, region, .. } in present {
+        for Placed { contact, region, .. } in sure {
             if contact.panel != panel.0 {
                 let area = layout.areas().get(usize::from(contact.panel));
                 panel = (contact.panel, area.map_or(0, |area| area.cell_mm2));

@@ -12,6 +12,7 @@ use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
 use crate::symbol::SymbolState;
+use crate::unsure::UnsureState;
 use heapless::Vec;
 
 /// Contacts that are followed at a time.
@@ -25,6 +26,7 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: us
     pub(super) contact: ContactState<CONTACTS, RUNS, PARTS>,
     pub(super) present: Vec<Placed, CONTACTS>,
     pub(super) released: Vec<Placed, CONTACTS>,
+    pub(super) unsure: UnsureState<CONTACTS>,
     pub(super) symbol: SymbolState<CONTACTS>,
     pub(super) gesture: GestureState,
     pub(super) intent: IntentState,
@@ -48,6 +50,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
             contact: const { ContactState::new() },
             present: Vec::new(),
             released: Vec::new(),
+            unsure: const { UnsureState::new() },
             symbol: SymbolState::default(),
             gesture: const { GestureState::new() },
             intent: IntentState::default(),
@@ -94,6 +97,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     /// Whether something touched the garment in the last frame.
     pub fn is_touched(&self) -> bool {
         !self.present.is_empty()
+    }
+
+    /// Which contacts of the last frame may be drift.
+    pub fn unsure(&self) -> &UnsureState<CONTACTS> {
+        &self.unsure
     }
 
     /// The conditioned image of the last frame.

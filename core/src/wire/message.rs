@@ -73,6 +73,8 @@ pub enum Report<'a> {
     Reflex(ReflexReport),
     /// How sure the gesture is that is told next.
     Confidence(ConfidenceReport),
+    /// Which contacts may be drift.
+    Unsure(UnsureReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -115,6 +117,8 @@ impl Report<'_> {
     pub const REFLEX: u32 = 17;
     /// Of `Confidence`.
     pub const CONFIDENCE: u32 = 18;
+    /// Of `Unsure`.
+    pub const UNSURE: u32 = 19;
 }
 
 /// Frozen.
@@ -345,6 +349,17 @@ pub struct ConfidenceReport {
     pub touch: u32,
     /// The share of touches of that age and lead that are of that class.
     pub confidence: Q15,
+}
+
+/// Contacts whose baseline is unsure: all of each may be drift, and no intention follows from it. See [`unsure`](crate::unsure).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct UnsureReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Ids of those that are unsure now; one that is not among them is sure, or has gone.
+    pub contacts: Vec<u32, CONTACTS>,
 }
 
 /// Which shapes the board was taught: the class of a contact is 1 + its place among these names.

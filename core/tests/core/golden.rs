@@ -154,7 +154,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 19] {
+fn reports() -> [(&'static str, Report<'static>); 20] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -181,6 +181,7 @@ fn reports() -> [(&'static str, Report<'static>); 19] {
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
         ("Reflex", Report::Reflex(reflex)),
         ("Confidence", Report::Confidence(confidence)),
+        ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
     ]
 }
 

@@ -4,7 +4,7 @@ use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
     Budget, ConfidenceReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
-    SelfTestReport, SymbolList, SyncReport, Temperature, WireError,
+    SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).
@@ -44,6 +44,8 @@ pub enum Event {
     Gesture(GestureReport),
     /// How sure the gesture is that is told next.
     Confidence(ConfidenceReport),
+    /// Which contacts may be drift; they are in the client, too.
+    Unsure(Box<UnsureReport>),
     /// What the board was taught; the names are in the client, too.
     Shapes {
         /// Names of the classes; none: the built-in base is in force.

@@ -51,6 +51,11 @@ impl Client {
         self.growths.hardness(contact, self.layout()?)
     }
 
+    /// Whether a contact may be nothing but drift of its baseline: no intention follows from it.
+    pub fn is_unsure(&self, contact: u32) -> bool {
+        self.unsure.contains(&contact)
+    }
+
     /// Ids of the contacts that have gone with the last frame.
     pub fn released(&self) -> &[u32] {
         &self.released

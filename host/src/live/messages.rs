@@ -146,6 +146,11 @@ fn small(client: &Client, event: &Event) -> Value {
             merge(&mut line, json!({ "touch": report.touch, "confidence": report.confidence.to_f64() }));
             line
         }
+        Event::Unsure(report) => {
+            let mut line = at("unsure", report.frame, report.time);
+            line["contacts"] = json!(report.contacts);
+            line
+        }
         Event::Shapes { names, prototypes } => {
             json!({ "type": "shapes", "classes": names, "prototypes": prototypes })
         }
@@ -243,7 +248,7 @@ fn word(value: &impl std::fmt::Debug) -> String {
 fn contacts(client: &Client, list: &[Placed]) -> Value {
     let Some(layout) = client.layout() else { return json!([]) };
     let contact = |placed: &Placed| {
-        let mut contact = json::contact(placed, layout);
+        let mut contact = json::contact(placed, layout, client.is_unsure(placed.contact.id));
         contact["shape"] = json!(client.shape_name(placed.shape.class));
         contact
     };

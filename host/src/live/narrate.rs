@@ -55,6 +55,14 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
         Event::Shapes { names, prototypes } if *prototypes > 0 => {
             vec![format!("shapes: taught {} by {prototypes} prototypes", names.join(", "))]
         }
+        Event::Unsure(report) if !report.contacts.is_empty() => {
+            let ids: Vec<String> = report.contacts.iter().map(u32::to_string).collect();
+            vec![format!(
+                "{} baseline unsure: contact {} may be drift of the garment, so no intention follows from it",
+                seconds(report.time),
+                ids.join(", ")
+            )]
+        }
         Event::Gesture(report) => vec![gesture(client, report)],
         Event::Reaction(report) => {
             let verb = if report.reaction.active { "begins" } else { "ends" };

@@ -9,6 +9,7 @@ use crate::garment::Layout;
 use crate::health::Monitor;
 use crate::pipeline::CONTACTS;
 use crate::shape::Taught;
+use crate::unsure::UnsureState;
 use crate::wire::*;
 use core::fmt::Write;
 use heapless::{String, Vec};
@@ -18,7 +19,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, setup, monitor, examined, certificate, taught } = about;
+        let About { info, setup, monitor, examined, certificate, unsure, taught } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -40,6 +41,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if self.contacts_wait {
             self.contacts_wait = false;
             under_way.put(Report::CONTACTS, &self.contacts)
+        } else if core::mem::take(&mut self.unsure) {
+            put_unsure(under_way, self.contacts.frame, self.contacts.time, unsure)
         } else if self.symbols_wait {
             self.symbols_wait = false;
             under_way.put(Report::SYMBOLS, &self.symbols)
@@ -140,6 +143,15 @@ fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
     let fits = under_way.put(Report::GESTURE, report);
     waiting.pop_front();
     fits
+}
+
+fn put_unsure(under_way: &mut UnderWay, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {
+    let mut contacts = Vec::new();
+    for id in unsure.ids() {
+        // As many places as contacts.
+        let _ = contacts.push(id);
+    }
+    under_way.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
 }
 
 /// As a [`ShapesReport`].

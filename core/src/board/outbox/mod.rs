@@ -15,6 +15,7 @@ use crate::pipeline::{CONTACTS, Probe, Stage};
 use crate::react::REACTIONS;
 use crate::scene::StreamConfig;
 use crate::shape::Taught;
+use crate::unsure::UnsureState;
 use crate::wire::*;
 use core::fmt;
 use heapless::{Deque, Vec};
@@ -29,6 +30,8 @@ pub(super) struct About<'a> {
     pub examined: Option<&'a SelfTestReport>,
     /// The calibration in force.
     pub certificate: Option<&'a Certificate>,
+    /// Contacts that may be drift.
+    pub unsure: &'a UnsureState<CONTACTS>,
     /// What it was taught.
     pub taught: &'a Taught<CONTACTS>,
 }
@@ -53,6 +56,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     symbols_wait: bool,
     contacts: ContactList,
     contacts_wait: bool,
+    /// It is to be told which contacts are unsure.
+    unsure: bool,
     health: Option<Micros>,
     budget: Option<Budget>,
     temperature: Option<Temperature>,
@@ -97,6 +102,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             symbols_wait: false,
             contacts: ContactList { frame: 0, time: Micros(0), dropped: 0, contacts: Vec::new() },
             contacts_wait: false,
+            unsure: false,
             health: None,
             budget: None,
             temperature: None,
@@ -133,6 +139,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// `Hello` is to be told anew.
     pub fn introduce(&mut self) {
         self.hello = Some(Micros(0));
+    }
+
+    /// It is to be told which contacts are unsure.
+    pub fn tell_unsure(&mut self) {
+        self.unsure = true;
     }
 
     /// What the board was taught is to be told.
@@ -175,7 +186,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
         self.contacts.contacts.clear();
-        (self.symbols_wait, self.contacts_wait) = (false, false);
+        (self.symbols_wait, self.contacts_wait, self.unsure) = (false, false, false);
     }
 
     /// Another map: what the old one made of a touch would be read as the new one's concepts.

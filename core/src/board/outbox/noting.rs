@@ -39,6 +39,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         self.note_gesture(frame, time, percept, health);
         self.note_contacts(frame, time, percept, health);
+        self.unsure |= percept.unsure.has_changed();
         self.note_symbols(frame, time, percept, health);
         // What waits is encoded from the newest image and codes, so it bears their number.
         let due = self.rates.frames.due(time);

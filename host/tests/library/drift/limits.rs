@@ -55,6 +55,27 @@ fn a_patch_is_followed_at_a_count_per_second() {
     }
 }
 
+/// A palm of 5 N that comes within ten seconds shows the same codes: nothing tells the two apart.
+#[test]
+fn a_patch_at_five_counts_per_second_is_unsure_and_means_nothing() {
+    for (garment, hz) in [(Garment::mat(), 25.0), (Garment::mat(), 195.0), (Garment::recorded(24, 27), 60.0)]
+    {
+        let mut trial = Trial::new(garment, hz);
+        let course = Course { rate: 5.0, way: 300.0 };
+        trial.patches.push(Patch { panel: 0, at: [9.0, 7.0], size: [8.0, 8.0], edge: 4.0, course });
+        let felt = feel(&trial, 90.0);
+        let begins = felt.course.iter().find(|(.., contacts)| *contacts > 0).map(|(t, ..)| *t);
+        println!(
+            "{} at {hz} Hz: contacts from {begins:?} s on, {:.0} % of their frames unsure, {:?}",
+            trial.garment.name,
+            100.0 * felt.unsure(0.0, 90.0),
+            felt.led
+        );
+        assert!(felt.led.is_empty(), "{:?}", felt.led);
+        assert!(felt.unsure(0.0, 90.0) > 0.95);
+    }
+}
+
 /// How much of the pressure of a quick touch a slow one shows when it is all there, on a garment that drifts by so much.
 fn kept(garment: &Garment, hz: f64, (shape, force_n, rise_s): (&str, f64, f64), rate: f64) -> f64 {
     let at_rest = Trial::new(garment.clone(), hz);

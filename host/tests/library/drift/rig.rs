@@ -66,6 +66,8 @@ impl Trial {
 pub struct Felt {
     /// Time (s), pressure of all contacts (counts) and how many there are, frame by frame.
     pub course: Vec<(f64, f64, usize)>,
+    /// Time (s) of the frames in which a contact was unsure.
+    pub unsure: Vec<f64>,
     /// Everything that led.
     pub led: Vec<Leading>,
 }
@@ -79,6 +81,12 @@ impl Felt {
     pub fn felt(&self, from: f64, to: f64) -> f64 {
         let felt = self.inside(from, to).filter(|(.., contacts)| *contacts > 0).count();
         felt as f64 / self.inside(from, to).count() as f64
+    }
+
+    /// Frames between two times in which a contact was unsure, as a part of those with contacts.
+    pub fn unsure(&self, from: f64, to: f64) -> f64 {
+        let unsure = self.unsure.iter().filter(|t| (from..to).contains(*t)).count();
+        unsure as f64 / self.inside(from, to).filter(|(.., contacts)| *contacts > 0).count() as f64
     }
 
     /// Mean pressure between two times, counts.
@@ -120,6 +128,7 @@ pub fn feel(trial: &Trial, seconds: f64) -> Felt {
         let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(start), &mut ());
         let total: u64 = percept.present.iter().map(|placed| u64::from(placed.contact.total)).sum();
         felt.course.push((now, total as f64, percept.present.len()));
+        felt.unsure.extend(percept.unsure.ids().next().map(|_| now));
         felt.led.extend(percept.meaning.filter(|meaning| meaning.changed).map(|meaning| meaning.leading));
     }
 }
