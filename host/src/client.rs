@@ -39,7 +39,7 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, ContactList, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver,
+    Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver,
     Report, Request, SelfTestReport, WireError, decode, decode_image,
 };
 
@@ -73,6 +73,12 @@ pub struct Client {
     confidence: Option<ConfidenceReport>,
     /// Ids of contacts that may be drift.
     unsure: Vec<u32>,
+    /// The board was asked how old forms are.
+    ages_asked: bool,
+    /// What it told last.
+    forms: Option<FormsReport>,
+    /// Frame of the contacts that were told last.
+    contacts_of: u32,
     health: Option<Health>,
     budget: Option<Budget>,
     celsius: Option<Celsius>,
@@ -112,6 +118,9 @@ impl Client {
             led: None,
             confidence: None,
             unsure: Vec::new(),
+            ages_asked: false,
+            forms: None,
+            contacts_of: 0,
             health: None,
             budget: None,
             celsius: None,
@@ -183,6 +192,7 @@ impl Client {
         (self.intention, self.led) = (None, None);
         self.confidence = None;
         self.unsure.clear();
+        self.forms = None;
     }
 
     fn take(&mut self, report: Report<'_>) -> Event {
@@ -209,6 +219,10 @@ impl Client {
             Report::Unsure(report) => {
                 self.unsure = report.contacts.to_vec();
                 Event::Unsure(Box::new(report))
+            }
+            Report::Forms(report) => {
+                self.forms = Some(report.clone());
+                Event::Forms(Box::new(report))
             }
             Report::Shapes(report) => {
                 self.shapes = report.names.iter().map(ToString::to_string).collect();
@@ -287,6 +301,7 @@ impl Client {
         self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
         self.contacts = here;
+        self.contacts_of = list.frame;
         Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }
     }
 

@@ -5,6 +5,7 @@ use crate::doubts;
 use crate::fault::Fault;
 use crate::growths::Growths;
 use crate::json;
+use crate::live::forms;
 use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -13,6 +14,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use taxel_core::body::Placed;
 use taxel_core::condition::Tare;
+use taxel_core::contact::Forms;
 use taxel_core::format::{Code, Micros, Name, Q15};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::intent::Leading;
@@ -43,6 +45,9 @@ pub struct ProcessArgs {
     /// Take the mean of the first N frames as the baseline
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub tare: u16,
+    /// Forms (outline, azimuth, breadth, shape) that are looked at in a frame, in turn: 1 to 254, or all; a board looks at 1
+    #[arg(long, value_name = "N", value_parser = forms, default_value = "all")]
+    pub forms: u8,
     /// Print JSON, one object per frame
     #[arg(long)]
     pub json: bool,
@@ -81,6 +86,7 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     };
     let place = || format!("{}{}", args.file.display(), array_of(name));
     let mut replay = Replay::new(&garment, &Scene::scaled(args.full_scale), top).with_context(place)?;
+    replay.pipeline.look_at(Forms::of(args.forms));
     let taxels = usize::from(frames.rows) * usize::from(frames.columns);
     if taxels != replay.layout.taxels() {
         bail!(
@@ -205,6 +211,7 @@ impl Replay {
 fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
     let contact = |(index, placed): (usize, &Placed)| {
         let mut object = json::contact(placed, layout, percept.unsure.is_unsure(index));
+        object["form_age"] = json!(percept.form_ages.get(index));
         object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
         object
     };

@@ -4,6 +4,7 @@ use super::outputs::Outputs;
 use super::refusal::Refusal;
 use super::{Board, Work, reading};
 use crate::condition::Certificate;
+use crate::contact::Forms;
 use crate::format::{Invalid, Micros};
 use crate::garment::Garment;
 use crate::gesture::{Certainty, GestureConfig, Gestures};
@@ -104,6 +105,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::SetGestures(config) => self.set_gestures(config.as_ref()),
             Request::SetCertainty(thousandths) => self.set_certainty(thousandths),
+            Request::SetForms { in_frame, ages } => {
+                self.setup.pipeline.look_at(Forms::of(in_frame));
+                self.outbox.tell_ages(ages);
+                Ok(())
+            }
             Request::SetCalibration(certificate) => self.certify(certificate),
             Request::SetShapes(bytes) => self.set_shapes(bytes),
             Request::AddShapes(bytes) => self.add_shapes(bytes),

@@ -21,8 +21,8 @@ pub enum Phase {
 /// seam continues them past the border.
 ///
 /// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`, `anisotropy`, `breadth`) is that of
-/// the last frame in which it was looked at: its first one, and from then on each of those present has its turn, one in a frame.
-/// Of a lone contact it is always of the frame, of five contacts at most four frames old.
+/// the last frame in which it was looked at: its first one, and from then on each of those present has its turn, [`Forms`](super::Forms) in a frame.
+/// Of a lone contact it is always of the frame, of five contacts at most four frames old if one has its turn.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contact {
     /// From 1 upwards in the order of onsets; the same from onset to release.

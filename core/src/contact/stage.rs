@@ -2,6 +2,7 @@
 
 use super::component::{Component, Components};
 use super::config::ContactConfig;
+use super::forms::Forms;
 use super::join::Joins;
 use super::label::Labels;
 use super::matching::Matching;
@@ -16,6 +17,8 @@ use crate::garment::Layout;
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Contacts {
     config: ContactConfig,
+    /// How many forms are looked at in a frame. It is no part of a scene.
+    pub forms: Forms,
 }
 
 /// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts, which are
@@ -38,8 +41,8 @@ pub struct Touches<'a> {
     pub present: &'a [Contact],
     /// Their moments, in the same order, in the frame of the home panel.
     pub moments: &'a [Moments],
-    /// Whether the form of each is of this frame, in the same order: see [`Contact`].
-    pub looked: &'a [bool],
+    /// How many frames old the form of each is, in the same order; 255: at least so many. See [`Contact`].
+    pub ages: &'a [u8],
     /// Those that have gone since the last frame.
     pub released: &'a [Contact],
     /// Contacts that did not fit into this frame: those with the smallest totals.
@@ -73,6 +76,11 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<
         &self.feedback
     }
 
+    /// How many frames old the forms of the last frame's contacts are, in the order of their onset.
+    pub fn form_ages(&self) -> &[u8] {
+        self.tracks.ages()
+    }
+
     /// Index in [`Touches::present`] of the contact that a taxel belongs to, in the last frame.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
         let area = layout.areas().get(usize::from(place.panel))?;
@@ -104,7 +112,7 @@ impl ContactConfig {
         if self.slip_speed == 0 {
             return refuse("contact.slip_speed", "must be at least 1 (1/16 taxel/s)");
         }
-        Ok(Contacts { config: *self })
+        Ok(Contacts { config: *self, forms: Forms::default() })
     }
 }
 
@@ -157,11 +165,11 @@ impl Contacts {
         matching.assign(&self.config, tracks, &components.list, layout, now);
         components.reunite(labels, layout, tracks);
         tracks.merge(labels, layout);
-        tracks.update(&self.config, &components.list, labels, layout, image, now);
+        tracks.update(&self.config, &components.list, labels, layout, image, (now, self.forms));
         Touches {
             present: tracks.contacts(),
             moments: tracks.moments(),
-            looked: tracks.looked(),
+            ages: tracks.ages(),
             released: tracks.released(),
             dropped: components.dropped,
             overflow: labels.overflow.saturating_add(joins.overflow),

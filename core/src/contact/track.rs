@@ -3,6 +3,7 @@
 use super::component::Component;
 use super::config::ContactConfig;
 use super::form::Sight;
+use super::forms::Forms;
 use super::label::Labels;
 use super::moments::Moments;
 use super::part::NONE;
@@ -20,9 +21,9 @@ pub(super) struct Tracks<const CONTACTS: usize> {
     pub trails: Vec<Trail, CONTACTS>,
     moments: Vec<Moments, CONTACTS>,
     released: Vec<Contact, CONTACTS>,
-    /// Whether the form of each is of this frame.
-    looked: Vec<bool, CONTACTS>,
-    /// Whose turn it is to be looked at.
+    /// How many frames old the form of each is; 255: at least so many.
+    ages: Vec<u8, CONTACTS>,
+    /// Whose turn it is to be looked at: the first of those who have it in this frame.
     turn: usize,
     id: u32,
     pub clock: Clock,
@@ -35,7 +36,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             trails: Vec::new(),
             moments: Vec::new(),
             released: Vec::new(),
-            looked: Vec::new(),
+            ages: Vec::new(),
             turn: 0,
             id: 0,
             clock: Clock::new(),
@@ -47,7 +48,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.trails.clear();
         self.moments.clear();
         self.released.clear();
-        self.looked.clear();
+        self.ages.clear();
     }
 
     pub fn contacts(&self) -> &[Contact] {
@@ -62,8 +63,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         &self.released
     }
 
-    pub fn looked(&self) -> &[bool] {
-        &self.looked
+    pub fn ages(&self) -> &[u8] {
+        &self.ages
     }
 
     /// Index of the contact that a component became.
@@ -117,7 +118,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         labels: &Labels<RUNS, PARTS>,
         layout: &Layout,
         image: &Image,
-        now: Micros,
+        (now, forms): (Micros, Forms),
     ) {
         let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
         let known = self.known();
@@ -152,7 +153,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 self.begin(index, component, now);
             }
         }
-        self.look(held, components, &Sight { labels, layout, image });
+        self.look(held, forms, components, &Sight { labels, layout, image });
         self.moments.clear();
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {
@@ -161,19 +162,22 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Looks at the form of those that are new, and of one of those that were `held` before them.
+    /// Looks at the form of those that are new, and of as many of those that were `held` before them as are asked for.
     fn look<const RUNS: usize, const PARTS: usize>(
         &mut self,
         held: usize,
+        forms: Forms,
         components: &[Component],
         sight: &Sight<'_, RUNS, PARTS>,
     ) {
-        self.turn = if self.turn + 1 < held { self.turn + 1 } else { 0 };
-        self.looked.clear();
+        let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
+        self.turn = if next < held { next } else { 0 };
+        self.ages.clear();
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
-            let due = index == self.turn || index >= held;
+            let due = index.wrapping_sub(self.turn) < count || index >= held;
+            trail.age = if due { 0 } else { trail.age.saturating_add(1) };
             // As many places as contacts.
-            let _ = self.looked.push(due);
+            let _ = self.ages.push(trail.age);
             let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
                 continue;
             };

@@ -19,6 +19,8 @@ pub(super) struct Trail {
     pub leaps: bool,
     /// The greatest total with which its form was looked at.
     pub looked: u32,
+    /// Frames since its form was looked at; 255: at least so many.
+    pub age: u8,
     pattern: Pattern,
     slip: Slip,
 }
@@ -33,7 +35,7 @@ pub(super) struct Scenery<'a> {
 
 impl Trail {
     pub const fn new(component: u16) -> Self {
-        Trail { component, leaps: false, looked: 0, pattern: Pattern::new(), slip: Slip::new() }
+        Trail { component, leaps: false, looked: 0, age: 0, pattern: Pattern::new(), slip: Slip::new() }
     }
 
     /// Carries a contact's way and velocity on to its component, of which the rest is still to be told.

@@ -2,7 +2,7 @@
 
 use super::error::SceneError;
 use crate::condition::Condition;
-use crate::contact::Contacts;
+use crate::contact::{Contacts, Forms};
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Layout, PANELS};
 use crate::gesture::{Certainty, Gestures};
@@ -45,7 +45,9 @@ impl Pipeline {
         }
         self.panels = scene.plan.panels;
         self.condition = scene.condition.build()?;
+        let forms = self.contact.forms;
         self.contact = scene.contact.build()?;
+        self.contact.forms = forms;
         self.symbol = scene.symbol.build()?;
         self.recognise(scene)?;
         self.mean(scene)?;
@@ -74,6 +76,11 @@ impl Pipeline {
             None => self.intent = None,
         }
         Ok(())
+    }
+
+    /// How many forms are looked at in a frame from now on, whatever the scene is.
+    pub fn look_at(&mut self, forms: Forms) {
+        self.contact.forms = forms;
     }
 
     /// The stage that infers the intention.

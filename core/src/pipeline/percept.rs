@@ -17,6 +17,8 @@ pub struct Percept<'a> {
     pub image: &'a [u16],
     /// Contacts that are there.
     pub present: &'a [Placed],
+    /// How many frames old the form of each of those is; 255: at least so many.
+    pub form_ages: &'a [u8],
     /// Contacts that have gone.
     pub released: &'a [Placed],
     /// Contacts that did not fit, and runs that did not.

@@ -67,6 +67,7 @@ impl Pipeline {
         Percept {
             image: image.values,
             present,
+            form_ages: contact.form_ages(),
             released,
             dropped,
             unsure,
@@ -90,10 +91,10 @@ impl Pipeline {
     ) {
         let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
         replace(released, touches.released.iter().map(gone));
-        let forms = touches.moments.iter().zip(touches.looked);
-        for (index, (contact, (moments, looked))) in touches.present.iter().zip(forms).enumerate() {
+        let forms = touches.moments.iter().zip(touches.ages);
+        for (index, (contact, (moments, age))) in touches.present.iter().zip(forms).enumerate() {
             let shape = match &self.shape {
-                Some(stage) if *looked => stage.process(moments, contact),
+                Some(stage) if *age == 0 => stage.process(moments, contact),
                 Some(_) => match present.get_mut(index) {
                     // As nearly always: it has its shape already.
                     Some(placed) if placed.contact.id == contact.id => {

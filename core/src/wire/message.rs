@@ -75,6 +75,8 @@ pub enum Report<'a> {
     Confidence(ConfidenceReport),
     /// Which contacts may be drift.
     Unsure(UnsureReport),
+    /// How old the forms of the contacts are that are told next.
+    Forms(FormsReport),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -119,6 +121,8 @@ impl Report<'_> {
     pub const CONFIDENCE: u32 = 18;
     /// Of `Unsure`.
     pub const UNSURE: u32 = 19;
+    /// Of `Forms`.
+    pub const FORMS: u32 = 20;
 }
 
 /// Frozen.
@@ -362,6 +366,18 @@ pub struct UnsureReport {
     pub contacts: Vec<u32, CONTACTS>,
 }
 
+/// How old the forms of contacts are, if [`Request::SetForms`] asked for it; told before the [`ContactList`] of that frame, where one
+/// of them is not of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FormsReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Ids of those whose form is not of this frame, with the frames since it was looked at; 255: at least so many.
+    pub ages: Vec<(u32, u8), LISTED>,
+}
+
 /// Which shapes the board was taught: the class of a contact is 1 + its place among these names.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapesReport {
@@ -494,6 +510,13 @@ pub enum Request<'a> {
     /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the start. Not a part of
     /// the scene; it stays when `SetGestures` comes.
     SetCertainty(u16),
+    /// How many forms are looked at in a frame from now on. Not a part of the scene; it stays when `SetScene` comes.
+    SetForms {
+        /// Of contacts that were there before, in turn; 0: all; 1 at the start.
+        in_frame: u8,
+        /// Whether [`FormsReport`]s are told.
+        ages: bool,
+    },
 }
 
 impl Request<'_> {
@@ -519,6 +542,7 @@ impl Request<'_> {
             Request::SetShapes(_) => 16,
             Request::AddShapes(_) => 17,
             Request::SetCertainty(_) => 18,
+            Request::SetForms { .. } => 19,
         }
     }
 }

@@ -154,7 +154,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 20] {
+fn reports() -> [(&'static str, Report<'static>); 21] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -181,11 +181,12 @@ fn reports() -> [(&'static str, Report<'static>); 20] {
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
         ("Reflex", Report::Reflex(reflex)),
         ("Confidence", Report::Confidence(confidence)),
+        ("Forms", Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() })),
         ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 19] {
+fn requests() -> [(&'static str, Request<'static>); 20] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -211,6 +212,7 @@ fn requests() -> [(&'static str, Request<'static>); 19] {
         ("SetShapes", Request::SetShapes(&[6, 7])),
         ("AddShapes", Request::AddShapes(&[1, 0, 2])),
         ("SetCertainty", Request::SetCertainty(800)),
+        ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
     ]
 }
 

@@ -3,7 +3,7 @@
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
+    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
     SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
 };
 
@@ -46,6 +46,8 @@ pub enum Event {
     Confidence(ConfidenceReport),
     /// Which contacts may be drift; they are in the client, too.
     Unsure(Box<UnsureReport>),
+    /// How old the forms are of the contacts that are told next; they are in the client, too.
+    Forms(Box<FormsReport>),
     /// What the board was taught; the names are in the client, too.
     Shapes {
         /// Names of the classes; none: the built-in base is in force.

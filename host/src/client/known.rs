@@ -56,6 +56,14 @@ impl Client {
         self.unsure.contains(&contact)
     }
 
+    /// How many frames old the form of a contact is that was told last, 255 for at least so many; none where the board was
+    /// not asked for it.
+    pub fn form_age(&self, contact: u32) -> Option<u8> {
+        let told = self.forms.as_ref().filter(|report| report.frame == self.contacts_of);
+        let age = told.and_then(|report| report.ages.iter().find(|(id, _)| *id == contact));
+        self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
+    }
+
     /// Ids of the contacts that have gone with the last frame.
     pub fn released(&self) -> &[u32] {
         &self.released

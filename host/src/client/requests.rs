@@ -29,6 +29,9 @@ impl Client {
     pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
         let mut frame = [0; frame_bound(LONGEST_REQUEST)];
         self.requests.extend_from_slice(encode(request, &mut frame)?);
+        if let Request::SetForms { ages, .. } = request {
+            self.ages_asked = *ages;
+        }
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! What `taxel live` takes, and what every command takes that asks something of a board before it watches it.
 
-use super::{GestureModel, TaxelPlace, feed};
+use super::{GestureModel, TaxelPlace, feed, forms};
 use crate::calibrate::Calibration;
 use crate::fault::Fault;
 use crate::output::Force;
@@ -40,6 +40,9 @@ pub struct BoardArgs {
     /// With --gestures: announce a class as soon as the model is that sure, 0 to 0.999; the board keeps this until it restarts [default: when it has led for 250 ms]
     #[arg(long, value_name = "SHARE", requires = "gestures")]
     pub gesture_certainty: Option<f64>,
+    /// Forms (outline, azimuth, breadth, shape) that the board looks at in a frame, in turn: 1 to 254, or all; asks for their ages too. The board keeps this until it restarts [default: 1]
+    #[arg(long, value_name = "N", value_parser = forms)]
+    pub forms: Option<u8>,
     /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default: never]; the value that counts then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
@@ -64,6 +67,7 @@ impl BoardArgs {
             gestures: None,
             gesture_gain: None,
             gesture_certainty: None,
+            forms: None,
             feed: Vec::new(),
             shapes: None,
             seed: None,
@@ -85,6 +89,7 @@ impl BoardArgs {
             ("--tare", self.tare.is_some()),
             ("--budget", self.budget.is_some()),
             ("--gestures", self.gestures.is_some()),
+            ("--forms", self.forms.is_some()),
             ("--feed", !self.feed.is_empty()),
             ("--shapes", self.shapes.is_some()),
         ];

@@ -146,6 +146,12 @@ fn small(client: &Client, event: &Event) -> Value {
             merge(&mut line, json!({ "touch": report.touch, "confidence": report.confidence.to_f64() }));
             line
         }
+        Event::Forms(report) => {
+            let mut line = at("forms", report.frame, report.time);
+            let of = |(contact, age): &(u32, u8)| json!({ "contact": contact, "age": age });
+            line["ages"] = report.ages.iter().map(of).collect();
+            line
+        }
         Event::Unsure(report) => {
             let mut line = at("unsure", report.frame, report.time);
             line["contacts"] = json!(report.contacts);
@@ -250,6 +256,9 @@ fn contacts(client: &Client, list: &[Placed]) -> Value {
     let contact = |placed: &Placed| {
         let mut contact = json::contact(placed, layout, client.is_unsure(placed.contact.id));
         contact["shape"] = json!(client.shape_name(placed.shape.class));
+        if let Some(age) = client.form_age(placed.contact.id) {
+            contact["form_age"] = json!(age);
+        }
         contact
     };
     list.iter().map(contact).collect()

@@ -3,6 +3,7 @@
 mod args;
 mod asked;
 mod feed;
+mod forms;
 mod lines;
 mod map;
 mod messages;
@@ -19,6 +20,7 @@ mod watch;
 
 pub use args::{BoardArgs, LiveArgs, seconds};
 pub use feed::feed;
+pub use forms::forms;
 pub use lines::Lines;
 pub use messages::{Messages, message};
 pub use outfit::GestureModel;

@@ -157,7 +157,7 @@ pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 19] = [
+    const NAMES: [&str; 20] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -177,6 +177,7 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "set-shapes",
         "add-shapes",
         "set-certainty",
+        "set-forms",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

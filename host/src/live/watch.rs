@@ -127,6 +127,9 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(scene) = &args.scene {
         outfit::play(client, scene)?;
     }
+    if let Some(in_frame) = args.forms {
+        client.request(&Request::SetForms { in_frame, ages: true })?;
+    }
     for feed in &args.feed {
         client.request(&Request::Feed(feed.clone()))?;
     }

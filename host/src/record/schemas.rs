@@ -62,6 +62,7 @@ fn contact() -> Value {
         "edge",
         "perimeter",
         "peak_total",
+        "form_age",
     ];
     let numbers = [
         "x",

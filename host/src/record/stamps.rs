@@ -75,6 +75,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Gesture(report) => report.time,
         Event::Confidence(report) => report.time,
         Event::Unsure(report) => report.time,
+        Event::Forms(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
         Event::Shapes { .. } | Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,

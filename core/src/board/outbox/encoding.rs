@@ -38,6 +38,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if core::mem::take(&mut self.shapes) {
             // Before the contacts, whose classes are numbers of these names.
             put_shapes(under_way, taught)
+        } else if core::mem::take(&mut self.ages_wait) {
+            put_forms(under_way, &self.contacts, &self.ages)
         } else if self.contacts_wait {
             self.contacts_wait = false;
             under_way.put(Report::CONTACTS, &self.contacts)
@@ -143,6 +145,15 @@ fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
     let fits = under_way.put(Report::GESTURE, report);
     waiting.pop_front();
     fits
+}
+
+fn put_forms(under_way: &mut UnderWay, list: &ContactList, ages: &[u8]) -> bool {
+    let mut report = FormsReport { frame: list.frame, time: list.time, ages: Vec::new() };
+    for (placed, age) in list.contacts.iter().zip(ages).filter(|(_, age)| **age > 0) {
+        // As many places as in the list.
+        let _ = report.ages.push((placed.contact.id, *age));
+    }
+    under_way.put(Report::FORMS, &report)
 }
 
 fn put_unsure(under_way: &mut UnderWay, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {

@@ -56,6 +56,11 @@ pub(super) struct Outbox<const TAXELS: usize> {
     symbols_wait: bool,
     contacts: ContactList,
     contacts_wait: bool,
+    /// How old the forms of `contacts` are, one by one; of those that have gone, 0.
+    ages: Vec<u8, LISTED>,
+    /// That is asked for, and one of them is older than its frame.
+    ages_wait: bool,
+    tell_ages: bool,
     /// It is to be told which contacts are unsure.
     unsure: bool,
     health: Option<Micros>,
@@ -102,6 +107,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             symbols_wait: false,
             contacts: ContactList { frame: 0, time: Micros(0), dropped: 0, contacts: Vec::new() },
             contacts_wait: false,
+            ages: Vec::new(),
+            ages_wait: false,
+            tell_ages: false,
             unsure: false,
             health: None,
             budget: None,
@@ -146,6 +154,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.unsure = true;
     }
 
+    /// Whether it is to be told from now on how old forms are.
+    pub fn tell_ages(&mut self, ages: bool) {
+        self.tell_ages = ages;
+    }
+
     /// What the board was taught is to be told.
     pub fn tell_shapes(&mut self) {
         self.shapes = true;
@@ -186,7 +199,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
         self.contacts.contacts.clear();
-        (self.symbols_wait, self.contacts_wait, self.unsure) = (false, false, false);
+        (self.symbols_wait, self.contacts_wait, self.ages_wait, self.unsure) = (false, false, false, false);
     }
 
     /// Another map: what the old one made of a touch would be read as the new one's concepts.

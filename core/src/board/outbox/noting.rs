@@ -93,6 +93,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             let present = percept.present.iter().any(|p| p.contact.id == old.contact.id);
             old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)
         });
+        let gone = list.len();
         for placed in percept.present {
             let fits = list.push(placed.clone()).is_ok();
             health.lost += u32::from(!fits);
@@ -105,6 +106,15 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         self.contacts_wait |= due || news || !percept.released.is_empty();
         (self.contacts.frame, self.contacts.time) = (frame, time);
+        self.ages_wait = self.tell_ages && self.contacts_wait && percept.form_ages.iter().any(|age| *age > 0);
+        if self.ages_wait {
+            self.ages.clear();
+            let _ = self.ages.resize(gone, 0);
+            for age in percept.form_ages {
+                // Those without a place here have none in the list.
+                let _ = self.ages.push(*age);
+            }
+        }
         self.contacts.dropped = percept.dropped;
     }
 

@@ -22,6 +22,7 @@ pub struct Frame {
     pub moments: Vec<Moments>,
     /// Whether the form of each is of this frame.
     pub looked: Vec<bool>,
+    pub ages: Vec<u8>,
     pub released: Vec<Contact>,
     pub dropped: u16,
     pub overflow: u16,
@@ -85,15 +86,16 @@ impl Rig {
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
-        let Touches { present, moments, looked, released, dropped, overflow } = touches;
-        assert_eq!((present.len(), present.len()), (moments.len(), looked.len()));
+        let Touches { present, moments, ages, released, dropped, overflow } = touches;
+        assert_eq!((present.len(), present.len()), (moments.len(), ages.len()));
         for (contact, moments) in present.iter().zip(moments) {
             assert_eq!(u64::from(contact.total), moments.m);
         }
         Frame {
             present: present.to_vec(),
             moments: moments.to_vec(),
-            looked: looked.to_vec(),
+            looked: ages.iter().map(|age| *age == 0).collect(),
+            ages: ages.to_vec(),
             released: released.to_vec(),
             dropped,
             overflow,

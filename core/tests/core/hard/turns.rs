@@ -1,7 +1,7 @@
 //! Whose form is looked at: that of the new ones, and of one of the others in turn.
 
 use crate::hard::rig::Rig;
-use taxel_core::contact::Contact;
+use taxel_core::contact::{Contact, Forms};
 
 /// Bars along the rows (1 x 4) or the columns (4 x 1), 12 columns apart.
 fn bars(rig: &mut Rig, upright: &[bool]) {
@@ -38,6 +38,23 @@ fn a_form_is_as_old_as_there_are_contacts_at_most() {
         }
     }
     assert_eq!(seen, [true; 3]);
+}
+
+#[test]
+fn as_many_forms_are_looked_at_as_are_asked_for() {
+    for (in_frame, oldest) in [(0, 0), (1, 4), (2, 2), (3, 1), (5, 0), (200, 0)] {
+        let mut rig = Rig::mat();
+        rig.stage.forms = Forms::of(in_frame);
+        for row in [4, 14, 24, 34, 44] {
+            rig.fill([row, row], [4, 7], 400);
+        }
+        assert_eq!(rig.frame().ages, [0; 5], "all are new");
+        let frames: Vec<_> = (0..20).map(|_| rig.frame().ages).collect();
+        let count = |ages: &Vec<u8>| ages.iter().filter(|age| **age == 0).count();
+        let most = if in_frame == 0 { 5 } else { in_frame.min(5).into() };
+        assert_eq!(frames.iter().map(count).max(), Some(most), "{in_frame} in a frame");
+        assert_eq!(frames.iter().flatten().max(), Some(&oldest), "{in_frame} in a frame");
+    }
 }
 
 #[test]
