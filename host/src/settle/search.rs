@@ -66,7 +66,9 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
     let mut search =
         Search { scanner, steps: steps(&circuit), bar: counts / FULL, slow_ns: SLOW.0, frames: FRAMES.0 };
     let longest = longest_ns(garment, &layout)?;
-    while search.trial(search.slow_ns, 2 * search.slow_ns)?.worst.part > search.bar / 4.0 {
+    // Noise alone shows a residue of its standard error: it takes two of them beyond the bar to call a scan unsettled.
+    let unsettled = |worst: Residue, bar: f64| worst.part - 2.0 * worst.error > bar / 4.0;
+    while unsettled(search.trial(search.slow_ns, 2 * search.slow_ns)?.worst, search.bar) {
         search.slow_ns *= 2;
         if 2 * search.slow_ns > longest {
             bail!(
