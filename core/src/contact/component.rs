@@ -60,12 +60,14 @@ pub(super) struct Components<const CONTACTS: usize> {
     pub beyond: Vec<(u16, Rect), CARRIED>,
     /// Contacts that did not fit, in this frame.
     pub dropped: u16,
+    /// Panels in which something is nearly a contact, a bit each.
+    pub faint: u8,
 }
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
     pub const fn new() -> Self {
         const { assert!(CONTACTS < NONE as usize, "a contact is numbered with 16 bits") };
-        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0 }
+        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0 }
     }
 
     /// Picks the components that are contacts; where they do not fit, those with the greatest totals.
@@ -76,7 +78,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     ) {
         self.list.clear();
         self.beyond.clear();
-        self.dropped = 0;
+        (self.dropped, self.faint) = (0, 0);
         let mut least = None;
         for (index, part) in labels.whole_parts().filter(|(index, part)| part.group == *index) {
             let (total, peak, area, held) = if part.joined {
@@ -85,6 +87,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 (part.mass, part.peak as u16, part.area, part.held)
             };
             if area < config.min_area || (peak < config.high && !held) {
+                if peak >= config.high - config.high / 4 {
+                    self.faint |= 1u8.checked_shl(part.panel.into()).unwrap_or(0);
+                }
                 continue;
             }
             let found = Found { part: index, joined: part.joined, total, peak, area, panel: part.panel };

@@ -47,6 +47,8 @@ pub struct Touches<'a> {
     pub released: &'a [Contact],
     /// Contacts that did not fit into this frame: those with the smallest totals.
     pub dropped: u16,
+    /// Panels in which something is nearly a contact, a bit each: its peak has three quarters of the high threshold.
+    pub faint: u8,
     /// Runs and joins across seams that did not fit: parts of contacts may be missing or apart.
     pub overflow: u16,
 }
@@ -172,6 +174,7 @@ impl Contacts {
             ages: tracks.ages(),
             released: tracks.released(),
             dropped: components.dropped,
+            faint: components.faint,
             overflow: labels.overflow.saturating_add(joins.overflow),
         }
     }

@@ -35,11 +35,12 @@ impl Pipeline {
         let touches = self.contact.process(contact, layout, &image, now);
         probe.begin(Stage::Shape);
         let dropped = touches.dropped.saturating_add(touches.overflow);
+        let faint = touches.faint;
         self.place(&touches, layout, present, released);
         if taught.gallery().is_some() {
             look(taught, present, contact, layout, &image);
         }
-        unsure.process(present, self.contact.config().high, |panel| condition.drifted(panel), now);
+        unsure.process(present, faint, |panel| condition.drifted(panel), now);
         let unsure = &*unsure;
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, layout, present, released, now);

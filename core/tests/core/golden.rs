@@ -181,8 +181,8 @@ fn reports() -> [(&'static str, Report<'static>); 21] {
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
         ("Reflex", Report::Reflex(reflex)),
         ("Confidence", Report::Confidence(confidence)),
-        ("Forms", Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() })),
         ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
+        ("Forms", Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() })),
     ]
 }
 

@@ -66,9 +66,7 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
     let mut search =
         Search { scanner, steps: steps(&circuit), bar: counts / FULL, slow_ns: SLOW.0, frames: FRAMES.0 };
     let longest = longest_ns(garment, &layout)?;
-    // Noise alone shows a residue of its standard error: it takes two of them beyond the bar to call a scan unsettled.
-    let unsettled = |worst: Residue, bar: f64| worst.part - 2.0 * worst.error > bar / 4.0;
-    while unsettled(search.trial(search.slow_ns, 2 * search.slow_ns)?.worst, search.bar) {
+    while search.is_unsettled()? {
         search.slow_ns *= 2;
         if 2 * search.slow_ns > longest {
             bail!(
@@ -119,6 +117,21 @@ fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
 }
 
 impl<S: Scanner> Search<'_, S> {
+    /// Whether slow scans leave more than a quarter of the bar; more frames are taken as long as that may be noise.
+    fn is_unsettled(&mut self) -> Result<bool> {
+        loop {
+            let worst = self.trial(self.slow_ns, 2 * self.slow_ns)?.worst;
+            let beyond = worst.part - self.bar / 4.0;
+            if beyond <= 0.0 {
+                return Ok(false);
+            }
+            if beyond > 3.0 * worst.error || self.frames >= FRAMES.1 {
+                return Ok(true);
+            }
+            self.frames *= 2;
+        }
+    }
+
     /// Compares quick scans with slow ones before and after, with as many frames as the noise asks for.
     fn trial(&mut self, quick_ns: u32, slow_ns: u32) -> Result<Trial> {
         loop {

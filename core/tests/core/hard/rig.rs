@@ -86,7 +86,7 @@ impl Rig {
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
-        let Touches { present, moments, ages, released, dropped, overflow } = touches;
+        let Touches { present, moments, ages, released, dropped, overflow, .. } = touches;
         assert_eq!((present.len(), present.len()), (moments.len(), ages.len()));
         for (contact, moments) in present.iter().zip(moments) {
             assert_eq!(u64::from(contact.total), moments.m);
