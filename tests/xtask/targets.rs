@@ -36,7 +36,8 @@ pub fn measured(module: &str, log: &Path, variables: &[(&str, &str)]) -> End<Vec
         Err(why) => return Ok(Err(why)),
     };
     let elf = image.elf.to_string_lossy().into_owned();
-    let variables = [variables, &[("TAXEL_FIRMWARE_ELF", elf.as_str())]].concat();
+    let own = [("TAXEL_FIRMWARE_ELF", elf.as_str()), ("TAXEL_LIBRARY", toolchain.library())];
+    let variables = [variables, &own].concat();
     Ok(printed("emulated", &[&format!("{module}::")], log, &variables))
 }
 

@@ -118,12 +118,7 @@ impl Consensus {
                 };
             }
         }
-        // As mostly: fewer than half of them have moved, so that the one in the middle has not.
-        let (asked, moved) = (beyond.iter().flatten().count(), |beyond: &&i32| **beyond != 0);
-        let mut sorted = match beyond.iter().flatten().filter(moved).count() * 2 < asked {
-            true => Sorted::NONE,
-            false => Sorted::of(&beyond),
-        };
+        let mut sorted = if is_middle_zero(&beyond) { Sorted::NONE } else { Sorted::of(&beyond) };
         if sorted.middle().abs() > NOISE + 1 {
             // That is more than noise: those who have moved less are believed, too.
             for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
@@ -150,6 +145,18 @@ impl Consensus {
         }
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
     }
+}
+
+/// Whether the one in the middle has not moved, as mostly: then they agree on nothing, and need not be sorted.
+fn is_middle_zero(beyond: &[Option<i32>; WITNESSES]) -> bool {
+    let (mut below, mut above, mut asked) = (0, 0, 0);
+    for beyond in beyond.iter().flatten() {
+        below += usize::from(*beyond < 0);
+        above += usize::from(*beyond > 0);
+        asked += 1;
+    }
+    let middle = asked / 2;
+    below <= middle && above < asked - middle
 }
 
 /// What witnesses agree on, given how far they are beyond what is known and the step before; 0 for nothing.
@@ -225,6 +232,30 @@ fn witnesses(taxels: usize) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn where_the_middle_is_zero_nothing_is_agreed() {
+        let mut state = 1u32;
+        let mut next = |end: u32| {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            (state >> 8) % end
+        };
+        let mut zeros = 0;
+        for _ in 0..20_000 {
+            let (silent, span) = (next(16), 1 + 2 * next(4));
+            let beyond: [Option<i32>; WITNESSES] =
+                core::array::from_fn(|_| (next(16) >= silent).then(|| next(span) as i32 - span as i32 / 2));
+            let sorted = Sorted::of(&beyond);
+            let is_zero = !sorted.all().is_empty() && sorted.middle() == 0;
+            assert_eq!(is_middle_zero(&beyond), is_zero, "{beyond:?}");
+            if sorted.middle() == 0 {
+                zeros += 1;
+                let before = next(40) as i32 - 20;
+                assert_eq!([true, false].map(|whole| agreed(&sorted, before, whole)), [0, 0], "{beyond:?}");
+            }
+        }
+        assert!((2_000..18_000).contains(&zeros));
+    }
 
     #[test]
     fn most_move_it_by_a_count_and_seven_eighths_by_what_they_agree_on() {

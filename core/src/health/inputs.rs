@@ -35,8 +35,11 @@ impl Inputs {
     /// Looks at an input in every fourth frame. `travel`: how far half of the codes travel while they are watched.
     pub fn is_one_odd(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>, travel: u16) -> bool {
         self.turn = self.turn.wrapping_add(1);
+        if self.turn & 3 == 2 {
+            // Which one it is to be is found in a frame of its own: no frame should cost more than another.
+            self.go_on(circuit);
+        }
         let Some(rest) = shown.rest.filter(|_| self.turn & 3 == 0) else { return false };
-        self.go_on(circuit);
         // Ten steps of 1.13 times their noise: four times the noise, and more.
         let far = (travel / 8 * 3).max(plan.depth.step().saturating_mul(2)).max(FAR);
         let (first, shift) = if circuit.sites().len() < BLOCKS { (0, 0) } else { (self.round >> 2 & 3, 2) };
