@@ -5,7 +5,7 @@
 //! | input | the contacts of a frame, what each panel has drifted, the time |
 //! | output | which of them are unsure |
 //! | latency | none |
-//! | RAM | 24 bytes a contact, 16 a panel |
+//! | RAM | 16 bytes a contact, 16 a panel |
 //! | M0+ cycles | about 60 a contact |
 //!
 //! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is measured tells them apart. A
@@ -26,7 +26,7 @@ const SLOW_US: u64 = 400_000;
 const PAUSE_US: u64 = 200_000;
 
 /// A touch rises within this time by more than drift does, us.
-const WINDOW_US: u64 = 500_000;
+const WINDOW_US: u32 = 500_000;
 
 /// What drift and noise may add to a peak within [`WINDOW_US`], counts: four for the drift of a patch, twelve for noise.
 const RISE: u16 = 16;
@@ -50,10 +50,10 @@ struct Faint {
 #[derive(Debug, Clone)]
 struct Watched {
     id: u32,
-    /// When the window began.
-    since: Micros,
-    /// What its panel had drifted when it came there, counts.
-    drifted: i32,
+    /// When the window began: the low bits of its time.
+    since: u32,
+    /// What its panel had drifted when it came there, counts modulo 2^16: a converter has no more.
+    drifted: i16,
     /// Least peak since the window began, counts.
     least: u16,
     panel: u8,
@@ -101,7 +101,8 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
         }
         for (watched, placed) in self.watched.iter_mut().zip(present) {
             let was = watched.unsure;
-            watched.follow(placed.contact.panel, placed.contact.peak, drifted(placed.contact.panel), now);
+            let drifted = drifted(placed.contact.panel) as i16;
+            watched.follow(placed.contact.panel, placed.contact.peak, drifted, now.0 as u32);
             self.changed |= watched.unsure != was;
         }
         if faint != 0 {
@@ -118,7 +119,7 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
             let faint = self.faint.get(usize::from(panel));
             let slow = faint.is_some_and(|faint| faint.is_slow(now))
                 || self.watched.iter().any(|other| other.slow && other.panel == panel);
-            let (id, since, drifted) = (placed.contact.id, now, drifted(panel));
+            let (id, since, drifted) = (placed.contact.id, now.0 as u32, drifted(panel) as i16);
             // As many places as contacts.
             let _ = self.watched.push(Watched { id, since, drifted, least, panel, slow, unsure: false });
         }
@@ -140,19 +141,19 @@ impl Faint {
 }
 
 impl Watched {
-    fn follow(&mut self, panel: u8, peak: u16, drifted: i32, now: Micros) {
+    fn follow(&mut self, panel: u8, peak: u16, drifted: i16, now: u32) {
         if panel != self.panel {
             (self.panel, self.drifted) = (panel, drifted);
         }
         if self.slow {
             self.slow = peak <= self.least.saturating_add(RISE);
-            if now.since(self.since) >= WINDOW_US {
+            if now.wrapping_sub(self.since) >= WINDOW_US {
                 (self.since, self.least) = (now, peak);
             }
             self.least = self.least.min(peak);
         }
         let way = drifted.wrapping_sub(self.drifted).unsigned_abs();
-        self.unsure = self.slow || way >= 2 * u32::from(peak);
+        self.unsure = self.slow || way / 2 >= peak;
     }
 }
 
@@ -295,7 +296,7 @@ mod tests {
     fn a_contact_that_crosses_to_another_panel_counts_the_drift_of_that_one() {
         let mut state = UnsureState::<4>::new();
         for (ms, panel) in [(0, 0), (5, 0), (10, 1), (600, 1)] {
-            let drifted = |panel: u8| 100_000 * i32::from(panel);
+            let drifted = |panel: u8| 3_000 * i32::from(panel);
             state.process(&[placed(1, panel, 900)], 0, drifted, Micros(1_000 * ms));
             assert!(!state.is_unsure(0), "{ms} ms");
         }

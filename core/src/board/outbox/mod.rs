@@ -49,7 +49,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
     reflexes: Deque<ReflexReport, REACTIONS>,
-    changes: Deque<IntentReport, 8>,
+    changes: Deque<IntentReport, 6>,
     gestures: Gestures,
     intent: Option<IntentReport>,
     symbols: SymbolList,

@@ -14,20 +14,21 @@ fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64)
     let trial = Trial { common: Course { rate, way: 1_300.0 }, ..Trial::new(garment, 25.0) };
     let end = 12.0 + rise_s;
     let felt = feel(&trial.touched(shape, force_n, 12.0, rise_s, 10.0), end + 10.0);
-    match felt.felt(end, end + 10.0) {
-        1.0 => "kept",
+    match (felt.felt(end, end + 10.0), felt.unsure(end, end + 10.0)) {
+        (1.0, 0.0) => "kept",
+        (1.0, _) => "unsure",
         _ => "lost",
     }
 }
 
-/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is kept.
+/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and what is unsure is told.
 fn chart(garment: &Garment, force_n: f64) {
     println!("drift, counts/s  a palm of {force_n} N on {} rises in {RISES:?} s", garment.name);
     for rate in RATES {
         let words = RISES.map(|rise_s| word(garment.clone(), ("palm", force_n), rate, rise_s));
         println!("{rate:15.1}  {}", words.map(|word| format!("{word:8}")).join(""));
         if rate <= 3.0 {
-            assert_eq!(words[..3], ["kept"; 3], "{} at {rate} counts/s", garment.name);
+            assert!(!words[..3].contains(&"lost"), "{} at {rate} counts/s: {words:?}", garment.name);
         }
     }
 }
