@@ -1,6 +1,7 @@
 //! The two enums of the wire.
 
 use crate::body::Placed;
+use crate::boot::Boot;
 use crate::condition::Certificate;
 use crate::fold::Posture;
 use crate::format::{Celsius, Micros, Name, Q15};
@@ -73,6 +74,8 @@ pub enum Report<'a> {
     Reflex(ReflexReport),
     /// How sure the gesture is that is told next.
     Confidence(ConfidenceReport),
+    /// How the board came to start.
+    Boot(Boot),
 }
 
 /// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
@@ -115,6 +118,8 @@ impl Report<'_> {
     pub const REFLEX: u32 = 17;
     /// Of `Confidence`.
     pub const CONFIDENCE: u32 = 18;
+    /// Of `Boot`.
+    pub const BOOT: u32 = 19;
 }
 
 /// Frozen.
@@ -479,6 +484,12 @@ pub enum Request<'a> {
     /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the start. Not a part of
     /// the scene; it stays when `SetGestures` comes.
     SetCertainty(u16),
+    /// Put the stored settings aside, or take them up again; the board starts anew as soon as it has answered.
+    /// What is put aside is kept until the next `Save`.
+    ResetSettings {
+        /// take them up again
+        undo: bool,
+    },
 }
 
 impl Request<'_> {
@@ -504,6 +515,7 @@ impl Request<'_> {
             Request::SetShapes(_) => 16,
             Request::AddShapes(_) => 17,
             Request::SetCertainty(_) => 18,
+            Request::ResetSettings { .. } => 19,
         }
     }
 }

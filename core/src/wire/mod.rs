@@ -30,6 +30,7 @@
 //! | 16 | [`ShapesReport`] | when a gallery was taught or given up; in answer to `Start` where one is in force |
 //! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
 //! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model knows how sure it is; always |
+//! | 19 | [`Boot`](crate::boot::Boot) | after each `Hello`, by a board that knows what reset it |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.
