@@ -1,5 +1,7 @@
 //! The only loop, shared by firmware, host and tests.
 
+mod reader;
+
 use crate::acquire::{Acquire, Clock};
 use crate::board::{Board, Input, Job, Saved, Settings};
 use crate::format::Micros;
@@ -8,6 +10,7 @@ use crate::selftest::Examine;
 use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
+use reader::Reader;
 
 /// A byte link that never waits: rings behind it are pumped by others.
 pub trait Link {
@@ -24,6 +27,10 @@ pub trait Platform: Clock + Probe {
     fn alive(&mut self) -> bool;
     /// Stores the settings, or says why not.
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str>;
+    /// Puts the stored settings aside from the next start on, or takes them up again (`undo`); or says why not.
+    fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str>;
+    /// Starts the board anew. A host may end its loop instead.
+    fn restart(&mut self);
     /// Nothing to do until `until`, but bytes may come or go: waits a millisecond at most.
     async fn idle(&mut self, until: Micros);
 }
@@ -36,8 +43,9 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     board: &mut Board<TAXELS, RUNS, PARTS>,
 ) {
     examine(acquire, platform, board);
+    let mut reader = Reader::new();
     while platform.alive() {
-        receive(link, platform, board);
+        reader.receive(link, platform, board);
         acquire.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel));
         let now = platform.now();
         let job = board.step(now, Input::Tick, platform);
@@ -71,6 +79,13 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 let now = platform.now();
                 board.step(now, Input::Saved(result), platform);
             }
+            Some(Job::ResetSettings { undo }) => {
+                acquire.rest();
+                let result = platform.reset_settings(undo);
+                let now = platform.now();
+                board.step(now, Input::SettingsReset(result), platform);
+            }
+            Some(Job::Restart) => platform.restart(),
             Some(Job::Examine) => {
                 acquire.rest();
                 examine(acquire, platform, board);
@@ -88,21 +103,6 @@ fn examine<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     let result = acquire.examine(board.circuit());
     let now = platform.now();
     board.step(now, Input::Examined(result), platform);
-}
-
-/// Takes all bytes that have come.
-fn receive<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
-    link: &mut impl Link,
-    platform: &mut impl Platform,
-    board: &mut Board<TAXELS, RUNS, PARTS>,
-) {
-    let mut buffer = [0; 64];
-    loop {
-        let count = link.try_read(&mut buffer).min(buffer.len());
-        let Some(received) = buffer.get(..count).filter(|r| !r.is_empty()) else { break };
-        let now = platform.now();
-        board.step(now, Input::Received(received), platform);
-    }
 }
 
 /// Gives as many bytes as the link takes.

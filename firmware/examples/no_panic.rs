@@ -13,6 +13,7 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 use taxel_core::acquire::{Fields, Scan, ScanError, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
+use taxel_core::boot::{Boots, Remains, Reset, panicked};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{Model, TouchState, Touches};
@@ -33,6 +34,24 @@ fn panic(_: &PanicInfo) -> ! {
 
 /// With the capacities of the firmware.
 type Reference = Board<2048, 1024>;
+
+/// What a reset leaves.
+#[derive(Clone, Copy)]
+pub struct Left(Reset, u32);
+
+impl Remains for Left {
+    fn reset(&self) -> Reset {
+        self.0
+    }
+
+    fn word(&self) -> u32 {
+        self.1
+    }
+
+    fn keep(&mut self, word: u32) {
+        self.1 = word;
+    }
+}
 
 /// What the calls are given.
 pub struct Given {
@@ -56,6 +75,7 @@ pub struct Given {
     early: Early,
     reflex: Reflex<2048>,
     frame: &'static mut [Code],
+    left: Left,
 }
 
 /// One call; where a linker begins, and so what it keeps.
@@ -97,8 +117,21 @@ pub extern "C" fn _start(given: &mut Given) {
         })),
         22 => keep((given.reflex.told(), given.reflex.pins(given.call).count())),
         23 => given.reflex.driven(given.call, given.count > 0),
+        24 => {
+            let mut boots = Boots::begin(given.left, given.count > 0);
+            boots.put_aside();
+            boots.alive(*now);
+            boots.spend(given.call);
+            boots.saved();
+            boots.asked();
+            board.resume_saving(boots.saves().unwrap_or(given.call));
+            board.booted(boots.boot());
+            keep((boots, panicked(given.left.1)));
+        }
+        25 => keep(board.takes_message(*now)),
+        26 => step(Input::SettingsReset(given.saved)),
         #[cfg(control)]
-        24 => keep(codes[given.count]),
+        27 => keep(codes[given.count]),
         _ => {}
     }
 }

@@ -6,11 +6,13 @@
 mod adc;
 mod board;
 mod copy;
+mod led;
 mod link;
 mod mark;
 mod panic;
 mod pins;
 mod platform;
+mod remains;
 mod scan;
 mod store;
 

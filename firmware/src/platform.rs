@@ -1,19 +1,23 @@
 //! The board's clock, settling delay, watchdog, heartbeat and marks.
 
+use crate::led::Led;
 use crate::mark::mark;
+use crate::remains::Scratch;
 use crate::store::{Fed, Flash};
 use crate::{PARTS, RUNS, TAXELS};
-use embassy_rp::{clocks, gpio::Output, watchdog::Watchdog};
+use embassy_rp::{clocks, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
+use rp_pac::watchdog::regs::Load;
 use taxel_core::{
     acquire::{Clock, WATCHDOG_MS},
     board::{self, Saved, Settings},
+    boot::{Aside, Boots},
     format::Micros,
     pipeline::{Probe, Stage},
     run::Platform,
 };
-use taxel_store::StoreError;
+use taxel_store::{Found, StoreError};
 
 /// The board restarts when the loop has not come round for this long. The core refuses garments and scenes whose frames take
 /// nearly as long.
@@ -25,6 +29,9 @@ const HEARTBEAT_US: u64 = 500_000;
 /// Longest pause of the loop: bytes of the host wait in their ring meanwhile.
 const LONGEST_PAUSE_US: u64 = 1_000;
 
+/// Saves that a board can take soon where nobody knows how many it took before: it began with what ships.
+const UNKNOWN_SAVES: u8 = 1;
+
 /// Time since the board started, from the 1 MHz timer.
 #[derive(Debug, Clone, Copy)]
 pub struct Timer;
@@ -33,6 +40,13 @@ impl Clock for Timer {
     #[inline]
     fn now(&self) -> Micros {
         Micros(Instant::now().as_micros())
+    }
+
+    /// Feeds the watchdog. Only what has done a step of its work comes here; no timer and no interrupt does.
+    #[inline]
+    fn progressed(&self) {
+        // It counts two for each microsecond (RP2040-E1).
+        rp_pac::WATCHDOG.load().write_value(Load(2_000 * WATCHDOG_MS));
     }
 }
 
@@ -82,26 +96,40 @@ impl DelayNs for Settle {
 pub struct Board {
     watchdog: Watchdog,
     flash: Flash,
-    led: Output<'static>,
+    led: Led,
     led_due: Micros,
+    boots: Boots<Scratch>,
 }
 
 impl Board {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Output<'static>, flash: Flash) -> Board {
+    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> Board {
+        let boots = Boots::begin(Scratch, led.was_grounded());
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        Board { watchdog, flash, led, led_due: Micros(0) }
+        Board { watchdog, flash, led, led_due: Micros(0), boots }
     }
 
-    /// Gives a board that has not begun yet the settings that were stored. Not inlined: it needs stack only meanwhile.
+    /// Gives a board that has not begun yet the settings that were stored, unless they stay aside; then the
+    /// flash is not even read. Not inlined: it needs stack only meanwhile.
     #[inline(never)]
     pub fn recall(&mut self, board: &mut board::Board<TAXELS, RUNS, PARTS>) {
-        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
-        if let Err(error) = flash.store().and_then(|mut store| store.load(board)) {
-            defmt::error!("stored settings: {}", error.sentence());
-            board.forgot(error);
+        let uses_stored = self.boots.boot().aside == Aside::No;
+        if let Some(saves) = self.boots.saves().or((!uses_stored).then_some(UNKNOWN_SAVES)) {
+            board.resume_saving(saves);
         }
+        if uses_stored {
+            let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+            match flash.store().and_then(|mut store| store.load(board)) {
+                Ok(Found::Aside) => self.boots.put_aside(),
+                Ok(Found::Nothing | Found::Settings) => {}
+                Err(error) => {
+                    defmt::error!("stored settings: {}", error.sentence());
+                    board.forgot(error);
+                }
+            }
+        }
+        board.booted(self.boots.boot());
     }
 }
 
@@ -123,6 +151,7 @@ impl Platform for Board {
     fn alive(&mut self) -> bool {
         self.watchdog.feed(WATCHDOG);
         let now = self.now();
+        self.boots.alive(now);
         if now >= self.led_due {
             self.led.toggle();
             self.led_due = Micros(now.0.saturating_add(HEARTBEAT_US));
@@ -132,8 +161,28 @@ impl Platform for Board {
 
     #[inline(never)]
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
+        // Before it begins: it may be the save itself that does not end.
+        self.boots.spend(settings.saves);
         let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
-        flash.store().and_then(|mut store| store.save(settings)).map_err(StoreError::sentence)
+        let saved = flash.store().and_then(|mut store| store.save(settings));
+        if saved.is_ok() {
+            self.boots.saved();
+        }
+        if saved == Ok(Saved::Unchanged) {
+            self.boots.spend(settings.saves.saturating_add(1));
+        }
+        saved.map_err(StoreError::sentence)
+    }
+
+    #[inline(never)]
+    fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
+        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        flash.store().and_then(|mut store| store.put_aside(!undo)).map_err(StoreError::sentence)
+    }
+
+    fn restart(&mut self) {
+        self.boots.asked();
+        self.watchdog.trigger_reset();
     }
 
     async fn idle(&mut self, until: Micros) {

@@ -25,6 +25,7 @@ use crate::process::{self, ProcessArgs};
 use crate::record::{self, RecordArgs};
 use crate::replay::{self, ReplayArgs};
 use crate::report::{self, ReportArgs};
+use crate::reset_settings::{self, ResetSettingsArgs};
 use crate::save::{self, SaveArgs};
 use crate::scenes::{self, ScenesArgs};
 use crate::settle::{self, SettleArgs};
@@ -111,6 +112,9 @@ enum Command {
     /// Save settings to the board's flash
     #[command(after_help = SAVE)]
     Save(SaveArgs),
+    /// Let a board begin with what ships, and keep aside what was saved to it
+    #[command(after_help = RESET_SETTINGS)]
+    ResetSettings(ResetSettingsArgs),
     /// Recognise shapes: train, teach, evaluate, install
     #[command(after_help = SHAPES)]
     Shapes(ShapesArgs),
@@ -166,6 +170,7 @@ impl Cli {
             Command::Settle(args) => settle::run(&args),
             Command::Health(args) => health::run(args),
             Command::Save(args) => save::run(args),
+            Command::ResetSettings(args) => reset_settings::run(&args),
             Command::Shapes(args) => shapes::run(args),
             Command::Doctor(args) => doctor::run(&args),
             Command::Ports(args) => ports::run(&args),

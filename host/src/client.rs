@@ -34,6 +34,7 @@ use picture::Picture;
 use std::collections::BTreeMap;
 use syncs::Syncs;
 use taxel_core::body::Placed;
+use taxel_core::boot::Boot;
 use taxel_core::contact::Phase;
 use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
@@ -84,6 +85,7 @@ pub struct Client {
     celsius: Option<Celsius>,
     ill: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
+    boot: Option<Boot>,
     /// Names of the classes that the board was taught; none: the built-in base is in force.
     shapes: Vec<String>,
 }
@@ -126,6 +128,7 @@ impl Client {
             celsius: None,
             ill: BTreeMap::new(),
             self_test: None,
+            boot: None,
             shapes: Vec::new(),
         }
     }
@@ -172,6 +175,7 @@ impl Client {
         if self.counts.sequence(seq) {
             self.forget();
             self.shapes.clear();
+            self.boot = None;
             self.syncs.restart();
             if self.streaming {
                 self.request(&Request::Start)?;
@@ -252,6 +256,10 @@ impl Client {
             Report::Temperature(temperature) => {
                 self.celsius = Some(temperature.celsius);
                 Event::Temperature(temperature)
+            }
+            Report::Boot(boot) => {
+                self.boot = Some(boot);
+                Event::Boot(boot)
             }
             Report::SelfTest(report) => {
                 self.self_test = Some(report.clone());

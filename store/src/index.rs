@@ -35,26 +35,73 @@ impl Entry {
     }
 }
 
-/// All parts in force.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+/// All parts in force, and what goes with them.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Index {
-    /// [`VERSION`]
-    pub version: u8,
     /// The parts.
     pub entries: Vec<Entry, { Part::ALL.len() }>,
+    /// What else is known of them.
+    pub more: More,
+}
+
+/// What an index holds behind its parts since that was first stored. An older one has nothing there, and an
+/// older firmware does not read so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct More {
+    /// Saves that the flash could take soon after this one.
+    pub saves: u8,
+    /// A host has put the settings aside: a board that starts does not use them.
+    pub aside: bool,
 }
 
 impl Index {
-    /// Longest form in bytes: version, number of entries, and the fields of each.
-    pub const BYTES: usize = 2 + Part::ALL.len() * 10;
+    /// Longest form in bytes: version, number of entries, the fields of each, and what else there is.
+    pub const BYTES: usize = 2 + Part::ALL.len() * 10 + 2;
 
-    /// Nothing is in force.
-    pub const fn new() -> Index {
-        Index { version: VERSION, entries: Vec::new() }
+    /// No part is in force, and so many saves are left.
+    pub const fn new(saves: u8) -> Index {
+        Index { entries: Vec::new(), more: More { saves, aside: false } }
     }
 
     /// The entry of a part.
     pub fn entry(&self, part: Part) -> Option<Entry> {
         self.entries.iter().find(|entry| entry.part == part as u8).copied()
+    }
+
+    /// The bytes of an index, behind its version; none: they are damaged.
+    pub fn read(bytes: &[u8]) -> Option<Index> {
+        let (entries, rest) = postcard::take_from_bytes(bytes).ok()?;
+        let older = More { saves: u8::MAX, aside: false };
+        let more = if rest.is_empty() { older } else { postcard::from_bytes(rest).ok()? };
+        Some(Index { entries, more })
+    }
+
+    /// As it is stored; none: there is no room.
+    pub fn write<'b>(&self, to: &'b mut [u8; Index::BYTES]) -> Option<&'b [u8]> {
+        let written = postcard::to_slice(&(VERSION, &self.entries, self.more), to).ok()?;
+        Some(written)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_older_index_is_in_force_and_an_older_firmware_reads_this_one() {
+        let mut index = Index::new(5);
+        let _ = index.entries.push(Entry { part: 2, place: 1, length: 4096, sum: u32::MAX });
+        index.more.aside = true;
+        let mut bytes = [0; Index::BYTES];
+        let bytes = index.write(&mut bytes).unwrap();
+        assert_eq!(bytes, [VERSION, 1, 2, 1, 0x80, 0x20, 0xff, 0xff, 0xff, 0xff, 0x0f, 5, 1]);
+        assert_eq!(Index::read(&bytes[1..]), Some(index.clone()));
+        // As it was written before it had an end.
+        let older = &bytes[..bytes.len() - 2];
+        let read = Index::read(&older[1..]).unwrap();
+        assert_eq!((read.entries, read.more), (index.entries.clone(), More { saves: u8::MAX, aside: false }));
+        type Older = (u8, Vec<Entry, { Part::ALL.len() }>);
+        assert_eq!(postcard::from_bytes::<Older>(bytes), Ok((VERSION, index.entries)));
+        assert_eq!(Index::read(&bytes[1..bytes.len() - 1]), None);
     }
 }

@@ -17,4 +17,4 @@ mod index;
 mod store;
 mod waitless;
 
-pub use store::{CHUNK, Store, StoreError};
+pub use store::{CHUNK, Found, Store, StoreError};

@@ -74,6 +74,17 @@ impl<E> From<sequential_storage::Error<E>> for StoreError {
 
 type Map<F> = MapStorage<u8, Waitless<F>, Cache<Uncached, Uncached, Uncached, u8>>;
 
+/// What a board that starts has found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// Nothing was stored.
+    Nothing,
+    /// Settings that a host has put aside: the board was given none of them.
+    Aside,
+    /// Settings, which the board has now.
+    Settings,
+}
+
 /// Settings in some sectors of a flash.
 pub struct Store<F: NorFlash> {
     map: Map<F>,
@@ -94,7 +105,7 @@ impl<F: NorFlash> Store<F> {
             // What cannot be read does not come back: the new takes its place.
             Err(_) => None,
         };
-        let mut new = Index::new();
+        let mut new = Index::new(settings.saves);
         let mut content = [0; PART_BYTES];
         for part in Part::ALL {
             let Some(content) = settings.write(part, &mut content).map_err(|_| StoreError::TooLong(part))?
@@ -109,36 +120,57 @@ impl<F: NorFlash> Store<F> {
             // There is room for every part.
             let _ = new.entries.push(entry);
         }
-        if old.as_ref() == Some(&new) {
+        if old.is_some_and(|old| old.entries == new.entries && !old.more.aside) {
             return Ok(Saved::Unchanged);
         }
-        let mut bytes = [0; Index::BYTES];
-        let bytes = postcard::to_slice(&new, &mut bytes).map_err(|_| StoreError::Full)?;
-        self.put(INDEX, bytes)?;
+        self.put_index(&new)?;
         Ok(Saved::Written)
     }
 
-    /// Gives a board that has not begun yet what was stored last. `false`: nothing was. What is wrong with a part is for the
-    /// board to say; the others hold.
+    /// Puts what is stored aside, until the next save: a board that starts does not use it. Or takes it up
+    /// again. What cannot be read is not used anyway.
+    pub fn put_aside(&mut self, aside: bool) -> Result<Saved, StoreError> {
+        let mut index = match self.index() {
+            Ok(Some(index)) if index.more.aside != aside => index,
+            Err(StoreError::Flash) => return Err(StoreError::Flash),
+            _ => return Ok(Saved::Unchanged),
+        };
+        index.more.aside = aside;
+        self.put_index(&index)?;
+        Ok(Saved::Written)
+    }
+
+    fn put_index(&mut self, index: &Index) -> Result<(), StoreError> {
+        let mut bytes = [0; Index::BYTES];
+        let bytes = index.write(&mut bytes).ok_or(StoreError::Full)?;
+        self.put(INDEX, bytes)
+    }
+
+    /// Gives a board that has not begun yet what was stored last, unless it was put aside; and what is left of
+    /// its saves. What is wrong with a part is for the board to say; the others hold.
     pub fn load<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &mut self,
         board: &mut Board<TAXELS, RUNS, PARTS>,
-    ) -> Result<bool, StoreError> {
-        let Some(index) = self.index()? else { return Ok(false) };
+    ) -> Result<Found, StoreError> {
+        let Some(index) = self.index()? else { return Ok(Found::Nothing) };
+        board.resume_saving(index.more.saves);
+        if index.more.aside {
+            return Ok(Found::Aside);
+        }
         let mut content = [0; PART_BYTES];
         for part in Part::ALL {
             let Some(entry) = index.entry(part) else { continue };
             let content = self.read(&entry, &mut content)?;
             board.restore(part, content);
         }
-        Ok(true)
+        Ok(Found::Settings)
     }
 
     fn index(&mut self) -> Result<Option<Index>, StoreError> {
         let mut item = [0; ITEM];
         let Some(bytes) = block_on(self.map.fetch_item::<&[u8]>(&mut item, &INDEX))? else { return Ok(None) };
-        match bytes.first() {
-            Some(&VERSION) => postcard::from_bytes(bytes).map(Some).map_err(|_| StoreError::Damaged),
+        match bytes.split_first() {
+            Some((&VERSION, rest)) => Index::read(rest).map(Some).ok_or(StoreError::Damaged),
             Some(_) => Err(StoreError::Version),
             None => Err(StoreError::Damaged),
         }

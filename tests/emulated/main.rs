@@ -1,6 +1,7 @@
 //! The firmware image in the emulator. `cargo xtask test` builds the image first and names it in TAXEL_FIRMWARE_ELF.
 
 mod board;
+mod boots;
 mod contacts;
 #[path = "../../host/tests/recorded/data.rs"]
 mod data;

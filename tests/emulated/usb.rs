@@ -177,6 +177,46 @@ fn arrives(used: &Scene, most: u64) {
     assert_eq!(came.len(), shown.len());
 }
 
+/// Time of the board that is looked at, us.
+const FLOODED_US: u64 = 1_500_000;
+
+#[test]
+fn a_flood_of_requests_stops_no_scan() {
+    let scene = postcard::to_allocvec(&Scene::shipped()).unwrap();
+    let garment = postcard::to_allocvec(&Garment::reference()).unwrap();
+    // How often each is asked for, and the scans a second that remain at least. After a change of the garment, and in each
+    // self-test, all lines are examined; there is one between two scans.
+    let floods = [
+        ("SetScene", Request::SetScene(&scene), 1_000, 180.0),
+        ("SetGarment", Request::SetGarment(&garment), 1_000, 100.0),
+        ("SelfTest", Request::SelfTest, 4_000, 60.0),
+    ];
+    for (of, request, times, least) in floods {
+        let (mut board, _) = streaming(&Scene::shipped(), &codes_of(Pattern::Empty, 0), &[]);
+        next_frame(&mut board, &mut Images::default());
+        // What the host loses does not matter here: after each change the numbers of frames go on.
+        board.forgiving = true;
+        (0..times).for_each(|_| board.ask(&request));
+        let (mut first, mut last, mut answers) = (None, (0, 0), 0);
+        while first.is_none_or(|(_, time)| last.1 < time + FLOODED_US) {
+            match board.receive().report() {
+                Report::Budget(budget) => {
+                    last = (budget.frame, budget.time.0);
+                    first = first.or(Some(last).filter(|_| answers > 0));
+                }
+                Report::Answer(answer) if answer.request == request.number() => answers += 1,
+                _ => {}
+            }
+        }
+        let (frame, time) = first.unwrap();
+        let rate = f64::from(last.0 - frame) * 1e6 / (last.1 - time) as f64;
+        println!("{of} without end: {rate:.1} scans/s, {answers} answers");
+        assert!(rate > least, "{of}: {rate:.1} scans/s");
+        assert!(answers < times, "{of}: the flood has ended too early");
+        board.end();
+    }
+}
+
 #[test]
 fn a_cable_may_be_pulled_and_put_again() {
     let codes: Vec<u16> =

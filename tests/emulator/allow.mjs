@@ -3,8 +3,6 @@
 const ALLOWED = [
   // rp2040js has no ring oscillator; the firmware slows it down and goes on with the crystal.
   /^ROSC_BASE: Unimplemented peripheral write to 0x(0|4|8|10): /,
-  // nor the voltage regulator's brown-out detector, which embassy-rp switches on at start.
-  /^VREG_AND_CHIP_RESET_BASE: Unimplemented peripheral (read from 0x0$|write to 0x[04]: )/,
 ];
 
 /** Whether a warning, as "part: text", is expected. */

@@ -10,7 +10,7 @@ import { Check } from './check.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
-import { BoardError, Machine } from './machine.mjs';
+import { BoardError, Machine, WatchdogReset } from './machine.mjs';
 import { PowerCut } from './rom.mjs';
 
 const SETTINGS_START = 0x1f0000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
@@ -26,12 +26,17 @@ const { values: options } = parseArgs({
     'until-frames': { type: 'string', default: 'Infinity' }, realtime: { type: 'boolean', default: false },
     stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
-    flash: { type: 'string' }, cut: { type: 'string' },
+    flash: { type: 'string' }, cut: { type: 'string' }, restarts: { type: 'boolean', default: false },
+    ground: { type: 'string', default: '' }, 'reset-by': { type: 'string', default: 'power' },
   },
 });
 
 function say(value) {
   process.stdout.write(`${JSON.stringify(value)}\n`);
+}
+
+function pinsOf(list) {
+  return list.split(',').filter((pin) => pin !== '').map(Number);
 }
 
 function attachGarment(machine) {
@@ -59,7 +64,7 @@ function attachGarment(machine) {
 /** Says when messages have come whole, and when pins have changed. */
 function tellTimes(machine, link) {
   if (options.times) link.onEnd = (bytes) => say({ end: { bytes, us: machine.micros } });
-  for (const pin of options.watch.split(',').filter((pin) => pin !== '').map(Number)) {
+  for (const pin of pinsOf(options.watch)) {
     let last;
     machine.chip.gpio[pin].addListener(() => {
       const level = machine.readPin(pin);
@@ -86,59 +91,87 @@ function finished(machine, garment) {
   return enough || machine.micros >= Number(options.seconds) * 1e6 || process.ppid !== parent;
 }
 
-/** Runs in short batches; between them the world outside has its turn. */
-async function run(machine, garment, link, started, control) {
-  while (!control.quit && !finished(machine, garment)) {
-    machine.runUntil(machine.clock.nanosCounter + BATCH_NANOS);
+/**
+ * Runs in short batches; between them the world outside has its turn. `board` holds the machine and the garment on its
+ * pins.
+ */
+async function run(board, link, started, control) {
+  while (!control.quit && !finished(board.machine, board.garment)) {
+    const { machine } = board;
+    try {
+      machine.runUntil(machine.clock.nanosCounter + BATCH_NANOS);
+    } catch (error) {
+      if (!(error instanceof WatchdogReset)) throw error;
+      say({ reset: error.forced ? 'program' : 'watchdog', us: machine.micros });
+      board.start(machine);
+    }
     machine.rtt.drain();
     link.flush();
     const ahead = machine.micros / 1000 - (performance.now() - started);
     if (options.realtime && ahead > 1) await setTimeout(ahead);
     else await setImmediate();
   }
+  const { machine, garment } = board;
   if (machine.stack.overflown) throw new BoardError('the stack has reached the program\'s data');
   if (garment?.floating > 0) throw new BoardError(`an address line that nothing drives was read ${garment.floating} times`);
 }
 
 async function main() {
   const overUsb = options.link === 'usb';
+  const image = loadImage(options.image);
+  const board = {
+    /** The power comes, or the watchdog has reset the machine `after` which another one goes on. */
+    start(after) {
+      const machine = new Machine(image, {
+        allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
+        onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after,
+      });
+      machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
+      board.machine = machine;
+      tellTimes(machine, link);
+      if (overUsb) {
+        machine.usb.plug();
+        machine.usb.open(link.client !== undefined);
+      }
+      board.garment = attachGarment(machine);
+    },
+  };
   const link = overUsb
-    ? new Link((bytes) => machine.usb.send(bytes), (there) => machine.usb.open(there))
-    : new Link((bytes) => machine.uart.receive(bytes));
-  const machine = new Machine(loadImage(options.image), {
-    allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
-    onKnown: (usb) => say({ usb }),
-  });
-  tellTimes(machine, link);
-  if (overUsb) machine.usb.plug();
-  if (options.flash !== undefined && existsSync(options.flash)) machine.chip.flash.set(readFileSync(options.flash), SETTINGS_START);
-  if (options.cut !== undefined) machine.rom.cutAt = Number(options.cut);
-  const garment = attachGarment(machine);
+    ? new Link((bytes) => board.machine.usb.send(bytes), (there) => board.machine.usb.open(there))
+    : new Link((bytes) => board.machine.uart.receive(bytes));
+  board.start();
+  const settings = () => board.machine.chip.flash.subarray(SETTINGS_START, SETTINGS_END);
+  if (options.flash !== undefined && existsSync(options.flash)) settings().set(readFileSync(options.flash));
+  if (options.cut !== undefined) board.machine.rom.cutAt = Number(options.cut);
   if (options.port !== undefined) say({ port: await link.listen(Number(options.port)) });
   const started = performance.now();
   const control = { quit: false };
   const commands = {
-    play: () => garment?.play(),
-    stats: () => say({ stats: statistics(machine, garment, link, started) }),
+    play: () => board.garment?.play(),
+    stats: () => say({ stats: statistics(board.machine, board.garment, link, started) }),
     faults: (list) => {
-      machine.pads.faults = JSON.parse(list);
-      say({ faults: machine.pads.faults.length });
+      board.machine.pads.faults = JSON.parse(list);
+      say({ faults: board.machine.pads.faults.length });
     },
     starve: (samples) => {
-      machine.chip.adc.starved = Number(samples);
-      say({ starve: machine.micros });
+      board.machine.chip.adc.starved = Number(samples);
+      say({ starve: board.machine.micros });
+    },
+    hang: () => {
+      board.machine.hung = true;
+      say({ hang: board.machine.micros });
     },
     stack: () => {
-      say({ stack: machine.stack });
-      machine.stack.paint(machine.core.SP);
+      say({ stack: board.machine.stack });
+      board.machine.stack.paint(board.machine.core.SP);
     },
     plug: () => {
-      machine.usb.plug();
-      say({ plug: machine.micros });
+      board.machine.usb.plug();
+      say({ plug: board.machine.micros });
     },
     unplug: () => {
-      machine.usb.unplug();
-      say({ unplug: machine.micros });
+      board.machine.usb.unplug();
+      say({ unplug: board.machine.micros });
     },
     quit: () => { control.quit = true; },
   };
@@ -147,14 +180,16 @@ async function main() {
     commands[command]?.(rest.join(' '));
   });
   try {
-    await run(machine, garment, link, started, control);
+    await run(board, link, started, control);
   } catch (error) {
+    const { machine } = board;
     machine.rtt.drain();
     if (error instanceof PowerCut) return say({ cut: machine.rom.steps });
     if (error instanceof BoardError && machine.rtt.text !== '') error.message += `\nlog: ${machine.rtt.text}`;
     throw error;
   } finally {
-    if (options.flash !== undefined) writeFileSync(options.flash, machine.chip.flash.subarray(SETTINGS_START, SETTINGS_END));
+    const { machine, garment } = board;
+    if (options.flash !== undefined) writeFileSync(options.flash, settings());
     if (options.rtt !== undefined) writeFileSync(options.rtt, Uint8Array.from(machine.rtt.bytes));
     if (options.stats) say({ stats: statistics(machine, garment, link, started) });
     await link.close();

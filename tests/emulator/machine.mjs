@@ -2,6 +2,7 @@
 
 import { RP2040 } from 'rp2040js';
 import { Adc } from './adc.mjs';
+import { CHIP_RESET_BASE, ChipReset } from './chip_reset.mjs';
 import { mendDma } from './dma.mjs';
 import { Marks } from './marks.mjs';
 import { Pads } from './pads.mjs';
@@ -24,17 +25,33 @@ const WATCHDOG_FORCED = 2;
 /** Stops a run; the message says what the firmware or the emulator did wrong. */
 export class BoardError extends Error {}
 
+/** The watchdog has reset the board: another machine goes on `after` this one. */
+export class WatchdogReset extends Error {
+  constructor(machine, forced) {
+    super('the watchdog has reset the board');
+    Object.assign(this, { machine, forced });
+  }
+}
+
 export class Machine {
   /**
    * `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. `onBytes`: bytes came over USB.
-   * `onKnown`: what the board said on USB that it is.
+   * `onKnown`: what the board said on USB that it is. `restarts`: a reset by the watchdog is a `WatchdogReset`,
+   * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that the watchdog has reset,
+   * whose flash and scratch registers this one has; all else begins anew, its memory and its time included.
    */
-  constructor({ flash, symbols }, { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown } = {}) {
+  constructor(
+    { flash, symbols },
+    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after } = {},
+  ) {
     const chip = new RP2040();
-    Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols });
+    Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts });
     this.marks = new Marks();
     this.asleep = 0;
+    this.hung = false; // the core does nothing more, as if it went round in circles
     const complain = (part, text) => {
+      // DMA that nobody leads any more reads what it finds; the watchdog ends it.
+      if (this.hung) return;
       if (!allowed(`${part}: ${text}`)) throw new BoardError(`emulator warning from ${part}: ${text}, at ${this.where()}`);
     };
     chip.logger = { debug() {}, info() {}, warn: complain, error: complain };
@@ -48,11 +65,21 @@ export class Machine {
       chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);
     });
     this.pads = new Pads(chip);
-    for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
+    chip.peripherals[CHIP_RESET_BASE] = new ChipReset(chip, after?.chip.peripherals[CHIP_RESET_BASE].cause ?? cause);
+    if (after === undefined) for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
+    else this.follow(after.chip);
     this.rom = new Rom(chip);
     this.guard();
     this.tapMemory();
     this.boot();
+  }
+
+  /** What outlasts a reset by the watchdog. */
+  follow(before) {
+    this.chip.flash.set(before.flash);
+    const [from, to] = [before, this.chip].map((chip) => chip.peripherals[WATCHDOG_BASE]);
+    to.scratchData.set(from.scratchData);
+    to.reason = from.reason;
   }
 
   get uart() {
@@ -92,11 +119,13 @@ export class Machine {
     const watchdog = chip.peripherals[WATCHDOG_BASE];
     watchdog.onWatchdogTrigger = () => this.reset(watchdog.reason === WATCHDOG_FORCED);
     mendDma(chip, (channel) => {
+      if (this.hung) return;
       throw new BoardError(`DMA channel ${channel} reaches for the core's own ports, which silicon forbids`);
     });
   }
 
   reset(forced) {
+    if (this.restarts) throw new WatchdogReset(this, forced);
     throw new BoardError(`the board reset itself (${forced ? 'a panic' : 'the watchdog was not fed'}) at ${this.where()}`);
   }
 
@@ -133,7 +162,7 @@ export class Machine {
   runUntil(nanos) {
     const { core, clock } = this;
     while (clock.nanosCounter < nanos) {
-      if (core.waiting) {
+      if (core.waiting || this.hung) {
         const next = clock.nextAlarm === null ? nanos : Math.min(nanos, clock.nextAlarm.nanos);
         this.asleep += next - clock.nanosCounter;
         clock.tick(next - clock.nanosCounter);

@@ -33,6 +33,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-health", |log| targets::on_emulator("health", log)),
     ("emulator", |log| targets::on_emulator("contacts", log)),
     ("emulator-store", |log| targets::on_emulator("store", log)),
+    ("emulator-boots", |log| targets::on_emulator("boots", log)),
     ("view", browser::check),
     ("python", targets::python),
     ("clippy", clippy),

@@ -25,11 +25,19 @@ impl<A: Adc> Adc for &mut A {
 pub trait Clock {
     /// Time since the board started.
     fn now(&self) -> Micros;
+
+    /// A step of something that may take long is done: a row was scanned, a line was examined. A board feeds
+    /// its watchdog, which what stands still therefore does not.
+    fn progressed(&self) {}
 }
 
 impl<C: Clock> Clock for &C {
     fn now(&self) -> Micros {
         (**self).now()
+    }
+
+    fn progressed(&self) {
+        (**self).progressed();
     }
 }
 
@@ -73,10 +81,11 @@ where
         }
     }
 
-    /// Lines, delay and converter, for something else than a scan: what the lines show afterwards is not known.
-    pub fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A) {
+    /// Lines, delay, converter and clock, for something else than a scan: what the lines show afterwards is not
+    /// known.
+    pub fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A, &C) {
         self.driven = None;
-        (self.lines, &mut self.delay, &mut self.adc)
+        (self.lines, &mut self.delay, &mut self.adc, &self.clock)
     }
 
     /// Finds the pins of another garment's lines.
@@ -140,6 +149,7 @@ where
                 self.delay.delay_ns(circuit.settle_ns());
                 self.read(&mut cursors, column, plan.depth)?;
             }
+            self.clock.progressed();
         }
         Ok(())
     }

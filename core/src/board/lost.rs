@@ -8,7 +8,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// A scan has failed.
     #[cold]
     pub(super) fn stumbled(&mut self, error: ScanError) {
-        self.scanning = false;
+        self.scan_ended();
         self.health.failed = self.health.failed.wrapping_add(1);
         self.stumbles = self.stumbles.saturating_add(1);
         self.outbox.log(format_args!("scan: {error}"));

@@ -9,7 +9,9 @@ mod lost;
 mod outbox;
 mod outputs;
 mod pace;
+mod quota;
 mod reading;
+mod rebuilds;
 mod reflex;
 mod refusal;
 mod request;
@@ -24,6 +26,7 @@ pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{Setup, SetupError};
 
 use crate::acquire::{Plan, Scan, ScanError};
+use crate::boot::Boot;
 use crate::condition::{Certificate, Tare};
 use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
@@ -39,6 +42,7 @@ use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox};
 use outputs::Outputs;
 use pace::Pace;
+use rebuilds::Rebuilds;
 use refusal::Refusal;
 use saving::Saving;
 
@@ -51,6 +55,8 @@ pub enum Input<'a> {
     Scanned(Result<Scan<'a>, ScanError>),
     /// The settings were stored, or why not.
     Saved(Result<Saved, &'static str>),
+    /// The stored settings were put aside, or taken up again, or why not.
+    SettingsReset(Result<Saved, &'static str>),
     /// Lines and inputs were examined, or why not; at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
     /// A select line showed another level than it was driven to.
@@ -70,6 +76,14 @@ pub enum Job {
     Drive(u8, bool),
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
+    /// Put the stored settings aside, from the next start on, or take them up again; answered by
+    /// [`Input::SettingsReset`].
+    ResetSettings {
+        /// Take them up again.
+        undo: bool,
+    },
+    /// Start anew, as when the power comes.
+    Restart,
     /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, somebody asks for it,
     /// or something speaks against one of them.
     /// Answered by [`Input::Examined`].
@@ -81,12 +95,15 @@ pub enum Job {
 enum Work {
     SelfTest,
     Save,
+    Reset { undo: bool },
 }
 
 /// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in a row, and PARTS
 /// parts of contacts, as [`ContactState`](crate::contact::ContactState) says.
 pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     info: BoardInfo,
+    /// How the board came to start; none: nobody has said.
+    boot: Option<Boot>,
     setup: Setup,
     /// The stages remember what they should of a garment that was just put on.
     begun: bool,
@@ -95,7 +112,10 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     outbox: Outbox<TAXELS>,
     outputs: Outputs,
     works: Deque<Work, 4>,
+    /// No scan has ended since one of them began.
+    worked: bool,
     saving: Saving,
+    rebuilds: Rebuilds,
     /// The last self-test of the lines and inputs of the garment that is worn.
     examined: Option<SelfTestReport>,
     doubt: Doubt,
@@ -133,6 +153,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub fn bare(info: BoardInfo) -> Self {
         Board {
             info,
+            boot: None,
             setup: Setup::empty(),
             begun: false,
             state: PipelineState::default(),
@@ -140,7 +161,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             outbox: Outbox::new(&StreamConfig::default()),
             outputs: Outputs::default(),
             works: Deque::new(),
+            worked: false,
             saving: Saving::new(),
+            rebuilds: Rebuilds::new(),
             examined: None,
             scans: Pace::new(0),
             doubt: Doubt::new(),
@@ -170,6 +193,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.pace(&self.setup.scene.stream);
         self.outputs = Outputs::at_rest(self.setup.pipeline.reactions());
         Ok(())
+    }
+
+    /// The host is told after each `Hello` how the board came to start.
+    pub fn booted(&mut self, boot: Boot) {
+        self.boot = Some(boot);
     }
 
     /// Nothing is remembered of any frame.
@@ -221,6 +249,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Scanned(Ok(scan)) => self.perceive(now, &scan, probe),
             Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
+            Input::SettingsReset(result) => self.settings_reset(now, result),
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.doubt.raise(now),
             Input::Reflex(early) => self.reflex(&early),
@@ -254,13 +283,26 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Some(Job::Scan(self.setup.scene.plan))
     }
 
+    /// Whether the board takes the byte that ends the message under way: two changes of garment or scene have a
+    /// scan between them. What comes before, and every other message, it takes at any time. A change that is
+    /// given nevertheless is made.
+    pub fn takes_message(&mut self, now: Micros) -> bool {
+        !self.inbox.first().is_some_and(request::rebuilds) || self.rebuilds.are_due(now)
+    }
+
+    /// A scan has ended, well or not.
+    fn scan_ended(&mut self) {
+        (self.scanning, self.worked) = (false, false);
+        self.rebuilds.scanned();
+    }
+
     /// Time of the next scan, if it is not due yet: until then there is nothing to do but to move bytes.
     pub fn wake(&self) -> Micros {
         self.scans.next()
     }
 
     fn perceive(&mut self, now: Micros, scan: &Scan<'_>, probe: &mut impl Probe) {
-        self.scanning = false;
+        self.scan_ended();
         if self.stumbles > 0 || self.interrupted {
             self.go_on(scan.report.start);
         }
@@ -299,11 +341,13 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
-        let Board { outbox, ledger, info, setup, monitor, examined, certificate, health, state, .. } = self;
+        let Board {
+            outbox, ledger, info, boot, setup, monitor, examined, certificate, health, state, ..
+        } = self;
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
-        let (unsure, taught) = (state.unsure(), &state.taught);
-        let about = About { info, setup, monitor, examined, certificate, unsure, taught };
+        let (boot, unsure, taught) = (*boot, state.unsure(), &state.taught);
+        let about = About { info, boot, setup, monitor, examined, certificate, unsure, taught };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

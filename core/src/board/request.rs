@@ -20,11 +20,17 @@ pub(super) const TARE: u8 = 2;
 /// Number of a request that could not be read.
 const UNREADABLE: u8 = 255;
 
+/// Whether a request of this number changes garment or scene.
+pub(super) fn rebuilds(number: u8) -> bool {
+    number == Request::SetGarment(&[]).number() || number == Request::SetScene(&[]).number()
+}
+
 /// Number of the request that asked for this work.
 pub(super) fn number_of(work: Work) -> u8 {
     match work {
         Work::SelfTest => Request::SelfTest.number(),
         Work::Save => Request::Save.number(),
+        Work::Reset { .. } => Request::ResetSettings { undo: false }.number(),
     }
 }
 
@@ -61,6 +67,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     fn obey(&mut self, now: Micros, request: Request<'_>) {
         let number = request.number();
+        if rebuilds(number) {
+            self.rebuilds.spend(now);
+        }
         let result = match request {
             Request::SetGarment(bytes) => self.set_garment(bytes),
             Request::SetScene(bytes) => self.set_scene(bytes),
@@ -102,6 +111,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(()) => return self.start(Work::Save),
                 refused => refused,
             },
+            Request::ResetSettings { undo } => return self.start(Work::Reset { undo }),
             Request::SetGain { first, gains } => self.set_gain(first, &gains),
             Request::SetGestures(config) => self.set_gestures(config.as_ref()),
             Request::SetCertainty(thousandths) => self.set_certainty(thousandths),

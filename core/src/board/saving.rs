@@ -1,27 +1,27 @@
 //! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are examined.
 
+use super::quota::Quota;
 use super::refusal::Refusal;
 use super::{Board, Job, Saved, Work, request};
+use crate::boot::Aside;
 use crate::format::Micros;
 use crate::wire::Level;
 
-/// Saves that may follow each other.
-const MOST: u8 = 12;
-/// Each is granted again after this time: twelve an hour. At some ten sectors for the greatest garment a flash of 100,000 erasures
-/// lasts a year of them, day and night.
-const REFILL_US: u64 = 300_000_000;
+/// Twelve saves may follow each other, and each is granted again after five minutes: twelve an hour. At some
+/// ten sectors for the greatest garment a flash of 100,000 erasures lasts a year of them, day and night.
+type Allowance = Quota<12, 300_000_000>;
 /// From the announcement to the save: the link has carried away what it was given.
 const NOTICE_US: u64 = 50_000;
 
 /// How many saves are left, and whether one was announced.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saving {
-    left: u8,
-    /// Since when fewer than all are left.
-    since: Micros,
+    allowance: Allowance,
     announced: Option<Micros>,
     /// Since when nothing is scanned.
     stopped: Option<Micros>,
+    /// When the board starts again.
+    restart: Option<Micros>,
 }
 
 /// What the board does next about a save.
@@ -34,19 +34,25 @@ pub(super) enum Next {
 
 impl Saving {
     pub const fn new() -> Saving {
-        Saving { left: MOST, since: Micros(0), announced: None, stopped: None }
+        Saving { allowance: Allowance::new(), announced: None, stopped: None, restart: None }
+    }
+
+    /// Before a reset so many saves were left.
+    pub fn resume(&mut self, left: u8) {
+        self.allowance.resume(left);
+    }
+
+    /// Saves that are left after one.
+    pub fn left_after(&self) -> u8 {
+        self.allowance.known().saturating_sub(1)
     }
 
     /// Whether the flash may be written now; else after how many minutes.
     pub fn allowed(&mut self, now: Micros) -> Result<(), u64> {
-        while self.left < MOST && now.since(self.since) >= REFILL_US {
-            self.left += 1;
-            self.since = Micros(self.since.0.saturating_add(REFILL_US));
+        match self.allowance.wait_us(now) {
+            0 => Ok(()),
+            us => Err(us.div_ceil(60_000_000)),
         }
-        if self.left > 0 {
-            return Ok(());
-        }
-        Err(REFILL_US.saturating_sub(now.since(self.since)).div_ceil(60_000_000))
     }
 
     /// A save was asked for.
@@ -67,10 +73,7 @@ impl Saving {
 
     /// The flash was written.
     pub fn spend(&mut self, now: Micros) {
-        if self.left == MOST {
-            self.since = now;
-        }
-        self.left = self.left.saturating_sub(1);
+        self.allowance.spend(now);
     }
 
     /// Something else than a scan begins.
@@ -82,11 +85,22 @@ impl Saving {
     pub fn ended(&mut self, now: Micros) -> Option<u64> {
         self.stopped.take().map(|stopped| now.since(stopped))
     }
+
+    /// Whether it is time to start again.
+    fn restarts(&self, now: Micros) -> bool {
+        self.restart.is_some_and(|at| at <= now)
+    }
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// The next work beyond scanning, if it is time for it.
+    /// The next work beyond scanning, if it is time for it: one between two scans.
     pub(super) fn next_work(&mut self, now: Micros) -> Option<Job> {
+        if self.saving.restarts(now) {
+            return Some(Job::Restart);
+        }
+        if self.worked {
+            return None;
+        }
         if self.works.front() == Some(&Work::Save) {
             match self.saving.next(now) {
                 Next::Announce => {
@@ -98,8 +112,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Next::Save => {}
             }
         }
-        Some(match self.works.pop_front()? {
+        let work = self.works.pop_front()?;
+        self.worked = true;
+        Some(match work {
             Work::Save => Job::Save,
+            Work::Reset { undo } => {
+                self.saving.stop(now);
+                Job::ResetSettings { undo }
+            }
             Work::SelfTest => {
                 self.saving.stop(now);
                 Job::Examine
@@ -127,7 +147,31 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if result != Ok(Saved::Unchanged) {
             self.saving.spend(now);
         }
+        if result.is_ok()
+            && let Some(boot) = &mut self.boot
+        {
+            // What is stored now is in force.
+            boot.aside = Aside::No;
+        }
         self.outbox.answer(request::number_of(Work::Save), result.err().map(Refusal::of));
+    }
+
+    /// The stored settings were put aside, or taken up again; what that means shows when the board starts,
+    /// which it does as soon as the answer has gone.
+    #[inline(never)]
+    pub(super) fn settings_reset(&mut self, now: Micros, result: Result<Saved, &'static str>) {
+        let us = self.saving.ended(now).unwrap_or(0);
+        self.not_scanned(us);
+        if result.is_ok() {
+            self.saving.restart = Some(Micros(now.0.saturating_add(NOTICE_US)));
+        }
+        let number = request::number_of(Work::Reset { undo: false });
+        self.outbox.answer(number, result.err().map(Refusal::of));
+    }
+
+    /// Before a reset so many saves were left: it grants no more.
+    pub fn resume_saving(&mut self, left: u8) {
+        self.saving.resume(left);
     }
 }
 
@@ -149,7 +193,7 @@ mod tests {
         saving.spend(minute(6));
         assert_eq!(saving.allowed(minute(6)), Err(5));
         assert_eq!(saving.allowed(minute(600)), Ok(()));
-        assert_eq!(saving.left, 12);
+        assert_eq!(saving.left_after(), 11);
     }
 
     #[test]

@@ -76,6 +76,8 @@ pub struct Settings<'a> {
     pub baseline: Option<&'a [u16]>,
     /// The calibration that the gains belong to.
     pub calibration: Option<&'a Certificate>,
+    /// Saves that the flash can take soon after this one: a reset grants no more.
+    pub saves: u8,
 }
 
 impl Settings<'_> {
@@ -127,6 +129,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             ill: self.monitor.ill(),
             baseline: baseline.map(|all| all.get(..layout.taxels()).unwrap_or(all)),
             calibration: self.certificate.as_ref(),
+            saves: self.saving.left_after(),
         }
     }
 

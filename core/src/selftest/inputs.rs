@@ -2,7 +2,7 @@
 
 use super::lines::PULLED_NS;
 use super::{Fault, Findings};
-use crate::acquire::{Lines, Pad, Pull, PulledAdc, ScanError};
+use crate::acquire::{Clock, Lines, Pad, Pull, PulledAdc, ScanError};
 use crate::format::Extremes;
 use crate::garment::{Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -29,6 +29,7 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     adc: &mut A,
+    clock: &impl Clock,
     circuit: &Circuit,
     findings: &mut Findings,
 ) -> Result<(), ScanError> {
@@ -41,7 +42,10 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     let read = [Pull::Up, Pull::Down].into_iter().try_for_each(|pull| {
         pull_all(adc, &inputs, pull)?;
         delay.delay_ns(PULLED_NS);
-        circuit.selects().try_for_each(|sites| read(lines, delay, adc, (circuit, sites, pull), &mut inputs))
+        circuit.selects().try_for_each(|sites| {
+            clock.progressed();
+            read(lines, delay, adc, (circuit, sites, pull), &mut inputs)
+        })
     });
     pull_all(adc, &inputs, Pull::None)?;
     read?;

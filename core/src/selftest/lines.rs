@@ -1,7 +1,7 @@
 //! The select lines: each is driven alone, and all are looked at.
 
 use super::{Fault, Findings};
-use crate::acquire::{Lines, Pad, Pull, ScanError};
+use crate::acquire::{Clock, Lines, Pad, Pull, ScanError};
 use crate::garment::{CIRCUIT_LINES, Circuit};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
@@ -21,10 +21,11 @@ struct Shown {
 pub(super) fn examine<P: Pad, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
+    clock: &impl Clock,
     circuit: &Circuit,
     findings: &mut Findings,
 ) -> Result<(), ScanError> {
-    let shown = try_all(lines, delay, circuit);
+    let shown = try_all(lines, delay, clock, circuit);
     release(lines, circuit, Pull::None)?;
     findings.lines = circuit.lines().len() as u8;
     judge(circuit, &shown?, findings);
@@ -35,6 +36,7 @@ pub(super) fn examine<P: Pad, const PINS: usize>(
 fn try_all<P: Pad, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
+    clock: &impl Clock,
     circuit: &Circuit,
 ) -> Result<Vec<Shown, CIRCUIT_LINES>, ScanError> {
     let mut all = Vec::new();
@@ -47,6 +49,7 @@ fn try_all<P: Pad, const PINS: usize>(
             look(lines, circuit)
         };
         let _ = all.push(Shown { high: show(true)?, low: show(false)? }); // as many as a circuit has
+        clock.progressed();
     }
     Ok(all)
 }

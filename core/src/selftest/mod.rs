@@ -64,10 +64,10 @@ where
     // Not inlined: what it keeps is on the stack only meanwhile.
     #[inline(never)]
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
-        let (lines, delay, adc) = self.parts();
+        let (lines, delay, adc, clock) = self.parts();
         let mut findings = Findings::default();
-        lines::examine(lines, delay, circuit, &mut findings)?;
-        inputs::examine(lines, delay, adc, circuit, &mut findings)?;
+        lines::examine(lines, delay, clock, circuit, &mut findings)?;
+        inputs::examine(lines, delay, adc, clock, circuit, &mut findings)?;
         Ok(findings)
     }
 

@@ -1,6 +1,7 @@
 //! The two enums of the wire.
 
 use crate::body::Placed;
+use crate::boot::Boot;
 use crate::condition::Certificate;
 use crate::fold::Posture;
 use crate::format::{Celsius, Micros, Name, Q15};
@@ -73,6 +74,8 @@ pub enum Report<'a> {
     Reflex(ReflexReport),
     /// How sure the gesture is that is told next.
     Confidence(ConfidenceReport),
+    /// How the board came to start.
+    Boot(Boot),
     /// Which contacts may be drift.
     Unsure(UnsureReport),
     /// How old the forms of the contacts are that are told next.
@@ -119,10 +122,12 @@ impl Report<'_> {
     pub const REFLEX: u32 = 17;
     /// Of `Confidence`.
     pub const CONFIDENCE: u32 = 18;
+    /// Of `Boot`.
+    pub const BOOT: u32 = 19;
     /// Of `Unsure`.
-    pub const UNSURE: u32 = 19;
+    pub const UNSURE: u32 = 20;
     /// Of `Forms`.
-    pub const FORMS: u32 = 20;
+    pub const FORMS: u32 = 21;
 }
 
 /// Frozen.
@@ -510,6 +515,12 @@ pub enum Request<'a> {
     /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the start. Not a part of
     /// the scene; it stays when `SetGestures` comes.
     SetCertainty(u16),
+    /// Put the stored settings aside, or take them up again; the board starts anew as soon as it has answered.
+    /// What is put aside is kept until the next `Save`.
+    ResetSettings {
+        /// take them up again
+        undo: bool,
+    },
     /// How many forms are looked at in a frame from now on. Not a part of the scene; it stays when `SetScene` comes.
     SetForms {
         /// Of contacts that were there before, in turn; 0: all; 1 at the start.
@@ -542,7 +553,8 @@ impl Request<'_> {
             Request::SetShapes(_) => 16,
             Request::AddShapes(_) => 17,
             Request::SetCertainty(_) => 18,
-            Request::SetForms { .. } => 19,
+            Request::ResetSettings { .. } => 19,
+            Request::SetForms { .. } => 20,
         }
     }
 }

@@ -30,8 +30,9 @@
 //! | 16 | [`ShapesReport`] | when a gallery was taught or given up; in answer to `Start` where one is in force |
 //! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
 //! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model knows how sure it is; always |
-//! | 19 | [`UnsureReport`] | when a contact is found to be perhaps nothing but drift, or to be more; the newest state |
-//! | 20 | [`FormsReport`] | if asked for: before a `Contacts` in which a form is older than its frame |
+//! | 19 | [`Boot`](crate::boot::Boot) | after each `Hello`, by a board that knows what reset it |
+//! | 20 | [`UnsureReport`] | when a contact is found to be perhaps nothing but drift, or to be more; the newest state |
+//! | 21 | [`FormsReport`] | if asked for: before a `Contacts` in which a form is older than its frame |
 //!
 //! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
 //! while a program there has opened its port, else over the UART.

@@ -44,6 +44,16 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
+    /// The first byte of the message whose frame has not ended yet, if that is known; garbage has one, too.
+    pub fn first(&self) -> Option<u8> {
+        match self.frame.get(..self.length)? {
+            // COBS: what stands after no other byte is a zero.
+            [1, ..] => Some(0),
+            [_, first, ..] => Some(*first),
+            _ => None,
+        }
+    }
+
     /// Forgets the bytes of an unfinished frame: after the link was closed.
     pub const fn reset(&mut self) {
         self.length = 0;
@@ -69,6 +79,21 @@ mod tests {
             }
         }
         assert_eq!(want.next(), None);
+    }
+
+    #[test]
+    fn the_first_byte_of_a_message_is_known_before_its_end() {
+        let mut wire = [0; 64];
+        for message in [[0u8, 7, 0], [1, 0, 5], [200, 3, 1], [0, 0, 0]] {
+            let frame = super::super::codec::frame(&message, &mut wire).unwrap();
+            let mut receiver = Receiver::<64>::new();
+            assert_eq!(receiver.first(), None);
+            let (end, body) = wire[frame].split_last().unwrap();
+            body.iter().for_each(|byte| assert!(receiver.push(*byte).is_none()));
+            assert_eq!(receiver.first(), Some(message[0]));
+            assert_eq!(receiver.push(*end).unwrap().unwrap(), message);
+            assert_eq!(receiver.first(), None);
+        }
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 use taxel_core::acquire::{Depth, Scan, ScanError, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, Job, Saved};
+use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved};
+use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::contact::Phase;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros, Q15, name};
@@ -394,10 +395,137 @@ fn what_waits_to_be_done_keeps_no_pin_from_being_driven() {
         bench.ask(&Request::SelfTest);
         bench.ask(&Request::SetScene(&scene));
     }
-    let jobs: Vec<Job> = std::iter::from_fn(|| bench.tick()).take(7).collect();
+    let mut jobs = Vec::new();
+    while let Some(job) = bench.tick() {
+        jobs.push(job);
+        if let Job::Scan(_) = job {
+            bench.scan();
+        }
+        if jobs.len() == 12 {
+            break;
+        }
+    }
     assert_eq!(jobs[..2], [Job::Drive(18, false), Job::Drive(19, false)]);
-    assert_eq!(jobs[2..6], [Job::Examine; 4]);
-    assert!(matches!(jobs[6], Job::Scan(_)));
+    // Four of them wait; whoever asks without end keeps nothing from being scanned.
+    let (works, scans): (Vec<Job>, Vec<Job>) = jobs[2..10].iter().partition(|job| **job == Job::Examine);
+    assert_eq!((works.len(), scans.len()), (4, 4));
+    assert!(jobs[2..].chunks(2).all(|two| matches!(two[1], Job::Scan(_))), "{jobs:?}");
+}
+
+#[test]
+fn how_the_board_came_to_start_is_told_after_each_hello() {
+    let mut bench = Bench::new(Scene::shipped());
+    let boot = Boot { cause: BootCause::Panic, resets: 3, aside: Aside::Resets };
+    bench.board.booted(boot);
+    let told = |bench: &mut Bench| {
+        let mut told = Vec::new();
+        bench.drain(usize::MAX, |report| {
+            told.push(match report {
+                Report::Hello(_) => "hello".to_string(),
+                Report::Boot(boot) => format!("{boot:?}"),
+                report => format!("{report:?}"),
+            });
+        });
+        told
+    };
+    let pair = ["hello".to_string(), format!("{boot:?}")];
+    assert_eq!(told(&mut bench), pair);
+    bench.tick();
+    bench.now += 1_000_000;
+    assert_eq!(told(&mut bench), pair, "each second");
+    bench.ask(&Request::Start);
+    assert_eq!(told(&mut bench)[..2], pair);
+    // What is stored now is in force.
+    bench.ask(&Request::Save);
+    until_save(&mut bench);
+    bench.board.step(Micros(bench.now), Input::Saved(Ok(Saved::Written)), &mut ());
+    bench.ask(&Request::Start);
+    bench.drain(usize::MAX, |report| {
+        if let Report::Boot(told) = report {
+            assert_eq!(*told, Boot { aside: Aside::No, ..boot });
+        }
+    });
+}
+
+#[test]
+fn settings_are_reset_then_the_board_starts_anew_when_it_has_answered() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.scan();
+    let asked = |bench: &mut Bench, undo| {
+        bench.ask(&Request::ResetSettings { undo });
+        let reset = std::iter::from_fn(|| bench.tick()).find(|job| !matches!(job, Job::Drive(..)));
+        assert_eq!(reset, Some(Job::ResetSettings { undo }));
+    };
+    let answer = |bench: &mut Bench| {
+        let mut answers = Vec::new();
+        bench.drain(usize::MAX, |report| {
+            if let Report::Answer(answer) = report {
+                answers.push((answer.request, answer.refusal.map(str::to_string)));
+            }
+        });
+        answers
+    };
+    asked(&mut bench, true);
+    bench.board.step(Micros(bench.now), Input::SettingsReset(Err("the flash cannot be read")), &mut ());
+    assert_eq!(answer(&mut bench), [(19, Some("the flash cannot be read".to_string()))]);
+    for _ in 0..100 {
+        assert_ne!(bench.tick(), Some(Job::Restart), "what has failed changes nothing");
+        bench.scan();
+    }
+    asked(&mut bench, false);
+    bench.board.step(Micros(bench.now), Input::SettingsReset(Ok(Saved::Written)), &mut ());
+    assert_eq!(answer(&mut bench), [(19, None)]);
+    let restarts = (0..20).position(|_| {
+        let job = bench.tick();
+        bench.scan();
+        job == Some(Job::Restart)
+    });
+    assert_eq!(restarts, Some(10), "50 ms later");
+}
+
+#[test]
+fn a_change_waits_for_a_scan_and_what_is_no_change_does_not() {
+    let mut bench = Bench::new(Scene::shipped());
+    let scene = postcard::to_allocvec(&Scene::shipped()).expect("it fits");
+    let garment = postcard::to_allocvec(&Garment::block()).expect("it fits");
+    // All but the last byte, which ends the message.
+    let begun = |bench: &mut Bench, request: &Request<'_>| {
+        let mut wire = [0; 4200];
+        let (end, body) = wire::encode(request, &mut wire).expect("it fits").split_last().unwrap();
+        bench.board.step(Micros(bench.now), Input::Received(body), &mut ());
+        let takes = bench.board.takes_message(Micros(bench.now));
+        bench.board.step(Micros(bench.now), Input::Received(&[*end]), &mut ());
+        takes
+    };
+    assert!(begun(&mut bench, &Request::SetScene(&scene)));
+    for change in [Request::SetScene(&scene), Request::SetGarment(&garment)] {
+        assert!(!begun(&mut bench, &change), "nothing was scanned since");
+        assert!(begun(&mut bench, &Request::Sync { token: 1 }) && begun(&mut bench, &Request::Start));
+    }
+    bench.scan();
+    assert!(begun(&mut bench, &Request::SetGarment(&garment)));
+    bench.board.step(Micros(bench.now), Input::Scanned(Err(ScanError::Conversion)), &mut ());
+    assert!(!begun(&mut bench, &Request::SetScene(&scene)), "the fifth in a row");
+    bench.scan();
+    bench.now += 100_000;
+    assert!(begun(&mut bench, &Request::SetScene(&scene)));
+}
+
+#[test]
+fn a_stored_garment_that_would_outlast_the_watchdog_is_refused_and_what_ships_stays() {
+    let mut bench = Bench::new(Scene::shipped());
+    let mut slow = Garment::block();
+    slow.wiring.settle_ns = 10_000_000;
+    bench.board.restore(Part::Garment, &postcard::to_allocvec(&slow).expect("it fits"));
+    assert_eq!(bench.board.setup().garment, Garment::block());
+    let mut logs = Vec::new();
+    bench.drain(usize::MAX, |report| {
+        if let Report::Log(log) = report {
+            logs.push(log.text.to_string());
+        }
+    });
+    let why = "stored garment: a frame takes 641 ms, at most 500: lower wiring.settle_ns (10000000)";
+    assert_eq!(logs, [why]);
 }
 
 /// Ticks, scans and reads on until the board wants to save; what it logged before.

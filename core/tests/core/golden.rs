@@ -5,6 +5,7 @@
 use heapless::Vec;
 use std::fmt::Write;
 use taxel_core::body::Placed;
+use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::condition::Certificate;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
@@ -154,7 +155,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 21] {
+fn reports() -> [(&'static str, Report<'static>); 22] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -181,12 +182,13 @@ fn reports() -> [(&'static str, Report<'static>); 21] {
         ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
         ("Reflex", Report::Reflex(reflex)),
         ("Confidence", Report::Confidence(confidence)),
+        ("Boot", Report::Boot(Boot { cause: BootCause::Watchdog, resets: 3, aside: Aside::Resets })),
         ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
         ("Forms", Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() })),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 20] {
+fn requests() -> [(&'static str, Request<'static>); 21] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -212,6 +214,7 @@ fn requests() -> [(&'static str, Request<'static>); 20] {
         ("SetShapes", Request::SetShapes(&[6, 7])),
         ("AddShapes", Request::AddShapes(&[1, 0, 2])),
         ("SetCertainty", Request::SetCertainty(800)),
+        ("ResetSettings", Request::ResetSettings { undo: true }),
         ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
     ]
 }

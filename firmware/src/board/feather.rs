@@ -6,12 +6,13 @@
 //! | GP0, GP1 | UART, the other link to the host: transmit, receive |
 //! | GP2, GP3, GP6 - GP12 | select lines (the Feather brings out no GP4 and GP5) |
 //! | GP18 - GP20, GP24, GP25 | further select lines, or outputs of reactions |
-//! | GP13 | heartbeat LED |
+//! | GP13 | heartbeat LED; to ground at power-up: the board begins with what ships |
 //! | GP26 - GP29 | converter inputs |
 
 use super::Parts;
 use crate::{
     adc::Converter,
+    led::Led,
     link::{Uart, Usb, Wire, uart},
     pins::Line,
     scan::{Begun, Chain},
@@ -19,7 +20,7 @@ use crate::{
 };
 use embassy_rp::{
     adc, bind_interrupts,
-    gpio::{Level, Output, Pull},
+    gpio::{Flex, Pull},
     peripherals::{UART0, USB},
     uart as port, usb,
     watchdog::Watchdog,
@@ -104,7 +105,7 @@ pub fn take() -> Parts {
                 config,
             ))
         }),
-        led: Output::new(p.PIN_13, Level::Low),
+        led: Led::new(Flex::new(p.PIN_13)),
         watchdog: Watchdog::new(p.WATCHDOG),
         flash: Flash::new_blocking(p.FLASH),
     }

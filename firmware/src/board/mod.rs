@@ -4,8 +4,8 @@ mod feather;
 
 pub use feather::{INFO, INPUTS, LINES, take};
 
-use crate::{adc::Converter, link::Wire, pins::Line, scan::Chain, store::Flash};
-use embassy_rp::{gpio::Output, watchdog::Watchdog};
+use crate::{adc::Converter, led::Led, link::Wire, pins::Line, scan::Chain, store::Flash};
+use embassy_rp::watchdog::Watchdog;
 
 /// What a board hands to the firmware.
 pub struct Parts {
@@ -18,7 +18,7 @@ pub struct Parts {
     /// The link to the host.
     pub wire: Wire,
     /// The heartbeat.
-    pub led: Output<'static>,
+    pub led: Led,
     /// The watchdog, not yet started.
     pub watchdog: Watchdog,
     /// The flash, whose last sectors hold the settings.

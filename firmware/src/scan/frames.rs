@@ -153,6 +153,7 @@ impl Frames {
         for _ in 1..scans {
             let shown = complete(Ring::show).await?;
             self.add(lent, shown);
+            Timer.progressed();
             if !BEAT.lock(|beat| beat.borrow().ring.is_whole(shown)) {
                 return Err(ScanError::OutOfStep);
             }

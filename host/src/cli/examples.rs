@@ -112,6 +112,10 @@ pub(super) const SAVE: &str = "Examples:
   taxel save
   taxel save --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
+pub(super) const RESET_SETTINGS: &str = "Examples:
+  taxel reset-settings
+  taxel reset-settings --source usb --undo";
+
 pub(super) const SHAPES: &str = "Examples:
   taxel shapes list
   taxel shapes learn mug -o mine.json

@@ -1,6 +1,7 @@
 //! What came over the wire.
 
 use taxel_core::body::Placed;
+use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
     Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
@@ -12,6 +13,8 @@ use taxel_core::wire::{
 pub enum Event {
     /// Garment and scene are known, or known anew.
     Hello,
+    /// How the board came to start; the `Hello` before it told the rest.
+    Boot(Boot),
     /// A `Hello` that this program cannot use, and why.
     Unusable(String),
     /// A conditioned image.

@@ -3,6 +3,7 @@
 use super::{Client, Counts, Worn};
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
+use taxel_core::boot::Boot;
 use taxel_core::format::{Celsius, Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
@@ -113,6 +114,11 @@ impl Client {
     /// The last self-test of lines and inputs; none before the board has told of one.
     pub fn self_test(&self) -> Option<&SelfTestReport> {
         self.self_test.as_ref()
+    }
+
+    /// How the board came to start; none: it has not said.
+    pub fn boot(&self) -> Option<Boot> {
+        self.boot
     }
 
     /// What the board calls a class of its base of shapes.

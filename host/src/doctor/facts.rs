@@ -3,6 +3,7 @@
 use crate::client::{Client, Event};
 use crate::live::Show;
 use anyhow::Result;
+use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;
 use taxel_core::selftest::Findings;
 use taxel_core::wire::{Health, Request};
@@ -14,6 +15,8 @@ pub struct Facts {
     pub simulated: bool,
     /// Name and version of the firmware; none: no `Hello` came.
     pub firmware: Option<String>,
+    /// How the board came to start; none: it does not say.
+    pub boot: Option<Boot>,
     /// Why a `Hello` could not be used.
     pub unusable: Option<String>,
     /// Taxels of the garment.
@@ -53,6 +56,7 @@ impl Show for Facts {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => self.firmware = client.worn().map(|worn| worn.firmware.clone()),
+            Event::Boot(boot) => self.boot = Some(*boot),
             Event::Unusable(why) => self.unusable = Some(why.clone()),
             Event::Frame { frame, time, .. } => {
                 let first = self.frames.map_or((*frame, time.0), |[first, _]| first);

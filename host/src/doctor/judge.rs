@@ -4,6 +4,8 @@ use super::facts::Facts;
 use super::finding::Finding;
 use crate::date::days_between;
 use crate::health::pins;
+use crate::starts;
+use taxel_core::boot::{Aside, Boot};
 use taxel_core::wire::Health;
 
 /// Part of the taxels that may be ill before the garment is.
@@ -42,6 +44,7 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
             "flash the firmware of this version: `cargo xtask firmware`, then `taxel flash`",
         ),
     });
+    found.extend(facts.boot.as_ref().map(start));
     found.push(link(facts));
     found.push(rate(facts));
     found.extend(facts.health.map(|[first, last]| scans(&first, &last)));
@@ -52,6 +55,44 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     let told = |text: &String| Finding::weak("board", text.clone(), "see docs/troubleshooting.md");
     found.extend(facts.told.iter().map(told));
     found
+}
+
+fn start(boot: &Boot) -> Finding {
+    let cause = format!("started by: {}", starts::cause(boot));
+    let resets = match boot.resets {
+        0 => String::new(),
+        resets => format!("; {resets} resets without a minute of life"),
+    };
+    let what = match starts::aside(boot) {
+        Some(why) => {
+            format!("{cause}{resets}; it began with what ships and keeps saved settings aside, as {why}")
+        }
+        None => format!("{cause}{resets}"),
+    };
+    match boot.aside {
+        Aside::Resets => Finding::bad(
+            "start",
+            what,
+            "set garment and scene anew and `taxel save`; a power-up tries what was saved once more; `taxel \
+             reset-settings` leaves it aside",
+        ),
+        Aside::Pin => Finding::weak(
+            "start",
+            what,
+            "take the wire off the pin; `taxel save` replaces what was saved, a power-up uses it again",
+        ),
+        Aside::Request => Finding::weak(
+            "start",
+            what,
+            "`taxel save` replaces what was saved, `taxel reset-settings --undo` uses it again",
+        ),
+        Aside::No if starts::is_fault(boot) => Finding::weak(
+            "start",
+            what,
+            "supply and wires first; then report it with the garment and the scene that were in force",
+        ),
+        Aside::No => Finding::good("start", what),
+    }
 }
 
 fn link(facts: &Facts) -> Finding {
@@ -182,6 +223,7 @@ fn self_test(facts: &Facts) -> Option<Finding> {
 mod tests {
     use super::super::Grade;
     use super::*;
+    use taxel_core::boot::BootCause;
     use taxel_core::garment::Garment;
     use taxel_core::selftest::{Fault, Findings, PinFault};
 
@@ -190,10 +232,15 @@ mod tests {
         Some((Garment::reference(), Findings { lines: 9, inputs: 4, faults }))
     }
 
+    fn boot(cause: BootCause, aside: Aside) -> Option<Boot> {
+        Some(Boot { cause, resets: 3, aside })
+    }
+
     fn well() -> Facts {
         Facts {
             firmware: Some("taxel-rp2040 0.1.0".into()),
             taxels: 2048,
+            boot: Some(Boot::default()),
             calibration: "id 3fa9c21b, 2026-11-21, 1.25 %".into(),
             frames: Some([(1, 1_000_000), (196, 2_000_000)]),
             images: [195, 0, 0],
@@ -230,6 +277,11 @@ mod tests {
             (Facts { lost: [1, 0], ..well() }, "link", Grade::Bad),
             (Facts { simulated: true, ..well() }, "link", Grade::Weak),
             (Facts { firmware: Some("taxel-rp2040 0.0.9".into()), ..well() }, "version", Grade::Weak),
+            (Facts { boot: boot(BootCause::Watchdog, Aside::No), ..well() }, "start", Grade::Weak),
+            (Facts { boot: boot(BootCause::Panic, Aside::Resets), ..well() }, "start", Grade::Bad),
+            (Facts { boot: boot(BootCause::Power, Aside::Pin), ..well() }, "start", Grade::Weak),
+            (Facts { boot: boot(BootCause::Request, Aside::Request), ..well() }, "start", Grade::Weak),
+            (Facts { boot: boot(BootCause::Other, Aside::No), ..well() }, "start", Grade::Good),
             (Facts { frames: None, ..well() }, "images", Grade::Bad),
             (Facts { images: [9, 0, 1], ..well() }, "images", Grade::Bad),
             (Facts { frames: Some([(1, 0), (26, 1_000_000)]), ..well() }, "images", Grade::Weak),

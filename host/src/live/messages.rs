@@ -181,6 +181,11 @@ fn small(client: &Client, event: &Event) -> Value {
             json!({ "type": "health_map", "time_us": time.0, "whole": whole, "ill": ill })
         }
         Event::SelfTest(report) => self_test(report),
+        Event::Boot(boot) => {
+            let mut line = json!({ "type": "boot" });
+            merge(&mut line, serde_json::to_value(boot).unwrap_or_default());
+            line
+        }
         Event::Log { time, level, text } => {
             json!({ "type": "log", "time_us": time.0, "level": word(level), "text": text })
         }

@@ -1,6 +1,7 @@
 //! What came, in sentences: for the plain lines and for the log of the picture.
 
 use crate::client::{Client, Event, Worn};
+use crate::starts;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Leading;
@@ -47,6 +48,7 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
     match event {
         Event::Hello => client.worn().map(hello).into_iter().collect(),
         Event::Unusable(why) => vec![format!("refused: {why}")],
+        Event::Boot(boot) => starts::remark(boot).into_iter().collect(),
         Event::Symbols(list) => {
             let line =
                 |symbol: &Symbol| format!("{} {}", seconds(list.time), said(client, symbol, per_newton));
@@ -157,7 +159,7 @@ pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 20] = [
+    const NAMES: [&str; 21] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -177,6 +179,7 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "set-shapes",
         "add-shapes",
         "set-certainty",
+        "reset-settings",
         "set-forms",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")

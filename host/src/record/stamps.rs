@@ -78,7 +78,11 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Forms(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
-        Event::Shapes { .. } | Event::Unusable(_) | Event::Answer { .. } | Event::Refused(_) => return None,
+        Event::Boot(_)
+        | Event::Shapes { .. }
+        | Event::Unusable(_)
+        | Event::Answer { .. }
+        | Event::Refused(_) => return None,
     };
     Some(time.0)
 }

@@ -10,12 +10,13 @@ use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
 use taxel_core::board::{Board, BoardInfo, Saved, Settings};
+use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
-use taxel_store::{Store, StoreError};
+use taxel_store::{Found, Store, StoreError};
 
 const TAXELS: usize = 2048;
 const RUNS: usize = TAXELS / 2;
@@ -31,6 +32,8 @@ const LAG: Duration = Duration::from_millis(250);
 struct Play {
     script: Script,
     garment: Garment,
+    /// What the board is used for when it starts.
+    scene: Scene,
     seed: u64,
     realtime: bool,
     repeat: bool,
@@ -52,6 +55,9 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
             (script, garment)
         }
     };
+    if options.raw {
+        board_scene.stream.raw_hz = u16::MAX;
+    }
     let tare = script.tare_frames.min(4096) as u16;
     let play = Play {
         seed: options.seed.unwrap_or(script.seed),
@@ -59,16 +65,13 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         repeat: options.repeat,
         end_us: end_us(script.duration_s, options),
         garment,
+        scene: board_scene,
         script,
     };
-    if options.raw {
-        board_scene.stream.raw_hz = u16::MAX;
-    }
     let (host, board_end) = pipe();
     let (told, ready) = mpsc::channel();
     thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
-        let made = Board::<TAXELS, RUNS, PARTS>::new(info(&play.garment), play.garment.clone(), board_scene);
-        let made = made.map_err(anyhow::Error::from).map(Box::new);
+        let made = play.board().map(Box::new);
         // What is built here for the check is built again for each round.
         let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
         match made {
@@ -138,6 +141,22 @@ fn info(garment: &Garment) -> BoardInfo {
 }
 
 impl Play {
+    /// The board as it is when its power comes.
+    fn board(&self) -> Result<Board<TAXELS, RUNS, PARTS>> {
+        let mut board = Board::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
+        board.booted(Boot::default());
+        Ok(board)
+    }
+
+    /// The board starts anew, with what is stored.
+    fn restart(&self, board: &mut Board<TAXELS, RUNS, PARTS>, flash: &mut SimFlash) -> Result<()> {
+        *board = self.board()?;
+        let found = Store::new(flash, 0..SimFlash::BYTES)?.load(board)?;
+        let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
+        board.booted(Boot { cause: BootCause::Request, resets: 0, aside });
+        Ok(())
+    }
+
     /// One round of the script, or round after round, each on the board's time after the last.
     fn all(&self, board: &mut Board<TAXELS, RUNS, PARTS>, link: BoardEnd) {
         let mut offset_us = 0;
@@ -152,12 +171,19 @@ impl Play {
                 end: Micros(offset_us + self.end_us),
                 link: &link,
                 flash: &mut flash,
+                restarts: false,
                 origin: self.realtime.then_some(&mut origin),
             };
             let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
             let mut ends = &link;
             block_on(run(&mut scan, &mut ends, &mut platform, board));
             offset_us = clock.now().0;
+            if platform.restarts && self.restart(board, &mut flash).is_ok() {
+                // Its time begins anew, and so does the script.
+                offset_us = 0;
+                origin = Instant::now();
+                continue;
+            }
             if link.is_alone() || !self.repeat {
                 break;
             }
@@ -193,6 +219,8 @@ struct Virtual<'a> {
     link: &'a BoardEnd,
     /// Holds what is saved for as long as the simulation runs.
     flash: &'a mut SimFlash,
+    /// The board is to start anew.
+    restarts: bool,
     /// When the board's time was 0, where it is not to run ahead.
     origin: Option<&'a mut Instant>,
 }
@@ -218,12 +246,21 @@ impl Platform for Virtual<'_> {
                 *origin += passed - due;
             }
         }
-        now < self.end && !self.link.is_alone()
+        now < self.end && !self.link.is_alone() && !self.restarts
     }
 
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
         let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
         store.save(settings).map_err(StoreError::sentence)
+    }
+
+    fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
+        let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
+        store.put_aside(!undo).map_err(StoreError::sentence)
+    }
+
+    fn restart(&mut self) {
+        self.restarts = true;
     }
 
     async fn idle(&mut self, until: Micros) {

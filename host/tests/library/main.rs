@@ -24,3 +24,4 @@ mod store;
 mod tables;
 mod touch;
 mod view_recording;
+mod watchdog;

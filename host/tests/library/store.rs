@@ -1,12 +1,14 @@
 //! Settings in flash: what was stored is what is loaded, also where the power fails at any step of a save.
 
 use taxel::sim::{Cut, SimFlash};
-use taxel_core::board::{Board, BoardInfo, Part, Saved, Settings};
+use taxel_core::acquire::ScanError;
+use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved, Settings};
 use taxel_core::condition::Certificate;
-use taxel_core::format::name;
+use taxel_core::format::{Micros, name};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
-use taxel_store::{Store, StoreError};
+use taxel_core::wire::{Request, encode};
+use taxel_store::{Found, Store, StoreError};
 
 /// Random numbers, always the same.
 struct Random(u32);
@@ -28,6 +30,9 @@ struct Kept {
     calibration: Option<Certificate>,
 }
 
+/// Saves that are left, as every save here says.
+const SAVES: u8 = 7;
+
 impl Kept {
     fn new(garment: Garment, taxels: usize) -> Kept {
         Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None, calibration: None }
@@ -41,6 +46,7 @@ impl Kept {
             ill: &[],
             baseline: self.baseline.as_deref(),
             calibration: self.calibration.as_ref(),
+            saves: SAVES,
         }
     }
 
@@ -93,7 +99,7 @@ fn load_from<const TAXELS: usize>(
     let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let found = Store::new(flash, range).unwrap().load(&mut board)?;
     let Settings { garment, scene, gain, baseline, calibration, .. } = board.settings();
-    Ok(found.then(|| Kept {
+    Ok((found == Found::Settings).then(|| Kept {
         garment: garment.clone(),
         scene: scene.clone(),
         gain: gain.to_vec(),
@@ -193,4 +199,75 @@ fn a_part_that_does_not_fit_leaves_the_others() {
     assert_eq!((found.garment, found.gain, found.calibration), (Garment::block(), vec![4096; 64], None));
     let mut buffer = [0; 4000];
     assert!(kept.settings().write(Part::Gain, &mut buffer).is_err());
+}
+
+/// What a board that starts finds, what it wears then, and how many saves it has left.
+fn start(flash: &mut SimFlash) -> (Found, Garment, usize) {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
+    let found = Store::new(flash, range(64)).unwrap().load(&mut board).unwrap();
+    let garment = board.settings().garment.clone();
+    let mut wire = [0; 64];
+    let save = encode(&Request::Save, &mut wire).unwrap();
+    // All within seconds: none is granted again.
+    let (mut saves, mut now) = (0, Micros(1_000));
+    while saves < 99 {
+        board.step(now, Input::Received(save), &mut ());
+        let asked = (0..9).any(|_| {
+            now.0 += 50_000;
+            let job = board.step(now, Input::Tick, &mut ());
+            if let Some(Job::Scan(_)) = job {
+                board.step(now, Input::Scanned(Err(ScanError::Conversion)), &mut ());
+            }
+            job == Some(Job::Save)
+        });
+        if !asked {
+            break;
+        }
+        board.step(now, Input::Saved(Ok(Saved::Written)), &mut ());
+        saves += 1;
+    }
+    (found, garment, saves)
+}
+
+#[test]
+fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
+    let mut flash = SimFlash::default();
+    let aside = |flash: &mut SimFlash, aside| Store::new(flash, range(64)).unwrap().put_aside(aside);
+    assert_eq!(aside(&mut flash, true), Ok(Saved::Unchanged), "there is nothing to be put aside");
+    let worn = Garment { name: name("worn"), ..Garment::block() };
+    let kept = Kept::new(worn.clone(), 64);
+    save(&mut flash, &kept).unwrap();
+    assert_eq!(start(&mut flash), (Found::Settings, worn.clone(), SAVES.into()));
+    assert_eq!([true, true].map(|it| aside(&mut flash, it)), [Ok(Saved::Written), Ok(Saved::Unchanged)]);
+    assert_eq!(start(&mut flash), (Found::Aside, Garment::block(), SAVES.into()), "the quota stays");
+    assert_eq!(aside(&mut flash, false), Ok(Saved::Written));
+    assert_eq!(start(&mut flash).1, worn);
+    aside(&mut flash, true).unwrap();
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "the same again, but in force");
+    assert_eq!(start(&mut flash).1, worn);
+}
+
+#[test]
+fn power_may_fail_while_settings_are_put_aside() {
+    let mut flash = SimFlash::default();
+    let worn = Garment { name: name("worn"), ..Garment::block() };
+    save(&mut flash, &Kept::new(worn.clone(), 64)).unwrap();
+    for round in 0..40 {
+        let (before, old) = (flash.clone(), start(&mut flash));
+        Store::new(&mut flash, range(64)).unwrap().put_aside(round % 2 == 0).unwrap();
+        let new = start(&mut flash);
+        assert_ne!(old, new);
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                let end = Store::new(&mut torn, range(64)).unwrap().put_aside(round % 2 == 0);
+                assert_eq!(end, Err(StoreError::Flash));
+                torn.restore_power();
+                let found = start(&mut torn);
+                assert!(found == old || found == new, "round {round}, step {step}, {cut:?}: {found:?}");
+            }
+        }
+    }
 }

@@ -19,13 +19,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, setup, monitor, examined, certificate, unsure, taught } = about;
+        let About { info, boot, setup, monitor, examined, certificate, unsure, taught } = about;
         let under_way = &mut self.under_way;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
+            self.greeted = true;
             put_hello(under_way, now, info, setup, certificate)
+        } else if let Some(boot) = boot.filter(|_| core::mem::take(&mut self.greeted)) {
+            under_way.put(Report::BOOT, &boot)
         } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
             under_way.put(Report::SELF_TEST, report)
         } else if let Some((request, refusal)) = self.answers.pop_front() {

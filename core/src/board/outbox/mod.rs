@@ -8,6 +8,7 @@ use super::refusal::Refusal;
 use super::under_way::UnderWay;
 use super::{BoardInfo, Setup};
 use super::{Codes, Sentence};
+use crate::boot::Boot;
 use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros, Q15};
 use crate::health::Monitor;
@@ -24,6 +25,8 @@ use heapless::{Deque, Vec};
 #[derive(Clone, Copy)]
 pub(super) struct About<'a> {
     pub info: &'a BoardInfo,
+    /// How it came to start.
+    pub boot: Option<Boot>,
     pub setup: &'a Setup,
     pub monitor: &'a Monitor,
     /// The last self-test of lines and inputs.
@@ -44,6 +47,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     under_way: UnderWay,
     streaming: bool,
     hello: Option<Micros>,
+    /// A `Hello` has gone; how the board came to start is told next.
+    greeted: bool,
     synced: Deque<(u32, Micros), 4>,
     answers: Deque<(u8, Option<Refusal>), 8>,
     logs: Deque<(Level, Sentence), 4>,
@@ -95,6 +100,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             under_way: UnderWay::new(),
             streaming: false,
             hello: Some(Micros(0)),
+            greeted: false,
             synced: Deque::new(),
             answers: Deque::new(),
             logs: Deque::new(),

@@ -86,6 +86,14 @@ impl Platform for Until {
         Err("there is no flash")
     }
 
+    fn reset_settings(&mut self, _: bool) -> Result<Saved, &'static str> {
+        Err("there is no flash")
+    }
+
+    fn restart(&mut self) {
+        self.end = self.now();
+    }
+
     async fn idle(&mut self, until: Micros) {
         self.clock.advance_to(until.0.min(self.now().0 + 1000));
     }

@@ -1,0 +1,96 @@
+//! The word that survives a reset.
+
+/// Upper half of a word that is ours; what stands there after a power-up is not.
+const MAGIC: u32 = 0x7ac5;
+/// Saves that are left where that is not known.
+const UNKNOWN: u8 = 15;
+
+/// How a life of the board ended, if it did not simply stop.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// It has not ended yet, or nobody could say.
+    #[default]
+    Running = 0,
+    /// It panicked.
+    Panic = 1,
+    /// A host asked for it.
+    Request = 2,
+}
+
+/// What is known from the life before.
+///
+/// | bits | field |
+/// |---|---|
+/// | 31..16 | [`MAGIC`] |
+/// | 15..14 | `ending` |
+/// | 13 | `aside` |
+/// | 11..8 | `saves`, 15 where it is not known |
+/// | 7..0 | `resets` |
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Kept {
+    /// How the life ended.
+    pub ending: Ending,
+    /// The stored settings stay aside until the power goes, or something is saved.
+    pub aside: bool,
+    /// Saves that were left.
+    pub saves: Option<u8>,
+    /// Resets by watchdog or panic, none of them a minute after the one before.
+    pub resets: u8,
+}
+
+impl Kept {
+    /// What a word says; none if it is not ours.
+    pub fn read(word: u32) -> Option<Kept> {
+        if word >> 16 != MAGIC {
+            return None;
+        }
+        let ending = match word >> 14 & 3 {
+            0 => Ending::Running,
+            1 => Ending::Panic,
+            2 => Ending::Request,
+            _ => return None,
+        };
+        let saves = (word >> 8 & 15) as u8;
+        let saves = Some(saves).filter(|saves| *saves != UNKNOWN);
+        Some(Kept { ending, aside: word >> 13 & 1 == 1, saves, resets: word as u8 })
+    }
+
+    /// The word that says it.
+    pub fn word(self) -> u32 {
+        let saves = self.saves.map_or(UNKNOWN, |saves| saves.min(UNKNOWN - 1));
+        let flags = (self.ending as u32) << 14 | u32::from(self.aside) << 13;
+        MAGIC << 16 | flags | u32::from(saves) << 8 | u32::from(self.resets)
+    }
+}
+
+/// The word to keep in place of `word` by a board that panics.
+pub fn panicked(word: u32) -> u32 {
+    Kept { ending: Ending::Panic, ..Kept::read(word).unwrap_or_default() }.word()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_is_read_as_it_was_written_or_is_not_ours() {
+        let mut ours = 0;
+        for low in 0..=u32::from(u16::MAX) {
+            let Some(kept) = Kept::read(MAGIC << 16 | low) else { continue };
+            ours += 1;
+            // Bit 12 says nothing.
+            assert_eq!(kept.word(), MAGIC << 16 | low & !(1 << 12));
+        }
+        assert_eq!(ours, 3 << 14);
+        for word in [0, u32::MAX, 0xb007_c0d3, 0x7ac4_0000] {
+            assert_eq!(Kept::read(word), None);
+        }
+    }
+
+    #[test]
+    fn a_panic_keeps_the_rest_of_the_word() {
+        let kept = Kept { ending: Ending::Running, aside: true, saves: Some(3), resets: 2 };
+        assert_eq!(Kept::read(panicked(kept.word())), Some(Kept { ending: Ending::Panic, ..kept }));
+        assert_eq!(Kept::read(panicked(0)), Some(Kept { ending: Ending::Panic, ..Kept::default() }));
+    }
+}

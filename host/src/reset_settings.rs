@@ -1,0 +1,78 @@
+//! `taxel reset-settings`: a board begins with what ships, and keeps aside what was saved to it.
+
+use crate::client::{Client, Event};
+use crate::fault::Fault;
+use crate::live::{self, LiveArgs, Show};
+use crate::source::{self, SourceOptions, SourceSpec};
+use anyhow::{Result, bail};
+use clap::Args;
+use std::time::{Duration, Instant};
+use taxel_core::wire::Request;
+
+/// Arguments of `taxel reset-settings`.
+#[derive(Debug, Clone, Args)]
+pub struct ResetSettingsArgs {
+    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// Use again what was put aside
+    #[arg(long)]
+    pub undo: bool,
+}
+
+/// Longest time until the board has answered.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// Number of the answer to a request that the board could not read.
+const UNREADABLE: u8 = 255;
+
+/// Runs the command.
+pub fn run(args: &ResetSettingsArgs) -> Result<()> {
+    let source = source::open(&args.source, &SourceOptions::default())?;
+    let label = source.label.clone();
+    let mut asking = Asking { undo: args.undo, begun: Instant::now(), asked: false, done: false };
+    live::watch(&LiveArgs::of(args.source.clone()), source, &mut asking)?;
+    if !asking.done {
+        bail!(Fault::board(format!("{label} ended before it had answered")));
+    }
+    match args.undo {
+        true => println!("{label} starts again with the settings that were saved to it."),
+        false => println!(
+            "{label} starts again with what ships. Saved settings are kept aside until the next `taxel save`; \
+             `taxel reset-settings --undo` uses them again."
+        ),
+    }
+    Ok(())
+}
+
+/// Asks once the board is known, and waits for its answer.
+struct Asking {
+    undo: bool,
+    begun: Instant,
+    asked: bool,
+    done: bool,
+}
+
+impl Show for Asking {
+    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+        let Event::Answer { request, refusal } = event else { return Ok(()) };
+        match refusal {
+            None => self.done |= *request == Request::ResetSettings { undo: false }.number(),
+            Some(_) if self.asked && *request == UNREADABLE => {
+                bail!(Fault::board("the board's firmware cannot do this: flash the firmware of this version"))
+            }
+            Some(why) => bail!(Fault::board(format!("the board refuses: {why}"))),
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if !self.asked && client.worn().is_some() {
+            client.request(&Request::ResetSettings { undo: self.undo })?;
+            self.asked = true;
+        }
+        if !self.done && self.begun.elapsed() > PATIENCE {
+            bail!(Fault::board("the board does not answer"));
+        }
+        Ok(!self.done)
+    }
+}
