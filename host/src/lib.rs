@@ -39,6 +39,7 @@ pub mod replay;
 pub mod report;
 pub mod save;
 pub mod scenes;
+pub mod serve;
 pub mod session;
 pub mod settle;
 pub mod setup;

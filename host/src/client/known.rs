@@ -51,7 +51,7 @@ impl Client {
         self.growths.hardness(contact, self.layout()?)
     }
 
-    /// Ids of the contacts that have gone with the last frame.
+    /// Ids of the contacts that have gone with the last frame; of very many, the last 1,024.
     pub fn released(&self) -> &[u32] {
         &self.released
     }
