@@ -103,7 +103,8 @@ fn is_drive(place: &Path) -> bool {
     fs::read_to_string(place.join(TELLS.0)).is_ok_and(|text| text.contains(TELLS.1))
 }
 
-/// Whether this is a whole UF2 for an RP2040 that writes its program, in one piece, and nothing else; errors name the block.
+/// Whether this is a whole UF2 for an RP2040 that writes its program, in one piece, and nothing else; errors
+/// name the block.
 fn check(image: &[u8]) -> Result<()> {
     let (blocks, rest) = image.as_chunks::<BLOCK>();
     ensure!(
@@ -132,7 +133,8 @@ fn check(image: &[u8]) -> Result<()> {
             PROGRAM.start,
             PROGRAM.end - 1
         );
-        // The first is at the beginning, where the boot loader looks for a program; gaps would leave what was there before.
+        // The first is at the beginning, where the boot loader looks for a program; gaps would leave what was
+        // there before.
         let expected = PROGRAM.start + PAGE * index as u32;
         ensure!(
             address == expected,

@@ -10,7 +10,8 @@ use zip::ZipArchive;
 
 /// What the file of an array has behind the array's name.
 const ENDING: &str = ".npy";
-/// Memory that the frames of all arrays may take beyond the size of the archive: one of some megabytes may become gigabytes.
+/// Memory that the frames of all arrays may take beyond the size of the archive: one of some megabytes may
+/// become gigabytes.
 const BEYOND: u64 = 128 << 20;
 
 /// An open archive.

@@ -1,11 +1,13 @@
-//! Sets a board again that has started anew: one request after the other, each answered before the next is made.
+//! Sets a board again that has started anew: one request after the other, each answered before the next is
+//! made.
 
 use super::wanted::Wish;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
 
-/// How long an answer may take before the request is made again, and how long that of a tare, which comes when it is done.
+/// How long an answer may take before the request is made again, and how long that of a tare, which comes when
+/// it is done.
 const PATIENCE: Duration = Duration::from_secs(2);
 const TARE: Duration = Duration::from_secs(90);
 /// Times that a request is made.

@@ -48,8 +48,8 @@ pub(crate) fn request_name(number: u8) -> &'static str {
 
 /// Requests.
 impl Client {
-    /// Asks for everything, also from a board that starts anew later, which is then asked for all that was set before; and for a tare
-    /// over `tare` frames, unless 0.
+    /// Asks for everything, also from a board that starts anew later, which is then asked for all that was set
+    /// before; and for a tare over `tare` frames, unless 0.
     pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
         self.streaming = true;
         self.request(&Request::Start)?;
@@ -70,7 +70,8 @@ impl Client {
         Ok(())
     }
 
-    /// Hands on what waits, in its order, while the board has not too much to answer and is not being set again.
+    /// Hands on what waits, in its order, while the board has not too much to answer and is not being set
+    /// again.
     pub(super) fn release(&mut self) {
         while !self.is_restoring()
             && let Some((frame, sets)) =

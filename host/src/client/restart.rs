@@ -46,10 +46,10 @@ impl Life {
 
 /// Restarts.
 impl Client {
-    /// The link was lost and is open again: what is left of the last message is no part of the next, and the board is asked to stream.
-    /// Whether it has lived on meanwhile, its messages tell.
+    /// The link was lost and is open again: what is left of the last message is no part of the next, and the
+    /// board is asked to stream. Whether it has lived on meanwhile, its messages tell.
     pub fn reconnected(&mut self) {
-        self.receiver = Box::new(Receiver::new());
+        *self.receiver = Receiver::new();
         self.line.clear();
         self.requests = vec![0];
         self.syncs.restart();

@@ -14,8 +14,8 @@ const CALIBRATION: u8 = 15;
 /// Requests without an answer that are remembered at most; of more, the board is taken to have done the oldest.
 const OPEN: usize = 4096;
 
-/// What a request sets, in the order in which everything is set again: the garment first, because it undoes the gains; the start
-/// before the tare, whose answer takes a while.
+/// What a request sets, in the order in which everything is set again: the garment first, because it undoes the
+/// gains; the start before the tare, whose answer takes a while.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Garment,
@@ -144,7 +144,8 @@ impl Wanted {
         self.asked.iter().any(|(key, _, since)| *key != Key::Tare && since.elapsed() > patience)
     }
 
-    /// What a board is to be asked for that knows nothing, in order; what it has not answered counts as asked for anew.
+    /// What a board is to be asked for that knows nothing, in order; what it has not answered counts as asked
+    /// for anew.
     pub fn all(&mut self) -> VecDeque<Wish> {
         self.settle();
         let start = encoded(&Request::Start).map(|frame| (Key::Start, frame));
@@ -155,8 +156,8 @@ impl Wanted {
         all.into_values().collect()
     }
 
-    /// What a board is to be asked for that seems to have lived on: what it has not answered, and what its `Hello` does not prove, but
-    /// no tare.
+    /// What a board is to be asked for that seems to have lived on: what it has not answered, and what its
+    /// `Hello` does not prove, but no tare.
     pub fn unproven(&mut self) -> VecDeque<Wish> {
         let open: Vec<u8> = self.asked.iter().map(|(_, setting, _)| setting.number).collect();
         let proven = [
@@ -224,4 +225,70 @@ impl Setting {
 fn encoded(request: &Request<'_>) -> Option<Vec<u8>> {
     let mut room = [0; frame_bound(LONGEST_REQUEST)];
     encode(request, &mut room).ok().map(|frame| frame.to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel_core::format::{Q15, name};
+    use taxel_core::gesture::GestureConfig;
+    use taxel_core::wire::open;
+
+    fn ask(wanted: &mut Wanted, request: &Request<'_>) {
+        let frame = encoded(request).unwrap();
+        wanted.ask(Sets::of(request, &frame).unwrap());
+    }
+
+    fn numbers(wanted: &mut Wanted) -> Vec<u8> {
+        wanted.all().iter().map(|wish| wish.number).collect()
+    }
+
+    #[test]
+    fn a_value_grows_older_while_it_waits() {
+        let mut wanted = Wanted::default();
+        let feed =
+            Feed { concept: name("warmth"), value: Q15(1), age_ms: 70, lasts_ms: 900, otherwise: Q15(2) };
+        ask(&mut wanted, &Request::Feed(feed.clone()));
+        std::thread::sleep(Duration::from_millis(20));
+        let mut frame = wanted.all().pop_front().unwrap().frame;
+        frame.pop();
+        let Request::Feed(told) = decode::<Request<'_>>(open(&mut frame).unwrap()).unwrap() else { panic!() };
+        assert!((90..5000).contains(&told.age_ms), "{}", told.age_ms);
+        assert_eq!(Feed { age_ms: 70, ..told }, feed);
+    }
+
+    #[test]
+    fn what_is_refused_undone_or_replaced_is_not_asked_for_again() {
+        let mut wanted = Wanted::default();
+        let start = Request::Start.number();
+        assert_eq!(numbers(&mut wanted), [start]);
+        for request in [
+            Request::SetGain { first: 64, gains: Default::default() },
+            Request::SetGain { first: 0, gains: Default::default() },
+            Request::Tare { frames: 9 },
+            Request::SetShapes(&[1]),
+            Request::AddShapes(&[2]),
+            Request::AddShapes(&[3]),
+            Request::SetGestures(Some(GestureConfig::default())),
+        ] {
+            ask(&mut wanted, &request);
+            wanted.answered(request.number(), true);
+        }
+        assert_eq!(numbers(&mut wanted), [11, 11, 16, 17, 17, 14, start, 2]);
+        for (request, is_done) in [
+            (Request::SetScene(&[9]), false),
+            (Request::SetGestures(None), true),
+            (Request::SetShapes(&[]), true),
+            (Request::SetGarment(&[9]), true),
+        ] {
+            ask(&mut wanted, &request);
+            wanted.answered(request.number(), is_done);
+        }
+        assert_eq!(numbers(&mut wanted), [0, start], "a garment undoes gains and tare");
+        // What the board has not answered counts as asked for.
+        ask(&mut wanted, &Request::SetScene(&[7]));
+        ask(&mut wanted, &Request::Budget { hz: 3 });
+        assert_eq!(wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>(), [1, start, 12]);
+        assert_eq!(wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>(), [start, 12]);
+    }
 }

@@ -1,4 +1,5 @@
-//! Names of the arrays of an archive: a garment's panel may be called whatever its author likes, and an archive is unpacked.
+//! Names of the arrays of an archive: a garment's panel may be called whatever its author likes, and an archive
+//! is unpacked.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +13,8 @@ impl Entries {
         Entries(names.map(String::from).collect())
     }
 
-    /// The name of the array of a panel: letters, digits, spaces, `-`, `_` and `.` as they are, anything else as `_`; none begins with
-    /// a dot, and none is another array's.
+    /// The name of the array of a panel: letters, digits, spaces, `-`, `_` and `.` as they are, anything else
+    /// as `_`; none begins with a dot, and none is another array's.
     pub fn add(&mut self, panel: &str) -> String {
         let plain = |sign: char| if sign.is_alphanumeric() || " -_.".contains(sign) { sign } else { '_' };
         let mut name: String = panel.chars().map(plain).collect();

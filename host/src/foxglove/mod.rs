@@ -1,8 +1,9 @@
 //! `taxel foxglove`: what a board tells, live in Foxglove and whatever else speaks its WebSocket protocol.
 //!
 //! The channels are those of a recording, with their schemas (see [`record`](crate::record)). The server only tells: nothing can be asked
-//! of the board. It listens on this machine alone, and lets in programs, pages of this machine, and of other sites those of Foxglove
-//! alone and what `--allow-origin` names. A client that reads too slowly misses messages, and is told so; it never slows the board's stream.
+//! of the board. It listens on this machine alone, and lets in programs, pages of this machine, and of other
+//! sites those of Foxglove alone and what `--allow-origin` names. A client that reads too slowly misses
+//! messages, and is told so; it never slows the board's stream.
 
 mod hub;
 mod protocol;
@@ -31,7 +32,8 @@ pub struct FoxgloveArgs {
     /// Port on this machine: Foxglove looks for 8765; 0: any that is free
     #[arg(long, value_name = "N", default_value_t = 8765)]
     pub port: u16,
-    /// Also let in pages of this site: https://viewer.example.org [default: Foxglove's, and those of this machine]
+    /// Also let in pages of this site: https://viewer.example.org [default: Foxglove's, and those of this
+    /// machine]
     #[arg(long, value_name = "SITE")]
     pub allow_origin: Vec<String>,
 }

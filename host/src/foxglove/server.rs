@@ -19,7 +19,8 @@ const LONGEST: usize = 1 << 16;
 /// Where Foxglove itself is served from.
 const FOXGLOVE: [&str; 2] = ["https://app.foxglove.dev", "https://studio.foxglove.dev"];
 
-/// Serves a hub's channels of a source from a thread of its own; the port. Pages of these `sites` are let in beside Foxglove's own.
+/// Serves a hub's channels of a source from a thread of its own; the port. Pages of these `sites` are let in
+/// beside Foxglove's own.
 pub fn serve(listener: TcpListener, hub: Arc<Hub>, label: &str, sites: &[String]) -> Result<u16> {
     let hello = [protocol::server_info(label), protocol::advertise()];
     let sites: Vec<String> = FOXGLOVE.into_iter().map(String::from).chain(sites.iter().cloned()).collect();

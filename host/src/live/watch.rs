@@ -19,7 +19,8 @@ use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 
-/// How long a board that says nothing, or a source that is gone, is waited for where somebody watches for some time only.
+/// How long a board that says nothing, or a source that is gone, is waited for where somebody watches for some
+/// time only.
 const SILENCE: Duration = Duration::from_secs(10);
 /// How long nothing is said of a board that says nothing.
 const QUIET: Duration = Duration::from_secs(3);

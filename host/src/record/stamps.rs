@@ -19,7 +19,8 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// The host's time, ns since 1970, as recordings have it; a time beyond what they can say is the last that they can.
+    /// The host's time, ns since 1970, as recordings have it; a time beyond what they can say is the last that
+    /// they can.
     pub fn host_ns(&self) -> u64 {
         self.host_us.saturating_mul(NS)
     }

@@ -1,5 +1,6 @@
-//! Records whose texts lie within them. The crate `mcap` asks for as much memory as a text says that it is long, up to 4 GB each,
-//! before it looks whether there is so much; and it takes for granted that an attached file has its checksum.
+//! Records whose texts lie within them. The crate `mcap` asks for as much memory as a text says that it is
+//! long, up to 4 GB each, before it looks whether there is so much; and it takes for granted that an attached
+//! file has its checksum.
 
 use mcap::records::{Record, op};
 use mcap::{McapError, McapResult};

@@ -114,3 +114,19 @@ impl Strip<'_> {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strip_of_any_times_has_an_end() {
+        let last = u64::MAX;
+        for span in [[0, 0], [0, last], [last, last], [last - 1000, last], [last, 0], [1, 60_000_000]] {
+            let points = vec![(span[0], vec![1.0]), (span[1], vec![2.0])];
+            let strip = Strip { names: vec!["a"], points, label: "N", steps: true, span };
+            let drawn = strip.draw();
+            assert!(drawn.ends_with("</svg>\n") && drawn.len() < 10_000, "{span:?}: {} bytes", drawn.len());
+        }
+    }
+}

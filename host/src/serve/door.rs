@@ -1,5 +1,5 @@
-//! Who is let in: a thread that accepts, and one for each guest. Where all places are taken, who has been served longest goes, unless
-//! he may stay; so whoever holds connections open keeps nobody out.
+//! Who is let in: a thread that accepts, and one for each guest. Where all places are taken, who has been
+//! served longest goes, unless he may stay; so whoever holds connections open keeps nobody out.
 
 use anyhow::{Context, Result};
 use std::net::{Shutdown, TcpListener, TcpStream};
@@ -43,8 +43,8 @@ impl Drop for Guest {
     }
 }
 
-/// Lets guests in, so many at a time beside those that stay, and serves each from a thread of its own; the port. `name` is that of
-/// the threads.
+/// Lets guests in, so many at a time beside those that stay, and serves each from a thread of its own; the
+/// port. `name` is that of the threads.
 pub fn open(
     name: &'static str,
     listener: TcpListener,

@@ -1,4 +1,5 @@
-//! As much of HTTP as servers on this machine need: the head of a request, and an answer after which the connection is closed.
+//! As much of HTTP as servers on this machine need: the head of a request, and an answer after which the
+//! connection is closed.
 
 use std::io::{self, Read, Write};
 use std::time::{Duration, Instant};
@@ -7,7 +8,8 @@ use std::time::{Duration, Instant};
 const HEAD: usize = 16 * 1024;
 /// How long a request may take to come.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in places, makes functions.
+/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in
+/// places, makes functions.
 const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
                       style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; \
                       frame-ancestors 'none'; base-uri 'none'";
@@ -116,8 +118,8 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
     Ok(Some(Request { path, key, protocols, rest: bytes.get(length..).unwrap_or_default().to_vec() }))
 }
 
-/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in. The port may be another
-/// one, where it is forwarded.
+/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in.
+/// The port may be another one, where it is forwarded.
 fn check_names(host: &str, has_origin: bool, origin: Option<&str>, sites: Sites<'_>) -> Result<(), Refusal> {
     if !is_this_machine(host) {
         return Err(refusal(

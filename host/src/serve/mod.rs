@@ -1,4 +1,5 @@
-//! What stands before both servers of this program, the page's and Foxglove's, so that none of their guests shuts others out.
+//! What stands before both servers of this program, the page's and Foxglove's, so that none of their guests
+//! shuts others out.
 //!
 //! | file | holds |
 //! |---|---|

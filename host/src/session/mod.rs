@@ -10,9 +10,10 @@
 //! # Ok::<(), anyhow::Error>(())
 //! ```
 //!
-//! A board that restarts, is unplugged or whose connection breaks comes back by itself, and gets everything again that was set:
-//! garment, scene, gains and calibration, shapes, gestures, feeds, tare. That the stream had a gap is told by an [`Event::Log`] of
-//! the host's own, when it begins and when it has ended. A board that refuses what it had taken before is an error.
+//! A board that restarts, is unplugged or whose connection breaks comes back by itself, and gets everything
+//! again that was set: garment, scene, gains and calibration, shapes, gestures, feeds, tare. That the stream
+//! had a gap is told by an [`Event::Log`] of the host's own, when it begins and when it has ended. A board that
+//! refuses what it had taken before is an error.
 //!
 //! | file | holds |
 //! |---|---|
@@ -34,7 +35,8 @@ use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Level, Request};
 
-/// A board that streams says something each second: one that is silent for that long is gone, whatever its link says.
+/// A board that streams says something each second: one that is silent for that long is gone, whatever its link
+/// says.
 const SILENCE: Duration = Duration::from_secs(5);
 /// How long a board may leave a request unanswered before all is set again.
 const ANSWER: Duration = Duration::from_secs(3);
@@ -86,8 +88,8 @@ pub enum Turn {
 }
 
 impl Session {
-    /// Connects by the words of `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`, `tcp:HOST:PORT` ...) and asks for
-    /// everything, after a tare where a simulation wants one.
+    /// Connects by the words of `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`, `tcp:HOST:PORT`
+    /// ...) and asks for everything, after a tare where a simulation wants one.
     pub fn open(source: &str) -> Result<Session> {
         let spec: SourceSpec =
             source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
@@ -147,7 +149,8 @@ impl Session {
         Ok(self.client.request(request)?)
     }
 
-    /// What comes within the next short while (10 ms to a second, as the link is): none where nothing is whole yet.
+    /// What comes within the next short while (10 ms to a second, as the link is): none where nothing is whole
+    /// yet.
     pub fn poll(&mut self) -> Result<Poll> {
         if let Some(event) = self.next_event().or_else(|| self.note()) {
             return Ok(Poll::Event(event));
@@ -158,7 +161,8 @@ impl Session {
         })
     }
 
-    /// Waits for the next event; none: the stream has ended. The [`client`](Session::client) is in the state after it.
+    /// Waits for the next event; none: the stream has ended. The [`client`](Session::client) is in the state
+    /// after it.
     pub fn wait(&mut self) -> Result<Option<Event>> {
         loop {
             match self.poll()? {
@@ -169,8 +173,8 @@ impl Session {
         }
     }
 
-    /// Sends what waits, having shown it to `sent`, and reads what has come. An error: the source is gone for good, or its board
-    /// does not take what it had taken before.
+    /// Sends what waits, having shown it to `sent`, and reads what has come. An error: the source is gone for
+    /// good, or its board does not take what it had taken before.
     pub fn turn(&mut self, sent: &mut dyn FnMut(&Client, &[u8]) -> Result<()>) -> Result<Turn> {
         self.buffer.clear();
         self.taken = 0;

@@ -68,7 +68,8 @@ pub fn usb() -> Result<Source> {
 /// Opens a serial port by its name.
 pub fn port(path: &str, baud: u32) -> Result<Source> {
     let serial = Serial::open(path, baud)?;
-    // A name that leads to the port (`/dev/serial/by-id/...`) is none of those that are listed, and comes back by itself.
+    // A name that leads to the port (`/dev/serial/by-id/...`) is none of those that are listed, and comes back
+    // by itself.
     let listed = ports().into_iter().find(|port| port.port_name == path);
     let port = listed.unwrap_or_else(|| SerialPortInfo {
         port_name: path.into(),
@@ -87,8 +88,8 @@ fn named(label: String, port: SerialPortInfo, serial: Serial, baud: u32) -> Sour
     Source::real(label, serial, move || returned(&port, ports(), baud))
 }
 
-/// Opens the port on which a board is that was unplugged: the one that says the same of itself, whatever it is called now, or the one
-/// of its name, where ports say nothing of themselves.
+/// Opens the port on which a board is that was unplugged: the one that says the same of itself, whatever it is
+/// called now, or the one of its name, where ports say nothing of themselves.
 fn returned(lost: &SerialPortInfo, ports: Vec<SerialPortInfo>, baud: u32) -> Result<Source> {
     let found = match usb_of(lost) {
         Some(_) => back(lost, &ports).context("it is not plugged in")?,
@@ -237,7 +238,7 @@ mod tests {
         };
         let lost = with(board("ttyACM0"), "A1");
         let other = with(board("ttyACM0"), "B2");
-        assert_eq!(found(&lost, &[other.clone()]), None, "another board has taken its name");
+        assert_eq!(found(&lost, std::slice::from_ref(&other)), None, "another board has taken its name");
         assert_eq!(found(&lost, &[other, with(board("ttyACM3"), "A1")]).as_deref(), Some("ttyACM3"));
         // Boards without a number: the only one, or the one of its name.
         assert_eq!(found(&board("ttyACM0"), &[board("ttyACM1")]).as_deref(), Some("ttyACM1"));
@@ -245,7 +246,7 @@ mod tests {
         assert_eq!(found(&board("ttyACM0"), &two).as_deref(), Some("ttyACM0"));
         assert_eq!(found(&board("ttyACM7"), &two), None);
         let plain = SerialPortInfo { port_name: "ttyS0".into(), port_type: SerialPortType::PciPort };
-        assert_eq!(found(&plain, &[plain.clone()]), None, "it is opened by its name");
+        assert_eq!(found(&plain, std::slice::from_ref(&plain)), None, "it is opened by its name");
     }
 
     #[test]

@@ -23,12 +23,13 @@ use anyhow::Result;
 use std::io;
 use std::time::Duration;
 
-/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it. An error means that the
-/// link is broken.
+/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it. An
+/// error means that the link is broken.
 pub trait Port: Send {
     /// Bytes that have come, after a short wait if there are none (then 0); none: no more will come.
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
-    /// Sends as many of the bytes as the other end takes within a short while: how many; it may read slowly, or not at all.
+    /// Sends as many of the bytes as the other end takes within a short while: how many; it may read slowly, or
+    /// not at all.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
     /// What is to be said of it at the end.
     fn remark(&self) -> Option<String> {

@@ -20,7 +20,8 @@ pub use self::toml::toml;
 
 use std::error::Error;
 
-/// An error and its causes as one sentence on one line, without what a terminal would obey: causes quote files and boards.
+/// An error and its causes as one sentence on one line, without what a terminal would obey: causes quote files
+/// and boards.
 pub fn sentence(error: &anyhow::Error) -> String {
     let causes: Vec<String> = error.chain().map(cause).collect();
     let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");

@@ -6,8 +6,8 @@ use std::fmt::Write;
 /// What stands in the place of a sign that a terminal obeys.
 const STANDS: &str = "?";
 
-/// Whether a terminal obeys a sign, or shows what stands beside it elsewhere: control codes, ends of lines and of paragraphs,
-/// turns of the direction of writing.
+/// Whether a terminal obeys a sign, or shows what stands beside it elsewhere: control codes, ends of lines and
+/// of paragraphs, turns of the direction of writing.
 fn is_obeyed(sign: char) -> bool {
     let turns = matches!(sign, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     sign.is_control() || turns

@@ -13,8 +13,8 @@
 //! | `observation.tactile.intent` | f32 \[concepts\] | activation of each concept of the map, -1 ..= 1, where there is one |
 //! | `timestamp`, `frame_index`, `episode_index`, `index`, `task_index` | f32, i64 | LeRobot's own |
 //!
-//! LeRobot wants whole frames a second, evenly: a row is the last image at its time, by the board's clock; see `sampler.rs` for
-//! what a leap of that clock becomes.
+//! LeRobot wants whole frames a second, evenly: a row is the last image at its time, by the board's clock; see
+//! `sampler.rs` for what a leap of that clock becomes.
 
 mod episode;
 mod features;

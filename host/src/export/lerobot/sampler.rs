@@ -1,7 +1,8 @@
 //! Images at even times: at each the last that there was.
 //!
-//! Where the time leaps, be it that the link was gone, that the board started anew, or that its clock is nonsense, nothing is known of
-//! what lies between: no row is made of it, and the next image stands in the next row.
+//! Where the time leaps, be it that the link was gone, that the board started anew, or that its clock is
+//! nonsense, nothing is known of what lies between: no row is made of it, and the next image stands in the next
+//! row.
 
 use std::num::NonZeroU16;
 

@@ -10,7 +10,8 @@ use taxel_core::react::Reaction;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Answer, GestureReport, Level, Log, ReactionReport, Report, ShapesReport};
 
-/// Clears a screen, sets a title, rings, goes back over the line, turns the text, and the same with a code of one sign.
+/// Clears a screen, sets a title, rings, goes back over the line, turns the text, and the same with a code of
+/// one sign.
 const EVIL: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\r\u{202e}\u{9b}2J";
 
 fn evil(text: &str) -> Name {

@@ -1,4 +1,5 @@
-//! Links of the system: a TCP connection that is closed, a serial port that is unplugged and comes back under the name that leads to it.
+//! Links of the system: a TCP connection that is closed, a serial port that is unplugged and comes back under
+//! the name that leads to it.
 
 use super::restored::{scene, until};
 use super::rig::Rig;
@@ -16,7 +17,8 @@ fn rounds() -> usize {
     if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 1000 } else { 50 }
 }
 
-/// Passes bytes between a stream and the board until its link is cut; then it goes. Nobody may have the other end open at first.
+/// Passes bytes between a stream and the board until its link is cut; then it goes. Nobody may have the other
+/// end open at first.
 fn pass(mut stream: impl Read + Write, rig: &Mutex<Rig>, link: u64) {
     let (mut buffer, mut met) = ([0; 1024], false);
     while rig.lock().unwrap().link == link {
@@ -64,6 +66,11 @@ fn breaks(spec: &str, rig: &Mutex<Rig>) {
         until(&mut session, |event| matches!(event, Event::Frame { .. }));
         assert_eq!(rig.lock().unwrap().scene(), &scene(), "round {round}");
     }
+    let kind = spec.split(':').next().unwrap_or_default();
+    println!(
+        "{kind}: {0} disconnects, every other one with a restart; {0} times back, everything set",
+        rounds()
+    );
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! What cannot be set again, and sources that do not come back: a loud error, and the status of a board at fault.
+//! What cannot be set again, and sources that do not come back: a loud error, and the status of a board at
+//! fault.
 
 use super::restored::{garment, told, until};
 use super::rig::{Rig, source};

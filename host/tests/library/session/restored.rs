@@ -133,6 +133,7 @@ fn everything_is_set_again_whatever_breaks() {
         assert_eq!(session.client().worn().unwrap().garment, garment());
         assert_eq!(session.client().worn().unwrap().scene, scene());
     }
+    println!("memory: {0} restarts, disconnects and both; {0} times everything set again in order", rounds());
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Files and clients that nobody means well: they end in a sentence, within a bounded memory, and shut nobody out.
+//! Files and clients that nobody means well: they end in a sentence, within a bounded memory, and shut nobody
+//! out.
 
 #[cfg(target_os = "linux")]
 mod bombs;
