@@ -11,9 +11,11 @@
 mod csv;
 mod npy;
 mod npz;
+mod room;
 
 use crate::fault::Fault;
 use anyhow::{Context, Result, anyhow, bail};
+use room::Room;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -103,7 +105,8 @@ enum Source {
 impl Source {
     fn frames(self) -> Result<Frames> {
         match self {
-            Source::Array(file, size) => npy::read(file, size),
+            // Its values are not compressed: it becomes no more than twice as large.
+            Source::Array(file, size) => npy::read(file, size, &mut Room::endless()),
             Source::Archive(mut archive) => archive.only(),
             Source::Text(file) => csv::read(file),
         }

@@ -15,23 +15,31 @@
 //! assert_eq!(client.counts().refused(), 1);
 //! ```
 
+mod again;
+pub(crate) mod cleaned;
 mod counts;
 mod event;
 mod known;
 mod picture;
 mod requests;
+mod restart;
 mod syncs;
+mod wanted;
 mod worn;
 
+pub use again::Restored;
 pub use counts::Counts;
 pub use event::{Event, ImageNews};
 pub(crate) use known::leads;
+pub(crate) use requests::request_name;
 pub use requests::scene_bytes;
 pub use worn::Worn;
 
 use crate::growths::Growths;
+use crate::words::printable;
 use picture::Picture;
-use std::collections::BTreeMap;
+use restart::Life;
+use std::collections::{BTreeMap, VecDeque};
 use syncs::Syncs;
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
@@ -43,9 +51,12 @@ use taxel_core::wire::{
     Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver,
     Report, Request, SelfTestReport, WireError, decode, decode_image,
 };
+use wanted::Sets;
 
 /// Longest frame from a board.
 const LONGEST_REPORT: usize = 8192;
+/// Ids of contacts that have gone which are kept at most: those of 16 full lists.
+const RELEASED: usize = 1024;
 
 /// What one board tells, put together.
 #[derive(Debug, Clone)]
@@ -55,9 +66,12 @@ pub struct Client {
     /// Bytes since the last 0x00.
     line: Vec<u8>,
     requests: Vec<u8>,
+    /// Requests that wait until the board has answered others.
+    held: VecDeque<(Vec<u8>, Option<Sets>)>,
     counts: Counts,
     syncs: Syncs,
     streaming: bool,
+    life: Life,
     worn: Option<Worn>,
     picture: Picture,
     raw: Vec<u16>,
@@ -105,9 +119,11 @@ impl Client {
             line: Vec::new(),
             // Ends whatever the board may have received before.
             requests: vec![0],
+            held: VecDeque::new(),
             counts: Counts::default(),
             syncs: Syncs::default(),
             streaming: false,
+            life: Life::default(),
             worn: None,
             picture: Picture::default(),
             raw: Vec::new(),
@@ -173,16 +189,14 @@ impl Client {
     fn read(&mut self, message: &[u8]) -> Result<Event, WireError> {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
-            self.forget();
-            self.shapes.clear();
-            self.boot = None;
-            self.syncs.restart();
-            if self.streaming {
-                self.request(&Request::Start)?;
-            }
+            self.begun_anew();
         }
         let report: Report<'_> = decode(rest)?;
         self.counts.messages += 1;
+        // How it started, a board tells with its `Hello`.
+        if !matches!(report, Report::Hello(_) | Report::Boot(_)) {
+            self.spoken();
+        }
         Ok(self.take(report))
     }
 
@@ -196,7 +210,7 @@ impl Client {
         (self.intention, self.led) = (None, None);
         self.confidence = None;
         self.unsure.clear();
-        self.forms = None;
+        (self.forms, self.boot) = (None, None);
     }
 
     fn take(&mut self, report: Report<'_>) -> Event {
@@ -215,7 +229,10 @@ impl Client {
                 self.intention = Some(report.clone());
                 Event::Intent(Box::new(report))
             }
-            Report::Gesture(report) => Event::Gesture(report),
+            Report::Gesture(mut report) => {
+                cleaned::name(&mut report.name);
+                Event::Gesture(report)
+            }
             Report::Confidence(report) => {
                 self.confidence = Some(report);
                 Event::Confidence(report)
@@ -229,23 +246,31 @@ impl Client {
                 Event::Forms(Box::new(report))
             }
             Report::Shapes(report) => {
-                self.shapes = report.names.iter().map(ToString::to_string).collect();
+                self.shapes = report.names.iter().map(|name| printable(name).into_owned()).collect();
                 self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
                 Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
             }
-            Report::Reaction(report) => Event::Reaction(report),
+            Report::Reaction(mut report) => {
+                cleaned::name(&mut report.reaction.name);
+                Event::Reaction(report)
+            }
             Report::Reflex(report) => Event::Reflex(report),
             Report::Health(health) => {
                 self.health = Some(health);
+                self.told_time(health.time);
                 Event::Health(health)
             }
-            Report::Log(log) => Event::Log { time: log.time, level: log.level, text: log.text.into() },
+            Report::Log(log) => {
+                Event::Log { time: log.time, level: log.level, text: printable(log.text).into_owned() }
+            }
             Report::Sync(report) => {
                 self.syncs.take(&report);
                 Event::Sync(report)
             }
             Report::Answer(answer) => {
-                Event::Answer { request: answer.request, refusal: answer.refusal.map(String::from) }
+                let refusal = answer.refusal.map(|why| printable(why).into_owned());
+                self.answered(answer.request, refusal.as_deref());
+                Event::Answer { request: answer.request, refusal }
             }
             Report::Raw(raw) => self.take_raw(&raw),
             Report::Budget(budget) => {
@@ -271,6 +296,7 @@ impl Client {
     fn take_hello(&mut self, hello: &Hello<'_>) -> Event {
         match Worn::read(hello) {
             Ok(worn) => {
+                self.greeted(&worn);
                 if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
                     self.forget();
                 }
@@ -284,6 +310,7 @@ impl Client {
     fn take_frame(&mut self, frame: &Frame<'_>) -> Event {
         let every = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.frames_hz == u16::MAX);
         self.counts.frame(frame.frame, every);
+        self.told_time(frame.time);
         if self.told {
             self.released.clear();
         }
@@ -308,6 +335,8 @@ impl Client {
             list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
         self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
+        // A board that shows no images never ends the list.
+        self.released.drain(..self.released.len().saturating_sub(RELEASED));
         self.contacts = here;
         self.contacts_of = list.frame;
         Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }

@@ -14,6 +14,12 @@ const BLOCK: usize = 512;
 const MARKS: [u32; 3] = [0x0a32_4655, 0x9e5d_5157, 0x0ab1_6f30];
 /// Family of the RP2040.
 const FAMILY: u32 = 0xe48b_ff56;
+/// Flags of a block that says its family, and nothing else.
+const HAS_FAMILY: u32 = 0x2000;
+/// Bytes that a block writes.
+const PAGE: u32 = 256;
+/// Where the program lies in the flash. Behind it are the board's settings, which a new firmware leaves alone.
+const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 64) * 1024;
 /// What the boot loader's drive says of itself, in this file.
 const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
@@ -97,7 +103,8 @@ fn is_drive(place: &Path) -> bool {
     fs::read_to_string(place.join(TELLS.0)).is_ok_and(|text| text.contains(TELLS.1))
 }
 
-/// Whether this is a whole UF2 for an RP2040; errors name the block.
+/// Whether this is a whole UF2 for an RP2040 that writes its program, in one piece, and nothing else; errors
+/// name the block.
 fn check(image: &[u8]) -> Result<()> {
     let (blocks, rest) = image.as_chunks::<BLOCK>();
     ensure!(
@@ -113,6 +120,25 @@ fn check(image: &[u8]) -> Result<()> {
             "block {index} of it says it is number {} of {}: the file is not whole",
             word(20),
             word(24)
+        );
+        let (flags, address, length) = (word(8), word(12), word(16));
+        ensure!(
+            flags == HAS_FAMILY,
+            "block {index} of it has the flags {flags:#x}, expected {HAS_FAMILY:#x}"
+        );
+        ensure!(length == PAGE, "block {index} of it writes {length} bytes, expected {PAGE}");
+        ensure!(
+            PROGRAM.contains(&address),
+            "block {index} of it is for address {address:#x}, outside of the program ({:#x} to {:#x})",
+            PROGRAM.start,
+            PROGRAM.end - 1
+        );
+        // The first is at the beginning, where the boot loader looks for a program; gaps would leave what was
+        // there before.
+        let expected = PROGRAM.start + PAGE * index as u32;
+        ensure!(
+            address == expected,
+            "block {index} of it is for address {address:#x}, expected {expected:#x}: a program is in one piece"
         );
     }
     Ok(())
@@ -148,6 +174,8 @@ mod tests {
         let mut block = vec![0; BLOCK];
         for (at, word) in
             [(0, MARKS[0]), (4, MARKS[1]), (20, index), (24, count), (28, FAMILY), (BLOCK - 4, MARKS[2])]
+                .into_iter()
+                .chain([(8, HAS_FAMILY), (12, PROGRAM.start + PAGE * index), (16, PAGE)])
         {
             block[at..at + 4].copy_from_slice(&u32::to_le_bytes(word));
         }
@@ -165,6 +193,36 @@ mod tests {
         let mut other = whole.clone();
         other[BLOCK + 28] ^= 1;
         assert!(why(&other).contains("another microcontroller"));
+    }
+
+    #[test]
+    fn a_block_that_writes_elsewhere_than_the_program_is_refused() {
+        let why = |at: usize, number: u32| {
+            let mut image = [block(0, 2), block(1, 2)].concat();
+            image[BLOCK + at..][..4].copy_from_slice(&number.to_le_bytes());
+            check(&image).unwrap_err().to_string()
+        };
+        for address in [0x101f_0000, 0x1000_0000 - 256, 0x2000_0000, 0, u32::MAX, 0x1100_0000] {
+            let outside = format!("block 1 of it is for address {address:#x}, outside of the program");
+            assert!(why(12, address).starts_with(&outside), "{address:#x}");
+        }
+        // A page twice, one that is left out, one that begins within another.
+        for address in [0x1000_0000, 0x1000_0200, 0x1000_0180] {
+            assert!(why(12, address).ends_with("a program is in one piece"), "{address:#x}");
+        }
+        assert!(why(16, 476).contains("writes 476 bytes"));
+        assert!(why(8, HAS_FAMILY | 1).contains("flags 0x2001"), "a block that is not for the flash");
+        let many = PROGRAM.len() as u32 / PAGE;
+        let image = |blocks: u32| (0..blocks).flat_map(|index| block(index, blocks)).collect::<Vec<_>>();
+        assert!(check(&image(many)).is_ok());
+        assert!(check(&image(many + 1)).unwrap_err().to_string().contains("outside of the program"));
+    }
+
+    #[test]
+    fn the_program_ends_where_the_memory_map_says() {
+        let map = include_str!("../../memory.x");
+        assert!(map.contains("ORIGIN = 0x10000000") && map.contains("LENGTH = 2048K - 0x100 - 64K"), "{map}");
+        assert_eq!(PROGRAM.end, 0x1000_0100 + 2048 * 1024 - 0x100 - 64 * 1024);
     }
 
     #[test]

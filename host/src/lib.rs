@@ -40,6 +40,7 @@ pub mod report;
 pub mod reset_settings;
 pub mod save;
 pub mod scenes;
+pub mod serve;
 pub mod session;
 pub mod settle;
 pub mod setup;

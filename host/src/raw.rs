@@ -1,7 +1,8 @@
 //! A board that is asked for raw codes, and that wears what it is told meanwhile.
 
-use crate::client::{Client, Event, Worn, scene_bytes};
-use crate::fault::{Blame, Fault};
+use crate::client::{Client, Event, Worn, cleaned, scene_bytes};
+use crate::fault::Fault;
+use crate::session::{Returns, Session, Turn};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use crate::stop;
 use anyhow::{Context, Result, bail};
@@ -29,9 +30,7 @@ pub struct Codes {
 /// A board that streams raw codes and nothing else. One that is dropped without [`RawBoard::leave`] or [`RawBoard::give_back`], be it
 /// by an error or Ctrl-C, gets the garment and the scene back that it had.
 pub struct RawBoard {
-    source: Source,
-    client: Client,
-    buffer: Vec<u8>,
+    session: Session,
     scene: Scene,
     garment: Garment,
     /// Garment or scene are not what they are to be in the end.
@@ -54,19 +53,17 @@ impl RawBoard {
 
     /// The same over a source that is open.
     pub fn on(source: Source) -> Result<RawBoard> {
-        let mut client = Client::new();
-        client.start(0)?;
+        let mut session = Session::new(source, Returns::Within(PATIENCE));
+        session.parts().0.start(0)?;
         let mut board = RawBoard {
-            source,
-            client,
-            buffer: Vec::new(),
+            session,
             scene: Scene::shipped(),
             garment: Garment::recorded(1, 1),
             borrowed: false,
             leaving: false,
         };
         board.until("Hello", |client, _| client.worn().is_some())?;
-        if let Some(worn) = board.client.worn() {
+        if let Some(worn) = board.session.client().worn() {
             (board.scene, board.garment) = (worn.scene.clone(), worn.garment.clone());
         }
         board.borrowed = true;
@@ -76,7 +73,7 @@ impl RawBoard {
 
     /// What it is, in a few words.
     pub fn label(&self) -> &str {
-        &self.source.label
+        &self.session.source().label
     }
 
     /// The garment that it wore when it was found.
@@ -88,7 +85,9 @@ impl RawBoard {
     pub fn wear(&mut self, garment: &Garment) -> Result<()> {
         let bytes = postcard::to_allocvec(garment).context("the garment cannot be written")?;
         self.ask(&Request::SetGarment(&bytes))?;
-        self.until("the new garment", |client, _| client.worn().is_some_and(|worn| worn.garment == *garment))
+        let mut told = garment.clone();
+        cleaned::garment(&mut told);
+        self.until("the new garment", |client, _| client.worn().is_some_and(|worn| worn.garment == told))
     }
 
     /// Gives the board a garment, and its own scene back.
@@ -106,17 +105,17 @@ impl RawBoard {
 
     /// What the board says of itself.
     pub fn worn(&self) -> Option<&Worn> {
-        self.client.worn()
+        self.session.client().worn()
     }
 
     /// Taxels that are ill, as told last.
     pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
-        self.client.ill()
+        self.session.client().ill()
     }
 
     /// The temperature of its converter as told last, degrees Celsius; none: it has no thermometer.
     pub fn celsius(&self) -> Option<f64> {
-        self.client.celsius().map(|celsius| celsius.to_f64())
+        self.session.client().celsius().map(|celsius| celsius.to_f64())
     }
 
     /// The next frame.
@@ -129,7 +128,7 @@ impl RawBoard {
             }
             _ => false,
         })?;
-        Ok(Codes { time_us, codes: self.client.raw().to_vec() })
+        Ok(Codes { time_us, codes: self.session.client().raw().to_vec() })
     }
 
     fn use_for(&mut self, scene: &Scene) -> Result<()> {
@@ -139,7 +138,7 @@ impl RawBoard {
     /// Makes a request and waits for its answer.
     pub fn ask(&mut self, request: &Request<'_>) -> Result<()> {
         let number = request.number();
-        self.client.request(request)?;
+        self.session.request(request)?;
         let mut refused = None;
         self.until("an answer", |_, event| match event {
             Event::Answer { request, refusal } if *request == number => {
@@ -149,7 +148,7 @@ impl RawBoard {
             _ => false,
         })?;
         match refused {
-            Some(why) => bail!(Fault::board(format!("{}: refused: {why}", self.source.label))),
+            Some(why) => bail!(Fault::board(format!("{}: refused: {why}", self.session.source().label))),
             None => Ok(()),
         }
     }
@@ -157,26 +156,27 @@ impl RawBoard {
     /// Reads until an event is the one.
     fn until(&mut self, what: &str, mut is_it: impl FnMut(&Client, &Event) -> bool) -> Result<()> {
         let began = Instant::now();
-        let label = self.source.label.clone();
         loop {
             if !self.leaving {
                 stop::check()?;
             }
-            for at in 0..self.buffer.len() {
-                let Some(event) = self.client.push(self.buffer[at]) else { continue };
-                if is_it(&self.client, &event) {
-                    self.buffer.drain(..=at);
+            while let Some(event) = self.session.next_event() {
+                if is_it(self.session.client(), &event) {
                     return Ok(());
                 }
             }
-            let lost = || format!("{label} is gone");
-            self.source.port.write(&self.client.take_requests()).with_context(lost).board()?;
-            self.buffer.resize(4096, 0);
-            let Some(count) = self.source.port.read(&mut self.buffer).with_context(lost).board()? else {
+            while let Some(note) = self.session.note() {
+                if let Event::Log { text, .. } = note {
+                    eprintln!("{text}");
+                }
+            }
+            let turn = self.session.turn(&mut |_, _| Ok(()))?;
+            let label = &self.session.source().label;
+            if turn == Turn::End {
                 bail!(Fault::board(format!("{label} ended before {what} came")));
-            };
-            self.buffer.truncate(count);
-            if began.elapsed() > PATIENCE {
+            }
+            // A board that is gone is waited for on its own.
+            if began.elapsed() > PATIENCE && turn != Turn::Waiting && !self.session.client().is_restoring() {
                 let seconds = PATIENCE.as_secs();
                 bail!(Fault::board(format!("{label}: {what} did not come in {seconds} s")));
             }
@@ -187,7 +187,7 @@ impl RawBoard {
 impl Drop for RawBoard {
     fn drop(&mut self) {
         self.leaving = true;
-        if self.borrowed {
+        if self.borrowed && !self.session.is_gone() {
             let garment = self.garment.clone();
             let worn = self.worn().is_some_and(|worn| worn.garment == garment);
             // Whoever was told of an error is not told of another one.

@@ -68,7 +68,7 @@ pub fn found(scan: &Scan) -> String {
         words.push(format!("without its end, {} bytes torn", scan.torn));
     }
     if scan.foreign > 0 {
-        words.push(format!("{} chunks of a compression that is not known here", scan.foreign));
+        words.push(format!("{} chunks of a compression or a size that is not read here", scan.foreign));
     }
     match (words.is_empty(), scan.whole) {
         (true, true) => "whole".into(),

@@ -1,5 +1,6 @@
 //! What the program does step by step, told on the standard error where `-v` asks for it.
 
+use crate::words;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,7 +20,8 @@ pub fn is_on() -> bool {
 /// Tells a step: `garment block-4x16 sent`.
 pub fn tell(step: impl Display) {
     if ON.load(Ordering::Relaxed) {
-        eprintln!("taxel: {step}");
+        // Steps quote boards and files.
+        eprintln!("taxel: {}", words::printable(&step.to_string()));
     }
 }
 

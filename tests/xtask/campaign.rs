@@ -19,7 +19,7 @@ enum Run {
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 13] = [
+const RUNS: [(&str, Run, &str); 14] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -58,6 +58,11 @@ const RUNS: [(&str, Run, &str); 13] = [
         "drift: palms on a mat and on a block that drift, kept or lost (simulated)",
     ),
     ("hours", Run::Library("drift::hours"), "drift: ten hours of drift, breath and noise (simulated)"),
+    (
+        "sessions",
+        Run::Library("session::"),
+        "sessions: 1,000 disconnects and restarts by each kind of link, everything set again (simulated)",
+    ),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
     (
         "view",

@@ -1,27 +1,30 @@
 //! One NumPy array.
 
+use super::room::Room;
 use super::{Frames, Shape, count};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Error, Result, bail, ensure};
 use npyz::{DType, Deserialize, Endianness, NpyFile, NpyHeader, Order, TypeChar};
 use std::fmt::Display;
-use std::io::Read;
+use std::io::{self, BufReader, ErrorKind, Read};
 
 /// How every array begins.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Headers of plain arrays have 118 bytes or a little more.
 const LONGEST_HEADER: usize = 1 << 16;
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 16;
 /// Names of classes take less.
 const LONGEST_TEXTS: u64 = 1 << 20;
 
-/// Frames of an array whose file or archive entry has `size` bytes.
-pub fn read(source: impl Read, size: u64) -> Result<Frames> {
-    read_as(source, size, Shape::of)
+/// Frames of an array whose file or archive entry has `size` bytes, as far as there is room for them.
+pub fn read(source: impl Read, size: u64, room: &mut Room) -> Result<Frames> {
+    read_as(source, size, room, Shape::of)
 }
 
 /// Counts of an array of one dimension.
 pub fn list(source: impl Read, size: u64) -> Result<Vec<u16>> {
-    Ok(read_as(source, size, Shape::of_list)?.values)
+    Ok(read_as(source, size, &mut Room::endless(), Shape::of_list)?.values)
 }
 
 /// Texts of an array of one dimension, as NumPy writes them: four bytes a character, filled up with 0.
@@ -46,7 +49,12 @@ pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
 }
 
 /// Values of an array whose dimensions `shape_of` understands.
-fn read_as(mut source: impl Read, size: u64, shape_of: fn(&[u64]) -> Result<Shape>) -> Result<Frames> {
+fn read_as(
+    mut source: impl Read,
+    size: u64,
+    room: &mut Room,
+    shape_of: fn(&[u64]) -> Result<Shape>,
+) -> Result<Frames> {
     let head = head(&mut source)?;
     let header = parse(&head)?;
     let shape = shape_of(header.shape())?;
@@ -55,12 +63,12 @@ fn read_as(mut source: impl Read, size: u64, shape_of: fn(&[u64]) -> Result<Shap
     let claimed = (shape.values() as u64).saturating_mul(width);
     let there = size.saturating_sub(head.len() as u64);
     check_size(header.shape(), claimed, there)?;
-    // `size` may be a claim as well: memory grows with what is read.
-    let mut body = Vec::new();
-    source.take(claimed + 1).read_to_end(&mut body).context("damaged")?;
-    check_size(header.shape(), claimed, body.len() as u64)?;
-    let file = NpyFile::with_header(header, body.as_slice());
-    match (kind.type_char(), width) {
+    room.take(shape.values() as u64)?;
+    let dimensions = header.shape().to_vec();
+    // `size` may be a claim as well: what is read is counted.
+    let mut body = Counted { source: source.take(claimed.saturating_add(1)), bytes: 0 };
+    let file = NpyFile::with_header(header, BufReader::with_capacity(PIECE, &mut body));
+    let frames = match (kind.type_char(), width) {
         (TypeChar::Uint, 1) => counts::<u8>(file, shape),
         (TypeChar::Uint, 2) => counts::<u16>(file, shape),
         (TypeChar::Uint, 4) => counts::<u32>(file, shape),
@@ -72,6 +80,33 @@ fn read_as(mut source: impl Read, size: u64, shape_of: fn(&[u64]) -> Result<Shap
         (TypeChar::Float, 4) => counts::<f32>(file, shape),
         (TypeChar::Float, 8) => counts::<f64>(file, shape),
         _ => bail!("holds values of type {kind}, expected integers, f32 or f64"),
+    };
+    if frames.as_ref().is_err_and(|error| !is_end(error)) {
+        return frames;
+    }
+    // What is left is at most the byte that there may not be.
+    io::copy(&mut body, &mut io::sink()).context("damaged")?;
+    check_size(&dimensions, claimed, body.bytes)?;
+    frames
+}
+
+/// Whether the values ended too early.
+fn is_end(error: &Error) -> bool {
+    let cause = error.root_cause().downcast_ref::<io::Error>();
+    cause.is_some_and(|cause| cause.kind() == ErrorKind::UnexpectedEof)
+}
+
+/// Counts the bytes that are read.
+struct Counted<R> {
+    source: R,
+    bytes: u64,
+}
+
+impl<R: Read> Read for Counted<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        self.bytes += count as u64;
+        Ok(count)
     }
 }
 
@@ -155,7 +190,7 @@ cells! {
     f64: count,
 }
 
-fn counts<T: Cell>(file: NpyFile<&[u8]>, shape: Shape) -> Result<Frames> {
+fn counts<T: Cell>(file: NpyFile<impl Read>, shape: Shape) -> Result<Frames> {
     let fortran = file.order() == Order::Fortran;
     ensure!(!fortran || file.shape().len() < 4, "has four dimensions in Fortran order, expected C order");
     let mut counts = vec![0; shape.values()];

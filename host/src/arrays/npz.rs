@@ -1,5 +1,6 @@
 //! An archive of NumPy arrays.
 
+use super::room::Room;
 use super::{Frames, npy};
 use crate::fault::Fault;
 use anyhow::{Context, Result, anyhow, bail};
@@ -9,23 +10,28 @@ use zip::ZipArchive;
 
 /// What the file of an array has behind the array's name.
 const ENDING: &str = ".npy";
+/// Memory that the frames of all arrays may take beyond the size of the archive: one of some megabytes may
+/// become gigabytes.
+const BEYOND: u64 = 128 << 20;
 
 /// An open archive.
 pub struct Archive {
     archive: ZipArchive<BufReader<File>>,
     /// Of all its arrays, in order.
     names: Vec<String>,
+    room: Room,
 }
 
 impl Archive {
     /// Reads the table of contents.
     pub fn open(file: File) -> Result<Archive> {
+        let room = Room::of(file.metadata().context("cannot be read")?.len(), BEYOND);
         let archive = ZipArchive::new(BufReader::new(file)).context("not a NumPy archive")?;
         let files: Vec<_> = archive.file_names().collect::<Result<_, _>>().context("damaged")?;
         let arrays = files.iter().filter_map(|name| name.strip_suffix(ENDING));
         let mut names: Vec<String> = arrays.map(String::from).collect();
         names.sort();
-        Ok(Archive { archive, names })
+        Ok(Archive { archive, names, room })
     }
 
     /// The array of that name.
@@ -33,7 +39,9 @@ impl Archive {
         if !self.names.iter().any(|known| known == name) {
             bail!(Fault::usage(format!("there is no array {name}; known are {}", listed(&self.names))));
         }
-        let frames = self.entry(name, |entry, size| npy::read(entry, size));
+        let mut room = self.room;
+        let frames = self.entry(name, |entry, size| npy::read(entry, size, &mut room));
+        self.room = room;
         frames.with_context(|| format!("array {name}"))
     }
 

@@ -65,7 +65,7 @@ impl Client {
         self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
     }
 
-    /// Ids of the contacts that have gone with the last frame.
+    /// Ids of the contacts that have gone with the last frame; of very many, the last 1,024.
     pub fn released(&self) -> &[u32] {
         &self.released
     }

@@ -1,9 +1,13 @@
 //! What the host asks of the board.
 
 use super::Client;
+use super::wanted::Sets;
 use anyhow::{Context, Result, bail};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
+
+/// Requests that wait for their answers at most: a board keeps eight answers, and those beyond would be lost.
+const WINDOW: usize = 4;
 
 /// A scene as a `SetScene` carries it. An error says that it is too long for a request.
 pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
@@ -16,9 +20,38 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The name of a request by its number.
+pub(crate) fn request_name(number: u8) -> &'static str {
+    const NAMES: [&str; 21] = [
+        "set-garment",
+        "set-scene",
+        "tare",
+        "start",
+        "stop",
+        "sync",
+        "posture",
+        "concept",
+        "key-frame",
+        "self-test",
+        "save",
+        "set-gain",
+        "budget",
+        "feed",
+        "set-gestures",
+        "set-calibration",
+        "set-shapes",
+        "add-shapes",
+        "set-certainty",
+        "reset-settings",
+        "set-forms",
+    ];
+    NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
+}
+
 /// Requests.
 impl Client {
-    /// Asks for everything, also from a board that starts anew later; and for a tare over `tare` frames, unless 0.
+    /// Asks for everything, also from a board that starts anew later, which is then asked for all that was set
+    /// before; and for a tare over `tare` frames, unless 0.
     pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
         self.streaming = true;
         self.request(&Request::Start)?;
@@ -28,11 +61,30 @@ impl Client {
     /// Queues a request. An error: it is too long.
     pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
         let mut frame = [0; frame_bound(LONGEST_REQUEST)];
-        self.requests.extend_from_slice(encode(request, &mut frame)?);
+        let frame = encode(request, &mut frame)?;
         if let Request::SetForms { ages, .. } = request {
             self.ages_asked = *ages;
         }
+        if matches!(request, Request::Sync { .. } | Request::KeyFrame) {
+            // What depends on nothing that waits.
+            self.requests.extend_from_slice(frame);
+            return Ok(());
+        }
+        self.held.push_back((frame.to_vec(), Sets::of(request, frame)));
+        self.release();
         Ok(())
+    }
+
+    /// Hands on what waits, in its order, while the board has not too much to answer and is not being set
+    /// again.
+    pub(super) fn release(&mut self) {
+        while !self.is_restoring()
+            && let Some((frame, sets)) =
+                self.held.pop_front_if(|(_, sets)| sets.is_none() || self.life.wanted.asked() < WINDOW)
+        {
+            self.requests.extend(frame);
+            sets.into_iter().for_each(|sets| self.life.wanted.ask(sets));
+        }
     }
 
     /// Queues `SetScene`.
@@ -51,13 +103,17 @@ impl Client {
         Ok(asks)
     }
 
-    /// The bytes that wait to be sent to the board.
-    pub fn queued(&self) -> &[u8] {
-        &self.requests
+    /// The bytes that wait to be sent to the board, also those that wait for answers.
+    pub fn queued(&self) -> Vec<u8> {
+        let held = self.held.iter().flat_map(|(frame, _)| frame);
+        self.requests.iter().chain(held).copied().collect()
     }
 
     /// The bytes that are to be sent to the board.
     pub fn take_requests(&mut self) -> Vec<u8> {
+        self.release();
+        let again = if self.is_met() { self.life.again.due() } else { None };
+        self.requests.extend(again.into_iter().flatten());
         let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };
         if let Some(sync) = sync {
             // A request of a few bytes fits.

@@ -1,7 +1,10 @@
 //! What a board says of itself.
 
+use super::cleaned;
+use crate::words::printable;
 use taxel_core::format::{Micros, Name};
 use taxel_core::garment::{Garment, Layout};
+use taxel_core::pipeline::Pipeline;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, MAGIC, PROTOCOL, decode};
 
@@ -39,15 +42,20 @@ impl Worn {
                 hello.protocol
             ));
         }
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        let garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
+        let text = |bytes: &[u8]| printable(&String::from_utf8_lossy(bytes)).into_owned();
+        let mut garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
+        cleaned::garment(&mut garment);
         // Exactness depends on the board's full scale, which it has checked itself.
         let layout = Layout::build(&garment, usize::from(u16::MAX), 1)
             .map_err(|e| format!("garment {} in Hello: {e}", garment.name))?;
+        let mut scene: Scene = decode(hello.scene).map_err(|e| format!("scene in Hello: {e}"))?;
+        cleaned::scene(&mut scene);
+        // What a board plays it has checked in the same way; what is shown of it here takes that for granted.
+        Pipeline::build(&scene, &layout).map_err(|e| format!("scene in Hello: {e}"))?;
         Ok(Worn {
             firmware: text(hello.firmware),
             layout,
-            scene: decode(hello.scene).map_err(|e| format!("scene in Hello: {e}"))?,
+            scene,
             calibration: text(hello.calibration),
             clock: decode(hello.clock).map_err(|e| format!("clock in Hello: {e}"))?,
             garment,

@@ -135,7 +135,9 @@ pub fn time(us: u64) -> String {
     format!("{}.{:06}", us / 1_000_000, us % 1_000_000)
 }
 
-/// A name as a field.
+/// A name as a field. One that a spreadsheet would take for a formula has an apostrophe before it.
 pub fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
+    let before = if name.starts_with(['=', '+', '-', '@', '\t', '\r']) { "'" } else { "" };
+    let quote = if name.contains([',', '"', '\n', '\r']) { "\"" } else { "" };
+    format!("{quote}{before}{}{quote}", name.replace('"', "\"\""))
 }

@@ -12,6 +12,7 @@
 mod args;
 mod contacts;
 mod csv;
+mod entries;
 mod frames;
 #[cfg(feature = "lerobot")]
 mod lerobot;

@@ -2,7 +2,7 @@
 //!
 //! | array | type, shape | what |
 //! |---|---|---|
-//! | `PANEL` | u16 \[n, rows, columns\] | pressure, counts; `taxel process` reads them back |
+//! | `PANEL` | u16 \[n, rows, columns\] | pressure, counts; `taxel process` reads them back; see `entries.rs` for names that are no panel's |
 //! | `frame` | u32 \[n\] | number of the scan |
 //! | `time_us`, `host_time_us` | u64 \[n\] | its start, the board's time and the host's |
 //! | `intent` | f64 \[n, concepts\] | activation of each concept of the scene's map, -1 ..= 1; where there is one |
@@ -11,6 +11,7 @@
 //! | `contact_id`, `_panel`, `_total`, `_peak`, `_area` | u32 \[m\] | |
 //! | `contact_x`, `_y`, `_azimuth`, `_nmi` | f64 \[m\] | taxels, taxels, rad (NaN: none), 1 |
 
+use super::entries::Entries;
 use super::frames::{self, Frame, Frames, Worn};
 use super::npy::{Array, Number};
 use anyhow::{Context, Result};
@@ -37,6 +38,9 @@ const REAL: [Column<f64>; 4] = [
     ("contact_azimuth", |placed| placed.contact.azimuth.map_or(f64::NAN, |turn| turn.to_radians())),
     ("contact_nmi", |placed| placed.shape.nmi.to_f64()),
 ];
+
+/// The other arrays that are no panel's.
+const OWN: [&str; 6] = ["frame", "time_us", "host_time_us", "intent", "concepts", "contact_frame"];
 
 /// Writes the archive to `out`, which is at `output`; the number of frames. It goes through the recording twice: arrays
 /// begin with their sizes.
@@ -73,9 +77,11 @@ impl Arrays {
     /// Of so many frames and contacts.
     fn begin(output: &Path, worn: &Rc<Worn>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
         let list = |name: &str, kind: &str, size: u64| Array::begin(output, name, kind, &[size]);
+        let mut taken =
+            Entries::of(OWN.into_iter().chain(WHOLE.map(|(name, _)| name)).chain(REAL.map(|(name, _)| name)));
         let panel = |area: &taxel_core::garment::Area| {
             let shape = [count, area.rows.into(), area.columns.into()];
-            Array::begin(output, &area.name, u16::KIND, &shape)
+            Array::begin(output, &taken.add(&area.name), u16::KIND, &shape)
         };
         let concepts = worn.concepts.len() as u64;
         let intent = || -> Result<[Array; 2]> {

@@ -1,8 +1,9 @@
 //! `taxel foxglove`: what a board tells, live in Foxglove and whatever else speaks its WebSocket protocol.
 //!
 //! The channels are those of a recording, with their schemas (see [`record`](crate::record)). The server only tells: nothing can be asked
-//! of the board. It listens on this machine alone, and lets in pages of any site, as Foxglove's own does: Foxglove may be one.
-//! A client that reads too slowly misses messages, and is told so; it never slows the board's stream.
+//! of the board. It listens on this machine alone, and lets in programs, pages of this machine, and of other
+//! sites those of Foxglove alone and what `--allow-origin` names. A client that reads too slowly misses
+//! messages, and is told so; it never slows the board's stream.
 
 mod hub;
 mod protocol;
@@ -31,6 +32,10 @@ pub struct FoxgloveArgs {
     /// Port on this machine: Foxglove looks for 8765; 0: any that is free
     #[arg(long, value_name = "N", default_value_t = 8765)]
     pub port: u16,
+    /// Also let in pages of this site: https://viewer.example.org [default: Foxglove's, and those of this
+    /// machine]
+    #[arg(long, value_name = "SITE")]
+    pub allow_origin: Vec<String>,
 }
 
 /// Runs the command.
@@ -41,7 +46,7 @@ pub fn run(args: FoxgloveArgs) -> Result<()> {
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let (source, _) = args.board.open(options)?;
     let hub = Arc::new(Hub::default());
-    let port = serve(listener, hub.clone(), &source.label)?;
+    let port = serve(listener, hub.clone(), &source.label, &args.allow_origin)?;
     println!("{} at ws://127.0.0.1:{port} (Ctrl-C ends)", source.label);
     live::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;
     println!("Stream ended; new clients get the last messages (Ctrl-C ends).");

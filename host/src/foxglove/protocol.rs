@@ -75,6 +75,12 @@ pub fn left_out(count: u64) -> String {
     json!({ "op": "status", "level": 1, "message": text, "id": "slow" }).to_string()
 }
 
+/// That a client wants too much.
+pub fn too_many(most: usize) -> String {
+    let text = format!("a client has {most} subscriptions at most: the others are left out");
+    json!({ "op": "status", "level": 1, "message": text, "id": "subscriptions" }).to_string()
+}
+
 /// A message for a subscription.
 pub fn data(subscription: u32, ns: u64, data: &[u8]) -> Vec<u8> {
     let mut bytes = vec![1];

@@ -36,7 +36,7 @@ impl Show for Publisher {
         };
         if topic != LARGE || self.hub.wants(channel) {
             let data = record::json_message(client, event, stamp)?;
-            self.hub.tell(Told { channel, ns: stamp.host_us * record::NS, data });
+            self.hub.tell(Told { channel, ns: stamp.host_ns(), data });
         }
         Ok(())
     }

@@ -1,61 +1,32 @@
-//! The server: a thread that accepts, and two for each client.
+//! The server: what is read of a client's first words, and two threads for each.
 
 use super::hub::Hub;
 use super::protocol::{self, PROTOCOLS};
 use super::subscriber::Subscriber;
-use crate::view::Mute;
-use anyhow::{Context, Result};
+use crate::serve::http::{self, Refusal, Sites};
+use crate::serve::{self, Guest, Mute};
+use anyhow::Result;
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
-use tungstenite::handshake::server::{ErrorResponse, Request, Response};
-use tungstenite::http::{HeaderValue, StatusCode, header};
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-/// How long a client may take for its first words, and a write may stand still.
-const PATIENCE: Duration = Duration::from_secs(5);
+/// Connections at a time beside those of clients.
+const CONNECTIONS: usize = 16;
 /// Longest message of a client.
 const LONGEST: usize = 1 << 16;
+/// Where Foxglove itself is served from.
+const FOXGLOVE: [&str; 2] = ["https://app.foxglove.dev", "https://studio.foxglove.dev"];
 
-/// Serves a hub's channels of a source from a thread of its own; the port.
-pub fn serve(listener: TcpListener, hub: Arc<Hub>, label: &str) -> Result<u16> {
-    let port = listener.local_addr().context("the server has no address")?.port();
-    let hello: Arc<[String]> = [protocol::server_info(label), protocol::advertise()].into();
-    let accept = move || {
-        for stream in listener.incoming() {
-            let Ok(stream) = stream else {
-                // Too many files are open, say: it may pass.
-                thread::sleep(Duration::from_millis(50));
-                continue;
-            };
-            let (hub, hello) = (hub.clone(), hello.clone());
-            // Whoever goes away in the middle is no error of ours, and who finds no thread may come again.
-            let _ = thread::Builder::new()
-                .name("foxglove client".into())
-                .spawn(move || _ = connection(stream, &hub, &hello));
-        }
-    };
-    thread::Builder::new().name("foxglove".into()).spawn(accept)?;
-    Ok(port)
-}
-
-/// Agrees on a name of the protocol.
-#[expect(clippy::result_large_err, reason = "tungstenite's own type")]
-fn agree(request: &Request, mut response: Response) -> Result<Response, ErrorResponse> {
-    let offered = request.headers().get_all(header::SEC_WEBSOCKET_PROTOCOL);
-    let offered: Vec<&str> =
-        offered.iter().filter_map(|names| names.to_str().ok()).flat_map(|names| names.split(',')).collect();
-    let known = PROTOCOLS.iter().find(|name| offered.iter().any(|offer| offer.trim() == **name));
-    let Some(name) = known else {
-        let why = format!("this server speaks {}, for Foxglove and its like", PROTOCOLS.join(" and "));
-        let mut refusal = ErrorResponse::new(Some(why));
-        *refusal.status_mut() = StatusCode::BAD_REQUEST;
-        return Err(refusal);
-    };
-    response.headers_mut().insert(header::SEC_WEBSOCKET_PROTOCOL, HeaderValue::from_static(name));
-    Ok(response)
+/// Serves a hub's channels of a source from a thread of its own; the port. Pages of these `sites` are let in
+/// beside Foxglove's own.
+pub fn serve(listener: TcpListener, hub: Arc<Hub>, label: &str, sites: &[String]) -> Result<u16> {
+    let hello = [protocol::server_info(label), protocol::advertise()];
+    let sites: Vec<String> = FOXGLOVE.into_iter().map(String::from).chain(sites.iter().cloned()).collect();
+    serve::open("foxglove client", listener, CONNECTIONS, move |stream, guest| {
+        connection(stream, &guest, &hub, (&hello, &sites))
+    })
 }
 
 fn config() -> WebSocketConfig {
@@ -66,21 +37,44 @@ fn config() -> WebSocketConfig {
 }
 
 /// Talks to a client until it goes, or does not read for a while.
-fn connection(stream: TcpStream, hub: &Hub, hello: &[String]) -> Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
-    stream.set_nodelay(true)?;
-    let (end, reading) = (stream.try_clone()?, stream.try_clone()?);
-    let Ok(mut socket) = tungstenite::accept_hdr_with_config(stream, agree, Some(config())) else {
-        return Ok(());
+fn connection(
+    mut stream: TcpStream,
+    guest: &Guest,
+    hub: &Hub,
+    (hello, sites): (&[String], &[String]),
+) -> Result<()> {
+    let Some(request) = http::read(&mut stream, Sites::Named(sites)) else { return Ok(()) };
+    let agreed = request.and_then(|request| {
+        let protocol = PROTOCOLS.iter().find(|name| request.protocols.iter().any(|offered| offered == *name));
+        let why = "this server speaks foxglove.sdk.v1 and foxglove.websocket.v1, for Foxglove and its like";
+        let refusal = Refusal { status: "400 Bad Request", why };
+        Ok((request.key.ok_or(refusal)?, *protocol.ok_or(refusal)?, request.rest))
+    });
+    let (key, protocol, rest) = match agreed {
+        Ok(agreed) => agreed,
+        Err(refusal) => return Ok(http::refuse(&mut stream, refusal)?),
     };
+    let Some(client) = hub.join() else {
+        let why = "too many clients are connected";
+        return Ok(http::refuse(&mut stream, Refusal { status: "503 Service Unavailable", why })?);
+    };
+    // Clients are counted by the hub.
+    guest.stay();
+    let done = http::upgrade(&mut stream, &key, Some(protocol)).map_err(anyhow::Error::from);
+    let done = done.and_then(|()| talk(stream, rest, hub, &client, hello));
+    hub.leave(&client);
+    done
+}
+
+fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber, hello: &[String]) -> Result<()> {
+    let (end, reading) = (stream.try_clone()?, stream.try_clone()?);
+    let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
     // From now on a client may say nothing for ever.
     reading.set_read_timeout(None)?;
-    let Some(client) = hub.join() else { return Ok(()) };
     thread::scope(|scope| {
         let reader = thread::Builder::new().name("foxglove reader".into());
         let reader = reader.spawn_scoped(scope, || {
-            read(reading, hub, &client);
+            read(reading, rest, hub, client);
             client.close();
         });
         let told =
@@ -93,12 +87,11 @@ fn connection(stream: TcpStream, hub: &Hub, hello: &[String]) -> Result<()> {
         // Wakes the reader.
         let _ = end.shutdown(Shutdown::Both);
     });
-    hub.leave(&client);
     Ok(())
 }
 
-fn read(stream: TcpStream, hub: &Hub, client: &Subscriber) {
-    let mut socket = WebSocket::from_raw_socket(Mute(stream), Role::Server, Some(config()));
+fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber) {
+    let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
     // Any error ends it: the client has gone, or does not speak WebSocket.
     while let Ok(said) = socket.read() {
         match said {

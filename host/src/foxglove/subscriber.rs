@@ -10,6 +10,9 @@ use tungstenite::{Bytes, Message};
 /// Bytes that wait at most; the oldest messages give way.
 const WAITING: usize = 8 << 20;
 
+/// Subscriptions of a client: some for each channel.
+const MOST: usize = 64;
+
 /// A message of a channel.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Told {
@@ -32,14 +35,20 @@ struct Waiting {
     messages: VecDeque<(u32, Arc<Told>)>,
     bytes: usize,
     left_out: u64,
+    /// There was no place for a subscription.
+    full: bool,
     pong: Option<Bytes>,
     closed: bool,
 }
 
 impl Subscriber {
-    /// It wants a channel, and is told what is known there.
+    /// It wants a channel, and is told what is known there; of too many it is told that they are.
     pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<Told>>) {
         self.0.change(|waiting| {
+            if waiting.subscriptions.len() >= MOST && !waiting.subscriptions.contains_key(&id) {
+                waiting.full = true;
+                return;
+            }
             waiting.subscriptions.insert(id, channel);
             known.into_iter().for_each(|told| waiting.put(id, told));
         });
@@ -103,6 +112,9 @@ impl Waiting {
     fn due(&mut self) -> Option<Message> {
         if let Some(pong) = self.pong.take() {
             return Some(Message::Pong(pong));
+        }
+        if std::mem::take(&mut self.full) {
+            return Some(Message::text(protocol::too_many(MOST)));
         }
         if self.left_out > 0 {
             return Some(Message::text(protocol::left_out(std::mem::take(&mut self.left_out))));

@@ -4,6 +4,7 @@ use crate::progress::{Progress, Unit};
 use crate::record::{COUNTS, Play, Tally};
 use crate::recording::{ChannelInfo, Overview, Scan, Skipped, footer, scan};
 use crate::repair::found as told;
+use crate::words::printable;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -136,10 +137,10 @@ impl Found<'_> {
         }
         for metadata in self.overview.metadata.iter().filter(|words| words.name != COUNTS) {
             for (name, value) in metadata.metadata.iter().filter(|(_, value)| !value.is_empty()) {
-                text += &format!("  {name:<18} {value}\n");
+                text += &format!("  {:<18} {}\n", printable(name), printable(value));
             }
         }
-        text += &format!("  {:<18} {}\n\n", "attached", self.attached().join(", "));
+        text += &format!("  {:<18} {}\n\n", "attached", printable(&self.attached().join(", ")));
         let line = match &self.line {
             Some(Tally { lost, thinned, restarts, .. }) => {
                 format!("{lost} lost, {thinned} thinned, {restarts} restarts")
@@ -150,7 +151,9 @@ impl Found<'_> {
         text += &format!("{:.2} s, {frames} frames ({rate:.1} a second), {line}\n", self.seconds());
         for (info, count) in self.channels() {
             let ChannelInfo { channel, schema } = info;
-            text += &format!("  {:<26} {count:>8}  {} {schema}\n", channel.topic, channel.message_encoding);
+            let [topic, encoding, schema] =
+                [&channel.topic, &channel.message_encoding, schema].map(|word| printable(word));
+            text += &format!("  {topic:<26} {count:>8}  {encoding} {schema}\n");
         }
         text
     }

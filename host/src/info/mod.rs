@@ -3,6 +3,7 @@
 mod found;
 
 use crate::repair::RepairArgs;
+use crate::words::printable_json;
 use anyhow::Result;
 use clap::Args;
 use found::Found;
@@ -30,7 +31,7 @@ pub fn run(args: InfoArgs) -> Result<()> {
     let file = if repaired { args.repair.run(&args.file)? } else { args.file };
     let found = Found::of(&file, args.check, repaired)?;
     if args.json {
-        println!("{}", found.json());
+        println!("{}", printable_json(&found.json().to_string()));
     } else {
         print!("{}", found.table());
     }

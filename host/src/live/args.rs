@@ -49,6 +49,9 @@ pub struct BoardArgs {
     /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[arg(long, value_name = "BASE")]
     pub shapes: Option<PathBuf>,
+    /// End when the board is gone, instead of waiting for it to come back
+    #[arg(long)]
+    pub once: bool,
     /// Seed of the simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -70,6 +73,7 @@ impl BoardArgs {
             forms: None,
             feed: Vec::new(),
             shapes: None,
+            once: false,
             seed: None,
         }
     }

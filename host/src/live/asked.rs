@@ -1,8 +1,7 @@
 //! What the command line has asked of a board, and whether the board does it.
 
 use super::BoardArgs;
-use super::narrate::request_name;
-use crate::client::Event;
+use crate::client::{Event, request_name};
 use taxel_core::wire::{self, Request};
 
 /// Requests that a board has not answered yet.

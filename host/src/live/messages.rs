@@ -8,7 +8,7 @@
 
 use super::Show;
 use crate::calibrate::{Calibration, Forces};
-use crate::client::{Client, Event, ImageNews};
+use crate::client::{Client, Event, ImageNews, request_name};
 use crate::json;
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -193,7 +193,7 @@ fn small(client: &Client, event: &Event) -> Value {
             json!({ "type": "sync", "token": report.token, "received_us": report.received.0, "sent_us": report.sent.0 })
         }
         Event::Answer { request, refusal } => {
-            json!({ "type": "answer", "request": super::narrate::request_name(*request), "refusal": refusal })
+            json!({ "type": "answer", "request": request_name(*request), "refusal": refusal })
         }
         Event::Refused(error) => json!({ "type": "refused", "why": error.to_string() }),
         _ => Value::Null,

@@ -43,6 +43,12 @@ pub trait Show {
     /// Takes an event; the client is in the state after it.
     fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
 
+    /// What the host itself has to say of the stream, an [`Event::Log`]: that its source is gone, that it is
+    /// back.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        self.event(client, note)
+    }
+
     /// These bytes are about to be sent to the board.
     fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<()> {
         Ok(())

@@ -1,6 +1,6 @@
 //! What came, in sentences: for the plain lines and for the log of the picture.
 
-use crate::client::{Client, Event, Worn};
+use crate::client::{Client, Event, Worn, request_name};
 use crate::starts;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::{Micros, Name};
@@ -155,32 +155,4 @@ pub(crate) fn region_name(client: &Client, region: u8) -> &str {
 pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
     let areas = client.layout().map_or(&[][..], |layout| layout.areas());
     areas.get(usize::from(panel)).map_or("?", |area| &area.name)
-}
-
-/// The name of a request by its number.
-pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 21] = [
-        "set-garment",
-        "set-scene",
-        "tare",
-        "start",
-        "stop",
-        "sync",
-        "posture",
-        "concept",
-        "key-frame",
-        "self-test",
-        "save",
-        "set-gain",
-        "budget",
-        "feed",
-        "set-gestures",
-        "set-calibration",
-        "set-shapes",
-        "add-shapes",
-        "set-certainty",
-        "reset-settings",
-        "set-forms",
-    ];
-    NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

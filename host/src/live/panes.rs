@@ -65,7 +65,7 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
 
 /// The leading intention, and a bar for every concept: intentions first, then what follows from them, then the inputs.
 pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
-    if space.height == 0 {
+    if space.is_empty() {
         return;
     }
     let leading = client.leading();

@@ -105,6 +105,10 @@ impl View {
     }
 
     fn paint(&self, client: &Client, paused: bool, buffer: &mut Buffer) {
+        if buffer.area.is_empty() {
+            // A terminal that is being resized may have no rows.
+            return;
+        }
         let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1), Constraint::Length(1)]);
         let [header, body, footer] = rows.areas(buffer.area);
         self.header(client, header, buffer);
@@ -129,6 +133,9 @@ impl View {
         } else {
             let [maps, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(body);
             self.maps(client, maps, buffer);
+            if below.is_empty() {
+                return;
+            }
             let touched: Vec<_> = client.contacts().iter().map(|p| region_name(client, p.region)).collect();
             let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
             buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
@@ -143,6 +150,9 @@ impl View {
     }
 
     fn header(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        if space.is_empty() {
+            return;
+        }
         let width = usize::from(space.width);
         let bold = Style::new().add_modifier(Modifier::BOLD);
         let what = client.worn().map_or("waiting for a Hello".into(), |worn| {
@@ -199,6 +209,9 @@ impl View {
 
     /// Keys and the scale.
     fn footer(&self, paused: bool, space: Rect, buffer: &mut Buffer) {
+        if space.is_empty() {
+            return;
+        }
         let mut keys = String::from("q quit  space pause  t tare  +/- scale   0 ");
         if paused {
             keys = format!("PAUSED  {keys}");

@@ -1,13 +1,12 @@
 //! A source is read until it ends, or until enough has come.
 
 use super::asked::Asked;
-use super::narrate::request_name;
 use super::{BoardArgs, LiveArgs, Show, outfit};
 use crate::calibrate::Calibration;
-use crate::client::{Client, Event, ImageNews};
-use crate::clock::SteadyTime;
-use crate::fault::{Blame, Fault};
+use crate::client::{Client, Event, ImageNews, request_name};
+use crate::fault::Fault;
 use crate::output::Output;
+use crate::session::{Returns, Session, Turn};
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
 use crate::source::Source;
@@ -20,67 +19,61 @@ use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 
-/// Requests, one a second, that a board may leave without an answer where somebody watches for some time only.
-const SILENCE: u32 = 10;
+/// How long a board that says nothing, or a source that is gone, is waited for where somebody watches for some
+/// time only.
+const SILENCE: Duration = Duration::from_secs(10);
+/// How long nothing is said of a board that says nothing.
+const QUIET: Duration = Duration::from_secs(3);
 
 /// Shows what comes from a source until it ends, or until enough has come.
-pub fn watch(args: &LiveArgs, mut source: Source, show: &mut dyn Show) -> Result<()> {
-    let mut client = Client::new();
-    prepare(&mut client, &args.board, &source)?;
-    let mut limits = Limits {
-        frames: args.frames,
-        seconds: args.seconds,
-        began: None,
-        codes: args.taxel.is_some(),
-        ended: false,
-    };
-    let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
+pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()> {
     let limited = args.frames.is_some() || args.seconds.is_some();
-    let mut patience = Patience { limited, asked: Instant::now(), times: 0 };
-    let mut asked = if source.listens { Asked::of(client.queued(), &args.board) } else { Asked::default() };
-    let time = SteadyTime::start();
-    let tell_time = |client: &mut Client, real: bool| {
-        if real {
-            client.tell_time(time.now_us());
-        }
+    let returns = match (args.board.once, limited) {
+        (true, _) => Returns::Never,
+        (false, true) => Returns::Within(SILENCE),
+        (false, false) => Returns::Always,
     };
-    let mut buffer = [0; 4096];
+    let mut session = Session::new(source, returns);
+    let (client, source) = session.parts();
+    prepare(client, &args.board, source)?;
+    let mut asked = if source.listens { Asked::of(&client.queued(), &args.board) } else { Asked::default() };
+    let mut limits = Limits::of(args);
+    let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
+    let mut patience = Patience { limited, began: Instant::now(), told: false };
     while !limits.ended && asked.refusal.is_none() {
-        tell_time(&mut client, source.real_time);
-        let lost = || format!("{} is gone", source.label);
-        let requests = client.take_requests();
-        show.asked(&client, &requests)?;
-        source.port.write(&requests).with_context(lost).board()?;
-        let Some(count) = source.port.read(&mut buffer).with_context(lost).board()? else { break };
-        tell_time(&mut client, source.real_time);
-        show.bytes(&buffer[..count]);
-        let mut taken = 0;
-        for byte in &buffer[..count] {
-            taken += 1;
-            let Some(event) = client.push(*byte) else { continue };
-            tell(&client, &event);
-            show.event(&client, &event)?;
+        let turn = session.turn(&mut |client, bytes| show.asked(client, bytes))?;
+        if turn == Turn::End {
+            break;
+        }
+        show.bytes(session.bytes());
+        while let Some(event) = session.next_event() {
+            tell(session.client(), &event);
+            show.event(session.client(), &event)?;
             asked.answered(&event);
             if limits.reached(&event) || asked.refusal.is_some() {
                 break;
             }
         }
         if let Some(save) = &mut save {
-            save.write(&buffer[..taken])?;
+            save.write(&session.bytes()[..session.taken()])?;
         }
-        if !show.idle(&mut client)? {
+        while let Some(note) = session.note() {
+            show.gap(session.client(), &note)?;
+        }
+        if !show.idle(session.parts().0)? {
             break;
         }
-        patience.ask_again(&mut client, &source)?;
+        patience.look(&session)?;
     }
-    show.end(&client)?;
+    let (client, source) = session.parts();
+    show.end(client)?;
     if let Some(remark) = source.port.remark() {
         eprintln!("{}: {remark}", source.label);
     }
     match (asked.refusal, client.worn()) {
         (Some(refusal), _) => Err(Fault::board(format!("{}: {refusal}", source.label)).into()),
         (None, Some(_)) => Ok(()),
-        (None, None) => Err(silent(&source, client.counts().bytes)),
+        (None, None) => Err(silent(source, client.counts().bytes)),
     }
 }
 
@@ -152,24 +145,34 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
 /// When enough has come.
 struct Limits {
     frames: Option<u64>,
-    seconds: Option<f64>,
-    began: Option<Micros>,
+    /// Time that is left, us.
+    left_us: Option<u64>,
+    last: Option<Micros>,
     /// The codes of the last image, which come after it, are waited for.
     codes: bool,
     ended: bool,
 }
 
 impl Limits {
+    fn of(args: &LiveArgs) -> Limits {
+        let left_us = args.seconds.map(|seconds| (seconds * 1e6) as u64);
+        Limits { frames: args.frames, left_us, last: None, codes: args.taxel.is_some(), ended: false }
+    }
+
     fn reached(&mut self, event: &Event) -> bool {
         if self.frames == Some(0) {
             self.ended |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
         } else if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
-            let began = *self.began.get_or_insert(*time);
+            // A board that starts anew begins at 0: no time passes by that.
+            let passed = time.since(self.last.replace(*time).unwrap_or(*time));
             if let Some(frames) = &mut self.frames {
                 *frames = frames.saturating_sub(1);
                 self.ended |= *frames == 0 && !self.codes;
             }
-            self.ended |= self.seconds.is_some_and(|seconds| time.since(began) as f64 >= seconds * 1e6);
+            if let Some(left) = &mut self.left_us {
+                *left = left.saturating_sub(passed);
+                self.ended |= *left == 0;
+            }
         }
         self.ended
     }
@@ -192,27 +195,27 @@ impl Saver {
     }
 }
 
-/// A request that came to nothing (the board was starting, the line was noisy) is made again.
+/// With a board that says nothing.
 struct Patience {
-    /// Whoever watches for some time only does not wait for ever for a board that says nothing.
+    /// Whoever watches for some time only does not wait for ever.
     limited: bool,
-    asked: Instant,
-    times: u32,
+    began: Instant,
+    /// It was said that nothing comes.
+    told: bool,
 }
 
 impl Patience {
-    fn ask_again(&mut self, client: &mut Client, source: &Source) -> Result<()> {
-        if client.worn().is_some() || self.asked.elapsed() < Duration::from_secs(1) {
+    fn look(&mut self, session: &Session) -> Result<()> {
+        if session.client().worn().is_some() || session.is_gone() {
             return Ok(());
         }
-        self.asked = Instant::now();
-        self.times += 1;
-        if self.times == 3 {
-            eprintln!("No Hello yet from {}.", source.label);
+        let passed = self.began.elapsed();
+        if passed > QUIET && !std::mem::replace(&mut self.told, true) {
+            eprintln!("No Hello yet from {}.", session.source().label);
         }
-        if self.limited && self.times >= SILENCE {
-            return Err(silent(source, client.counts().bytes));
+        if self.limited && passed > SILENCE {
+            return Err(silent(session.source(), session.client().counts().bytes));
         }
-        Ok(client.start(0)?)
+        Ok(())
     }
 }

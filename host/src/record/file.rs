@@ -11,9 +11,6 @@ use anyhow::Result;
 use serde_json::json;
 use taxel_core::fold::Posture;
 
-/// Nanoseconds of a microsecond.
-pub const NS: u64 = 1000;
-
 /// One file.
 #[derive(Debug)]
 pub struct RecordingFile<S: Store> {
@@ -39,7 +36,7 @@ impl<S: Store> RecordingFile<S> {
 
     /// What a board said of itself in this frame of the wire, and where it comes from.
     pub fn attach(&mut self, worn: &Worn, hello: &[u8], origin: &Origin, stamp: Stamp) -> Result<()> {
-        let ns = stamp.host_us * NS;
+        let ns = stamp.host_ns();
         if !std::mem::replace(&mut self.says_what, true) {
             self.writer.attach(HELLO, "application/octet-stream", hello, ns)?;
         }
@@ -48,12 +45,12 @@ impl<S: Store> RecordingFile<S> {
 
     /// A frame of the wire from the board.
     pub fn wire(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
-        self.writer.message(self.topics.wire, stamp.host_us * NS, stamp.board_us * NS, bytes)
+        self.writer.message(self.topics.wire, stamp.host_ns(), stamp.board_ns(), bytes)
     }
 
     /// Frames of the wire to the board.
     pub fn requests(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
-        self.writer.message(self.topics.requests, stamp.host_us * NS, stamp.board_us * NS, bytes)
+        self.writer.message(self.topics.requests, stamp.host_ns(), stamp.board_ns(), bytes)
     }
 
     /// A posture that was told the board; `names` are the scene's joints.
@@ -83,7 +80,7 @@ impl<S: Store> RecordingFile<S> {
 
     fn json(&mut self, topic: &str, stamp: Stamp, bytes: &[u8]) -> Result<()> {
         let Some(channel) = self.topics.json(topic) else { return Ok(()) };
-        self.writer.message(channel, stamp.host_us * NS, stamp.board_us * NS, bytes)
+        self.writer.message(channel, stamp.host_ns(), stamp.board_ns(), bytes)
     }
 
     /// Ends the chunk.

@@ -31,13 +31,13 @@ mod topics;
 mod wire_reader;
 
 pub use command::{RecordArgs, run};
-pub use file::{NS, RecordingFile};
+pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;
 pub use play::Play;
 pub use provenance::{CALIBRATION, HELLO, Origin};
 pub use recorder::{Plan, Recorder};
-pub use stamps::{Stamp, Stamps, time_of};
+pub use stamps::{NS, Stamp, Stamps, time_of};
 pub use standing::{lost, renumbered, sequence};
 pub use tally::{COUNTS, Tally};
 pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};

@@ -27,7 +27,8 @@ impl Progress {
 
     /// A file has ended.
     pub fn ended(&mut self, bytes: u64) {
-        self.earlier_us += std::mem::take(&mut self.passed_us);
+        self.earlier_us = self.board_us();
+        self.passed_us = 0;
         self.earlier_frames += std::mem::take(&mut self.frames);
         self.written += bytes;
         self.files += 1;
@@ -41,7 +42,7 @@ impl Progress {
 
     /// Time of the board so far, us.
     pub fn board_us(&self) -> u64 {
-        self.earlier_us + self.passed_us
+        self.earlier_us.saturating_add(self.passed_us)
     }
 
     /// One line; `bytes` are those of the file that is being written.

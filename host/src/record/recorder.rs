@@ -226,6 +226,18 @@ impl Show for Recorder {
         self.answered(event)
     }
 
+    /// It is said on the standard error, too: nobody may look into a recording for days.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        if let Event::Log { text, .. } = note {
+            self.shown.clear();
+            eprintln!("{text}");
+        }
+        let stamp = self.stamps.now(client);
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let done = file.event(client, note, stamp, self.plan.origin.counts_per_newton);
+        self.guard(done)
+    }
+
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
         let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
         let stamp = self.stamps.now(client);

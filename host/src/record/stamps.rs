@@ -4,6 +4,9 @@ use crate::client::{Client, Event};
 use crate::clock::SteadyTime;
 use taxel_core::format::Micros;
 
+/// Nanoseconds of a microsecond.
+pub const NS: u64 = 1000;
+
 /// Times of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp {
@@ -13,6 +16,19 @@ pub struct Stamp {
     pub host_us: u64,
     /// How far that can be from the truth; none: no round trip has told.
     pub uncertainty_us: Option<u64>,
+}
+
+impl Stamp {
+    /// The host's time, ns since 1970, as recordings have it; a time beyond what they can say is the last that
+    /// they can.
+    pub fn host_ns(&self) -> u64 {
+        self.host_us.saturating_mul(NS)
+    }
+
+    /// The board's time, ns, likewise.
+    pub fn board_ns(&self) -> u64 {
+        self.board_us.saturating_mul(NS)
+    }
 }
 
 /// Finds the host's times.
@@ -52,7 +68,7 @@ impl Stamps {
             Some((board, host)) if board_us >= board => (board, host),
             _ => *self.heard.insert((board_us, self.time.now_us())),
         };
-        Stamp { board_us, host_us: host + (board_us - board), uncertainty_us: None }
+        Stamp { board_us, host_us: host.saturating_add(board_us - board), uncertainty_us: None }
     }
 }
 

@@ -1,11 +1,11 @@
 //! Files that are attached to a recording.
 
 use super::salvage::fields;
-use mcap::records::AttachmentHeader;
+use mcap::records::{AttachmentHeader, op};
 
 /// The header and the bytes of an attached file, and whether the record ends behind them; none: it is damaged.
 pub fn attached(body: &[u8]) -> Option<(AttachmentHeader, &[u8], bool)> {
-    let (header, used) = fields::<AttachmentHeader>(body)?;
+    let (header, used) = fields::<AttachmentHeader>(op::ATTACHMENT, body)?;
     let (length, rest) = body.get(used..)?.split_first_chunk()?;
     let (data, crc) = rest.split_at_checked(usize::try_from(u64::from_le_bytes(*length)).ok()?)?;
     let sum = u32::from_le_bytes(*crc.first_chunk()?);
@@ -18,7 +18,6 @@ pub fn attached(body: &[u8]) -> Option<(AttachmentHeader, &[u8], bool)> {
 mod tests {
     use super::super::append::{append, write};
     use super::*;
-    use mcap::records::op;
 
     #[test]
     fn what_is_cut_off_anywhere_is_damaged_and_nothing_panics() {

@@ -15,8 +15,9 @@ pub fn is_known(compression: &str) -> bool {
     matches!(compression, "" | LZ4)
 }
 
-/// Largest chunk that is read, bytes: a claim beyond it is no reason to ask for memory.
-pub const LARGEST: u64 = 1 << 30;
+/// Largest chunk that is read, plain, bytes. Ours hold a second, those of others some megabytes; LZ4 makes 255
+/// bytes of one, and a small file is no reason to ask for much memory.
+pub const LARGEST: u64 = 1 << 25;
 
 /// Where the messages of a chunk lie in its plain bytes, by channel.
 pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;

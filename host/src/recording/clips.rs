@@ -4,8 +4,8 @@ use super::attached::attached;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
+use super::texts::parse_record;
 use anyhow::{Context, Result, bail};
-use mcap::parse_record;
 use mcap::records::{Channel, MessageHeader, Record, op};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// Chunks that are kept, plain: the one that is played, and those that a step back needs.
 const HELD: usize = 4;
+/// Bytes of the chunks that are kept beside the last one.
+const HELD_BYTES: usize = 64 << 20;
 /// Longest record beside chunks that is read, bytes.
 const LONGEST: u64 = 1 << 24;
 
@@ -162,11 +164,18 @@ impl Clips {
             let read = self.read(chunk);
             let clip = read.with_context(|| format!("{} is damaged", self.path.display()))?;
             self.held.push((chunk, clip));
-            if self.held.len() > HELD {
+            while self.held.len() > HELD || self.held_bytes() > HELD_BYTES {
                 self.held.remove(0);
             }
         }
         Ok(self.held.last().map_or_else(|| [].into(), |(_, clip)| clip.clone()))
+    }
+
+    /// Memory of the chunks that are kept beside the last one.
+    fn held_bytes(&self) -> usize {
+        let before = self.held.split_last().map_or(&[][..], |(_, before)| before);
+        let pieces = before.iter().flat_map(|(_, clip)| clip.iter());
+        pieces.map(|piece| size_of::<Piece>() + piece.data.len()).sum()
     }
 
     fn read(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {

@@ -4,8 +4,8 @@ use super::attached::attached;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
+use super::texts::parse_record;
 use anyhow::{Context, Result};
-use mcap::parse_record;
 use mcap::records::{Channel, MessageHeader, Record, op};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Bytes of a message before its data: channel, order, times.
 const MESSAGE: usize = 22;
-/// Longest attached file that is read, bytes.
+/// Longest record outside of chunks that is read, bytes.
 const LONGEST: u64 = 1 << 24;
 
 /// One message.
@@ -151,6 +151,7 @@ impl Messages {
         let Some(head) = self.records.next_head()? else { return Ok(Step::Damaged(Damage::at(offset))) };
         match head.op {
             op::CHUNK => return self.chunk(head),
+            op::MESSAGE | op::CHANNEL if head.length > LONGEST => self.records.go_to(head.end())?,
             op::MESSAGE => {
                 self.plain.clear();
                 self.plain.push(head.op);

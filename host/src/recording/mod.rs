@@ -14,6 +14,7 @@
 //! | `records.rs` | the records of a file, one after the other |
 //! | `messages.rs` | its messages |
 //! | `damage.rs` | what is damaged in the middle of a file, passed over |
+//! | `texts.rs` | one record, read once its texts are known to lie within it |
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
 //! | `source.rs` | bytes of a file at any place |
 //! | `summary.rs` | the end of a file: footer and summary, read |
@@ -41,6 +42,7 @@ mod scan;
 mod source;
 mod store;
 mod summary;
+mod texts;
 mod writer;
 
 #[cfg(test)]

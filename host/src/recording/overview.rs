@@ -4,9 +4,9 @@ use super::attached::attached;
 use super::contents::{ChannelInfo, Stretch};
 use super::records::Records;
 use super::summary::{Summary, summary};
+use super::texts::{LONGEST, parse_record};
 use super::{Scan, scan};
 use anyhow::{Context, Result};
-use mcap::parse_record;
 use mcap::records::{AttachmentIndex, Metadata, Record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -95,7 +95,7 @@ impl Overview {
             return Ok(None);
         };
         let mut records = Records::open_at(&self.path, index.offset)?;
-        let record = records.next_record()?.with_context(place)?;
+        let record = records.next_short(LONGEST as u64)?.with_context(place)?;
         let (_, data, _) = attached(record.body).with_context(place)?;
         Ok(Some(data.to_vec()))
     }
@@ -104,7 +104,7 @@ impl Overview {
 /// The words that lie there; none: they are damaged.
 fn words(path: &Path, offset: u64) -> Result<Option<Metadata>> {
     let mut records = Records::open_at(path, offset)?;
-    let record = records.next_record()?;
+    let record = records.next_short(LONGEST as u64)?;
     Ok(record.and_then(|record| match parse_record(record.op, record.body) {
         Ok(Record::Metadata(words)) => Some(words),
         _ => None,

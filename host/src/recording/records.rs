@@ -132,6 +132,14 @@ impl Records {
         }
     }
 
+    /// The next record, if it has at most so many bytes; none: it is longer, or the rest is no whole record.
+    pub fn next_short(&mut self, longest: u64) -> Result<Option<RawRecord<'_>>> {
+        match self.next_head()? {
+            Some(head) if head.length <= longest => self.body(head).map(Some),
+            _ => Ok(None),
+        }
+    }
+
     /// The bytes that follow, at most `count`.
     pub fn rest(&mut self, count: u64) -> Result<Vec<u8>> {
         let mut rest = Vec::new();

@@ -53,7 +53,8 @@ struct Rebuilt<'a, W> {
     /// What is in it; all schemas and channels of the old one.
     contents: Contents,
     told: Told,
-    /// The record before is a chunk of a compression that is not known here, or an index of its messages.
+    /// The record before is a chunk of a compression or a size that is not read here, or an index of its
+    /// messages.
     follows_foreign: bool,
 }
 

@@ -21,7 +21,7 @@ pub struct Scan {
     pub torn: u64,
     /// Bytes that cannot be read, those behind what can be read included.
     pub damage: Vec<Damage>,
-    /// Chunks of compressions that are not known here: no message in them can be read.
+    /// Chunks of compressions or of a size that are not read here: no message in them can be read.
     pub foreign: usize,
     /// Words of the file by name.
     pub metadata: Vec<Metadata>,

@@ -1,10 +1,11 @@
 //! What a recording says of itself at its end: found by its footer, without going through the file.
 
 use super::append::HEAD;
-use super::source::Source;
+use super::source::{Head, Source};
+use super::texts::{LONGEST, parse_record};
 use anyhow::{Context, Result};
+use mcap::MAGIC;
 use mcap::records::{AttachmentIndex, Channel, ChunkIndex, Footer, MetadataIndex, Record, Statistics, op};
-use mcap::{MAGIC, parse_record};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -83,7 +84,8 @@ fn each(
     take: &mut impl FnMut(Record<'_>) -> bool,
 ) -> io::Result<bool> {
     while at < until {
-        let Some(head) = source.head(at)?.filter(|head| head.length <= until - at) else { return Ok(false) };
+        let fits = |head: &Head| head.length <= (until - at).min(LONGEST as u64);
+        let Some(head) = source.head(at)?.filter(fits) else { return Ok(false) };
         let next = at + HEAD as u64 + head.length;
         // Zeros are no record, and a chunk is none of a summary.
         if next > until || matches!(head.op, 0 | op::CHUNK) {

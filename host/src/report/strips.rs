@@ -89,8 +89,10 @@ impl Strip<'_> {
         }
         let [first, last] = self.span.map(|us| us as f64 / 1e6);
         let step = nice_top((last - first) / MARKS);
-        let mut time = (first / step).ceil() * step;
-        while time <= last {
+        // Counted, because a time of days or of nonsense may stay the same when so little is added to it.
+        let begin = (first / step).ceil();
+        let marks = (0..=MARKS as u32 + 1).map(|mark| (begin + f64::from(mark)) * step);
+        for time in marks.take_while(|time| *time <= last) {
             let x = self.x((time * 1e6) as u64);
             writeln!(
                 svg,
@@ -98,7 +100,6 @@ impl Strip<'_> {
                 bottom + 15.0,
                 (time * 1000.0).round() / 1000.0
             )?;
-            time += step;
         }
         writeln!(
             svg,
@@ -111,5 +112,21 @@ impl Strip<'_> {
             f64::midpoint(FRAME[1], bottom),
             escaped(self.label)
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strip_of_any_times_has_an_end() {
+        let last = u64::MAX;
+        for span in [[0, 0], [0, last], [last, last], [last - 1000, last], [last, 0], [1, 60_000_000]] {
+            let points = vec![(span[0], vec![1.0]), (span[1], vec![2.0])];
+            let strip = Strip { names: vec!["a"], points, label: "N", steps: true, span };
+            let drawn = strip.draw();
+            assert!(drawn.ends_with("</svg>\n") && drawn.len() < 10_000, "{span:?}: {} bytes", drawn.len());
+        }
     }
 }

@@ -5,7 +5,8 @@ use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
 use crate::fault::Fault;
 use crate::verbose;
-use anyhow::{Result, bail};
+use crate::words::printable;
+use anyhow::{Context, Result, bail};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -29,7 +30,7 @@ pub fn open(options: &SourceOptions) -> Result<Source> {
         match Serial::open(&port.port_name, BAUD) {
             Ok(serial) => {
                 if let Some(serial) = listen(serial) {
-                    return Ok(Source::real(label(port), serial));
+                    return Ok(real(port, serial, BAUD));
                 }
                 silent.push(format!("{} says no Hello", port.port_name));
             }
@@ -51,7 +52,7 @@ pub fn usb() -> Result<Source> {
     boards.retain(|port| usb_of(port).is_some_and(is_board));
     for port in &boards {
         match Serial::open(&port.port_name, BAUD) {
-            Ok(serial) => return Ok(Source::real(label(port), serial)),
+            Ok(serial) => return Ok(real(port, serial, BAUD)),
             Err(error) => why.push(error.to_string()),
         }
     }
@@ -61,6 +62,62 @@ pub fn usb() -> Result<Source> {
             "no board on USB: no serial port says that it is {vendor:04x}:{product:04x} {name}"
         ))),
         _ => bail!(Fault::board(format!("no board on USB can be used: {}", why.join(", ")))),
+    }
+}
+
+/// Opens a serial port by its name.
+pub fn port(path: &str, baud: u32) -> Result<Source> {
+    let serial = Serial::open(path, baud)?;
+    // A name that leads to the port (`/dev/serial/by-id/...`) is none of those that are listed, and comes back
+    // by itself.
+    let listed = ports().into_iter().find(|port| port.port_name == path);
+    let port = listed.unwrap_or_else(|| SerialPortInfo {
+        port_name: path.into(),
+        port_type: serialport::SerialPortType::Unknown,
+    });
+    Ok(named(format!("serial:{path}@{baud}"), port, serial, baud))
+}
+
+/// A board on this port.
+fn real(port: &SerialPortInfo, serial: Serial, baud: u32) -> Source {
+    named(label(port), port.clone(), serial, baud)
+}
+
+/// A board on this port, called so until it comes back on another.
+fn named(label: String, port: SerialPortInfo, serial: Serial, baud: u32) -> Source {
+    Source::real(label, serial, move || returned(&port, ports(), baud))
+}
+
+/// Opens the port on which a board is that was unplugged: the one that says the same of itself, whatever it is
+/// called now, or the one of its name, where ports say nothing of themselves.
+fn returned(lost: &SerialPortInfo, ports: Vec<SerialPortInfo>, baud: u32) -> Result<Source> {
+    let found = match usb_of(lost) {
+        Some(_) => back(lost, &ports).context("it is not plugged in")?,
+        None => lost,
+    };
+    let serial = Serial::open(&found.port_name, baud)?;
+    let label = if usb_of(found).is_some_and(is_board) {
+        label(found)
+    } else {
+        format!("serial:{}@{baud}", found.port_name)
+    };
+    Ok(named(label, found.clone(), serial, baud))
+}
+
+/// The port of a device that was unplugged: with its number, where it has one; else the only one of its kind.
+fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a SerialPortInfo> {
+    let known = usb_of(lost)?;
+    let alike: Vec<_> = ports
+        .iter()
+        .filter(|port| {
+            usb_of(port).is_some_and(|usb| {
+                (usb.vid, usb.pid, &usb.serial_number) == (known.vid, known.pid, &known.serial_number)
+            })
+        })
+        .collect();
+    match alike.as_slice() {
+        [one] => Some(one),
+        many => many.iter().find(|port| port.port_name == lost.port_name).copied(),
     }
 }
 
@@ -95,7 +152,7 @@ pub fn listed() -> Vec<(String, PortKind, String)> {
             false if PROBES.contains(&usb.vid) => PortKind::Probe,
             false => PortKind::Other,
         };
-        let product = usb.product.as_deref().unwrap_or_default();
+        let product = printable(usb.product.as_deref().unwrap_or_default());
         let told = format!("{:04x}:{:04x} {product}", usb.vid, usb.pid);
         (port.port_name, kind, told)
     };
@@ -165,6 +222,31 @@ mod tests {
         let product = product.map(String::from);
         let usb = UsbPortInfo { vid, pid, serial_number: None, manufacturer: None, product };
         SerialPortInfo { port_name: name.into(), port_type: SerialPortType::UsbPort(usb) }
+    }
+
+    #[test]
+    fn a_board_that_is_plugged_in_again_is_found_under_another_name() {
+        let with = |mut port: SerialPortInfo, number: &str| {
+            if let SerialPortType::UsbPort(usb) = &mut port.port_type {
+                usb.serial_number = Some(number.into());
+            }
+            port
+        };
+        let board = |name: &str| port(name, 0x1209, 0x0001, Some("taxel"));
+        let found = |lost: &SerialPortInfo, ports: &[SerialPortInfo]| {
+            back(lost, ports).map(|port| port.port_name.clone())
+        };
+        let lost = with(board("ttyACM0"), "A1");
+        let other = with(board("ttyACM0"), "B2");
+        assert_eq!(found(&lost, std::slice::from_ref(&other)), None, "another board has taken its name");
+        assert_eq!(found(&lost, &[other, with(board("ttyACM3"), "A1")]).as_deref(), Some("ttyACM3"));
+        // Boards without a number: the only one, or the one of its name.
+        assert_eq!(found(&board("ttyACM0"), &[board("ttyACM1")]).as_deref(), Some("ttyACM1"));
+        let two = [board("ttyACM1"), board("ttyACM0")];
+        assert_eq!(found(&board("ttyACM0"), &two).as_deref(), Some("ttyACM0"));
+        assert_eq!(found(&board("ttyACM7"), &two), None);
+        let plain = SerialPortInfo { port_name: "ttyS0".into(), port_type: SerialPortType::PciPort };
+        assert_eq!(found(&plain, std::slice::from_ref(&plain)), None, "it is opened by its name");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The firmware image in the RP2040 emulator, with a scene on its pins.
 
-use super::tcp::Tcp;
+use super::tcp::{CONNECT, Tcp};
 use super::{Port, Source, SourceOptions};
 use crate::sim::{self, COUNTS_PER_NEWTON, FRAME_PERIOD_US, FULL_SCALE, frame_codes, wiring_json};
 use anyhow::{Context, Result, anyhow, bail};
@@ -162,7 +162,7 @@ fn connect(child: &mut Child) -> Result<Tcp> {
         told["port"].as_u64().ok_or_else(|| anyhow!("the emulator told no port but {}", line.trim()))?;
     // What it says later is read, so that it never waits for a reader.
     std::thread::spawn(move || io::copy(&mut out, &mut io::sink()));
-    Tcp::open(&format!("127.0.0.1:{port}"))
+    Tcp::open(&format!("127.0.0.1:{port}"), CONNECT)
 }
 
 fn stop(child: &mut Child) {
@@ -178,7 +178,7 @@ impl Port for Emulator {
         self.tcp.read(buffer)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.tcp.write(bytes)
     }
 }

@@ -21,13 +21,16 @@ use crate::sim::Script;
 use crate::verbose;
 use anyhow::Result;
 use std::io;
+use std::time::Duration;
 
-/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it.
+/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it. An
+/// error means that the link is broken.
 pub trait Port: Send {
     /// Bytes that have come, after a short wait if there are none (then 0); none: no more will come.
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
-    /// Sends all bytes.
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// Sends as many of the bytes as the other end takes within a short while: how many; it may read slowly, or
+    /// not at all.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
     /// What is to be said of it at the end.
     fn remark(&self) -> Option<String> {
         None
@@ -53,6 +56,9 @@ pub struct SourceOptions {
     pub garment: Option<String>,
 }
 
+/// Opens a source again that was lost.
+pub type Return = dyn FnMut() -> Result<Source> + Send;
+
 /// An open source.
 pub struct Source {
     /// What it is, in a few words.
@@ -69,10 +75,13 @@ pub struct Source {
     pub wears_asked: bool,
     /// There is a board that hears what is asked of it: nothing was recorded before.
     pub listens: bool,
+    /// How it is opened again when it is lost; none: it ends for good.
+    pub returns: Option<Box<Return>>,
 }
 
 impl Source {
-    fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
+    /// Of something that ends by itself.
+    pub fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
         Source {
             label: label.into(),
             port: Box::new(port),
@@ -81,13 +90,26 @@ impl Source {
             counts_per_newton: None,
             wears_asked: false,
             listens: true,
+            returns: None,
         }
     }
 
-    /// Of a real board.
-    fn real(label: impl Into<String>, port: impl Port + 'static) -> Source {
-        Source { real_time: true, ..Source::new(label, port) }
+    /// Of a real board, and how its link is opened again.
+    pub fn real(
+        label: impl Into<String>,
+        port: impl Port + 'static,
+        returns: impl FnMut() -> Result<Source> + Send + 'static,
+    ) -> Source {
+        Source { real_time: true, returns: Some(Box::new(returns)), ..Source::new(label, port) }
     }
+}
+
+/// Connects to a board within a time.
+fn tcp(address: &str, longest: Duration) -> Result<Source> {
+    let known = address.to_string();
+    // A try to come back is short: who waits may want to do something else.
+    let returns = move || tcp(&known, tcp::RETURN);
+    Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address, longest)?, returns))
 }
 
 /// Opens a simulated board that plays a script of this name.
@@ -108,10 +130,8 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Auto => auto::open(options),
         SourceSpec::Usb => auto::usb(),
         SourceSpec::Sim(scene) => sim::open(scene, options),
-        SourceSpec::Serial { path, baud } => {
-            Ok(Source::real(format!("serial:{path}@{baud}"), serial::Serial::open(path, *baud)?))
-        }
-        SourceSpec::Tcp(address) => Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address)?)),
+        SourceSpec::Serial { path, baud } => auto::port(path, *baud),
+        SourceSpec::Tcp(address) => tcp(address, tcp::CONNECT),
         SourceSpec::Emulator(scene) => emulator::open(scene, options),
         SourceSpec::File(path) => {
             let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);

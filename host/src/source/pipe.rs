@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use taxel_core::run::Link;
 
-/// Bytes that wait for the host at most.
+/// Bytes that wait for each end at most.
 const ROOM: usize = 64 * 1024;
 /// How long a read of the host waits.
 const PATIENCE: Duration = Duration::from_millis(10);
@@ -48,9 +48,11 @@ impl super::Port for HostEnd {
         Ok((count > 0 || !queues.board_gone).then_some(count))
     }
 
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
-        self.0.lock().to_board.extend(bytes);
-        Ok(())
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let mut queues = self.0.lock();
+        let count = bytes.len().min(ROOM.saturating_sub(queues.to_board.len()));
+        queues.to_board.extend(&bytes[..count]);
+        Ok(count)
     }
 }
 

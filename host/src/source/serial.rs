@@ -58,13 +58,18 @@ impl Port for Serial {
             return Ok(Some(count));
         }
         match self.port.read(buffer) {
+            // What could be read was the end: the other side has hung up.
+            Ok(0) => Ok(None),
             Ok(count) => Ok(Some(count)),
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(Some(0)),
             Err(error) => Err(error),
         }
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.port.write_all(bytes)
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.port.write(bytes) {
+            Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(0),
+            written => written,
+        }
     }
 }

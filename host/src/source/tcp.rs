@@ -7,27 +7,29 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::Duration;
 
-/// How long a read waits.
+/// How long a read or a write waits.
 const PATIENCE: Duration = Duration::from_millis(10);
-/// How long a connection may take.
-const CONNECT: Duration = Duration::from_secs(5);
+/// How long a connection may take at first, and how long when it was lost.
+pub const CONNECT: Duration = Duration::from_secs(5);
+pub const RETURN: Duration = Duration::from_secs(1);
 
 /// An open connection.
 pub struct Tcp(TcpStream);
 
 impl Tcp {
-    /// Connects to `HOST:PORT`.
-    pub fn open(address: &str) -> Result<Tcp> {
+    /// Connects to `HOST:PORT`, within a time for each of its addresses.
+    pub fn open(address: &str, longest: Duration) -> Result<Tcp> {
         let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
         let unknown =
             |_| Fault::board(format!("tcp:{address} cannot be reached: its name leads to no address"));
         for target in address.to_socket_addrs().map_err(unknown)? {
-            match TcpStream::connect_timeout(&target, CONNECT) {
+            match TcpStream::connect_timeout(&target, longest) {
                 Ok(stream) => {
                     stream
                         .set_nodelay(true)
                         .and_then(|()| stream.set_read_timeout(Some(PATIENCE)))
+                        .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
                         .map_err(wrong)?;
                     return Ok(Tcp(stream));
                 }
@@ -50,7 +52,11 @@ impl Port for Tcp {
         }
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.0.write_all(bytes)
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        use ErrorKind::{Interrupted, TimedOut, WouldBlock};
+        match self.0.write(bytes) {
+            Err(error) if matches!(error.kind(), TimedOut | WouldBlock | Interrupted) => Ok(0),
+            written => written,
+        }
     }
 }

@@ -18,6 +18,8 @@ use taxel_core::garment::Circuit;
 pub const PAGES: usize = 16;
 /// Lines of the log that a page is told that comes later.
 const LOG: usize = 32;
+/// Recordings that are sent at a time: each takes as much memory as what is kept of the board.
+const TRANSFERS: usize = 3;
 /// Tares that wait at most: one is under way, and one more may be wanted.
 const TARES: usize = 2;
 /// Orders to the player of a recording that wait at most.
@@ -29,6 +31,8 @@ pub struct Hub {
     shared: Mutex<Shared>,
     recent: Mutex<Recent>,
     orders: shared::Shared<VecDeque<Order>>,
+    /// Recordings that are being sent, once more for the hub itself.
+    transfers: Arc<()>,
 }
 
 #[derive(Default)]
@@ -224,6 +228,13 @@ impl Hub {
     /// Keeps the bytes of the board.
     pub fn keep(&self, bytes: &[u8]) {
         self.recent().push(bytes);
+    }
+
+    /// The right to send a recording while it is kept; none: as many as can be are being sent.
+    pub fn transfer(&self) -> Option<Arc<()>> {
+        // With the lock, so that two that come at once are counted one after the other.
+        let _shared = self.lock();
+        (Arc::strong_count(&self.transfers) <= TRANSFERS).then(|| self.transfers.clone())
     }
 
     /// See [`Recent::recording`].

@@ -6,11 +6,9 @@
 
 mod assets;
 mod browser;
-mod http;
 mod hub;
 mod mailbox;
 pub mod message;
-mod mute;
 mod pace;
 mod page;
 mod past;
@@ -25,7 +23,6 @@ mod viewer;
 
 pub use hub::Hub;
 pub use mailbox::{Mailbox, Parcel, Shot};
-pub use mute::Mute;
 pub use recent::Recent;
 pub use recorded::{Order, Player};
 pub use said::{Kind, Said};

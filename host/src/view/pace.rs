@@ -14,13 +14,14 @@ impl Pace {
     /// How long a frame of that time is to wait. Time that went back or leapt is not waited for.
     pub fn wait(&mut self, time: Micros, now: Instant) -> Duration {
         let (began, first) = *self.0.get_or_insert((now, time));
-        let due = began + Duration::from_micros(time.since(first));
-        let wait = due.saturating_duration_since(now);
-        if time < first || wait > GAP || now.saturating_duration_since(due) > GAP {
+        let wait = began.checked_add(Duration::from_micros(time.since(first))).and_then(|due| {
+            let wait = due.saturating_duration_since(now);
+            (time >= first && wait <= GAP && now.saturating_duration_since(due) <= GAP).then_some(wait)
+        });
+        if wait.is_none() {
             self.0 = Some((now, time));
-            return Duration::ZERO;
         }
-        wait
+        wait.unwrap_or_default()
     }
 }
 

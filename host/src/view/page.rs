@@ -3,8 +3,8 @@
 use super::hub::Hub;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
-use super::mute::Mute;
 use super::past::Past;
+use crate::serve::Mute;
 use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
@@ -56,7 +56,8 @@ fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
     while let Some(line) = mailbox.line_now() {
         send(line)?;
     }
-    if let Some(bytes) = hub.recording() {
+    // Where many come at once, some see no more than what comes: what was before takes memory for each.
+    if let Some((_transfer, bytes)) = hub.transfer().and_then(|kept| Some((kept, hub.recording()?))) {
         for parcel in Past::of(&bytes) {
             if mailbox.is_closed() || !send(parcel)? {
                 return Ok(());

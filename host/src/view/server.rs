@@ -1,62 +1,35 @@
-//! The server: a thread that accepts, and one for each connection.
+//! The server of the pages and of their files.
 
 use super::assets;
-use super::http::{self, Refusal};
-use super::hub::{Hub, PAGES};
+use super::hub::Hub;
 use super::page;
 use super::said::Said;
 use super::transfer::Transfer;
-use anyhow::{Context, Result};
+use crate::serve::http::{self, Refusal, Sites};
+use crate::serve::{self, Guest, Hurry};
+use anyhow::Result;
 use std::io::BufWriter;
 use std::net::{TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-use std::time::Duration;
 
-/// Connections at a time: all pages, and what a browser opens for the files of a few.
-const CONNECTIONS: usize = PAGES + 48;
-/// How long a read or a write of a file may stand still.
-const PATIENCE: Duration = Duration::from_secs(5);
+/// Connections at a time beside those of pages: what a browser opens for the files of a few.
+const CONNECTIONS: usize = 48;
+/// A file that is not there.
+const MISSING: Refusal = Refusal { status: "404 Not Found", why: "there is nothing of that name" };
+/// Another one waits.
+const BUSY: Refusal = Refusal {
+    status: "503 Service Unavailable",
+    why: "recordings are being sent to others: try again in a moment",
+};
 
 /// Serves the pages of a hub from a thread of its own; the port.
 pub fn serve(listener: TcpListener, hub: Arc<Hub>) -> Result<u16> {
-    let port = listener.local_addr().context("the page has no address")?.port();
-    let accept = move || {
-        let open = Arc::new(AtomicUsize::new(0));
-        for stream in listener.incoming() {
-            let Ok(stream) = stream else {
-                // Too many files are open, say: it may pass.
-                thread::sleep(Duration::from_millis(50));
-                continue;
-            };
-            let (hub, open) = (hub.clone(), open.clone());
-            if open.fetch_add(1, Ordering::Relaxed) >= CONNECTIONS {
-                open.fetch_sub(1, Ordering::Relaxed);
-                continue;
-            }
-            let counted = open.clone();
-            let spawned = thread::Builder::new().name("page".into()).spawn(move || {
-                // A disconnect mid-response is not an error.
-                let _ = connection(stream, &hub);
-                counted.fetch_sub(1, Ordering::Relaxed);
-            });
-            if spawned.is_err() {
-                open.fetch_sub(1, Ordering::Relaxed);
-            }
-        }
-    };
-    thread::Builder::new().name("pages".into()).spawn(accept)?;
-    Ok(port)
+    serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hub)?))
 }
 
 /// Answers one request, or talks to a page until it goes.
-fn connection(mut stream: TcpStream, hub: &Hub) -> std::io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
-    stream.set_nodelay(true)?;
-    let Some(request) = http::read(&mut stream) else { return Ok(()) };
-    let missing = Refusal { status: "404 Not Found", why: "there is nothing of that name" };
+fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Result<()> {
+    let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
     let request = match request {
         Ok(request) => request,
         Err(refusal) => return http::refuse(&mut stream, refusal),
@@ -64,7 +37,9 @@ fn connection(mut stream: TcpStream, hub: &Hub) -> std::io::Result<()> {
     match (request.path.as_str(), request.key) {
         ("/socket", Some(key)) => match hub.join() {
             Some(mailbox) => {
-                let end = http::upgrade(&mut stream, &key)
+                // Pages are counted by the hub.
+                guest.stay();
+                let end = http::upgrade(&mut stream, &key, None)
                     .and_then(|()| page::talk(stream, request.rest, hub, &mailbox));
                 hub.leave(&mailbox);
                 end
@@ -74,30 +49,39 @@ fn connection(mut stream: TcpStream, hub: &Hub) -> std::io::Result<()> {
                 http::refuse(&mut stream, Refusal { status: "503 Service Unavailable", why })
             }
         },
-        ("/recording.taxel", None) => match hub.recording() {
-            Some(bytes) => {
-                let name = "Content-Disposition: attachment; filename=\"recording.taxel\"\r\n";
-                http::answer(&mut stream, "application/octet-stream", name, &bytes)
-            }
-            None => http::refuse(&mut stream, missing),
+        ("/recording.taxel" | "/recording.mcap", None) => match hub.transfer() {
+            Some(_transfer) => recording(stream, &request.path, hub),
+            None => http::refuse(&mut stream, BUSY),
         },
-        ("/recording.mcap", None) if hub.has_tape() => {
-            let name = "Content-Disposition: attachment; filename=\"recording.mcap\"\r\n";
-            http::begin(&mut stream, "application/octet-stream", name)?;
-            let mut transfer = Transfer(BufWriter::new(stream));
-            // Where it fails, the end is missing, and the browser says so.
-            match hub.save(&mut transfer) {
-                Ok(()) => transfer.end(),
-                Err(error) => {
-                    hub.say(&Said::note(format!("the recording could not be saved: {error:#}")));
-                    Ok(())
-                }
-            }
-        }
         (path, None) => match assets::find(path) {
-            Some(asset) => http::answer(&mut stream, asset.kind, "", asset.bytes),
-            None => http::refuse(&mut stream, missing),
+            Some(asset) => http::answer(&mut Hurry::new(stream), asset.kind, "", asset.bytes),
+            None => http::refuse(&mut stream, MISSING),
         },
-        _ => http::refuse(&mut stream, missing),
+        _ => http::refuse(&mut stream, MISSING),
+    }
+}
+
+/// Sends what a page can save.
+fn recording(mut stream: TcpStream, path: &str, hub: &Hub) -> std::io::Result<()> {
+    let kind = "application/octet-stream";
+    if path == "/recording.taxel" {
+        let Some(bytes) = hub.recording() else { return http::refuse(&mut stream, MISSING) };
+        let name = "Content-Disposition: attachment; filename=\"recording.taxel\"\r\n";
+        return http::answer(&mut Hurry::new(stream), kind, name, &bytes);
+    }
+    if !hub.has_tape() {
+        return http::refuse(&mut stream, MISSING);
+    }
+    let name = "Content-Disposition: attachment; filename=\"recording.mcap\"\r\n";
+    let mut stream = Hurry::new(stream);
+    http::begin(&mut stream, kind, name)?;
+    let mut transfer = Transfer(BufWriter::new(stream));
+    // Where it fails, the end is missing, and the browser says so.
+    match hub.save(&mut transfer) {
+        Ok(()) => transfer.end(),
+        Err(error) => {
+            hub.say(&Said::note(format!("the recording could not be saved: {error:#}")));
+            Ok(())
+        }
     }
 }

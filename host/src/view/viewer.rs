@@ -90,11 +90,7 @@ impl Show for Viewer {
 
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
-            Event::Hello => {
-                // It may have started anew, with a scene of its own.
-                self.raw = RawCodes::default();
-                self.hello(client);
-            }
+            Event::Hello => self.hello(client),
             Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
             Event::Health(_) => self.hub.state("health", &live::message(client, event)),

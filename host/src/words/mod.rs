@@ -7,21 +7,25 @@
 mod json;
 mod meant;
 mod place;
+mod printable;
 mod serde;
 mod toml;
 
 pub use self::json::json;
 pub use self::meant::{meant, unknown};
 pub use self::place::{Step, line_of};
+pub use self::printable::{printable, printable_json};
 pub use self::serde::plain;
 pub use self::toml::toml;
 
 use std::error::Error;
 
-/// An error and its causes as one sentence on one line.
+/// An error and its causes as one sentence on one line, without what a terminal would obey: causes quote files
+/// and boards.
 pub fn sentence(error: &anyhow::Error) -> String {
     let causes: Vec<String> = error.chain().map(cause).collect();
-    causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ")
+    let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    printable(&line).into_owned()
 }
 
 /// One error without its causes.

@@ -8,16 +8,28 @@ use taxel::client::{Client, Event};
 use taxel::foxglove::{Hub, Publisher, channel, serve};
 use taxel::live::{LiveArgs, Show, message, watch};
 use taxel::source::{self, SourceOptions};
+use taxel_core::format::Micros;
+use taxel_core::wire::Level;
 use tungstenite::client::IntoClientRequest;
 use tungstenite::http::HeaderValue;
 use tungstenite::{Bytes, Message, WebSocket};
 
 fn connected(port: u16, protocols: &'static str) -> Result<WebSocket<TcpStream>, String> {
+    connected_from(port, protocols, Some("https://app.foxglove.dev"))
+}
+
+fn connected_from(
+    port: u16,
+    protocols: &'static str,
+    origin: Option<&'static str>,
+) -> Result<WebSocket<TcpStream>, String> {
     let stream = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap();
     stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
     let mut request = format!("ws://127.0.0.1:{port}/").into_client_request().unwrap();
     request.headers_mut().insert("Sec-WebSocket-Protocol", HeaderValue::from_static(protocols));
-    request.headers_mut().insert("Origin", HeaderValue::from_static("https://app.foxglove.dev"));
+    if let Some(origin) = origin {
+        request.headers_mut().insert("Origin", HeaderValue::from_static(origin));
+    }
     let (socket, response) = tungstenite::client(request, stream).map_err(|error| error.to_string())?;
     assert!(protocols.ends_with(response.headers()["Sec-WebSocket-Protocol"].to_str().unwrap()));
     Ok(socket)
@@ -61,7 +73,7 @@ fn play(hub: Arc<Hub>) -> Vec<Value> {
 fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing() {
     let hub = Arc::new(Hub::default());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
-    let port = serve(listener, hub.clone(), "sim:pat").unwrap();
+    let port = serve(listener, hub.clone(), "sim:pat", &[]).unwrap();
     let why = connected(port, "chat").unwrap_err();
     assert!(why.contains("400"), "{why}");
 
@@ -106,4 +118,55 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     let known = late.read().unwrap().into_data();
     let hello: Value = serde_json::from_slice(&known[13..]).unwrap();
     assert_eq!(hello["garment"], "reference", "who comes late is told what is known");
+}
+
+#[test]
+fn pages_of_other_sites_are_not_let_in() {
+    let hub = Arc::new(Hub::default());
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let port = serve(listener, hub, "sim:pat", &[]).unwrap();
+    for origin in
+        ["https://evil.example", "null", "http://localhost.evil.example", "https://app.foxglove.dev.evil"]
+    {
+        let why = connected_from(port, "foxglove.sdk.v1", Some(origin)).err().unwrap_or_default();
+        assert!(why.contains("403"), "{origin}: {why}");
+    }
+    for origin in [None, Some("https://app.foxglove.dev"), Some("http://localhost:8080"), Some("file://")] {
+        assert!(connected_from(port, "foxglove.sdk.v1", origin).is_ok(), "{origin:?}");
+    }
+}
+
+#[test]
+fn clients_that_say_nothing_shut_nobody_out_and_subscriptions_are_bounded() {
+    let hub = Arc::new(Hub::default());
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let port = serve(listener, hub.clone(), "sim:pat", &[]).unwrap();
+    let held: Vec<_> = (0..200).map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap()).collect();
+    let begun = std::time::Instant::now();
+    let mut one = connected(port, "foxglove.sdk.v1").unwrap();
+    assert!(begun.elapsed() < Duration::from_secs(4), "{:?}", begun.elapsed());
+    let _ = (line(&mut one), line(&mut one));
+    drop(held);
+    // A hundred thousand wishes for one channel: it is told some times, and no more.
+    let channel = channel("log").unwrap();
+    for first in (0..100_000u32).step_by(1000) {
+        let all: Vec<Value> =
+            (first..first + 1000).map(|id| json!({ "id": id, "channelId": channel })).collect();
+        one.send(Message::text(json!({ "op": "subscribe", "subscriptions": all }).to_string())).unwrap();
+    }
+    one.send(Message::Ping(Bytes::from_static(b"done?"))).unwrap();
+    let mut refused = 0;
+    loop {
+        match one.read().unwrap() {
+            Message::Pong(_) => break,
+            Message::Text(text) => refused += usize::from(text.contains("subscriptions")),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(refused > 0, "it is said that there are too many");
+    let said = Event::Log { time: Micros(1), level: Level::Info, text: "one".into() };
+    Publisher::new(hub).event(&Client::new(), &said).unwrap();
+    one.get_ref().set_read_timeout(Some(Duration::from_secs(1))).unwrap();
+    let told = std::iter::from_fn(|| one.read().ok()).filter(Message::is_binary).count();
+    assert!((1..=64).contains(&told), "{told}");
 }

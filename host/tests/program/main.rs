@@ -8,6 +8,7 @@ mod drawn;
 mod exports;
 #[cfg(feature = "foxglove")]
 mod foxglove;
+mod hostile;
 mod live;
 mod maps;
 mod mistakes;

@@ -100,7 +100,7 @@ impl Variant {
             teach(&mut client, &Base::open(Path::new("drawn"))?)?;
         }
         // The harness hands over 4,096 bytes at most.
-        Ok(client.take_requests().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
+        Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
     }
 
     fn gestures(self) -> Option<GestureConfig> {

@@ -96,8 +96,8 @@ impl Episode<'_> {
         Ok(())
     }
 
-    /// Writes what is left; the number of rows.
-    pub fn finish(mut self, stats: &mut stats::Table) -> Result<u64> {
+    /// Writes what is left; the number of rows, and how often the time leapt.
+    pub fn finish(mut self, stats: &mut stats::Table) -> Result<[u64; 2]> {
         let end = self.open.as_ref().map_or(0, |open| open.last.1);
         let rows = self.sampler.passed(end, true);
         self.put(rows, stats)?;
@@ -105,7 +105,7 @@ impl Episode<'_> {
             open.flush()?;
             open.table.finish()?;
         }
-        Ok(self.length)
+        Ok([self.length, self.sampler.leaps()])
     }
 }
 

@@ -13,7 +13,8 @@
 //! | `observation.tactile.intent` | f32 \[concepts\] | activation of each concept of the map, -1 ..= 1, where there is one |
 //! | `timestamp`, `frame_index`, `episode_index`, `index`, `task_index` | f32, i64 | LeRobot's own |
 //!
-//! LeRobot wants whole frames a second, evenly: a row is the last image at its time, by the board's clock.
+//! LeRobot wants whole frames a second, evenly: a row is the last image at its time, by the board's clock; see
+//! `sampler.rs` for what a leap of that clock becomes.
 
 mod episode;
 mod features;
@@ -53,7 +54,13 @@ pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: Folder) -
         let place = || frames.file().display().to_string();
         let mut episode = Episode::begin(&folder, path, [index as u64, rows], choices.fps);
         frames.each("exporting", |frame| episode.take(frame, &mut known, &mut stats).with_context(place))?;
-        let length = episode.finish(&mut stats).with_context(place)?;
+        let [length, leaps] = episode.finish(&mut stats).with_context(place)?;
+        if leaps > 0 {
+            eprintln!(
+                "{}: the board's time leaps {leaps} times, and no row stands for what lies between.",
+                place()
+            );
+        }
         episodes.push(length);
         rows += length;
     }

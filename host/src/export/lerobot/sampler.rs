@@ -1,31 +1,59 @@
 //! Images at even times: at each the last that there was.
+//!
+//! Where the time leaps, be it that the link was gone, that the board started anew, or that its clock is
+//! nonsense, nothing is known of what lies between: no row is made of it, and the next image stands in the next
+//! row.
 
 use std::num::NonZeroU16;
+
+/// Longest time that one image stands for, us: twice that of the slowest stream, an image a second.
+const LONGEST_US: u64 = 2_000_000;
+const SECOND_US: u128 = 1_000_000;
 
 /// Which rows an image stands in.
 #[derive(Debug)]
 pub struct Sampler {
     fps: u64,
-    began_us: Option<u64>,
+    /// Time of the last image, and of the first since the time leapt, us.
+    times: Option<[u64; 2]>,
+    /// The row of the first since then.
+    first: u64,
     /// The next row.
     row: u64,
+    leaps: u64,
 }
 
 impl Sampler {
     /// So many rows a second, the first at the first image.
     pub fn new(fps: NonZeroU16) -> Sampler {
-        Sampler { fps: fps.get().into(), began_us: None, row: 0 }
+        Sampler { fps: fps.get().into(), times: None, first: 0, row: 0, leaps: 0 }
+    }
+
+    /// How often the time leapt.
+    pub fn leaps(&self) -> u64 {
+        self.leaps
     }
 
     /// The rows whose time has passed at `now_us`, or comes just then where `last`: what was before it stands in them.
     pub fn passed(&mut self, now_us: u64, last: bool) -> std::ops::Range<u64> {
-        let began = *self.began_us.get_or_insert(now_us);
-        let passed = now_us.saturating_sub(began) * self.fps;
-        // Row n is at n / fps: those below `passed` are over, the one at `passed` is this image's.
-        let end = if last { passed / 1_000_000 + 1 } else { passed.div_ceil(1_000_000) };
-        let rows = self.row..end.max(self.row);
+        let [before, began] = *self.times.get_or_insert([now_us; 2]);
+        let leaps = now_us.checked_sub(before).is_none_or(|passed| passed > LONGEST_US);
+        // The image before a leap has its last row at its own time.
+        let rows = if leaps { self.rows(before, began, true) } else { self.rows(now_us, began, last) };
         self.row = rows.end;
+        if leaps {
+            (self.first, self.leaps) = (self.row, self.leaps + 1);
+        }
+        self.times = Some([now_us, if leaps { now_us } else { began }]);
         rows
+    }
+
+    /// Row n is at n / fps: those below what has passed are over, the one at that time is this image's.
+    fn rows(&self, now_us: u64, began: u64, last: bool) -> std::ops::Range<u64> {
+        let passed = u128::from(now_us.saturating_sub(began)) * u128::from(self.fps);
+        let end = if last { passed / SECOND_US + 1 } else { passed.div_ceil(SECOND_US) };
+        let end = self.first.saturating_add(u64::try_from(end).unwrap_or(u64::MAX));
+        self.row..end.max(self.row)
     }
 }
 
@@ -42,5 +70,18 @@ mod tests {
         assert_eq!(sampler.passed(36_000, false), 1..4);
         assert_eq!(sampler.passed(45_000, true), 4..5, "the last image ends the episode");
         assert_eq!(sampler.passed(3, false), 5..5, "time that went back gives nothing");
+        assert_eq!((sampler.passed(10_003, false), sampler.leaps()), (5..6, 1), "and goes on from there");
+    }
+
+    #[test]
+    fn a_leap_fills_no_rows() {
+        let mut sampler = Sampler::new(NonZeroU16::new(u16::MAX).unwrap());
+        let mut rows = 0;
+        for time in [0, u64::MAX, 1, 1 << 63, u64::MAX - 1, u64::MAX, 5, 2_000_005, 4_000_006] {
+            rows += sampler.passed(time, false).count();
+        }
+        rows += sampler.passed(4_000_006, true).count();
+        // An image before each leap, and the two seconds that are none.
+        assert_eq!((sampler.leaps(), rows), (6, 7 + 2 * usize::from(u16::MAX)));
     }
 }

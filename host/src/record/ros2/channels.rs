@@ -1,6 +1,5 @@
 //! Which message goes where.
 
-use super::super::file::NS;
 use super::super::names;
 use super::super::stamps::Stamp;
 use super::{messages, schemas};
@@ -73,7 +72,7 @@ impl<S: Store> Ros2<S> {
                     id
                 }
             };
-            self.writer.message(id, stamp.host_us * NS, stamp.board_us * NS, &data)?;
+            self.writer.message(id, stamp.host_ns(), stamp.board_ns(), &data)?;
         }
         Ok(())
     }

@@ -88,7 +88,11 @@ impl Judge<'_> {
             0 => Trust::No,
             op::MESSAGE => self.message(from, head.length)?,
             op::CHUNK => match opened::header(&self.source.read(from, head.length.min(FIELDS))?) {
-                Some((chunk, used)) if used as u64 + chunk.compressed_size == head.length => Trust::Fields,
+                Some((chunk, used))
+                    if chunk.compressed_size.checked_add(used as u64) == Some(head.length) =>
+                {
+                    Trust::Fields
+                }
                 _ => Trust::No,
             },
             number if number > op::DATA_END || head.length > LOOK => Trust::Head,

@@ -25,7 +25,7 @@ pub struct Opened {
 
 /// The fields of a chunk at the beginning of its body, and their bytes.
 pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
-    fields::<ChunkHeader>(body)
+    fields::<ChunkHeader>(op::CHUNK, body)
 }
 
 /// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right. None: it

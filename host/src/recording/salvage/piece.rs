@@ -1,6 +1,7 @@
 //! One record of a file that may be damaged.
 
 use super::super::attached::attached;
+use super::super::texts::{LONGEST, texts_fit};
 use super::opened::Opened;
 use binrw::BinRead;
 use mcap::records::{
@@ -35,7 +36,7 @@ pub enum Kind {
     Channel(Channel),
     /// A message outside of a chunk.
     Message(MessageHeader),
-    /// A chunk; none: of a compression that is not known here.
+    /// A chunk; none: of a compression or a size that is not read here.
     Chunk(ChunkHeader, Option<Opened>),
     /// A chunk that does not fit its checksum.
     BadChunk,
@@ -59,37 +60,40 @@ pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
     let exact = |used: usize| used == body.len();
     let told = |used: usize| Some((Kind::Summary, exact(used)));
     Some(match number {
-        op::HEADER => fields(body).map(|(header, used)| (Kind::Header(header), exact(used)))?,
+        op::HEADER => fields(number, body).map(|(header, used)| (Kind::Header(header), exact(used)))?,
         op::SCHEMA => schema(body)?,
-        op::CHANNEL => fields(body).map(|(channel, used)| (Kind::Channel(channel), exact(used)))?,
-        op::MESSAGE => fields(body).map(|(message, _)| (Kind::Message(message), false))?,
-        op::MESSAGE_INDEX => fields(body).map(|(index, used)| (Kind::Index(index), exact(used)))?,
+        op::CHANNEL => fields(number, body).map(|(channel, used)| (Kind::Channel(channel), exact(used)))?,
+        op::MESSAGE => fields(number, body).map(|(message, _)| (Kind::Message(message), false))?,
+        op::MESSAGE_INDEX => fields(number, body).map(|(index, used)| (Kind::Index(index), exact(used)))?,
         op::ATTACHMENT => attachment(body)?,
-        op::METADATA => fields(body).map(|(words, used)| (Kind::Metadata(words), exact(used)))?,
-        op::FOOTER => fields(body).map(|(_, used): (Footer, _)| (Kind::Footer, exact(used)))?,
-        op::CHUNK_INDEX => fields::<ChunkIndex>(body).and_then(|(_, used)| told(used))?,
-        op::ATTACHMENT_INDEX => fields::<AttachmentIndex>(body).and_then(|(_, used)| told(used))?,
-        op::METADATA_INDEX => fields::<MetadataIndex>(body).and_then(|(_, used)| told(used))?,
-        op::STATISTICS => fields::<Statistics>(body).and_then(|(_, used)| told(used))?,
-        op::SUMMARY_OFFSET => fields::<SummaryOffset>(body).and_then(|(_, used)| told(used))?,
-        op::DATA_END => fields::<DataEnd>(body).and_then(|(_, used)| told(used))?,
+        op::METADATA => fields(number, body).map(|(words, used)| (Kind::Metadata(words), exact(used)))?,
+        op::FOOTER => fields(number, body).map(|(_, used): (Footer, _)| (Kind::Footer, exact(used)))?,
+        op::CHUNK_INDEX => fields::<ChunkIndex>(number, body).and_then(|(_, used)| told(used))?,
+        op::ATTACHMENT_INDEX => fields::<AttachmentIndex>(number, body).and_then(|(_, used)| told(used))?,
+        op::METADATA_INDEX => fields::<MetadataIndex>(number, body).and_then(|(_, used)| told(used))?,
+        op::STATISTICS => fields::<Statistics>(number, body).and_then(|(_, used)| told(used))?,
+        op::SUMMARY_OFFSET => fields::<SummaryOffset>(number, body).and_then(|(_, used)| told(used))?,
+        op::DATA_END => fields::<DataEnd>(number, body).and_then(|(_, used)| told(used))?,
         // Zeros, which a power cut can leave, are no record.
         0 | op::CHUNK => return None,
         _ => (Kind::Unknown, false),
     })
 }
 
-/// The fields at the beginning of a body, and their bytes.
-pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(body: &[u8]) -> Option<(T, usize)> {
+/// The fields at the beginning of the body of a record of that number, and their bytes.
+pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(number: u8, body: &[u8]) -> Option<(T, usize)> {
+    if !texts_fit(number, body) {
+        return None;
+    }
     let mut cursor = Cursor::new(body);
     let fields = T::read_le(&mut cursor).ok()?;
     Some((fields, cursor.position() as usize))
 }
 
 fn schema(body: &[u8]) -> Option<(Kind, bool)> {
-    let (header, used) = fields::<SchemaHeader>(body)?;
+    let (header, used) = fields::<SchemaHeader>(op::SCHEMA, body)?;
     let (length, rest) = body.get(used..)?.split_first_chunk()?;
-    let data = rest.get(..u32::from_le_bytes(*length) as usize)?;
+    let data = rest.get(..u32::from_le_bytes(*length) as usize).filter(|data| data.len() <= LONGEST)?;
     // Number 0 stands for no schema.
     (header.id != 0).then(|| (Kind::Schema(header, data.to_vec()), data.len() == rest.len()))
 }

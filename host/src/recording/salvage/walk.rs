@@ -1,7 +1,7 @@
 //! The records of a file that may be damaged, one after the other.
 
 use super::super::append::HEAD;
-use super::super::chunk::{Index, is_known};
+use super::super::chunk::{Index, LARGEST, is_known};
 use super::super::source::{Head, Source};
 use super::likely::Judge;
 use super::marks::Marks;
@@ -188,7 +188,8 @@ impl Walk {
         if by_fields != head.length || end > self.length() || !self.ends(at, end)? {
             return Ok(None);
         }
-        Ok(if !is_known(&told.compression) {
+        // What is not read here may be whole all the same.
+        Ok(if !is_known(&told.compression) || told.uncompressed_size > LARGEST {
             piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told, None))
         } else {
             piece(head.length, Vec::new(), Kind::BadChunk)
@@ -213,7 +214,7 @@ impl Walk {
         if self.index.is_empty() {
             return None;
         }
-        let (index, used) = fields::<MessageIndex>(body)?;
+        let (index, used) = fields::<MessageIndex>(op::MESSAGE_INDEX, body)?;
         let is_it = used == body.len() && self.index.get(&index.channel_id) == Some(&index.records);
         is_it.then_some(index)
     }

@@ -1,4 +1,5 @@
-//! As much of HTTP as one page on this machine needs: the head of a request, and an answer after which the connection is closed.
+//! As much of HTTP as servers on this machine need: the head of a request, and an answer after which the
+//! connection is closed.
 
 use std::io::{self, Read, Write};
 use std::time::{Duration, Instant};
@@ -7,7 +8,8 @@ use std::time::{Duration, Instant};
 const HEAD: usize = 16 * 1024;
 /// How long a request may take to come.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in places, makes functions.
+/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in
+/// places, makes functions.
 const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
                       style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; \
                       frame-ancestors 'none'; base-uri 'none'";
@@ -32,12 +34,35 @@ pub struct Request {
     pub path: String,
     /// `Sec-WebSocket-Key` of a request for a WebSocket.
     pub key: Option<String>,
+    /// What it wants to speak over a WebSocket: the names of `Sec-WebSocket-Protocol`.
+    pub protocols: Vec<String>,
     /// Bytes that came after the head.
     pub rest: Vec<u8>,
 }
 
+/// Of which sites pages are answered. Programs other than browsers send no `Origin`.
+#[derive(Debug, Clone, Copy)]
+pub enum Sites<'a> {
+    /// Of this server's own alone.
+    Own,
+    /// Of these (`https://app.example.org`), of any server on this machine, and of its files.
+    Named(&'a [String]),
+}
+
+impl Sites<'_> {
+    fn are_of(self, host: &str, origin: &str) -> bool {
+        match self {
+            Sites::Own => origin.strip_prefix("http://") == Some(host),
+            Sites::Named(names) => {
+                let local = origin.strip_prefix("http://").is_some_and(is_this_machine);
+                local || origin == "file://" || names.iter().any(|name| name == origin)
+            }
+        }
+    }
+}
+
 /// Reads a request; none: the other side has gone, or is too slow.
-pub fn read(stream: &mut impl Read) -> Option<Result<Request, Refusal>> {
+pub fn read(stream: &mut impl Read, sites: Sites<'_>) -> Option<Result<Request, Refusal>> {
     let (mut bytes, mut buffer, begun) = (Vec::new(), [0; 2048], Instant::now());
     loop {
         let count = stream.read(&mut buffer).ok()?;
@@ -45,7 +70,7 @@ pub fn read(stream: &mut impl Read) -> Option<Result<Request, Refusal>> {
             return None;
         }
         bytes.extend_from_slice(&buffer[..count]);
-        match parse(&bytes) {
+        match parse(&bytes, sites) {
             Ok(None) if bytes.len() > HEAD => {
                 let why = "the head of the request is too long";
                 return Some(Err(refusal("431 Request Header Fields Too Large", why)));
@@ -58,7 +83,7 @@ pub fn read(stream: &mut impl Read) -> Option<Result<Request, Refusal>> {
 }
 
 /// Reads the head of a request; none: it has not ended.
-pub fn parse(bytes: &[u8]) -> Result<Option<Request>, Refusal> {
+pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut head = httparse::Request::new(&mut headers);
     let bad = refusal("400 Bad Request", "malformed HTTP request");
@@ -72,11 +97,12 @@ pub fn parse(bytes: &[u8]) -> Result<Option<Request>, Refusal> {
         // Two of a kind could be read in two ways.
         one.filter(|_| all.next().is_none())
     };
-    check_names(
-        value("host"),
-        head.headers.iter().any(|h| h.name.eq_ignore_ascii_case("origin")),
-        value("origin"),
-    )?;
+    let all = |name: &'static str| {
+        let all = head.headers.iter().filter(move |header| header.name.eq_ignore_ascii_case(name));
+        all.map(|header| String::from_utf8_lossy(header.value).into_owned())
+    };
+    let has_origin = all("origin").next().is_some();
+    check_names(value("host").unwrap_or_default(), has_origin, value("origin"), sites)?;
     if head.method != Some("GET") {
         return Err(refusal("405 Method Not Allowed", "only GET is answered"));
     }
@@ -86,18 +112,23 @@ pub fn parse(bytes: &[u8]) -> Result<Option<Request>, Refusal> {
     if upgrade && (key.is_none() || value("sec-websocket-version") != Some("13")) {
         return Err(refusal("400 Bad Request", "this is no request for a WebSocket of version 13"));
     }
-    Ok(Some(Request { path, key, rest: bytes.get(length..).unwrap_or_default().to_vec() }))
+    let offered: Vec<String> = all("sec-websocket-protocol").collect();
+    let protocols =
+        offered.iter().flat_map(|names| names.split(',')).map(|name| name.trim().into()).collect();
+    Ok(Some(Request { path, key, protocols, rest: bytes.get(length..).unwrap_or_default().to_vec() }))
 }
 
-/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in. Programs other than
-/// browsers send no `Origin`. The port may be another one, where it is forwarded.
-fn check_names(host: Option<&str>, has_origin: bool, origin: Option<&str>) -> Result<(), Refusal> {
-    let host = host.unwrap_or_default();
+/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in.
+/// The port may be another one, where it is forwarded.
+fn check_names(host: &str, has_origin: bool, origin: Option<&str>, sites: Sites<'_>) -> Result<(), Refusal> {
     if !is_this_machine(host) {
-        return Err(refusal("403 Forbidden", "the page is called 127.0.0.1 or localhost, and nothing else"));
+        return Err(refusal(
+            "403 Forbidden",
+            "this server is called 127.0.0.1 or localhost, and nothing else",
+        ));
     }
-    let same = origin.and_then(|origin| origin.strip_prefix("http://")) == Some(host);
-    if has_origin && !same {
+    // Two of them are none.
+    if has_origin && !origin.is_some_and(|origin| sites.are_of(host, origin)) {
         return Err(refusal("403 Forbidden", "pages of other sites are not answered"));
     }
     Ok(())
@@ -144,12 +175,13 @@ fn head(status: &str, kind: &str, length: &str, more: &str) -> String {
     )
 }
 
-/// Agrees to a WebSocket.
-pub fn upgrade(stream: &mut impl Write, key: &str) -> io::Result<()> {
+/// Agrees to a WebSocket, and to speak `protocol` over it, where there is one.
+pub fn upgrade(stream: &mut impl Write, key: &str, protocol: Option<&str>) -> io::Result<()> {
     let accept = tungstenite::handshake::derive_accept_key(key.as_bytes());
+    let protocol = protocol.map_or(String::new(), |name| format!("Sec-WebSocket-Protocol: {name}\r\n"));
     let head = format!(
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
-         Sec-WebSocket-Accept: {accept}\r\n\r\n"
+         Sec-WebSocket-Accept: {accept}\r\n{protocol}\r\n"
     );
     stream.write_all(head.as_bytes())?;
     stream.flush()
@@ -160,23 +192,23 @@ mod tests {
     use super::*;
 
     fn parsed(text: &str) -> Result<Option<Request>, &'static str> {
-        parse(text.replace('\n', "\r\n").as_bytes()).map_err(|refusal| &refusal.status[..3])
+        parse(text.replace('\n', "\r\n").as_bytes(), Sites::Own).map_err(|refusal| &refusal.status[..3])
     }
 
     #[test]
     fn a_request_is_read_in_any_split() {
         let text = b"GET /panels.js?x=1 HTTP/1.1\r\nHost: localhost:8295\r\n\r\nrest";
         for end in 0..text.len() - 4 {
-            assert_eq!(parse(&text[..end]), Ok(None), "{end}");
+            assert_eq!(parse(&text[..end], Sites::Own), Ok(None), "{end}");
         }
-        let request = parse(text).unwrap().unwrap();
+        let request = parse(text, Sites::Own).unwrap().unwrap();
         assert_eq!(
             (request.path.as_str(), request.key, request.rest.as_slice()),
             ("/panels.js", None, &b"rest"[..])
         );
-        assert!(read(&mut &text[..40]).is_none());
+        assert!(read(&mut &text[..40], Sites::Own).is_none());
         let long = [b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ".as_slice(), &[b'x'; 2 * HEAD]].concat();
-        assert!(read(&mut long.as_slice()).unwrap().unwrap_err().status.starts_with("431"));
+        assert!(read(&mut long.as_slice(), Sites::Own).unwrap().unwrap_err().status.starts_with("431"));
     }
 
     #[test]
@@ -210,9 +242,38 @@ mod tests {
     }
 
     #[test]
+    fn sites_that_are_named_are_answered_beside_those_of_this_machine() {
+        let names = ["https://app.example.org".to_string()];
+        let get = |origin: &str| {
+            let text = format!("GET / HTTP/1.1\r\nHost: localhost:1\r\nOrigin: {origin}\r\n\r\n");
+            parse(text.as_bytes(), Sites::Named(&names)).is_ok()
+        };
+        for origin in ["https://app.example.org", "http://localhost:2", "http://127.0.0.1:1", "file://"] {
+            assert!(get(origin), "{origin}");
+        }
+        for origin in [
+            "http://app.example.org",
+            "https://app.example.org.evil",
+            "null",
+            "",
+            "https://localhost:1",
+            "http://evil",
+        ] {
+            assert!(!get(origin), "{origin}");
+        }
+    }
+
+    #[test]
+    fn protocols_are_read_from_one_line_and_from_several() {
+        let text =
+            "GET / HTTP/1.1\nHost: localhost\nSec-WebSocket-Protocol: a, b\nSec-WebSocket-Protocol: c\n\n";
+        assert_eq!(parsed(text).unwrap().unwrap().protocols, ["a", "b", "c"]);
+    }
+
+    #[test]
     fn what_is_no_request_is_refused() {
         assert_eq!(parsed("GET\n\n"), Err("400"));
-        assert_eq!(parse(&[0xff; 64]).unwrap_err().status, "400 Bad Request");
+        assert_eq!(parse(&[0xff; 64], Sites::Own).unwrap_err().status, "400 Bad Request");
         assert_eq!(parsed("POST / HTTP/1.1\nHost: localhost\n\n"), Err("405"));
         let many: String = (0..100).map(|n| format!("X{n}: y\n")).collect();
         assert_eq!(parsed(&format!("GET / HTTP/1.1\nHost: localhost\n{many}\n")), Err("400"));
@@ -236,7 +297,7 @@ mod tests {
                 let at = noise.usize(..bytes.len());
                 bytes[at] = noise.u8(..);
             }
-            let _ = parse(&bytes);
+            let _ = parse(&bytes, Sites::Own);
         }
     }
 }

@@ -3,8 +3,8 @@
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
 
-/// A stream to which the reader of a WebSocket writes nothing: an answer of its own would fall into a message of the writer's. Who closes
-/// or pings is not answered here.
+/// A stream to which the reader of a WebSocket writes nothing: an answer of its own would fall into a message
+/// of the writer's. Who closes or pings is not answered here.
 pub struct Mute(pub TcpStream);
 
 impl Read for Mute {

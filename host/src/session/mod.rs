@@ -1,0 +1,362 @@
+//! A board's stream for other programs, and the one loop by which every command of this one follows a source.
+//!
+//! ```
+//! use taxel::client::Event;
+//! use taxel::session::Session;
+//!
+//! let session = Session::open("sim:pat")?;
+//! let contacts = session.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
+//! assert!(contacts.take(3).count() == 3);
+//! # Ok::<(), anyhow::Error>(())
+//! ```
+//!
+//! A board that restarts, is unplugged or whose connection breaks comes back by itself, and gets everything
+//! again that was set: garment, scene, gains and calibration, shapes, gestures, feeds, tare. That the stream
+//! had a gap is told by an [`Event::Log`] of the host's own, when it begins and when it has ended. A board that
+//! refuses what it had taken before is an error.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `outgoing.rs` | requests on their way to a board that may not read |
+//! | `absence.rs` | a source that is gone, until it is back |
+
+mod absence;
+mod outgoing;
+
+use crate::client::{Client, Event, Restored, request_name};
+use crate::clock::SteadyTime;
+use crate::fault::{Blame, Fault};
+use crate::source::{self, Source, SourceOptions, SourceSpec};
+use absence::Absence;
+use anyhow::{Context, Result, bail};
+use outgoing::Outgoing;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+use taxel_core::format::Micros;
+use taxel_core::wire::{Level, Request};
+
+/// A board that streams says something each second: one that is silent for that long is gone, whatever its link
+/// says.
+const SILENCE: Duration = Duration::from_secs(5);
+/// How long a board may leave a request unanswered before all is set again.
+const ANSWER: Duration = Duration::from_secs(3);
+/// Time between two requests for a `Hello`.
+const GREETING: Duration = Duration::from_secs(1);
+/// Bytes that are read at a time.
+const PIECE: usize = 4096;
+
+/// A board that streams. Dropping it lets the board go.
+pub struct Session {
+    source: Source,
+    client: Client,
+    time: SteadyTime,
+    buffer: Vec<u8>,
+    taken: usize,
+    outgoing: Outgoing,
+    /// When bytes came last, and when a `Hello` was asked for last.
+    heard: Instant,
+    greeted: Instant,
+    /// When the link was opened.
+    opened: Instant,
+    absence: Option<Absence>,
+    /// Since when the stream has a gap, which is over as soon as the board is set again.
+    gap: Option<Instant>,
+    returns: Returns,
+    notes: VecDeque<Event>,
+}
+
+/// What becomes of a source that is gone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Returns {
+    /// It is waited for.
+    Always,
+    /// It is waited for so long.
+    Within(Duration),
+    /// The session ends.
+    Never,
+}
+
+/// What a [`Session::turn`] has brought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turn {
+    /// Bytes, or none within a short while.
+    Bytes,
+    /// The source is gone, and is waited for.
+    Waiting,
+    /// The stream has ended.
+    End,
+}
+
+impl Session {
+    /// Connects by the words of `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`, `tcp:HOST:PORT`
+    /// ...) and asks for everything, after a tare where a simulation wants one.
+    pub fn open(source: &str) -> Result<Session> {
+        let spec: SourceSpec =
+            source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
+        Session::over(source::open(&spec, &SourceOptions::default())?)
+    }
+
+    /// The same over a source that is open.
+    pub fn over(source: Source) -> Result<Session> {
+        let tare = source.tare;
+        let mut session = Session::new(source, Returns::Always);
+        session.client.start(tare)?;
+        Ok(session)
+    }
+
+    /// Over a source that is open, of which nothing is asked yet.
+    pub fn new(source: Source, returns: Returns) -> Session {
+        let now = Instant::now();
+        Session {
+            source,
+            client: Client::new(),
+            time: SteadyTime::start(),
+            buffer: Vec::new(),
+            taken: 0,
+            outgoing: Outgoing::default(),
+            heard: now,
+            greeted: now,
+            opened: now,
+            absence: None,
+            gap: None,
+            returns,
+            notes: VecDeque::new(),
+        }
+    }
+
+    /// What is known now: image, contacts, intention, health.
+    pub fn client(&self) -> &Client {
+        &self.client
+    }
+
+    /// The client, for requests, and the source.
+    pub fn parts(&mut self) -> (&mut Client, &Source) {
+        (&mut self.client, &self.source)
+    }
+
+    /// The source.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// Whether the source is gone, and is waited for.
+    pub fn is_gone(&self) -> bool {
+        self.absence.is_some()
+    }
+
+    /// Asks the board for something; its answer is an [`Event::Answer`].
+    pub fn request(&mut self, request: &Request<'_>) -> Result<()> {
+        Ok(self.client.request(request)?)
+    }
+
+    /// What comes within the next short while (10 ms to a second, as the link is): none where nothing is whole
+    /// yet.
+    pub fn poll(&mut self) -> Result<Poll> {
+        if let Some(event) = self.next_event().or_else(|| self.note()) {
+            return Ok(Poll::Event(event));
+        }
+        Ok(match self.turn(&mut |_, _| Ok(()))? {
+            Turn::Bytes | Turn::Waiting => Poll::Nothing,
+            Turn::End => Poll::End,
+        })
+    }
+
+    /// Waits for the next event; none: the stream has ended. The [`client`](Session::client) is in the state
+    /// after it.
+    pub fn wait(&mut self) -> Result<Option<Event>> {
+        loop {
+            match self.poll()? {
+                Poll::Event(event) => return Ok(Some(event)),
+                Poll::Nothing => {}
+                Poll::End => return Ok(None),
+            }
+        }
+    }
+
+    /// Sends what waits, having shown it to `sent`, and reads what has come. An error: the source is gone for
+    /// good, or its board does not take what it had taken before.
+    pub fn turn(&mut self, sent: &mut dyn FnMut(&Client, &[u8]) -> Result<()>) -> Result<Turn> {
+        self.buffer.clear();
+        self.taken = 0;
+        if self.absence.is_some() {
+            return self.come_back();
+        }
+        self.restored()?;
+        self.ask_again();
+        self.tell_time();
+        let requests = self.client.take_requests();
+        sent(&self.client, &requests)?;
+        self.outgoing.add(&requests);
+        match self.exchange() {
+            Ok(true) => {
+                self.tell_time();
+                Ok(Turn::Bytes)
+            }
+            // What was recorded or simulated is over; a board goes on for as long as there is a link to it.
+            Ok(false) if self.source.returns.is_none() => Ok(Turn::End),
+            Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
+            Err(error) => self.lose(error),
+        }
+    }
+
+    /// The bytes of the last turn.
+    pub fn bytes(&self) -> &[u8] {
+        &self.buffer
+    }
+
+    /// How many of them have become events, or parts of one.
+    pub fn taken(&self) -> usize {
+        self.taken
+    }
+
+    /// The next event of the last turn.
+    pub fn next_event(&mut self) -> Option<Event> {
+        while let Some(byte) = self.buffer.get(self.taken) {
+            self.taken += 1;
+            if let Some(event) = self.client.push(*byte) {
+                return Some(event);
+            }
+        }
+        None
+    }
+
+    /// What the host itself has to say of the stream: an [`Event::Log`].
+    pub fn note(&mut self) -> Option<Event> {
+        self.notes.pop_front()
+    }
+
+    fn say(&mut self, level: Level, text: String) {
+        let time = self.client.board_time().unwrap_or(Micros(0));
+        self.notes.push_back(Event::Log { time, level, text });
+    }
+
+    fn tell_time(&mut self) {
+        if self.source.real_time {
+            self.client.tell_time(self.time.now_us());
+        }
+    }
+
+    /// Writes and reads; false: the stream has ended.
+    fn exchange(&mut self) -> Result<bool> {
+        self.outgoing.send(self.source.port.as_mut())?;
+        self.buffer.resize(PIECE, 0);
+        let read = self.source.port.read(&mut self.buffer);
+        self.buffer.truncate(read.as_ref().ok().and_then(|count| *count).unwrap_or(0));
+        let Some(count) = read? else { return Ok(false) };
+        let now = Instant::now();
+        if count > 0 {
+            self.heard = now;
+        } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
+            bail!("it has said nothing for {} s", SILENCE.as_secs());
+        }
+        if self.client.worn().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
+            bail!("it has not said what it is for {} s", SILENCE.as_secs());
+        }
+        Ok(true)
+    }
+
+    /// A board that has not said what it is, or has not heard what it was asked, is asked again.
+    fn ask_again(&mut self) {
+        if !self.source.real_time || !self.source.listens {
+            return;
+        }
+        if !self.client.is_met() && self.greeted.elapsed() > GREETING {
+            self.greeted = Instant::now();
+            self.client.ask_to_start();
+        }
+        if self.client.is_met() && self.client.is_overdue(ANSWER) {
+            self.client.set_again();
+        }
+    }
+
+    /// Looks how it went to set the board again.
+    fn restored(&mut self) -> Result<()> {
+        let Some(restored) = self.client.restored().filter(|_| self.source.listens) else { return Ok(()) };
+        let label = &self.source.label;
+        match restored {
+            Restored::Refused(request, why) => {
+                let request = request_name(request);
+                bail!(Fault::board(format!(
+                    "{label}: after it came back, the board refuses {request}: {why}"
+                )))
+            }
+            Restored::Silent(request) => {
+                let request = request_name(request);
+                bail!(Fault::board(format!(
+                    "{label}: after it came back, the board does not answer {request}"
+                )))
+            }
+            Restored::Done(requests) => {
+                let mut names: Vec<&str> = requests.iter().map(|number| request_name(*number)).collect();
+                names.dedup();
+                let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
+                let life = match (gap, self.client.has_lived_on()) {
+                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board has lived on"),
+                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had started anew"),
+                    (None, _) => "has started anew, or did not hear".into(),
+                };
+                self.say(Level::Warn, format!("{label} {life}; set again: {}", names.join(", ")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The source is gone.
+    fn lose(&mut self, why: anyhow::Error) -> Result<Turn> {
+        let label = &self.source.label;
+        if self.source.returns.is_none() || self.returns == Returns::Never {
+            return Err(why).with_context(|| format!("{label} is gone")).board();
+        }
+        let text = format!("{label} is gone: {}; it is waited for", crate::words::sentence(&why));
+        self.say(Level::Error, text);
+        // A link that opens and brings nothing ends no gap.
+        self.absence = Some(Absence::new(why, *self.gap.get_or_insert_with(Instant::now)));
+        Ok(Turn::Waiting)
+    }
+
+    /// Waits for the source a little, and tries to open it.
+    fn come_back(&mut self) -> Result<Turn> {
+        let Some(absence) = &mut self.absence else { return Ok(Turn::Waiting) };
+        // Nobody hears what is asked meanwhile; what is to last is remembered.
+        self.client.take_requests();
+        if let Returns::Within(patience) = self.returns
+            && absence.lasts() > patience
+        {
+            let label = &self.source.label;
+            let seconds = patience.as_secs();
+            let why = format!("{label} is gone, and has not come back within {seconds} s");
+            return Err(self.absence.take().map_or_else(|| anyhow::anyhow!("it is gone"), Absence::why))
+                .context(why)
+                .board();
+        }
+        if let Some(returns) = &mut self.source.returns
+            && let Some(again) = absence.try_open(returns.as_mut())
+        {
+            self.absence = None;
+            (self.source.label, self.source.port) = (again.label, again.port);
+            self.outgoing = Outgoing::default();
+            (self.heard, self.greeted, self.opened) = (Instant::now(), Instant::now(), Instant::now());
+            self.client.reconnected();
+        }
+        Ok(Turn::Waiting)
+    }
+}
+
+/// What [`Session::poll`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Poll {
+    /// An event.
+    Event(Event),
+    /// Nothing yet.
+    Nothing,
+    /// The stream has ended.
+    End,
+}
+
+impl Iterator for Session {
+    type Item = Result<Event>;
+
+    fn next(&mut self) -> Option<Result<Event>> {
+        self.wait().transpose()
+    }
+}

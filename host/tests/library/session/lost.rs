@@ -1,0 +1,142 @@
+//! What cannot be set again, and sources that do not come back: a loud error, and the status of a board at
+//! fault.
+
+use super::restored::{garment, told, until};
+use super::rig::{Rig, source};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use taxel::client::Event;
+use taxel::fault::status;
+use taxel::live::{LiveArgs, Messages, watch};
+use taxel::session::{Returns, Session};
+use taxel_core::garment::Pins;
+use taxel_core::wire::Request;
+
+/// The error with which a session ends.
+fn ends(session: &mut Session) -> anyhow::Error {
+    let begun = Instant::now();
+    loop {
+        if let Err(error) = session.poll() {
+            return error;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+    }
+}
+
+#[test]
+fn a_board_that_refuses_what_it_had_taken_is_an_error() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    let (client, _) = session.parts();
+    let mut other = garment();
+    // Another pin than that of the garment that ships, which this board has.
+    other.wiring.row.lines[0].pin = 22;
+    client.request(&Request::SetGarment(&postcard::to_allocvec(&other).unwrap())).unwrap();
+    client.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    {
+        let mut rig = rig.lock().unwrap();
+        rig.pins = Pins { outputs: Pins::ANY.outputs & !(1 << 22), ..Pins::ANY };
+        rig.restart();
+    }
+    let error = ends(&mut session);
+    let text = format!("{error:#}");
+    assert!(text.starts_with("rig: after it came back, the board refuses set-garment: "), "{text}");
+    assert_eq!(status(&error), 3);
+}
+
+#[test]
+fn a_source_that_does_not_come_back_ends_after_a_stated_time_or_at_once() {
+    for (returns, words) in [
+        (Returns::Never, "rig is gone: broken pipe"),
+        (
+            Returns::Within(Duration::from_secs(1)),
+            "rig is gone, and has not come back within 1 s: broken pipe",
+        ),
+    ] {
+        let rig = Arc::new(Mutex::new(Rig::new()));
+        let mut session = Session::new(source(&rig), returns);
+        session.parts().0.start(0).unwrap();
+        until(&mut session, |event| matches!(event, Event::Frame { .. }));
+        {
+            let mut rig = rig.lock().unwrap();
+            rig.plugged = false;
+            rig.cut();
+        }
+        let begun = Instant::now();
+        let error = ends(&mut session);
+        assert_eq!((format!("{error:#}").as_str(), status(&error)), (words, 3));
+        assert!(begun.elapsed() < Duration::from_secs(3));
+    }
+}
+
+#[test]
+fn a_source_is_waited_for_as_long_as_it_takes() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    session.parts().0.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    {
+        let mut rig = rig.lock().unwrap();
+        rig.plugged = false;
+        rig.cut();
+    }
+    told(&mut session, "is gone");
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_millis(1500) {
+        session.poll().unwrap();
+    }
+    assert!(session.is_gone());
+    rig.lock().unwrap().plugged = true;
+    let text = told(&mut session, "is back after");
+    let seconds: f64 =
+        text.split("after ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    assert!((1.5..4.0).contains(&seconds), "{text}");
+}
+
+#[test]
+fn a_board_that_does_not_read_holds_nothing_up() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Never);
+    session.parts().0.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    rig.lock().unwrap().deaf = true;
+    let begun = Instant::now();
+    let mut frames = 0;
+    let error = loop {
+        match session.poll() {
+            Ok(taxel::session::Poll::Event(Event::Frame { .. })) => frames += 1,
+            Ok(_) => {}
+            Err(error) => break error,
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+    };
+    assert!(frames > 100, "{frames} frames came meanwhile");
+    let text = format!("{error:#}");
+    assert!(text.starts_with("rig is gone: the board has read nothing for 5 s, and "), "{text}");
+    assert_eq!(status(&error), 3);
+}
+
+#[test]
+fn a_limited_watch_goes_on_over_a_restart_and_prints_the_gap() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let args = LiveArgs { seconds: Some(3.0), ..LiveArgs::of("tcp:rig:1".parse().unwrap()) };
+    let mut out = Vec::new();
+    let power = rig.clone();
+    let restarts = std::thread::spawn(move || {
+        for _ in 0..2 {
+            std::thread::sleep(Duration::from_millis(1100));
+            let mut rig = power.lock().unwrap();
+            rig.restart();
+            rig.cut();
+        }
+    });
+    let begun = Instant::now();
+    watch(&args, source(&rig), &mut Messages::new(false, &mut out)).unwrap();
+    restarts.join().unwrap();
+    // Three seconds of the board's time, though its clock began anew twice.
+    assert!((3.0..6.0).contains(&begun.elapsed().as_secs_f64()), "{:?}", begun.elapsed());
+    let text = String::from_utf8(out).unwrap();
+    let gaps = |words: &str| text.lines().filter(|line| line.contains(words)).count();
+    assert_eq!((gaps("rig is gone: broken pipe; it is waited for"), gaps("rig is back after")), (2, 2));
+}

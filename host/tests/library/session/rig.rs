@@ -1,0 +1,198 @@
+//! A board behind a link that a test cuts, and whose power it takes.
+
+use std::collections::VecDeque;
+use std::io::{self, ErrorKind};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use taxel::source::{Port, Source};
+use taxel_core::acquire::{Scan, ScanReport};
+use taxel_core::board::{Board, BoardInfo, Input, Job, Saved};
+use taxel_core::format::{Code, Micros};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::selftest::Findings;
+use taxel_core::wire::{LONGEST_REQUEST, Receiver, Request, decode, frame_bound};
+
+const INFO: BoardInfo =
+    BoardInfo { firmware: "test", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+/// Time between two scans.
+const SCAN: Duration = Duration::from_millis(2);
+/// Bytes that wait for the host at most.
+const ROOM: usize = 1 << 16;
+
+/// The board.
+pub struct Rig {
+    board: Box<Board<64, 32>>,
+    /// When it was powered.
+    booted: Instant,
+    scanned: Instant,
+    to_host: VecDeque<u8>,
+    receiver: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
+    /// Numbers of the requests that it has read since it was powered, but for `Sync`.
+    pub asked: Vec<u8>,
+    /// The link of which number is plugged in; other links are broken.
+    pub link: u64,
+    /// Whether the link can be opened.
+    pub plugged: bool,
+    /// What the board refuses from the next restart on: it wears another garment's pins, say.
+    pub pins: Pins,
+    /// It reads nothing.
+    pub deaf: bool,
+}
+
+impl Rig {
+    /// A board that has just been powered.
+    pub fn new() -> Rig {
+        let now = Instant::now();
+        Rig {
+            board: board(Pins::ANY),
+            booted: now,
+            scanned: now,
+            to_host: VecDeque::new(),
+            receiver: Receiver::new(),
+            asked: Vec::new(),
+            link: 0,
+            plugged: true,
+            pins: Pins::ANY,
+            deaf: false,
+        }
+    }
+
+    /// Power is taken and given.
+    pub fn restart(&mut self) {
+        self.board = board(self.pins);
+        self.booted = Instant::now();
+        self.to_host.clear();
+        self.receiver = Receiver::new();
+        self.asked.clear();
+    }
+
+    /// The link breaks.
+    pub fn cut(&mut self) {
+        self.link += 1;
+        self.to_host.clear();
+    }
+
+    /// What it wears.
+    pub fn garment(&self) -> &Garment {
+        &self.board.setup().garment
+    }
+
+    /// What it plays.
+    pub fn scene(&self) -> &Scene {
+        &self.board.setup().scene
+    }
+
+    /// The gain of its first taxel, and the number of its calibration.
+    pub fn calibration(&self) -> (u16, Option<u32>) {
+        let settings = self.board.settings();
+        (settings.gain[0], settings.calibration.map(|certificate| certificate.id))
+    }
+
+    fn now(&self) -> Micros {
+        Micros(self.booted.elapsed().as_micros() as u64)
+    }
+
+    /// Bytes of the host.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            if let Some(Ok(message)) = self.receiver.push(*byte)
+                && let Ok(request) = decode::<Request<'_>>(message)
+                && !matches!(request, Request::Sync { .. } | Request::KeyFrame)
+            {
+                self.asked.push(request.number());
+            }
+        }
+        let now = self.now();
+        self.board.step(now, Input::Received(bytes), &mut ());
+    }
+
+    /// Does what is to be done, and gives what it says.
+    pub fn speak(&mut self, buffer: &mut [u8]) -> usize {
+        for _ in 0..8 {
+            if self.scanned.elapsed() < SCAN {
+                break;
+            }
+            let now = self.now();
+            match self.board.step(now, Input::Tick, &mut ()) {
+                Some(Job::Scan(_)) => {
+                    let report = ScanReport { start: now, duration_us: 500, ..ScanReport::default() };
+                    let codes = [Code(100); 64];
+                    self.board.step(now, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
+                    self.scanned = Instant::now();
+                }
+                Some(Job::Examine) => {
+                    let findings = Findings { lines: 6, inputs: 1, faults: Default::default() };
+                    self.board.step(now, Input::Examined(Ok(findings)), &mut ());
+                }
+                Some(Job::Save) => _ = self.board.step(now, Input::Saved(Ok(Saved::Unchanged)), &mut ()),
+                Some(Job::Drive(..)) => {}
+                None => break,
+            }
+        }
+        let now = self.now();
+        while self.to_host.len() < ROOM {
+            let pending = self.board.pending(now, &mut ());
+            let count = pending.len();
+            if count == 0 {
+                break;
+            }
+            self.to_host.extend(pending);
+            self.board.sent(count);
+        }
+        let count = buffer.len().min(self.to_host.len());
+        for (slot, byte) in buffer.iter_mut().zip(self.to_host.drain(..count)) {
+            *slot = byte;
+        }
+        count
+    }
+}
+
+fn board(pins: Pins) -> Box<Board<64, 32>> {
+    Box::new(Board::new(BoardInfo { pins, ..INFO }, Garment::block(), Scene::shipped()).unwrap())
+}
+
+/// A link in memory.
+struct Wire {
+    rig: Arc<Mutex<Rig>>,
+    number: u64,
+}
+
+impl Wire {
+    fn with<T>(&mut self, act: impl FnOnce(&mut Rig) -> T) -> io::Result<T> {
+        let mut rig = self.rig.lock().unwrap();
+        if rig.link == self.number { Ok(act(&mut rig)) } else { Err(ErrorKind::BrokenPipe.into()) }
+    }
+}
+
+impl Port for Wire {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        let count = self.with(|rig| rig.speak(buffer))?;
+        if count == 0 {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Ok(Some(count))
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.with(|rig| {
+            if rig.deaf {
+                return 0;
+            }
+            rig.receive(bytes);
+            bytes.len()
+        })
+    }
+}
+
+/// A source that is the board's link, and comes back as long as it can be plugged in.
+pub fn source(rig: &Arc<Mutex<Rig>>) -> Source {
+    open(rig).unwrap()
+}
+
+fn open(rig: &Arc<Mutex<Rig>>) -> anyhow::Result<Source> {
+    let known = rig.lock().unwrap();
+    anyhow::ensure!(known.plugged, "nothing is plugged in");
+    let (again, wire) = (rig.clone(), Wire { rig: rig.clone(), number: known.link });
+    Ok(Source::real("rig", wire, move || open(&again)))
+}
