@@ -48,8 +48,8 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw, Receiver,
-    Report, Request, SelfTestReport, WireError, decode, decode_image,
+    Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw,
+    Receiver, Report, Request, SelfTestReport, WireError, decode, decode_image,
 };
 use wanted::Sets;
 

@@ -215,7 +215,8 @@ fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value
         object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
         object
     };
-    let mut object = json!({ "contacts": percept.present.iter().enumerate().map(contact).collect::<Vec<_>>() });
+    let mut object =
+        json!({ "contacts": percept.present.iter().enumerate().map(contact).collect::<Vec<_>>() });
     if !percept.released.is_empty() {
         object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
     }

@@ -1,6 +1,6 @@
 //! How the panels drift as a whole.
 
-use super::rates::{COMMON, FAST};
+use super::rates::COMMON;
 use super::slices::panel_of;
 use crate::format::Code;
 use crate::garment::{Area, PANELS};
@@ -19,6 +19,9 @@ const APART: i32 = 8;
 
 /// What moves all of a panel by more in a turn is no drift, but an input that broke, counts.
 const BROKEN: i32 = 2 * COMMON;
+
+/// A panel is fast that moves by more than so many counts in a turn.
+const FAST: i32 = 4;
 
 /// What each panel drifts in a turn, counts.
 ///

@@ -2,12 +2,11 @@
 //!
 //! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
 //! whatever the frame rate. Its taxels move by what their panel drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
-//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. Where a panel drifts fast, so does the
-//! [fringe](FRINGE) of a contact. So a held contact is
+//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
 //! never swallowed, and neither is a slow one once it shows. Only a tared baseline drifts: recordings are taken as they are.
 
 use super::feedback::Feedback;
-use super::rates::{FAST, FRINGE, OWN, beside};
+use super::rates::{OWN, beside};
 use super::sampled::Sampled;
 use super::slices::{row_mut, row_of};
 use super::state::ConditionState;
@@ -78,18 +77,16 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         if !touched && !self.rows.contains(area.first_row.saturating_add(row)) {
             return self.follow_row(area, row, sampled.codes, terms, common, |_, _| beside + OWN);
         }
-        let fringe = if common.abs() > 2 * FAST { FRINGE } else { 0 };
-        self.follow_row(area, row, sampled.codes, terms, common, |column, shown| {
+        self.follow_row(area, row, sampled.codes, terms, common, |column, quiet| {
             match touched && feedback.holds(panel, row, column) {
-                true if shown < fringe => beside,
                 true => 0,
-                false => beside + if shown == 0 { OWN } else { 0 },
+                false => beside + if quiet { OWN } else { 0 },
             }
         });
     }
 
     /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most what `own` says of
-    /// its column and of what it shows.
+    /// its column and of whether it reads 0.
     #[inline(always)]
     fn follow_row(
         &mut self,
@@ -98,7 +95,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         codes: &[Code],
         terms: Terms,
         common: i32,
-        own: impl Fn(u16, u16) -> i32,
+        own: impl Fn(u16, bool) -> i32,
     ) {
         let silent = terms.silent();
         let images = row_of(&self.calibrated, area, row).iter().zip(row_of(&self.filtered, area, row));
@@ -108,7 +105,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             (0u16..).zip(taxels.zip(row_of(codes, area, row).iter().zip(images)))
         {
             let was = i32::from(*rest);
-            let own = own(column, (*before).max(*after));
+            let own = own(column, *before == 0 && *after == 0);
             let step = (i32::from(code.0) - was).min(common + own).max(common - own);
             let now = (was + step).clamp(0, 0xffff);
             let step = now - was;

@@ -15,10 +15,3 @@ pub(super) const OWN: i32 = 1;
 pub(super) const fn beside(common: i32) -> i32 {
     common.abs() + common.abs() / 4
 }
-
-/// A panel is fast that moves by more than so many counts in a turn.
-pub(super) const FAST: i32 = 4;
-
-/// What shows less within a contact, counts, follows beside its panel while that drifts at more than twice [`FAST`]: else what drifts otherwise than its
-/// panel becomes a part of the contact, which then holds the taxels beside it, and so on over all of the panel.
-pub(super) const FRINGE: u16 = 40;

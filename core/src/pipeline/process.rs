@@ -24,8 +24,18 @@ impl Pipeline {
         now: Micros,
         probe: &mut impl Probe,
     ) -> Percept<'s> {
-        let PipelineState { condition, contact, present, released, unsure, symbol, intent, react, taught, .. } =
-            state;
+        let PipelineState {
+            condition,
+            contact,
+            present,
+            released,
+            unsure,
+            symbol,
+            intent,
+            react,
+            taught,
+            ..
+        } = state;
         probe.begin(Stage::Condition);
         let sampled = Sampled { codes, falling, panels: self.panels, now };
         self.condition.process(condition, layout, &sampled, contact.feedback());

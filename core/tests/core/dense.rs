@@ -52,7 +52,7 @@ impl Dense {
             self.persist(&before, &mut after, &points);
         }
         if self.config.track_baseline && self.tared {
-            let shows: Vec<u16> = before.iter().zip(&after).map(|(a, b)| *a.max(b)).collect();
+            let shows: Vec<bool> = before.iter().zip(&after).map(|(a, b)| *a != 0 || *b != 0).collect();
             self.follow(layout, sampled, held, &shows);
         }
         after
@@ -88,7 +88,7 @@ impl Dense {
     }
 
     /// Every row once in 0.7 s, or in 0.35 s while a panel drifts fast, and before either half of a panel's rows its witnesses.
-    fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect], shows: &[u16]) {
+    fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect], shows: &[bool]) {
         let slots: u16 = layout.areas().iter().map(|area| area.rows + 2).sum();
         while self.due <= sampled.now.0 {
             let mut slot = self.slot;
@@ -120,7 +120,7 @@ impl Dense {
         row: u16,
         codes: &[Code],
         held: &[Rect],
-        shows: &[u16],
+        shows: &[bool],
     ) {
         let common = self.in_turn(panel);
         for column in 0..area.columns {
@@ -128,13 +128,8 @@ impl Dense {
             let Some(code) = codes.get(taxel) else { continue };
             let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
             // What is common and a quarter of it, and a count where nothing shows.
-            let beside = (f64::from(common.abs()) * 1.25).floor() as i32;
-            let beside = match near {
-                false => beside + i32::from(shows[taxel] == 0),
-                // The fringe of a contact, where the panel drifts fast.
-                true if common.abs() > 8 && shows[taxel] < 40 => beside,
-                true => 0,
-            };
+            let beside = (f64::from(common.abs()) * 1.25).floor() as i32 + i32::from(!shows[taxel]);
+            let beside = if near { 0 } else { beside };
             let off = i32::from(code.0) - i32::from(self.rest[taxel]);
             let step = off.clamp(common - beside, common + beside);
             self.rest[taxel] = (i32::from(self.rest[taxel]) + step).clamp(0, 65535) as u16;

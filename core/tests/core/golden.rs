@@ -184,7 +184,10 @@ fn reports() -> [(&'static str, Report<'static>); 22] {
         ("Confidence", Report::Confidence(confidence)),
         ("Boot", Report::Boot(Boot { cause: BootCause::Watchdog, resets: 3, aside: Aside::Resets })),
         ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
-        ("Forms", Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() })),
+        (
+            "Forms",
+            Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() }),
+        ),
     ]
 }
 

@@ -4,8 +4,8 @@ use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, ReactionReport, ReflexReport,
-    SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
+    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, ReactionReport,
+    ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
 };
 
 /// Something that came; what lasts is then found in the [`Client`](super::Client).

@@ -84,7 +84,10 @@ fn contact() -> Value {
         "peak_breadth_mm",
     ];
     let texts = ["phase", "panel_name", "region", "link", "shape"];
-    object(&[all(integer, integers), all(number, numbers), all(text, texts), all(flag, ["slip", "unsure"])].concat())
+    object(
+        &[all(integer, integers), all(number, numbers), all(text, texts), all(flag, ["slip", "unsure"])]
+            .concat(),
+    )
 }
 
 /// Garment, scene and firmware.

@@ -28,28 +28,6 @@ fn a_touch_is_held_for_a_minute_at_a_count_per_second() {
     }
 }
 
-/// Drift is then more than the touch itself: it stays, or it is told that it may be drift.
-#[test]
-fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
-    for (garment, _) in garments() {
-        for rate in [20.0, -20.0] {
-            let course = Course { rate, way: 1_300.0 };
-            let trial = Trial { common: course, ..Trial::new(garment.clone(), 50.0) };
-            let felt = feel(&trial.touched("finger", 3.0, 30.0, 0.3, 65.0), 90.0);
-            println!(
-                "{}: {rate} counts/s for a minute: felt in {:.1} % of its frames, unsure in {:.1} %, {:.0} to {:.0} counts, then {:?}",
-                garment.name,
-                100.0 * felt.felt(30.5, 90.0),
-                100.0 * felt.unsure(30.5, 90.0),
-                felt.pressure(31.0, 36.0),
-                felt.pressure(84.0, 90.0),
-                felt.led
-            );
-            assert_eq!((felt.felt(0.0, 30.0), felt.felt(30.5, 90.0)), (0.0, 1.0), "{}", garment.name);
-        }
-    }
-}
-
 #[test]
 fn a_touch_is_held_for_an_hour_at_half_a_count_per_second() {
     for garment in [Garment::block(), Garment::recorded(12, 12)] {
