@@ -11,7 +11,7 @@ use std::path::PathBuf;
 const PERCENT: u32 = 2;
 const BYTES: u32 = 256;
 /// What an image of any compiler may take of flash and RAM, in KiB: a tenth of flash above the table, and 48 KiB left for the stack.
-const MOST: [(&str, u64); 2] = [("flash", 480), ("RAM", 216)];
+const MOST: [(&str, u64); 2] = [("flash", 528), ("RAM", 216)];
 /// Crates and symbols that are listed: the largest.
 const CRATES: usize = 12;
 const SYMBOLS: usize = 24;
