@@ -107,6 +107,18 @@ impl ReactState {
         &self.changes
     }
 
+    /// Time at which the value of each row last reached its level, for those that last.
+    pub(crate) fn since(&self) -> &[Option<Micros>] {
+        &self.active
+    }
+
+    /// A row lasts that began before it was in this table.
+    pub(crate) fn go_on(&mut self, row: usize, since: Micros) {
+        if let Some(active) = self.active.get_mut(row) {
+            *active = Some(since);
+        }
+    }
+
     /// The rows that last, a bit each.
     pub fn active(&self) -> u8 {
         (0..).zip(&self.active).fold(0, |mask, (index, since)| mask | u8::from(since.is_some()) << index)

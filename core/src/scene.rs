@@ -58,6 +58,16 @@ impl Default for StreamConfig {
     }
 }
 
+impl StreamConfig {
+    /// Checks what does not depend on a board.
+    pub(crate) fn check(&self) -> Result<(), Invalid> {
+        match self.key_ms {
+            1..=1000 => Ok(()),
+            _ => Err(Invalid { parameter: "stream.key_ms", must: "must be 1 to 1000" }),
+        }
+    }
+}
+
 /// What one deployment needs. Authored as a file, sent as one message, echoed in `Hello`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

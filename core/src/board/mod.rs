@@ -4,6 +4,7 @@
 mod budget;
 mod doubt;
 mod examining;
+mod exchange;
 mod info;
 mod lost;
 mod outbox;

@@ -71,8 +71,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.rebuilds.spend(now);
         }
         let result = match request {
-            Request::SetGarment(bytes) => self.set_garment(bytes),
-            Request::SetScene(bytes) => self.set_scene(bytes),
+            Request::SetGarment(bytes) => self.set_garment(bytes, now),
+            Request::SetScene(bytes) => self.set_scene(bytes, now),
             Request::Tare { frames } => match self.tare(frames) {
                 Ok(()) => return,
                 refused => refused,
@@ -133,24 +133,33 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
     #[inline(never)]
-    fn set_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+    fn set_garment(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         // Where it was read: the stack has no room for a second one.
         let mut read = read::<Garment>("garment", bytes);
         let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
+        let lasting = self.lasting();
         self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
         self.worn();
+        self.carry(&lasting, true, now);
         Ok(())
     }
 
     #[inline(never)]
-    pub(super) fn set_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+    pub(super) fn set_scene(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         let mut scene = Scene::empty();
         reading::scene(bytes, &mut scene)?;
+        if let Some(done) = self.setup.change_stream(&self.info, &mut scene) {
+            done.map_err(Refusal::of)?;
+            self.outbox.pace(&self.setup.scene.stream);
+            return Ok(());
+        }
+        let lasting = self.lasting();
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, &mut scene).map_err(Refusal::of)?;
         // What the new scene does not drive must not stay where the old one left it.
         self.outputs.follow(before);
         self.used();
+        self.carry(&lasting, false, now);
         Ok(())
     }
 

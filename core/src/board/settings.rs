@@ -4,7 +4,7 @@ use super::refusal::Refusal;
 use super::setup::Setup;
 use super::{Board, request};
 use crate::condition::Certificate;
-use crate::format::Code;
+use crate::format::{Code, Micros};
 use crate::garment::Garment;
 use crate::health::IllTaxel;
 use crate::scene::Scene;
@@ -173,7 +173,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     fn restore_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let done = self.set_scene(bytes);
+        let done = self.set_scene(bytes, Micros(0));
         if done.is_err() {
             self.ship_scene();
         }

@@ -144,6 +144,20 @@ impl Setup {
         done.map_err(SetupError::Scene)
     }
 
+    /// Takes another stream, if the scene differs in nothing else: what is perceived and driven goes on as it was. None: it does.
+    #[inline(never)]
+    pub fn change_stream(&mut self, info: &BoardInfo, scene: &mut Scene) -> Option<Result<(), SetupError>> {
+        let wanted = core::mem::replace(&mut scene.stream, self.scene.stream);
+        let is_all = *scene == self.scene;
+        scene.stream = wanted;
+        is_all.then(|| {
+            check(info, scene, &self.circuit)?;
+            wanted.check().map_err(SceneError::from)?;
+            self.scene.stream = wanted;
+            Ok(())
+        })
+    }
+
     /// Scans per second, as [`Pace`](super::pace::Pace) wants it: a scene's 0 is "as many as possible".
     pub(super) fn scan_rate(&self) -> u16 {
         if self.scene.rate_hz == 0 { u16::MAX } else { self.scene.rate_hz }

@@ -40,9 +40,7 @@ impl Pipeline {
     /// As [`Pipeline::build`], in the place of what it was: on a microcontroller the stack has no room for a second one. After an
     /// error some stages are those of the new scene and some are not: it is to be filled again with what it was.
     pub fn fill(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
-        if !(1..=1000).contains(&scene.stream.key_ms) {
-            return Err(Invalid { parameter: "stream.key_ms", must: "must be 1 to 1000" }.into());
-        }
+        scene.stream.check()?;
         self.panels = scene.plan.panels;
         self.condition = scene.condition.build()?;
         let forms = self.contact.forms;

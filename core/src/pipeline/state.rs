@@ -89,6 +89,16 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         reactions.begin(&mut self.react, index, value, now)
     }
 
+    /// What is remembered of the reactions.
+    pub(crate) fn react(&self) -> &ReactState {
+        &self.react
+    }
+
+    /// As [`PipelineState::react`], to be changed.
+    pub(crate) fn react_mut(&mut self) -> &mut ReactState {
+        &mut self.react
+    }
+
     /// Reactions that last, a bit for each row.
     pub fn reacting(&self) -> u8 {
         self.react.active()

@@ -6,6 +6,7 @@ mod bounds;
 mod certainty;
 mod condition;
 mod dense;
+mod exchange;
 mod garment;
 mod golden;
 mod hard;

@@ -53,6 +53,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
+    /// Takes a reaction that ended with its scene or garment.
+    pub fn end(&mut self, report: ReactionReport, health: &mut Health) {
+        if self.streaming {
+            health.lost += u32::from(self.reactions.push_back(report).is_err());
+        }
+    }
+
     /// Takes a reflex, and the reaction that began by it, unless the frame has shown its cause meanwhile.
     pub fn reflex(&mut self, report: ReflexReport, reaction: Option<Reaction>, health: &mut Health) {
         if !self.streaming {
