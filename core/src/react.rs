@@ -108,7 +108,7 @@ impl ReactState {
     }
 
     /// Time at which the value of each row last reached its level, for those that last.
-    pub(crate) fn since(&self) -> &[Option<Micros>] {
+    pub(crate) fn since(&self) -> &[Option<Micros>; REACTIONS] {
         &self.active
     }
 

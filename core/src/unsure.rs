@@ -8,11 +8,12 @@
 //! | RAM | 16 bytes a contact, 16 a panel |
 //! | M0+ cycles | about 60 a contact |
 //!
-//! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is measured tells them apart. A
-//! contact is unsure from the start if it came up slowly: something was nearly a contact in its panel for [`SLOW_US`] before, or another is unsure there,
-//! of which it may be a part. It is sure once its peak has risen by more than [`RISE`] within [`WINDOW_US`], which no drift does that the
-//! garment is meant for (5 counts/s in a patch, half as much again for a taxel). It is unsure again once its panel has drifted, since
-//! the contact began, by twice its peak or more: taxels drift at 0.5 to 1.5 times the rate of their panel, so that all of it may be drift.
+//! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is measured
+//! tells them apart. A contact is unsure from the start if it came up slowly: for 0.4 s before, something was nearly a
+//! contact in its panel, or another contact is unsure there, of which it may be a part. It is sure once its peak has
+//! risen by more than 16 counts within 0.5 s, which no drift does that the garment is meant for (5 counts/s in a patch,
+//! half as much again for a taxel). It is unsure again once its panel has drifted, since the contact began, by twice its
+//! peak or more: taxels drift at 0.5 to 1.5 times the rate of their panel, so that all of it may be drift.
 
 use crate::body::Placed;
 use crate::format::Micros;

@@ -140,7 +140,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let lasting = self.lasting();
         self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
         self.worn();
-        self.carry(&lasting, true, now);
+        self.end_all(&lasting, now);
         Ok(())
     }
 
@@ -159,7 +159,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         // What the new scene does not drive must not stay where the old one left it.
         self.outputs.follow(before);
         self.used();
-        self.carry(&lasting, false, now);
+        // The one that was there is in its place.
+        self.carry(&lasting, &scene.react, now);
         Ok(())
     }
 

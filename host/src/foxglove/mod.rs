@@ -32,7 +32,7 @@ pub struct FoxgloveArgs {
     /// Port on this machine: Foxglove looks for 8765; 0: any that is free
     #[arg(long, value_name = "N", default_value_t = 8765)]
     pub port: u16,
-    /// Also let in pages of this site: https://viewer.example.org [default: Foxglove's, and those of this
+    /// Also let in pages of this site, `https://viewer.example.org` say [default: Foxglove's, and those of this
     /// machine]
     #[arg(long, value_name = "SITE")]
     pub allow_origin: Vec<String>,
