@@ -8,19 +8,21 @@
 //! | RAM | 16 bytes a contact, 16 a panel |
 //! | M0+ cycles | about 60 a contact |
 //!
-//! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is measured
-//! tells them apart. A contact is unsure from the start if it came up slowly: for 0.4 s before, something was nearly a
-//! contact in its panel, or another contact is unsure there, of which it may be a part. It is sure once its peak has
-//! risen by more than 16 counts within 0.5 s, which no drift does that the garment is meant for (5 counts/s in a patch,
-//! half as much again for a taxel). It is unsure again once its panel has drifted, since the contact began, by twice its
-//! peak or more: taxels drift at 0.5 to 1.5 times the rate of their panel, so that all of it may be drift.
+//! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is
+//! measured tells them apart. A contact is unsure from the start if it came up slowly: for 0.4 s before,
+//! something was nearly a contact in its panel, or another contact is unsure there, of which it may be a part.
+//! It is sure once its peak has risen by more than 16 counts within 0.5 s, which no drift does that the garment
+//! is meant for (5 counts/s in a patch, half as much again for a taxel). It is unsure again once its panel has
+//! drifted, since the contact began, by twice its peak or more: taxels drift at 0.5 to 1.5 times the rate of
+//! their panel, so that all of it may be drift.
 
 use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::PANELS;
 use heapless::Vec;
 
-/// A touch is nearly a contact for less than this time before it is one, us; at 7.5 counts/s drift takes three times as long.
+/// A touch is nearly a contact for less than this time before it is one, us; at 7.5 counts/s drift takes three
+/// times as long.
 const SLOW_US: u64 = 400_000;
 
 /// What is nearly a contact goes on being that after a pause of this time at most, us: noise interrupts it.
@@ -29,7 +31,8 @@ const PAUSE_US: u64 = 200_000;
 /// A touch rises within this time by more than drift does, us.
 const WINDOW_US: u32 = 500_000;
 
-/// What drift and noise may add to a peak within [`WINDOW_US`], counts: four for the drift of a patch, twelve for noise.
+/// What drift and noise may add to a peak within [`WINDOW_US`], counts: four for the drift of a patch, twelve
+/// for noise.
 const RISE: u16 = 16;
 
 /// What is remembered of the contacts of the last frame, in the order of their onset.
@@ -85,8 +88,8 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
         self.watched.iter().filter(|watched| watched.unsure).map(|watched| watched.id)
     }
 
-    /// Takes the contacts of a frame, in the order of their onset. `faint` has a bit for each panel in which something is nearly a
-    /// contact; `drifted` tells what a panel has drifted so far, counts.
+    /// Takes the contacts of a frame, in the order of their onset. `faint` has a bit for each panel in which
+    /// something is nearly a contact; `drifted` tells what a panel has drifted so far, counts.
     #[inline(never)] // M0+: out of line
     pub(crate) fn process(
         &mut self,
@@ -203,8 +206,8 @@ mod tests {
         Placed::new(&layout, contact, Shape::default())
     }
 
-    /// Whether what has this peak over seconds is unsure at the end, as a contact from 40 counts on, on a panel that drifts at
-    /// `rate` counts/s.
+    /// Whether what has this peak over seconds is unsure at the end, as a contact from 40 counts on, on a panel
+    /// that drifts at `rate` counts/s.
     fn is_unsure(period_us: u64, seconds: f64, peak: impl Fn(f64) -> f64, rate: f64) -> bool {
         let mut state = UnsureState::<4>::new();
         for now in (0..(seconds * 1e6) as u64).step_by(period_us as usize) {

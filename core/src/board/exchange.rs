@@ -14,8 +14,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         *self.state.react().since()
     }
 
-    /// Carries reactions of another table over to that of the scene in force: rows of the same name and pin go on. Its
-    /// levels decide with the next frame, and until then their pins stay as they are. All others have ended.
+    /// Carries reactions of another table over to that of the scene in force: rows of the same name and pin go
+    /// on. Its levels decide with the next frame, and until then their pins stay as they are. All others have
+    /// ended.
     #[inline(never)] // M0+: out of line
     pub(super) fn carry(&mut self, lasting: &Lasting, before: &[ReactionConfig], now: Micros) {
         for (index, (row, since)) in (0..).zip(before.iter().zip(lasting)) {

@@ -1,7 +1,7 @@
 //! How many forms are looked at in a frame.
 
-/// How many of the contacts that were there before have their forms looked at in a frame, in turn; those that are new always
-/// have. One, if nothing else is asked for: a form costs as much as all the rest of a contact.
+/// How many of the contacts that were there before have their forms looked at in a frame, in turn; those that
+/// are new always have. One, if nothing else is asked for: a form costs as much as all the rest of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forms(u8);
 

@@ -156,3 +156,23 @@ pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
     let areas = client.layout().map_or(&[][..], |layout| layout.areas());
     areas.get(usize::from(panel)).map_or("?", |area| &area.name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel_core::shape::Class;
+    use taxel_core::symbol::{Span, Words};
+
+    #[test]
+    fn what_fills_a_taxel_is_told_as_at_least_so_much() {
+        let line = |extent| {
+            let (strength, span) = (Strength::Hard, Span::Long);
+            let words = Words { strength, extent, span, moving: false, class: Class(0) };
+            let (phase, region) = (Phase::Released, 0);
+            let symbol = Symbol { contact: 7, phase, region, words, peak_total: 4_800, duration_ms: 900 };
+            said(&Client::new(), &symbol, Some(1_000.0))
+        };
+        assert!(line(Extent::Sharp).ends_with("sharp, unknown, 900 ms, at least 4.8 N"), "{}", line(Extent::Sharp));
+        assert!(line(Extent::Point).ends_with("point, unknown, 900 ms, at most 4.8 N"), "{}", line(Extent::Point));
+    }
+}

@@ -7,8 +7,6 @@ use taxel_core::scene::Scene;
 
 /// Raw codes a second: enough to read a number.
 const RATE: u16 = 10;
-/// A new scene restarts intention and reactions; nobody's touch should notice, but who looks need not wait for ever.
-const PATIENCE: Duration = Duration::from_secs(1);
 /// How long nobody looked when the board gets its own scene back.
 const REST: Duration = Duration::from_secs(10);
 
@@ -32,10 +30,9 @@ impl RawCodes {
             self.since = None;
             return Ok(());
         }
+        // Another stream touches nothing else on the board: whoever looks need not wait.
         let waited = now.saturating_duration_since(*self.since.get_or_insert(now));
-        let quiet = client.contacts().is_empty();
-        let due = if looked_at { quiet || waited >= PATIENCE } else { quiet && waited >= REST };
-        if !due {
+        if !looked_at && waited < REST {
             return Ok(());
         }
         self.since = None;
