@@ -172,7 +172,15 @@ mod tests {
             let symbol = Symbol { contact: 7, phase, region, words, peak_total: 4_800, duration_ms: 900 };
             said(&Client::new(), &symbol, Some(1_000.0))
         };
-        assert!(line(Extent::Sharp).ends_with("sharp, unknown, 900 ms, at least 4.8 N"), "{}", line(Extent::Sharp));
-        assert!(line(Extent::Point).ends_with("point, unknown, 900 ms, at most 4.8 N"), "{}", line(Extent::Point));
+        assert!(
+            line(Extent::Sharp).ends_with("sharp, unknown, 900 ms, at least 4.8 N"),
+            "{}",
+            line(Extent::Sharp)
+        );
+        assert!(
+            line(Extent::Point).ends_with("point, unknown, 900 ms, at most 4.8 N"),
+            "{}",
+            line(Extent::Point)
+        );
     }
 }

@@ -54,7 +54,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
     reflexes: Deque<ReflexReport, REACTIONS>,
-    changes: Deque<IntentReport, 5>,
+    changes: Deque<IntentReport, 4>,
     gestures: Gestures,
     intent: Option<IntentReport>,
     symbols: SymbolList,
