@@ -1,18 +1,26 @@
-//! Puts the memory map where the linker looks for it and names the linker scripts.
+//! Puts the memory maps where the linker looks for them and names the linker scripts.
 
 use std::{env, fs, path::PathBuf};
 
+/// The images, and the memory map of each. A memory.x in the folder where the linker runs would silently win over these: that is why none
+/// lies beside this file.
+const MAPS: [(&str, &str); 2] = [("taxel-firmware", "../memory.x"), ("bench", "src/bin/bench.x")];
+
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    // One map for all boards, in the repository's root. A memory.x in the folder where the linker runs would silently
-    // win over this one: that is why it does not lie beside this file.
-    fs::copy("../memory.x", out.join("memory.x")).expect("copy ../memory.x");
-    println!("cargo:rustc-link-search={}", out.display());
-    println!("cargo:rerun-if-changed=../memory.x");
+    for (image, map) in MAPS {
+        let place = out.join(image);
+        fs::create_dir_all(&place).expect("make a folder in OUT_DIR");
+        fs::copy(map, place.join("memory.x")).unwrap_or_else(|error| panic!("copy {map}: {error}"));
+        println!("cargo:rustc-link-arg-bin={image}=-L{}", place.display());
+        println!("cargo:rerun-if-changed={map}");
+    }
     for script in ["link.x", "link-rp.x", "defmt.x"] {
         println!("cargo:rustc-link-arg-bins=-T{script}");
     }
     println!("cargo:rustc-link-arg-bins=--nmagic");
+    // What runs first: src/levels.rs, which calls what would.
+    println!("cargo:rustc-link-arg-bin=taxel-firmware=--wrap=__pre_init");
     // defmt drops what is below the level that is set at compile time; its default is errors only.
     println!("cargo:rustc-env=DEFMT_LOG=info");
 }

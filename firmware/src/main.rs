@@ -6,7 +6,9 @@
 mod adc;
 mod board;
 mod copy;
+mod guard;
 mod led;
+mod levels;
 mod link;
 mod mark;
 mod panic;
@@ -15,6 +17,7 @@ mod platform;
 mod remains;
 mod scan;
 mod store;
+mod supply;
 
 use defmt_rtt as _;
 use embassy_executor::Spawner;
@@ -77,6 +80,8 @@ fn scanner(
 
 #[embassy_executor::main]
 async fn main(_spawner: Spawner) {
+    guard::put_up();
+    supply::watch();
     let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
     let mut platform = platform::Board::start(watchdog, led, flash);
     const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };

@@ -15,6 +15,7 @@ use taxel_core::{
     boot::{Aside, Boots},
     format::Micros,
     pipeline::{Probe, Stage},
+    react::Levels,
     run::Platform,
 };
 use taxel_store::{Found, StoreError};
@@ -110,6 +111,15 @@ impl Board {
         Board { watchdog, flash, led, led_due: Micros(0), boots }
     }
 
+    /// Keeps where the outputs stand when the board starts, beside settings that are stored.
+    fn keep_levels(&mut self, levels: Levels, saved: Saved) -> Result<Saved, StoreError> {
+        let mut flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        Ok(match flash.keep_levels(levels)? {
+            Saved::Written => Saved::Written,
+            Saved::Unchanged => saved,
+        })
+    }
+
     /// Gives a board that has not begun yet the settings that were stored, unless they stay aside; then the
     /// flash is not even read. Not inlined: it needs stack only meanwhile.
     #[inline(never)]
@@ -165,6 +175,7 @@ impl Platform for Board {
         self.boots.spend(settings.saves);
         let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let saved = flash.store().and_then(|mut store| store.save(settings));
+        let saved = saved.and_then(|saved| self.keep_levels(Levels::of(&settings.scene.react), saved));
         if saved.is_ok() {
             self.boots.saved();
         }

@@ -1,17 +1,22 @@
-//! The sectors of the flash that hold the settings.
+//! The sectors of the flash that hold the settings, and those that hold the levels of outputs.
 
 use crate::platform::WATCHDOG;
 use core::ops::Range;
 use embassy_rp::flash::{self, Blocking, ERASE_SIZE, Error, READ_SIZE, WRITE_SIZE};
 use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
-use taxel_store::{Store, StoreError};
+use taxel_core::board::Saved;
+use taxel_core::react::Levels;
+use taxel_store::{Store, StoreError, keep_levels};
 
 /// The smallest flash of any board with an RP2040.
 const BYTES: usize = 2 * 1024 * 1024;
 
 /// Where memory.x ends the program. Two sets of the longest settings take 25 KB; the rest spreads the wear.
 const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
+
+/// Two sectors before them, which hold the levels of outputs for a board that starts.
+pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.start - ERASE_SIZE as u32];
 
 /// The flash. Nothing runs while it is written or erased, interrupts included: code lies in it.
 pub type Flash = flash::Flash<'static, FLASH, Blocking, BYTES>;
@@ -28,6 +33,11 @@ impl Fed<'_> {
     /// The settings in it.
     pub fn store(self) -> Result<Store<Self>, StoreError> {
         Store::new(self, SECTORS)
+    }
+
+    /// Keeps the levels of outputs for the next start.
+    pub fn keep_levels(&mut self, levels: Levels) -> Result<Saved, StoreError> {
+        keep_levels(self, LEVELS, levels)
     }
 }
 

@@ -19,7 +19,7 @@ const HAS_FAMILY: u32 = 0x2000;
 /// Bytes that a block writes.
 const PAGE: u32 = 256;
 /// Where the program lies in the flash. Behind it are the board's settings, which a new firmware leaves alone.
-const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 64) * 1024;
+const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 72) * 1024;
 /// What the boot loader's drive says of itself, in this file.
 const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
@@ -202,7 +202,7 @@ mod tests {
             image[BLOCK + at..][..4].copy_from_slice(&number.to_le_bytes());
             check(&image).unwrap_err().to_string()
         };
-        for address in [0x101f_0000, 0x1000_0000 - 256, 0x2000_0000, 0, u32::MAX, 0x1100_0000] {
+        for address in [0x101e_e000, 0x1000_0000 - 256, 0x2000_0000, 0, u32::MAX, 0x1100_0000] {
             let outside = format!("block 1 of it is for address {address:#x}, outside of the program");
             assert!(why(12, address).starts_with(&outside), "{address:#x}");
         }
@@ -221,8 +221,8 @@ mod tests {
     #[test]
     fn the_program_ends_where_the_memory_map_says() {
         let map = include_str!("../../memory.x");
-        assert!(map.contains("ORIGIN = 0x10000000") && map.contains("LENGTH = 2048K - 0x100 - 64K"), "{map}");
-        assert_eq!(PROGRAM.end, 0x1000_0100 + 2048 * 1024 - 0x100 - 64 * 1024);
+        assert!(map.contains("ORIGIN = 0x10000000") && map.contains("LENGTH = 2048K - 0x100 - 72K"), "{map}");
+        assert_eq!(PROGRAM.end, 0x1000_0100 + 2048 * 1024 - 0x100 - 72 * 1024);
     }
 
     #[test]

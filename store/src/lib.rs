@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `store.rs` | saving and loading |
 //! | `index.rs` | which parts are in force, and how they are known to be whole |
+//! | `levels.rs` | where the outputs stand when a board starts |
 //! | `waitless.rs` | a flash that blocks, where one that waits is asked for |
 //!
 //! The parts of the settings lie as items of at most [`CHUNK`] bytes in a map of sequential-storage. Each part has two places:
@@ -14,7 +15,9 @@
 #![deny(missing_docs)]
 
 mod index;
+mod levels;
 mod store;
 mod waitless;
 
+pub use levels::{Record, in_force, keep_levels};
 pub use store::{CHUNK, Found, Store, StoreError};

@@ -110,6 +110,18 @@ impl Emulated {
         self.wait_for("starve");
     }
 
+    /// The converter stands still from now on, or goes on; when that was, us.
+    pub fn stall(&mut self, stands_still: bool) -> f64 {
+        writeln!(self.input, "stall {}", if stands_still { "on" } else { "off" }).unwrap();
+        self.wait_for("stall")["stall"].as_f64().unwrap()
+    }
+
+    /// The program that has the USB port open reads from now on, or does not.
+    pub fn read_on(&mut self, reads: bool) {
+        writeln!(self.input, "read {}", if reads { "on" } else { "off" }).unwrap();
+        self.wait_for("read");
+    }
+
     /// Waits until the harness says something of this kind.
     pub fn wait_for(&mut self, kind: &str) -> Value {
         wait_for(&self.lines, &mut self.said, kind)

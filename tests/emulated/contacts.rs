@@ -14,9 +14,10 @@ const SCAN_US: u64 = 5_120;
 const SCANS: usize = 800;
 /// The scene lasts 2.5 s: played at this rate, all five contacts move during all of them.
 const RATE: f64 = 0.42;
-/// Scans of the scene before the first touch at 0.2 s, and how often they are shown.
+/// Scans of the scene before the first touch at 0.2 s, and how often they are shown: the emulator waits for nobody, and a busy
+/// machine asks for the tare late.
 const IDLE: usize = 90;
-const IDLE_ROUNDS: usize = 2;
+const IDLE_ROUNDS: usize = 6;
 /// Scans from the first touch to the end of the rise.
 const RISE: usize = 35;
 

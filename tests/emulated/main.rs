@@ -10,6 +10,8 @@ mod faults;
 mod health;
 mod images;
 mod latency;
+mod mishaps;
+mod outputs;
 mod recorded;
 mod scan;
 mod stack;

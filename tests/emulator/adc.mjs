@@ -26,6 +26,8 @@ export class Adc extends BasePeripheral {
     this.busy = false;
     /** Samples that are still to be lost, as if nobody had emptied the FIFO in time. */
     this.starved = 0;
+    /** Nothing is converted any more. */
+    this.stalled = false;
     this.conversions = 0;
     this.doneAlarm = rp2040.clock.createAlarm(() => this.done());
     this.nextAlarm = rp2040.clock.createAlarm(() => this.start());
@@ -37,7 +39,7 @@ export class Adc extends BasePeripheral {
 
   /** The input is sampled when the conversion starts: a multiplexer that has not settled yet is seen unsettled. */
   start() {
-    if (this.busy || !(this.cs & CS_EN)) return;
+    if (this.busy || this.stalled || !(this.cs & CS_EN)) return;
     this.busy = true;
     this.conversions++;
     this.held = this.sample(this.channel) & 0xfff;

@@ -4,7 +4,8 @@
 import { BasePeripheral } from 'rp2040js';
 
 export const CHIP_RESET_BASE = 0x40064;
-const VREG = 0x0, BOD = 0x4, CHIP_RESET = 0x8;
+export const BOD = 0x4;
+const VREG = 0x0, CHIP_RESET = 0x8;
 const AT_RESET = { [VREG]: 0xb1, [BOD]: 0x91 };
 const CAUSES = { power: 1 << 8, pin: 1 << 16, debugger: 1 << 20 };
 

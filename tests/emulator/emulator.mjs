@@ -7,13 +7,14 @@ import { parseArgs } from 'node:util';
 import { setImmediate, setTimeout } from 'node:timers/promises';
 import { allowed } from './allow.mjs';
 import { Check } from './check.mjs';
+import { BOD, CHIP_RESET_BASE } from './chip_reset.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
 import { BoardError, Machine, WatchdogReset } from './machine.mjs';
 import { PowerCut } from './rom.mjs';
 
-const SETTINGS_START = 0x1f0000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
+const SETTINGS_START = 0x1ee000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
 const BATCH_NANOS = 500_000; // how often the world outside is looked at
 
 const parent = process.ppid; // a harness that outlives its test would run for ever
@@ -27,7 +28,7 @@ const { values: options } = parseArgs({
     stats: { type: 'boolean', default: false }, rtt: { type: 'string' },
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
     flash: { type: 'string' }, cut: { type: 'string' }, restarts: { type: 'boolean', default: false },
-    ground: { type: 'string', default: '' }, 'reset-by': { type: 'string', default: 'power' },
+    ground: { type: 'string', default: '' }, clock: { type: 'string', default: '0' }, 'reset-by': { type: 'string', default: 'power' },
   },
 });
 
@@ -82,7 +83,7 @@ function statistics(machine, garment, link, started) {
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
       uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
-    marks: machine.marks, check: garment?.check,
+    marks: machine.marks, check: garment?.check, brown_out: machine.chip.peripherals[CHIP_RESET_BASE].kept[BOD],
   };
 }
 
@@ -124,7 +125,8 @@ async function main() {
     start(after) {
       const machine = new Machine(image, {
         allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
-        onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after,
+        onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after, micros: Number(options.clock),
+        onLockUp: (us) => say({ lockup: us }),
       });
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
       board.machine = machine;
@@ -156,6 +158,22 @@ async function main() {
     starve: (samples) => {
       board.machine.chip.adc.starved = Number(samples);
       say({ starve: board.machine.micros });
+    },
+    stall: (state) => {
+      board.machine.chip.adc.stalled = state === 'on';
+      say({ stall: board.machine.micros });
+    },
+    'dma-error': () => {
+      board.machine.chip.dma.channels.forEach((channel) => channel.abort());
+      say({ 'dma-error': board.machine.micros });
+    },
+    read: (state) => {
+      board.machine.usb.follow(state === 'on');
+      say({ read: board.machine.micros });
+    },
+    sink: () => {
+      board.machine.sink();
+      say({ sink: board.machine.micros });
     },
     hang: () => {
       board.machine.hung = true;

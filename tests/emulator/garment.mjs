@@ -51,9 +51,10 @@ export class Garment {
     this.floating = 0;
   }
 
-  /** Lets the frames begin with the next scan. */
+  /** Lets the frames begin with the next scan, once more where they have begun already. */
   play() {
     this.wanted = true;
+    this.firstPlayed = Infinity;
   }
 
   /** The scans that have shown a frame of the list, the one under way included. */
@@ -112,6 +113,7 @@ export class Garment {
       this.scan++;
       this.onScan(this.scan);
       if (this.wanted && this.firstPlayed === Infinity) {
+        this.wanted = false;
         this.firstPlayed = this.scan;
         this.begun = this.now();
         this.onPlay(this.scan);

@@ -5,6 +5,7 @@ import { Adc } from './adc.mjs';
 import { CHIP_RESET_BASE, ChipReset } from './chip_reset.mjs';
 import { mendDma } from './dma.mjs';
 import { Marks } from './marks.mjs';
+import { Mpu } from './mpu.mjs';
 import { Pads } from './pads.mjs';
 import { Pio } from './pio.mjs';
 import { Rom } from './rom.mjs';
@@ -38,17 +39,19 @@ export class Machine {
    * `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. `onBytes`: bytes came over USB.
    * `onKnown`: what the board said on USB that it is. `restarts`: a reset by the watchdog is a `WatchdogReset`,
    * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that the watchdog has reset,
-   * whose flash and scratch registers this one has; all else begins anew, its memory and its time included.
+   * whose flash and scratch registers this one has; all else begins anew, its memory and its time included, which is
+   * `micros` then. `onLockUp(us)`: the core has met memory that nobody may access, and does nothing more.
    */
   constructor(
     { flash, symbols },
-    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after } = {},
+    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, micros = 0, onLockUp = () => {} } = {},
   ) {
     const chip = new RP2040();
-    Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts });
+    Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts, onLockUp });
     this.marks = new Marks();
     this.asleep = 0;
     this.hung = false; // the core does nothing more, as if it went round in circles
+    this.clock.nanosCounter = micros * 1000;
     const complain = (part, text) => {
       // DMA that nobody leads any more reads what it finds; the watchdog ends it.
       if (this.hung) return;
@@ -65,6 +68,7 @@ export class Machine {
       chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);
     });
     this.pads = new Pads(chip);
+    this.mpu = new Mpu(chip.ppb);
     chip.peripherals[CHIP_RESET_BASE] = new ChipReset(chip, after?.chip.peripherals[CHIP_RESET_BASE].cause ?? cause);
     if (after === undefined) for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
     else this.follow(after.chip);
@@ -72,6 +76,19 @@ export class Machine {
     this.guard();
     this.tapMemory();
     this.boot();
+  }
+
+  /** The stack is all but used up: what is pushed next leaves the memory. */
+  sink() {
+    this.core.SP = RAM_START + 8;
+  }
+
+  /** A push has met memory that nobody may access, and so will what an exception pushes: the core does nothing more. */
+  lockUp() {
+    if (this.hung) return;
+    if (!this.restarts) throw new BoardError(`the stack has left the memory at ${this.where()}`);
+    this.hung = true;
+    this.onLockUp(this.micros);
   }
 
   /** What outlasts a reset by the watchdog. */
@@ -141,6 +158,8 @@ export class Machine {
         ram.setUint32(address - RAM_START, value, true);
         if (address === mark) marks.enter(value, core.cycles);
         else if (address === lent) this.onLent(value);
+      } else if (address >>> 0 < RAM_START && this.mpu.forbids(address >>> 0)) {
+        this.lockUp();
       } else {
         chip.writeUint32(address, value);
       }

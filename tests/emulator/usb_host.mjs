@@ -22,6 +22,7 @@ export class UsbHost {
     this.sleep = this.clock.createAlarm(() => this.device.suspend());
     this.device.onChange = () => this.changed();
     this.plugged = this.wanted = false;
+    this.reads = true; // the program that has the port open takes what comes
     this.packets = { in: 0, out: 0, empty: 0 };
     this.forget();
   }
@@ -50,6 +51,12 @@ export class UsbHost {
   open(wanted) {
     this.wanted = wanted;
     if (this.pipes !== undefined) this.queue(this.setLines());
+  }
+
+  /** The program that has the port open reads, or does something else. */
+  follow(reads) {
+    this.reads = reads;
+    this.bus.wake();
   }
 
   /** Bytes for the port. */
@@ -118,7 +125,7 @@ export class UsbHost {
   }
 
   bulkIn() {
-    if (this.pipes === undefined || !this.opened) return undefined;
+    if (this.pipes === undefined || !this.opened || !this.reads) return undefined;
     const bytes = this.ready(this.pipes.in, 0);
     return bytes === undefined ? undefined : { bytes, done: () => this.take(this.device.in(this.pipes.in)) };
   }

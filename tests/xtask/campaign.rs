@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 /// What a run is.
 #[derive(Debug, Clone, Copy)]
 enum Run {
+    /// Tests of the core whose names hold this.
+    Core(&'static str),
     /// Tests of the library whose names hold this.
     Library(&'static str),
     /// A module of the tests of the firmware image.
@@ -19,7 +21,7 @@ enum Run {
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 14] = [
+const RUNS: [(&str, Run, &str); 17] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -35,6 +37,13 @@ const RUNS: [(&str, Run, &str); 14] = [
         Run::Image("health"),
         "health: 1,000 healthy frames, then one of each fault (emulated)",
     ),
+    ("outputs", Run::Core("outputs::"), "outputs: 100,000 random sequences of requests, faults and touches"),
+    (
+        "emulator-outputs",
+        Run::Image("outputs"),
+        "outputs: levels from the first instructions on, a converter that stands still, 100 random sequences (emulated)",
+    ),
+    ("link", Run::Library("link::"), "link: 10,000,000 messages through each kind of fault"),
     ("health", Run::Library("health::"), "health: every fault, and 10,000 healthy frames (simulated)"),
     ("setup", Run::Library("setup::"), "setup by touch: 1,000 random wirings (simulated)"),
     (
@@ -108,6 +117,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
     let _ = std::fs::remove_file(log);
     let longer = [("TAXEL_CAMPAIGN", "1")];
     let end = match run {
+        Run::Core(names) => targets::printed("core", &[names], log, &longer),
         Run::Library(names) => targets::printed("library", &[names], log, &longer),
         Run::Image(module) => targets::measured(module, log, &longer)?,
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,

@@ -34,6 +34,8 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator", |log| targets::on_emulator("contacts", log)),
     ("emulator-store", |log| targets::on_emulator("store", log)),
     ("emulator-boots", |log| targets::on_emulator("boots", log)),
+    ("emulator-outputs", |log| targets::on_emulator("outputs", log)),
+    ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
     ("view", browser::check),
     ("python", targets::python),
     ("clippy", clippy),

@@ -6,8 +6,10 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FLASH: u64 = 2048 * 1024 - 64 * 1024;
+const FLASH: u64 = 2048 * 1024 - 72 * 1024;
 const RAM: std::ops::Range<u32> = 0x2000_0000..0x2004_2000;
+/// Of that, what memory.x sets aside for the stack.
+const STACK: u64 = 48 * 1024;
 
 /// A finished image.
 #[derive(Debug)]
@@ -31,17 +33,17 @@ impl Image {
 impl fmt::Display for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kib = |bytes: u64| bytes as f64 / 1024.0;
-        let ram = u64::from(RAM.end - RAM.start);
+        let ram = u64::from(RAM.end - RAM.start) - STACK;
         writeln!(f, "ELF    {}", self.elf.display())?;
         writeln!(f, "UF2    {}", self.uf2.display())?;
         writeln!(f, "by     {}", self.compiler)?;
         writeln!(f, "flash  {:.1} of {:.0} KiB", kib(self.flash), kib(FLASH))?;
         writeln!(
             f,
-            "RAM    {:.1} of {:.0} KiB, {:.1} left for the stack",
+            "RAM    {:.1} of {:.0} KiB, besides {:.0} for the stack",
             kib(self.ram),
             kib(ram),
-            kib(ram - self.ram)
+            kib(STACK)
         )
     }
 }

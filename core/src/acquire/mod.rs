@@ -73,6 +73,8 @@ pub enum ScanError {
     },
     /// The converter, which runs by itself, reported a failed conversion.
     Conversion,
+    /// The converter, which runs by itself, has made no frame in time: the scan begins anew.
+    Stalled,
     /// Samples were lost, so that those after them belong to other taxels: the scan begins anew.
     OutOfStep,
     /// The garment has no pin of that number on this board.
@@ -90,6 +92,7 @@ impl fmt::Display for ScanError {
                 write!(f, "converter input on pin {input} gave no sample (at taxel {taxel})")
             }
             ScanError::Conversion => write!(f, "a conversion failed"),
+            ScanError::Stalled => write!(f, "the converter stands still"),
             ScanError::OutOfStep => write!(f, "samples were lost"),
             ScanError::NoPin(pin) => write!(f, "this board has no output pin {pin}"),
         }

@@ -33,18 +33,33 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// All reactions have ended: the garment is another one, and what happened to the old one is over.
+    /// What touched the garment is over: it is another one. What the board sees in itself goes on.
     #[inline(never)] // M0+: out of line
     pub(super) fn end_all(&mut self, lasting: &Lasting, now: Micros) {
         for (index, since) in lasting.iter().enumerate() {
-            if let Some(row) = self.setup.scene.react.get(index).cloned().filter(|_| since.is_some()) {
+            let Some((row, since)) = self.setup.scene.react.get(index).cloned().zip(*since) else { continue };
+            if row.cause.is_of_board() {
+                self.state.react_mut().go_on(index, since);
+                self.stand(index as u8);
+            } else {
                 self.end(index as u8, &row, now);
+            }
+        }
+    }
+
+    /// A host that comes late is told which reactions last, each at the level where it began.
+    pub(super) fn tell_lasting(&mut self, now: Micros) {
+        for (index, (row, since)) in (0..).zip(self.setup.scene.react.iter().zip(self.lasting())) {
+            if since.is_some() {
+                let reaction = Reaction { index, name: row.name.clone(), active: true, value: row.level };
+                let report = ReactionReport { frame: self.frame, time: now, reaction };
+                self.outbox.reaction(report, &mut self.health);
             }
         }
     }
 
     fn end(&mut self, index: u8, row: &ReactionConfig, now: Micros) {
         let reaction = Reaction { index, name: row.name.clone(), active: false, value: 0 };
-        self.outbox.end(ReactionReport { frame: self.frame, time: now, reaction }, &mut self.health);
+        self.outbox.reaction(ReactionReport { frame: self.frame, time: now, reaction }, &mut self.health);
     }
 }

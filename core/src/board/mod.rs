@@ -1,6 +1,7 @@
 //! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives what to send
 //! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
 
+mod alarms;
 mod budget;
 mod doubt;
 mod examining;
@@ -37,6 +38,7 @@ use crate::reflex::Early;
 use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
+use alarms::Senses;
 use budget::{Doing, Ledger};
 use doubt::Doubt;
 use heapless::{Deque, String, Vec};
@@ -112,6 +114,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
     outbox: Outbox<TAXELS>,
     outputs: Outputs,
+    senses: Senses,
     works: Deque<Work, 4>,
     /// No scan has ended since one of them began.
     worked: bool,
@@ -161,6 +164,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             inbox: Receiver::new(),
             outbox: Outbox::new(&StreamConfig::default()),
             outputs: Outputs::default(),
+            senses: Senses::default(),
             works: Deque::new(),
             worked: false,
             saving: Saving::new(),
@@ -211,6 +215,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// The garment has changed: nothing that was known of the old one holds.
     fn worn(&mut self) {
         self.reset();
+        self.senses.blind();
         self.rewired = true;
         self.outbox.renew();
         if core::mem::take(&mut self.taring) {
@@ -230,6 +235,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.pace(&self.setup.scene.stream);
         self.outbox.forget_meaning();
         self.outputs.follow(Outputs::at_rest(self.setup.pipeline.reactions()));
+        self.show_frames();
     }
 
     /// Puts to rest what the stages remember, once.
@@ -262,6 +268,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     fn next_job(&mut self, now: Micros) -> Option<Job> {
         self.health.process_us = self.ledger.process_us();
         self.outbox.tick(now);
+        self.look_after(now);
         if let Some((pin, level)) = self.outputs.next() {
             return Some(Job::Drive(pin, level));
         }
@@ -322,8 +329,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let percept = pipeline.process(&mut self.state, layout, scan.codes, circuit.falling(), time, probe);
         let touched = !percept.present.is_empty();
         for change in percept.reactions.changes() {
-            if let Some(line) = pipeline.reactions().output(change.index) {
-                self.outputs.set(line.pin, change.active != line.inverted);
+            if let Some((pin, level)) = pipeline.reactions().pin(percept.reactions, change.index) {
+                self.outputs.set(pin, level);
             }
         }
         // Where the converter waits for nobody.
@@ -335,6 +342,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
         self.outbox.raw(scan.codes, layout.taxels());
         self.watch(now, scan.codes, touched);
+        self.saw(now);
         probe.begin(Stage::Idle);
     }
 

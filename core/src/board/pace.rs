@@ -51,12 +51,12 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// As a scene asks.
-    pub fn of(stream: &StreamConfig) -> Rates {
+    /// As a scene asks, with `raw_hz` raw codes a second at least.
+    pub fn of(stream: &StreamConfig, raw_hz: u16) -> Rates {
         Rates {
             contacts: Pace::new(stream.contacts_hz),
             frames: Pace::new(stream.frames_hz),
-            raw: Pace::new(stream.raw_hz),
+            raw: Pace::new(stream.raw_hz.max(raw_hz)),
             key_us: 1000 * u64::from(stream.key_ms),
             symbols: stream.symbols,
             intent: stream.intent,

@@ -56,7 +56,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 decode::<Request>(slot)
             });
             match read {
-                Ok(request) => self.obey(now, request),
+                Ok(request) => {
+                    self.senses.hear(now);
+                    self.obey(now, request);
+                }
                 Err(error) => {
                     health.refused = health.refused.wrapping_add(1);
                     outbox.answer(UNREADABLE, Some(format_args!("{error}").into()));
@@ -81,6 +84,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 // From here on the same codes are answered with the same reports, whatever was seen before.
                 self.monitor.again();
                 self.outbox.start();
+                self.tell_lasting(now);
                 if self.state.taught.gallery().is_some() {
                     self.outbox.tell_shapes();
                 }
@@ -125,6 +129,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Request::AddShapes(bytes) => self.add_shapes(bytes),
             Request::Budget { hz } => {
                 self.ledger.report(hz);
+                Ok(())
+            }
+            Request::SetRaw { hz } => {
+                self.outbox.send_raw(hz, &self.setup.scene.stream);
                 Ok(())
             }
         };

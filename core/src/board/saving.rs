@@ -12,12 +12,22 @@ use crate::wire::Level;
 type Allowance = Quota<12, 300_000_000>;
 /// From the announcement to the save: the link has carried away what it was given.
 const NOTICE_US: u64 = 50_000;
+/// A save waits so long for what touches the garment to leave it.
+const PATIENCE_US: u64 = 2_000_000;
+/// To erase a sector of the flash and to write it again, ms: as its maker gives it for most; the worst takes ten times as long.
+const SECTOR_MS: u32 = 50;
+/// Its bytes.
+const SECTOR: usize = 4096;
+/// A sector for garment, scene and index, and one that is cleared for the next save.
+const OTHERS: usize = 2;
 
 /// How many saves are left, and whether one was announced.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saving {
     allowance: Allowance,
     announced: Option<Micros>,
+    /// Since when a save waits for what touches the garment.
+    waits: Option<Micros>,
     /// Since when nothing is scanned.
     stopped: Option<Micros>,
     /// When the board starts again.
@@ -29,12 +39,20 @@ pub(super) struct Saving {
 pub(super) enum Next {
     Announce,
     Wait,
+    Refuse,
     Save,
+}
+
+/// About how long the board is deaf while it stores the settings of so many taxels, ms.
+fn deaf_ms(taxels: usize) -> u32 {
+    // A gain and a code at rest, two bytes each.
+    let sectors = (4 * taxels).div_ceil(SECTOR) + OTHERS;
+    sectors as u32 * SECTOR_MS
 }
 
 impl Saving {
     pub const fn new() -> Saving {
-        Saving { allowance: Allowance::new(), announced: None, stopped: None, restart: None }
+        Saving { allowance: Allowance::new(), announced: None, waits: None, stopped: None, restart: None }
     }
 
     /// Before a reset so many saves were left.
@@ -55,20 +73,26 @@ impl Saving {
         }
     }
 
-    /// A save was asked for.
-    pub fn next(&mut self, now: Micros) -> Next {
+    /// A save was asked for; `busy`: something touches the garment.
+    pub fn next(&mut self, now: Micros, busy: bool) -> Next {
+        if busy {
+            self.announced = None;
+            let since = *self.waits.get_or_insert(now);
+            return if now.since(since) < PATIENCE_US { Next::Wait } else { Next::Refuse };
+        }
         match self.announced {
             None => {
                 self.announced = Some(now);
                 Next::Announce
             }
             Some(at) if now.since(at) < NOTICE_US => Next::Wait,
-            Some(_) => {
-                self.announced = None;
-                self.stop(now);
-                Next::Save
-            }
+            Some(_) => Next::Save,
         }
+    }
+
+    /// It is made, or refused: the next one is announced anew.
+    pub fn taken(&mut self) {
+        (self.announced, self.waits) = (None, None);
     }
 
     /// The flash was written.
@@ -101,30 +125,60 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if self.worked {
             return None;
         }
-        if self.works.front() == Some(&Work::Save) {
-            match self.saving.next(now) {
-                Next::Announce => {
-                    let text = format_args!("scanning stops while the settings are stored");
-                    self.outbox.tell(Level::Info, text);
-                    return None;
-                }
-                Next::Wait => return None,
-                Next::Save => {}
+        let work = *self.works.front()?;
+        if work == Work::Save && !self.may_save(now) {
+            return None;
+        }
+        if work != Work::SelfTest && !self.senses.are_blind() {
+            // First what reacts to that: the flash takes longer than most can wait.
+            self.senses.blind();
+            self.look_after(now);
+            if let Some((pin, level)) = self.outputs.next() {
+                return Some(Job::Drive(pin, level));
             }
         }
-        let work = self.works.pop_front()?;
+        self.works.pop_front();
+        self.saving.taken();
+        self.saving.stop(now);
         self.worked = true;
         Some(match work {
             Work::Save => Job::Save,
-            Work::Reset { undo } => {
-                self.saving.stop(now);
-                Job::ResetSettings { undo }
-            }
-            Work::SelfTest => {
-                self.saving.stop(now);
-                Job::Examine
-            }
+            Work::Reset { undo } => Job::ResetSettings { undo },
+            Work::SelfTest => Job::Examine,
         })
+    }
+
+    /// Whether the save that is asked for is made now: nothing touches the garment, and it was announced.
+    fn may_save(&mut self, now: Micros) -> bool {
+        let ms = deaf_ms(self.setup.layout.taxels());
+        match self.saving.next(now, self.is_busy()) {
+            Next::Announce => {
+                let text = format_args!("scanning stops for about {ms} ms while the settings are stored");
+                self.outbox.tell(Level::Info, text);
+            }
+            Next::Wait => {}
+            Next::Refuse => {
+                self.works.pop_front();
+                self.saving.taken();
+                let why = format_args!(
+                    "something touches the garment, and for about {ms} ms nothing would be felt"
+                );
+                self.outbox.answer(request::number_of(Work::Save), Some(why.into()));
+            }
+            Next::Save => return true,
+        }
+        false
+    }
+
+    /// Whether something touches the garment, or a reaction to a touch lasts. Without a tare nobody can
+    /// tell.
+    fn is_busy(&self) -> bool {
+        if !self.tared {
+            return false;
+        }
+        let rows = self.setup.scene.react.iter().zip(self.state.react().since());
+        let reacts = rows.into_iter().any(|(row, since)| since.is_some() && !row.cause.is_of_board());
+        reacts || self.state.is_touched()
     }
 
     /// The settings are to be stored, if the flash can take it.
@@ -199,8 +253,22 @@ mod tests {
     #[test]
     fn a_save_is_announced_first() {
         let mut saving = Saving::new();
-        let steps = [0, 10, 49_999, 50_000].map(|us| saving.next(Micros(us)));
-        assert_eq!(steps, [Next::Announce, Next::Wait, Next::Wait, Next::Save]);
+        let steps = [0, 10, 49_999, 50_000, 50_001].map(|us| saving.next(Micros(us), false));
+        assert_eq!(steps, [Next::Announce, Next::Wait, Next::Wait, Next::Save, Next::Save]);
+        saving.taken();
+        saving.stop(Micros(50_000));
         assert_eq!((saving.ended(Micros(90_000)), saving.ended(Micros(95_000))), (Some(40_000), None));
+        assert_eq!(saving.next(Micros(95_000), false), Next::Announce);
+    }
+
+    #[test]
+    fn a_touch_delays_a_save_and_a_long_one_prevents_it() {
+        let mut saving = Saving::new();
+        let steps = [(0, false), (40_000, true), (60_000, false), (110_000, false)];
+        let steps = steps.map(|(us, busy)| saving.next(Micros(us), busy));
+        assert_eq!(steps, [Next::Announce, Next::Wait, Next::Announce, Next::Save]);
+        saving.taken();
+        let steps = [0, 1_999_999, 2_000_000].map(|us| saving.next(Micros(us), true));
+        assert_eq!(steps, [Next::Wait, Next::Wait, Next::Refuse]);
     }
 }

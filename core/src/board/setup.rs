@@ -1,11 +1,11 @@
 //! Garment, scene, and what is built of them; changed as a whole or not at all.
 
 use super::info::BoardInfo;
-use crate::acquire::{Depth, Fields, TooLong, Unfit, check_duration};
+use crate::acquire::{Depth, Fields, TooLong, Unfit, check_duration, longest_frame_us, longest_self_test_us};
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Circuit, Garment, GarmentError, Layout};
 use crate::pipeline::{Pipeline, SceneError};
-use crate::react::Cause;
+use crate::react::{Cause, ReactionConfig};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -186,15 +186,31 @@ fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), Scene
         if matches!(row.cause, Cause::Reflex(_)) && scene.plan.depth != Depth::Interlaced {
             return refuse("cause.reflex", "needs plan.depth = \"12 interlaced\"");
         }
+        if row.cause == Cause::Blind && i64::from(row.level) * 1000 <= longest_pause_us(circuit, scene) as i64
+        {
+            return refuse("level", "must be longer than two frames and a self-test may take, ms");
+        }
         let Some(line) = row.output else { continue };
         let refuse = |must| refuse("output.pin", must);
         if !info.pins.is_output(line.pin) {
             return refuse("must be a free output of this board");
         }
-        let others = scene.react.iter().take(index).filter_map(|row| row.output);
-        if circuit.lines().contains(&line.pin) || others.into_iter().any(|other| other.pin == line.pin) {
-            return refuse("must not be used twice");
+        if circuit.lines().contains(&line.pin) {
+            return refuse("must not be a select line of the garment");
+        }
+        let is_shared = |other: &ReactionConfig| {
+            let alone = [&other.cause, &row.cause].contains(&&Cause::Watching);
+            other.output.is_some_and(|other| other.pin == line.pin && (alone || other != line))
+        };
+        if scene.react.iter().take(index).any(is_shared) {
+            return refuse("must not be used twice, but by reactions that assert it at the same level");
         }
     }
     Ok(())
+}
+
+/// The longest that the garment is not looked at where all is well, us.
+fn longest_pause_us(circuit: &Circuit, scene: &Scene) -> u64 {
+    let period = 1_000_000u64.checked_div(scene.rate_hz.into()).unwrap_or(0);
+    2 * longest_frame_us(circuit, &scene.plan).max(period) + longest_self_test_us(circuit)
 }

@@ -46,12 +46,12 @@ pub struct Fed {
 }
 
 impl Fed {
-    /// Puts a value into a slot until the next one. A refused value changes nothing.
+    /// Puts a value into a slot until the next one; nothing counts otherwise. A refused value changes nothing.
     pub fn set(&mut self, slot: u8, value: Q15) -> Result<(), Invalid> {
         let value = fraction(value, "value")?;
         let must = "must be less than 8";
         let held = self.slots.get_mut(usize::from(slot)).ok_or(Invalid { parameter: "slot", must })?;
-        *held = Held { value, until: None, otherwise: value };
+        *held = Held { value, until: None, otherwise: Q15(0) };
         Ok(())
     }
 
@@ -72,6 +72,11 @@ impl Fed {
         let until = (feed.lasts_ms > 0).then_some(Micros(now.0.saturating_add(left)));
         *held = Held { value, until, otherwise };
         Ok(())
+    }
+
+    /// Nobody feeds any more: what was fed with what counts otherwise is that, and all else 0.
+    pub fn let_go(&mut self) {
+        self.slots.iter_mut().for_each(|held| *held = Held { value: held.otherwise, until: None, ..*held });
     }
 
     /// What counts at `now`, by slot; 0 where nothing was fed.

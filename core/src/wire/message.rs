@@ -475,7 +475,7 @@ pub enum Request<'a> {
     },
     /// How the robot's joints stand.
     Posture(Posture),
-    /// Value of a concept that the host feeds, until the next one.
+    /// Value of a concept that the host feeds, until the next one, or until the host says nothing for 3 s: 0 then.
     Concept {
         /// slot of the map's input
         slot: u8,
@@ -500,7 +500,8 @@ pub enum Request<'a> {
         /// a second; 0: never, 65535: for each frame
         hz: u16,
     },
-    /// Value of a concept that the host feeds, with its age and what counts when it is too old.
+    /// Value of a concept that the host feeds, with its age and what counts when it is too old, or the host has said nothing
+    /// for 3 s.
     Feed(Feed),
     /// How gestures are recognised from now on; none: not at all, as at the start. Not a part of the scene.
     SetGestures(Option<GestureConfig>),
@@ -527,6 +528,11 @@ pub enum Request<'a> {
         in_frame: u8,
         /// Whether [`FormsReport`]s are told.
         ages: bool,
+    },
+    /// Raw codes a second, beside those that the scene streams, until the next such request. Nothing else changes.
+    SetRaw {
+        /// 0: as the scene says; 65535: with every scan
+        hz: u16,
     },
 }
 
@@ -555,6 +561,7 @@ impl Request<'_> {
             Request::SetCertainty(_) => 18,
             Request::ResetSettings { .. } => 19,
             Request::SetForms { .. } => 20,
+            Request::SetRaw { .. } => 21,
         }
     }
 }

@@ -7,7 +7,7 @@ use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::contact::Phase;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros, Q15, name};
-use taxel_core::garment::Garment;
+use taxel_core::garment::{Garment, Line};
 use taxel_core::intent::Feed;
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::Scene;
@@ -18,8 +18,8 @@ type Small = Board<TAXELS, 32>;
 
 /// A board in one hand and a host in the other.
 pub struct Bench {
-    board: Box<Small>,
-    now: u64,
+    pub board: Box<Small>,
+    pub now: u64,
     codes: [Code; TAXELS],
     receiver: Box<Receiver<8192>>,
     next_seq: Option<u32>,
@@ -179,10 +179,14 @@ fn a_scene_that_exceeds_the_link_or_a_pin_is_refused_by_name() {
     };
     let why = refused(&|scene| scene.stream.contacts_hz = 1000);
     assert_eq!(why, "scene: stream.contacts_hz must be lower: five contacts at this rate exceed the link");
-    let why = refused(&|scene| scene.react[1].output = scene.react[0].output);
-    assert_eq!(why, "scene: react[1].output.pin must not be used twice");
+    let why = refused(&|scene| {
+        let line = scene.react[0].output.unwrap();
+        scene.react[1].output = Some(Line { inverted: !line.inverted, ..line });
+    });
+    let twice = "must not be used twice, but by reactions that assert it at the same level";
+    assert_eq!(why, format!("scene: react[1].output.pin {twice}"));
     let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 9);
-    assert_eq!(why, "scene: react[0].output.pin must not be used twice");
+    assert_eq!(why, "scene: react[0].output.pin must not be a select line of the garment");
     let why = refused(&|scene| scene.react[0].output.as_mut().unwrap().pin = 26);
     assert_eq!(why, "scene: react[0].output.pin must be a free output of this board");
     let why = refused(&|scene| scene.friendliness[1].region = name("tail"));
@@ -290,7 +294,7 @@ fn over_pressure_reacts_in_its_frame_and_drives_the_pin() {
         level: 3000,
         hysteresis: 500,
         hold_ms: 20,
-        output: Some(taxel_core::garment::Line { pin: 24, inverted: true }),
+        output: Some(Line { pin: 24, inverted: true }),
     }]
     .into_iter()
     .collect();
@@ -551,7 +555,7 @@ fn a_save_is_announced_and_what_it_costs_is_counted() {
     let mut bench = Bench::new(Scene::shipped());
     bench.scan();
     bench.ask(&Request::Save);
-    assert_eq!(until_save(&mut bench), ["scanning stops while the settings are stored"]);
+    assert_eq!(until_save(&mut bench), ["scanning stops for about 150 ms while the settings are stored"]);
     bench.now += 200_000;
     bench.board.step(Micros(bench.now), Input::Saved(Ok(Saved::Written)), &mut ());
     // Scans of 4 ms.

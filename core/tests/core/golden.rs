@@ -191,7 +191,7 @@ fn reports() -> [(&'static str, Report<'static>); 22] {
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 21] {
+fn requests() -> [(&'static str, Request<'static>); 22] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -219,6 +219,7 @@ fn requests() -> [(&'static str, Request<'static>); 21] {
         ("SetCertainty", Request::SetCertainty(800)),
         ("ResetSettings", Request::ResetSettings { undo: true }),
         ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
+        ("SetRaw", Request::SetRaw { hz: 10 }),
     ]
 }
 

@@ -12,6 +12,7 @@ mod golden;
 mod hard;
 mod interlaced;
 mod moments;
+mod outputs;
 mod plain;
 mod reflex;
 mod sweep;

@@ -13,6 +13,7 @@ use super::Parts;
 use crate::{
     adc::Converter,
     led::Led,
+    levels,
     link::{Uart, Usb, Wire, uart},
     pins::Line,
     scan::{Begun, Chain},
@@ -54,6 +55,8 @@ bind_interrupts!(struct Interrupts {
 /// Starts the clocks (125 MHz) and takes the board apart. Must be called once.
 pub fn take() -> Parts {
     let p = embassy_rp::init(Default::default());
+    // That has reset the pads.
+    levels::drive();
     Parts {
         lines: lines!(p:
             PIN_2 = 2,

@@ -1,7 +1,8 @@
 //! The board as a USB device: a serial port (CDC-ACM). Its tasks run at the priority of an interrupt, the lowest one, and
 //! interrupt nothing but perception.
 
-use super::usb::{OPENED, RECEIVED, SENT};
+use super::usb::{OPENED, PACKETS, RECEIVED, SENT};
+use core::sync::atomic::Ordering;
 use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
 use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
 use embassy_rp::interrupt::{self, InterruptExt, Priority};
@@ -106,6 +107,8 @@ async fn send(mut port: Sender<'static, Bus>) {
         let count = if full { SENT.try_read(&mut packet).unwrap_or(0) } else { SENT.read(&mut packet).await };
         let sent = port.write_packet(packet.get(..count).unwrap_or(&[])).await;
         full = sent.is_ok() && count == PACKET;
+        // Nobody else writes it.
+        PACKETS.store(PACKETS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The links to the host. The board talks, and listens, over USB while a program there has opened its port, else over the
+//! The links to the host. The board talks, and listens, over USB while a program there has opened its port and reads, else over the
 //! UART; both carry the same bytes.
 //!
 //! | file | what |
@@ -39,15 +39,15 @@ impl Wire {
 
     /// Looks which link is to be used.
     fn choose(&mut self) {
-        let open = self.usb.is_open();
-        if self.over_usb == open {
+        let read = self.usb.is_read();
+        if self.over_usb == read {
             return;
         }
-        if !open {
+        if !read {
             // What waits for a host that has gone is not for the next one.
             self.usb.forget();
         }
-        (self.over_usb, self.cut) = (open, !self.ended);
+        (self.over_usb, self.cut) = (read, !self.ended);
         // Ends what was cut off when the board went from this link.
         self.send(&[END]);
     }

@@ -2,9 +2,10 @@
 //! perception does not hold up the bus.
 
 use super::device;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use embassy_rp::{peripherals::USB, usb};
 use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, pipe::Pipe};
+use embassy_time::Instant;
 use taxel_core::run::Link;
 
 /// Bytes to the host that may wait: what the bus carries in 2 ms, and what a frame of 40 contacts takes.
@@ -44,19 +45,37 @@ impl Opened {
     }
 }
 
+/// A host takes a packet within this time, or it is taken not to read.
+const PATIENCE_MS: u64 = 2_000;
+
+/// Packets that the host has taken, or refused.
+pub(super) static PACKETS: AtomicU32 = AtomicU32::new(0);
+
 /// The port.
-pub struct Usb(());
+pub struct Usb {
+    /// Packets when they were looked at last.
+    packets: u32,
+    /// When the host last took one, or nothing waited.
+    moved: Instant,
+}
 
 impl Usb {
     /// Attaches the board to the bus. Must be called once.
     pub fn start(driver: usb::Driver<'static, USB>) -> Usb {
         device::start(driver);
-        Usb(())
+        Usb { packets: 0, moved: Instant::now() }
     }
 
-    /// Whether a program has opened the port.
-    pub fn is_open(&self) -> bool {
-        OPENED.get()
+    /// Whether a program has opened the port, and reads from it: one that does not must not keep the other link silent.
+    pub fn is_read(&mut self) -> bool {
+        let (open, packets) = (OPENED.get(), PACKETS.load(Ordering::Relaxed));
+        let was_read = self.moved.elapsed().as_millis() < PATIENCE_MS;
+        // Once it is taken not to read, only a packet that it takes shows otherwise.
+        let moves = core::mem::replace(&mut self.packets, packets) != packets;
+        if !open || moves || (was_read && SENT.is_empty()) {
+            self.moved = Instant::now();
+        }
+        open && (was_read || moves)
     }
 
     /// Empties both rings.

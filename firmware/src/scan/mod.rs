@@ -35,7 +35,7 @@ use core::pin::pin;
 use embassy_futures::select::{Either, select};
 use embassy_time::Timer;
 use frames::Frames;
-use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport};
+use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport, longest_frame_us};
 use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
@@ -50,6 +50,9 @@ pub type Processor = MuxScan<
     { board::LINES },
     { crate::TAXELS },
 >;
+
+/// What a frame may take longer than it can, us.
+const SPARE_US: u64 = 5_000;
 
 /// Who scans.
 enum By {
@@ -67,6 +70,8 @@ pub struct Scanner {
     /// What is being scanned.
     circuit: Option<Circuit>,
     plan: Plan,
+    /// Time in which a frame must come, us.
+    patience_us: u64,
     /// A select line showed another level than it was driven to.
     misled: bool,
     looks: u32,
@@ -82,6 +87,7 @@ impl Scanner {
             by: By::Nobody,
             circuit: None,
             plan: Plan::default(),
+            patience_us: 0,
             misled: false,
             looks: 0,
         }
@@ -101,6 +107,7 @@ impl Scanner {
         };
         self.circuit = Some(circuit.clone());
         self.plan = *plan;
+        self.patience_us = longest_frame_us(circuit, plan) + SPARE_US;
     }
 
     /// The latest frame of the chain that was not read yet. In every fourth one, at another time of each, the select lines are
@@ -109,18 +116,21 @@ impl Scanner {
         let depth = self.plan.depth;
         self.looks = self.looks.wrapping_add(1);
         let mut next = pin!(self.frames.next(depth.scans()));
-        let frame = if self.looks & 3 == 0 {
+        let mut frame = None;
+        if self.looks & 3 == 0 {
             // Multiples of the golden ratio are spread evenly: over 4 of a frame's 5 ms.
             let look = Timer::after_micros(u64::from(self.looks.wrapping_mul(0x9e37_79b9) >> 20));
             match select(next.as_mut(), look).await {
-                Either::First(frame) => frame,
-                Either::Second(()) => {
-                    self.misled |= self.chain.misleads();
-                    next.await
-                }
+                Either::First(early) => frame = Some(early),
+                Either::Second(()) => self.misled |= self.chain.misleads(),
             }
-        } else {
-            next.await
+        }
+        let frame = match frame {
+            Some(frame) => frame,
+            None => match select(next, Timer::after_micros(self.patience_us)).await {
+                Either::First(frame) => frame,
+                Either::Second(()) => Err(ScanError::Stalled),
+            },
         };
         let (codes, lent) = frame.inspect_err(|_| self.by = By::Nobody)?;
         if !matches!(depth, Depth::Twelve | Depth::Interlaced) {

@@ -22,7 +22,7 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
 
 /// The name of a request by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 21] = [
+    const NAMES: [&str; 22] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -44,6 +44,7 @@ pub(crate) fn request_name(number: u8) -> &'static str {
         "set-certainty",
         "reset-settings",
         "set-forms",
+        "set-raw",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }
@@ -93,12 +94,10 @@ impl Client {
     }
 
     /// Asks for the raw codes of every frame where none come; whether it did. Nothing is known of the board: nothing is asked.
-    pub fn request_codes(&mut self) -> Result<bool> {
-        let Some(mut scene) = self.worn.as_ref().map(|worn| worn.scene.clone()) else { return Ok(false) };
-        let asks = scene.stream.raw_hz == 0;
+    pub fn request_codes(&mut self) -> Result<bool, WireError> {
+        let asks = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.raw_hz == 0);
         if asks {
-            scene.stream.raw_hz = u16::MAX;
-            self.use_for(&scene)?;
+            self.request(&Request::SetRaw { hz: u16::MAX })?;
         }
         Ok(asks)
     }

@@ -28,6 +28,7 @@ enum Key {
     Certainty,
     Gestures,
     Forms,
+    Raw,
     /// Of a slot.
     Concept(u8),
     /// Of a concept.
@@ -195,6 +196,7 @@ impl Sets {
             Request::SetCertainty(_) => (Key::Certainty, false),
             Request::SetGestures(config) => (Key::Gestures, config.is_none()),
             Request::SetForms { .. } => (Key::Forms, false),
+            Request::SetRaw { hz } => (Key::Raw, *hz == 0),
             Request::Concept { slot, .. } => (Key::Concept(*slot), false),
             Request::Feed(feed) => (Key::Feed(feed.concept.clone()), false),
             Request::Tare { .. } => (Key::Tare, false),

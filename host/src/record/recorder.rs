@@ -25,6 +25,9 @@ const CHUNK: Duration = Duration::from_millis(500);
 /// The same by the board's time, for those that are faster than time, us: who reads can go to any second.
 const CHUNK_US: u64 = 1_000_000;
 
+/// Number in the answer to a request that a board cannot read: its firmware does not know that one.
+const UNREADABLE: u8 = 255;
+
 /// The topic that counts for frames.
 const FRAMES: &str = "/taxel/frames";
 
@@ -66,7 +69,7 @@ pub struct Recorder {
     shown: progress::Progress,
     /// What was counted so far, and before the file began.
     tally: [Tally; 2],
-    /// Raw codes have been asked for by a scene that the board has not answered yet.
+    /// Raw codes have been asked for, and the board has not answered yet.
     waits_for_raw: bool,
 }
 
@@ -184,10 +187,11 @@ impl Recorder {
         Ok(())
     }
 
-    /// An error: the board refuses the scene with raw codes.
+    /// An error: the board refuses raw codes.
     fn answered(&mut self, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
-        if *request != Request::SetScene(&[]).number() || !std::mem::take(&mut self.waits_for_raw) {
+        let is_ours = [(Request::SetRaw { hz: 0 }).number(), UNREADABLE].contains(request);
+        if !is_ours || !std::mem::take(&mut self.waits_for_raw) {
             return Ok(());
         }
         match refusal {

@@ -10,6 +10,7 @@ mod fcm;
 mod ghosts;
 mod health;
 mod hostile;
+mod link;
 mod maps;
 mod mat;
 mod meaning;

@@ -1,14 +1,16 @@
 //! Settings in flash: what was stored is what is loaded, also where the power fails at any step of a save.
 
+use embedded_storage::nor_flash::ReadNorFlash;
 use taxel::sim::{Cut, SimFlash};
 use taxel_core::acquire::ScanError;
 use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved, Settings};
 use taxel_core::condition::Certificate;
 use taxel_core::format::{Micros, name};
 use taxel_core::garment::{Garment, Pins};
+use taxel_core::react::Levels;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
-use taxel_store::{Found, Store, StoreError};
+use taxel_store::{Found, Store, StoreError, in_force, keep_levels};
 
 /// Random numbers, always the same.
 struct Random(u32);
@@ -269,5 +271,49 @@ fn power_may_fail_while_settings_are_put_aside() {
                 assert!(found == old || found == new, "round {round}, step {step}, {cut:?}: {found:?}");
             }
         }
+    }
+}
+
+/// The sectors that hold the levels of outputs.
+const LEVELS: [u32; 2] = [0, 4096];
+
+/// The levels that a board would start with.
+fn levels(flash: &mut SimFlash) -> Levels {
+    let records = LEVELS.map(|start| {
+        let mut bytes = [0; 16];
+        flash.read(start, &mut bytes).unwrap();
+        let (words, _) = bytes.as_chunks();
+        std::array::from_fn(|at| u32::from_le_bytes(words[at]))
+    });
+    in_force(records).unwrap_or_default()
+}
+
+#[test]
+fn power_may_fail_while_levels_are_kept() {
+    let (mut flash, mut random) = (SimFlash::default(), Random(5));
+    assert_eq!(keep_levels(&mut flash, LEVELS, Levels::default()), Ok(Saved::Unchanged), "none are needed");
+    assert_eq!(flash.steps(), 0);
+    for round in 0..60 {
+        let pins = 1 + random.below(1 << 20);
+        let wanted = Levels { pins, high: pins & random.below(1 << 20) };
+        let (before, old) = (flash.clone(), levels(&mut flash));
+        keep_levels(&mut flash, LEVELS, wanted).unwrap();
+        assert_eq!(levels(&mut flash), wanted);
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                assert_eq!(keep_levels(&mut torn, LEVELS, wanted), Err(StoreError::Flash));
+                torn.restore_power();
+                let found = levels(&mut torn);
+                assert!(found == old || found == wanted, "round {round}, step {step}, {cut:?}: {found:?}");
+                // And the next time it is kept for certain.
+                keep_levels(&mut torn, LEVELS, wanted).unwrap();
+                assert_eq!(levels(&mut torn), wanted);
+            }
+        }
+        let steps = flash.steps();
+        assert_eq!(keep_levels(&mut flash, LEVELS, wanted), Ok(Saved::Unchanged));
+        assert_eq!(flash.steps(), steps);
     }
 }

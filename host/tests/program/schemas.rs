@@ -4,6 +4,7 @@ use super::tools::{file, said};
 use crate::start::root;
 use serde_json::Value;
 use taxel_core::garment::Garment;
+use taxel_core::react::ReactionConfig;
 use taxel_core::scene::Scene;
 
 /// The first thing in which a value is not as a schema says, with its place; none: it is valid. Panics at a key of the schema
@@ -134,6 +135,20 @@ fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
         *changed.pointer_mut(place).unwrap() = value;
         let why = wrong(&changed, &schema).unwrap();
         assert!(why.starts_with(place), "{place}: {why}");
+    }
+    for cause in [
+        "\"moving\"",
+        "\"fault\"",
+        "\"blind\"",
+        "\"ill\"",
+        "\"silent\"",
+        "\"watching\"",
+        "{\"reflex\":\"two\"}",
+    ] {
+        let mut changed = scene.clone();
+        changed["react"][0]["cause"] = serde_json::from_str(cause).unwrap();
+        assert_eq!(wrong(&changed, &schema), None, "{cause}");
+        serde_json::from_value::<ReactionConfig>(changed["react"][0].take()).unwrap();
     }
     let mut unknown = scene;
     unknown["contact"]["lo"] = 3.into();

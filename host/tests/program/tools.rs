@@ -227,3 +227,29 @@ fn the_commands_of_the_troubleshooting_table_exist() {
     }
     assert!(count > 15);
 }
+
+#[test]
+fn the_tests_that_hold_the_promises_exist() {
+    let document = std::fs::read_to_string(root().join("docs/promises.md")).unwrap();
+    let mut count = 0;
+    for row in document.lines().filter(|line| line.starts_with("| ")) {
+        let codes: Vec<&str> = row.split('`').skip(1).step_by(2).collect();
+        let (mut names, mut found) = (Vec::new(), 0);
+        for code in codes.into_iter().filter(|code| !code.contains(' ')) {
+            if !code.ends_with(".rs") {
+                names.push(code);
+                continue;
+            }
+            let file = std::fs::read_to_string(root().join(code)).unwrap();
+            for name in names.drain(..) {
+                assert!(file.contains(&format!("\nfn {name}()")), "{name} in {code}");
+                found += 1;
+            }
+        }
+        assert!(names.is_empty(), "no file is given for {names:?}");
+        let is_promise = !row.starts_with("| promise ");
+        assert!(found > 0 || !is_promise, "no test holds this: {row}");
+        count += found;
+    }
+    assert!(count > 25, "{count}");
+}

@@ -81,6 +81,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
+    /// Raw codes a second that were asked for beside the scene.
+    raw_hz: u16,
     rates: Rates,
 }
 
@@ -127,13 +129,20 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
             raw: None,
             codes: Codes::new(),
-            rates: Rates::of(stream),
+            raw_hz: 0,
+            rates: Rates::of(stream, 0),
         }
     }
 
     /// What is streamed from now on, and how often.
     pub fn pace(&mut self, stream: &StreamConfig) {
-        self.rates = Rates::of(stream);
+        self.rates = Rates::of(stream, self.raw_hz);
+    }
+
+    /// So many raw codes a second are asked for beside what the scene streams.
+    pub fn send_raw(&mut self, hz: u16, stream: &StreamConfig) {
+        self.raw_hz = hz;
+        self.pace(stream);
     }
 
     /// `Start`: `Hello`, then everything, beginning with a key frame.
@@ -185,6 +194,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     pub fn stop(&mut self) {
         self.streaming = false;
         self.hello = None;
+        self.reactions.clear();
         self.drop_waiting();
     }
 
@@ -197,8 +207,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
+    /// What was felt; not the reactions: nobody else tells that they ended.
     fn drop_waiting(&mut self) {
-        self.reactions.clear();
         self.reflexes.clear();
         self.gestures.clear();
         self.forget_meaning();

@@ -18,8 +18,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             return;
         }
         for reaction in percept.reactions.changes() {
-            let report = ReactionReport { frame, time, reaction: reaction.clone() };
-            health.lost += u32::from(self.reactions.push_back(report).is_err());
+            self.reaction(ReactionReport { frame, time, reaction: reaction.clone() }, health);
         }
         if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.rates.intent) {
             let report = IntentReport {
@@ -53,11 +52,32 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// Takes a reaction that ended with its scene or garment.
-    pub fn end(&mut self, report: ReactionReport, health: &mut Health) {
-        if self.streaming {
-            health.lost += u32::from(self.reactions.push_back(report).is_err());
+    /// Takes a reaction that began or ended without a frame that shows its cause.
+    pub fn reaction(&mut self, report: ReactionReport, health: &mut Health) {
+        if !self.streaming {
+            return;
         }
+        if self.reactions.is_full() {
+            health.lost += u32::from(self.forget_reaction(&report.reaction));
+        }
+        health.lost += u32::from(self.reactions.push_back(report).is_err());
+    }
+
+    /// Forgets the oldest report of a reaction that a later one, or `next`, follows: how each stands now is told in any case. Whether
+    /// there is one.
+    #[cold]
+    fn forget_reaction(&mut self, next: &Reaction) -> bool {
+        let name =
+            |at: usize| self.reactions.iter().nth(at).map_or(&next.name, |report| &report.reaction.name);
+        let count = self.reactions.len();
+        let Some(old) = (0..count).find(|old| (old + 1..=count).any(|at| name(at) == name(*old))) else {
+            return false;
+        };
+        for at in 0..count {
+            let report = self.reactions.pop_front().filter(|_| at != old);
+            report.into_iter().for_each(|report| _ = self.reactions.push_back(report));
+        }
+        true
     }
 
     /// Takes a reflex, and the reaction that began by it, unless the frame has shown its cause meanwhile.
@@ -68,8 +88,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let ReflexReport { frame, time, .. } = report;
         health.lost += u32::from(self.reflexes.push_back(report).is_err());
         if let Some(reaction) = reaction {
-            let report = ReactionReport { frame, time, reaction };
-            health.lost += u32::from(self.reactions.push_back(report).is_err());
+            self.reaction(ReactionReport { frame, time, reaction }, health);
         }
     }
 

@@ -20,7 +20,7 @@ fn acquainted() -> Client {
 fn a_refusal_of_raw_codes_ends_the_recording() {
     let mut client = acquainted();
     let begin = |name: &str| Recorder::create(Plan { raw: true, ..plan(name, "sim", None, false) }).unwrap();
-    let answer = |refusal: Option<&str>| Event::Answer { request: 1, refusal: refusal.map(String::from) };
+    let answer = |refusal: Option<&str>| Event::Answer { request: 21, refusal: refusal.map(String::from) };
     let mut refused = begin("raw-refused.mcap");
     // Nothing has been asked yet: the answer is to somebody else.
     refused.event(&client, &answer(Some("no"))).unwrap();
@@ -29,10 +29,20 @@ fn a_refusal_of_raw_codes_ends_the_recording() {
     let told = "--raw: the board refuses raw codes: the link is too slow";
     assert_eq!((error.to_string().as_str(), status(&error)), (told, 3));
     refused.finish().unwrap();
+    // A board that does not know the request says that it cannot read it.
+    let mut older = begin("raw-older.mcap");
+    older.idle(&mut client).unwrap();
+    let unread = Event::Answer { request: 255, refusal: Some("no message".into()) };
+    let error = older.event(&client, &unread).unwrap_err();
+    assert_eq!(
+        (error.to_string().as_str(), status(&error)),
+        ("--raw: the board refuses raw codes: no message", 3)
+    );
+    older.finish().unwrap();
     let mut done = begin("raw-done.mcap");
     assert!(done.idle(&mut client).unwrap());
     done.event(&client, &answer(None)).unwrap();
-    // A scene that is refused later is that of somebody else.
+    // What is refused later was asked by somebody else.
     done.event(&client, &answer(Some("no"))).unwrap();
     done.finish().unwrap();
 }

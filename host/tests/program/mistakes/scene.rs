@@ -171,6 +171,7 @@ const MISTAKES: &[Mistake] = &[
         "concept = \"angst\"",
         "`react[1].cause.concept`: react[1].cause.concept must be a concept of the map",
     ),
+    ("/react/cause/reflex", "cause = \"pressure\"", "cause = { reflex = \"three\" }", "`react[0].cause"),
     ("/react/cause/leading", "leading = \"attack\"", "leading = \"attacks\"", "`react[2].cause"),
     ("/react/level", "level = 3600", "level = 3600.5", "`react[0].level`: must be"),
     (
@@ -191,7 +192,7 @@ const MISTAKES: &[Mistake] = &[
         "/react/output/pin",
         "pin = 18",
         "pin = 9",
-        "`react[0].output.pin`: react[0].output.pin must not be used twice",
+        "`react[0].output.pin`: react[0].output.pin must not be a select line of the garment",
     ),
     (
         "/react/output/pin",

@@ -2,66 +2,29 @@
 //!
 //! | | |
 //! |---|---|
-//! | input | region states, the meaning of the touch |
+//! | input | region states, the meaning of the touch; how the board itself is |
 //! | output | changes of named reactions, in the frame that shows their cause |
 //! | latency | none |
 //! | RAM | [`ReactState`]: 16 bytes a reaction |
+//!
+//! | file | what |
+//! |---|---|
+//! | `config.rs` | the table of reactions, as a scene has it |
+//! | `levels.rs` | where the outputs stand before anything is known |
+
+mod config;
+mod levels;
+
+pub use config::{Cause, REACTIONS, ReactionConfig};
+pub use levels::Levels;
 
 use crate::format::{Invalid, InvalidRow, Micros, Name, Q15};
 use crate::garment::{Layout, Line};
 use crate::intent::{Leading, Map, Meaning};
-use crate::reflex::{Agree, ROWS, Reflexes, Row};
+use crate::reflex::{Agree, Reflexes, Row};
 use crate::symbol::RegionState;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-
-/// Most reactions of a scene.
-pub const REACTIONS: usize = ROWS;
-
-/// What a reaction looks at. Variants are only appended.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Cause {
-    /// Greatest pressure of a taxel, counts.
-    Pressure,
-    /// Total pressure of the region, counts.
-    Force,
-    /// Number of contacts.
-    Contacts,
-    /// A contact slides: 1.
-    Moving,
-    /// Activation of a concept of the map, Q15 (32768 is 1.0).
-    Concept(Name),
-    /// This intention leads: 1.
-    Leading(Leading),
-    /// Greatest pressure of a taxel, counts, as of `Pressure`; and it begins before the frame is complete, as soon as so many taxels
-    /// agree. Needs an interlaced scan.
-    Reflex(Agree),
-}
-
-/// One row of the table of reactions.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ReactionConfig {
-    /// What the host is told.
-    pub name: Name,
-    /// What is looked at.
-    pub cause: Cause,
-    /// Only in this region of the body; empty: anywhere. Concepts and intentions have no region.
-    #[serde(default)]
-    pub region: Name,
-    /// It begins when the value reaches this, in the unit of the cause.
-    pub level: i32,
-    /// It can end when the value is below `level - hysteresis`.
-    #[serde(default)]
-    pub hysteresis: i32,
-    /// Shortest time that it lasts, and time for which the value must stay below before it ends, ms.
-    #[serde(default)]
-    pub hold_ms: u32,
-    /// A pin that is asserted while it lasts.
-    #[serde(default)]
-    pub output: Option<Line>,
-}
 
 /// A reaction that began or ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,6 +45,8 @@ enum Watch {
     Region(Cause, Option<u8>),
     Concept(usize),
     Leading(Leading),
+    /// Judged by whoever knows how the board is.
+    Board(Cause, Option<u8>),
 }
 
 /// The checked stage.
@@ -182,23 +147,30 @@ impl Reactions {
             // Both have the capacity of the map.
             let _ = activations.extend_from_slice(&meaning.activations);
         }
-        for (index, ((row, watch), since)) in self.rows.iter().zip(active.iter_mut()).enumerate() {
+        for (index, ((row, watch), since)) in (0..).zip(self.rows.iter().zip(active)) {
             let value = match watch {
                 Watch::Region(cause, region) => of_regions(cause, *region, regions),
                 Watch::Concept(concept) => activations.get(*concept).map_or(0, |a| a.0),
                 Watch::Leading(wanted) => i32::from(wanted == leading),
+                Watch::Board(..) => continue,
             };
-            let was = since.is_some();
-            if value >= row.level || (was && value >= row.level - row.hysteresis) {
-                *since = Some(now);
-            } else if since.is_some_and(|last| now.since(last) >= 1000 * u64::from(row.hold_ms)) {
-                *since = None;
-            }
-            if since.is_some() != was {
-                let name = row.name.clone();
-                let _ = changes.push(Reaction { index: index as u8, name, active: !was, value });
-            }
+            // As many places as rows.
+            follow(index, row, since, value, now).into_iter().for_each(|change| _ = changes.push(change));
         }
+    }
+
+    /// The rows that look at the board itself: row, cause, region.
+    pub fn alarms(&self) -> impl Iterator<Item = (u8, &Cause, Option<u8>)> {
+        (0..).zip(&self.rows).filter_map(|(index, (_, watch))| match watch {
+            Watch::Board(cause, region) => Some((index, cause, *region)),
+            _ => None,
+        })
+    }
+
+    /// Takes what a row looks at now, if it looks at the board itself; whether that began or ended it.
+    pub fn judge(&self, state: &mut ReactState, index: u8, value: i32, now: Micros) -> Option<Reaction> {
+        let (row, _) = self.rows.get(usize::from(index))?;
+        follow(index, row, state.active.get_mut(usize::from(index))?, value, now)
     }
 
     /// A row has begun by reflex, at that pressure (counts); none if it lasts already or is no reflex.
@@ -226,6 +198,42 @@ impl Reactions {
     pub fn outputs(&self) -> impl Iterator<Item = Line> + '_ {
         self.rows.iter().filter_map(|(row, _)| row.output)
     }
+
+    /// The pin of a row and the level at which it is to stand: asserted while one of its rows lasts.
+    pub fn pin(&self, state: &ReactState, index: u8) -> Option<(u8, bool)> {
+        let line = self.output(index)?;
+        let lasts = |((row, _), since): (&(ReactionConfig, Watch), &Option<Micros>)| {
+            since.is_some() && row.output == Some(line)
+        };
+        let asserted = self.rows.iter().zip(&state.active).any(lasts);
+        Some((line.pin, asserted != line.inverted))
+    }
+
+    /// The pins that show that frames are perceived, each at its level after so many of them.
+    pub fn watching(&self, frames: u32) -> impl Iterator<Item = (u8, bool)> + '_ {
+        self.rows.iter().filter_map(move |(row, watch)| {
+            let Watch::Board(Cause::Watching, _) = watch else { return None };
+            let changes = frames.checked_div(row.level.unsigned_abs())?;
+            row.output.map(|line| (line.pin, (changes & 1 == 1) != line.inverted))
+        })
+    }
+}
+
+/// Takes the value that a row looks at now.
+fn follow(
+    index: u8,
+    row: &ReactionConfig,
+    since: &mut Option<Micros>,
+    value: i32,
+    now: Micros,
+) -> Option<Reaction> {
+    let was = since.is_some();
+    if value >= row.level || (was && value >= row.level - row.hysteresis) {
+        *since = Some(now);
+    } else if since.is_some_and(|last| now.since(last) >= 1000 * u64::from(row.hold_ms)) {
+        *since = None;
+    }
+    (since.is_some() != was).then(|| Reaction { index, name: row.name.clone(), active: !was, value })
 }
 
 /// What a checked row looks at.
@@ -248,6 +256,10 @@ fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<Wat
             return refuse("cause.leading", "needs a map, and the scene has none");
         }
         Cause::Leading(leading) => Watch::Leading(*leading),
+        cause if cause.is_of_board() => {
+            row.check_of_board()?;
+            Watch::Board(cause.clone(), region)
+        }
         cause => Watch::Region(cause.clone(), region),
     })
 }
@@ -260,7 +272,7 @@ fn of_regions(cause: &Cause, region: Option<u8>, regions: &[RegionState]) -> i32
             Cause::Force => state.total,
             Cause::Contacts => u32::from(state.contacts),
             Cause::Moving => u32::from(state.moving),
-            Cause::Concept(_) | Cause::Leading(_) => 0,
+            _ => 0,
         })
         .max();
     i32::try_from(value.unwrap_or(0)).unwrap_or(i32::MAX)

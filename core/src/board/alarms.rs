@@ -1,0 +1,119 @@
+//! How the board itself is: what reactions to that are told, and what no longer holds when the host is silent.
+
+use super::Board;
+use crate::format::Micros;
+use crate::react::{Cause, Reaction, Reactions};
+use crate::wire::ReactionReport;
+
+/// A host that has said nothing for so long is taken to be gone: what it feeds holds no more.
+const SILENCE_US: u64 = 3_000_000;
+
+/// When the board last saw and heard something.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Senses {
+    /// When a frame was perceived last; none: not since the start, another garment, or the last interruption.
+    seen: Option<Micros>,
+    /// When a host said something last, or the board started.
+    heard: Micros,
+    /// Frames that were perceived.
+    frames: u32,
+}
+
+impl Senses {
+    /// Nothing is perceived until further notice.
+    pub fn blind(&mut self) {
+        self.seen = None;
+    }
+
+    /// Whether that was said, and no frame was perceived since.
+    pub fn are_blind(&self) -> bool {
+        self.seen.is_none()
+    }
+
+    /// A host has said something.
+    pub fn hear(&mut self, now: Micros) {
+        self.heard = now;
+    }
+}
+
+impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
+    /// A frame was perceived: its pins show it. While a tare runs, none is.
+    pub(super) fn saw(&mut self, now: Micros) {
+        if self.state.condition.baseline().is_none() {
+            return self.senses.blind();
+        }
+        self.senses.seen = Some(now);
+        self.senses.frames = self.senses.frames.wrapping_add(1);
+        self.show_frames();
+    }
+
+    /// The pins that show it stand where so many frames have put them.
+    pub(super) fn show_frames(&mut self) {
+        for (pin, level) in self.setup.pipeline.reactions().watching(self.senses.frames) {
+            self.outputs.set(pin, level);
+        }
+    }
+
+    /// Looks at the board itself.
+    pub(super) fn look_after(&mut self, now: Micros) {
+        if now.since(self.senses.heard) >= SILENCE_US {
+            self.state.fed.let_go();
+        }
+        if self.setup.pipeline.reactions().alarms().next().is_some() {
+            self.judge_alarms(now);
+        }
+    }
+
+    #[inline(never)] // M0+: out of line
+    fn judge_alarms(&mut self, now: Micros) {
+        let mut changes = heapless::Vec::<Reaction, { crate::react::REACTIONS }>::new();
+        let reactions = self.setup.pipeline.reactions();
+        for (index, cause, region) in reactions.alarms() {
+            let value = match cause {
+                Cause::Fault => self.faults(),
+                Cause::Blind => self.senses.seen.map_or(i32::MAX, |seen| ms(now, seen)),
+                Cause::Ill => self.ill_in(region),
+                Cause::Silent => ms(now, self.senses.heard),
+                // The others are judged by frames, or not at all.
+                _ => continue,
+            };
+            if let Some(change) = reactions.judge(self.state.react_mut(), index, value, now) {
+                // As many places as rows.
+                let _ = changes.push(change);
+            }
+        }
+        for reaction in &changes {
+            self.stand(reaction.index);
+            let report = ReactionReport { frame: self.frame, time: now, reaction: reaction.clone() };
+            self.outbox.reaction(report, &mut self.health);
+        }
+    }
+
+    /// The pin of a row stands where its rows want it.
+    pub(super) fn stand(&mut self, index: u8) {
+        let Board { setup, state, outputs, .. } = self;
+        if let Some((pin, level)) = Reactions::pin(setup.pipeline.reactions(), state.react(), index) {
+            outputs.set(pin, level);
+        }
+    }
+
+    fn faults(&self) -> i32 {
+        let known = self.examined.as_ref().map_or(0, |report| report.findings.faults.len());
+        known as i32 + i32::from(self.stumbles > 0)
+    }
+
+    fn ill_in(&self, region: Option<u8>) -> i32 {
+        let layout = &self.setup.layout;
+        let of = |taxel: u16| {
+            let place = layout.place(taxel.into())?;
+            layout.areas().get(usize::from(place.panel)).map(|area| area.region)
+        };
+        let there = self.monitor.ill().iter().filter(|ill| region.is_none() || of(ill.taxel) == region);
+        there.count() as i32
+    }
+}
+
+/// Time since then, ms, as far as the number goes.
+fn ms(now: Micros, then: Micros) -> i32 {
+    i32::try_from(now.millis_since(then)).unwrap_or(i32::MAX)
+}
