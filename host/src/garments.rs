@@ -40,7 +40,8 @@ impl Read {
     }
 }
 
-/// Reads a garment that comes with the program, or a garment's TOML file. Errors name the file, the line and the key.
+/// Reads a garment that comes with the program, or a garment's TOML file. Errors name the file, the line and
+/// the key.
 pub fn read(name_or_path: &str) -> Result<Read> {
     let name = name_or_path.to_string();
     if let Some((_, text)) = PRESETS.iter().find(|(preset, _)| *preset == name) {
@@ -57,9 +58,9 @@ pub fn read(name_or_path: &str) -> Result<Read> {
     Ok(Read { name, text, garment })
 }
 
-/// Garments that come with the program whose rows and columns are joined by the cloth alone, and read through a resistor: what
-/// is pressed elsewhere in a block leads current past the taxel that is read. In the others an amplifier holds what is read at
-/// one voltage.
+/// Garments that come with the program whose rows and columns are joined by the cloth alone, and read through a
+/// resistor: what is pressed elsewhere in a block leads current past the taxel that is read. In the others an
+/// amplifier holds what is read at one voltage.
 const PASSIVE: [&str; 1] = ["block-4x16"];
 
 /// Whether a garment's blocks are passive matrices, as one that keeps the name of the one it was made of.
@@ -73,14 +74,15 @@ pub fn text(garment: &Garment, comment: &str) -> Result<String> {
     Ok(comment + &toml::to_string(garment).context("the garment cannot be written as TOML")?)
 }
 
-/// Writes a garment's file, or prints it where there is none.
+/// Writes a garment's file. It is printed where there is none, and where it cannot be written: nobody touches a
+/// garment twice for it.
 pub fn write(garment: &Garment, comment: &str, output: Option<Output>) -> Result<()> {
     let text = text(garment, comment)?;
     let Some(output) = output else {
         print!("\n{text}");
         return Ok(());
     };
-    output.write(text.as_bytes())
+    output.write(text.as_bytes()).inspect_err(|_| print!("\n{text}"))
 }
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! The host side of taxel.
 #![forbid(unsafe_code)]
 
+// First: what follows uses its macros.
+#[macro_use]
+mod told;
+
 pub mod arrays;
 pub mod bench;
 pub mod calibrate;

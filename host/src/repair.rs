@@ -2,11 +2,12 @@
 
 use crate::output::{Force, Output};
 use crate::recording::{self, Scan};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Args;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// What `taxel info` takes for a repair.
 #[derive(Debug, Clone, Default, Args)]
@@ -26,11 +27,12 @@ pub struct RepairArgs {
 }
 
 impl RepairArgs {
-    /// Writes the repaired file, and says so; its name. A whole file stays as it is, and is copied only where a name for
-    /// the copy was given.
+    /// Writes the repaired file, and says so; its name. A whole file stays as it is, and is copied only where a
+    /// name for the copy was given.
     pub fn run(&self, file: &Path) -> Result<PathBuf> {
-        let scan = recording::scan(file)?;
         let shown = file.display();
+        let before = state(file);
+        let scan = recording::scan(file)?;
         if scan.whole && self.output.is_none() {
             eprintln!("{shown} is whole: there is nothing to repair.");
             return Ok(file.into());
@@ -48,10 +50,19 @@ impl RepairArgs {
         } else {
             recording::repair(file, &scan, &mut draft)?;
         }
+        if self.in_place && state(file) != before {
+            bail!("{shown} has grown meanwhile: it is being recorded; repair it when that has ended");
+        }
         draft.keep()?;
         eprintln!("{shown}: {}; written to {}.", found(&scan), name.display());
         Ok(name)
     }
+}
+
+/// Length and time of a file, by which it is seen that somebody writes it.
+fn state(file: &Path) -> Option<(u64, SystemTime)> {
+    let known = fs::metadata(file).ok()?;
+    Some((known.len(), known.modified().ok()?))
 }
 
 /// What was found in a file, in words.

@@ -16,12 +16,14 @@ enum Run {
     Browser(&'static str),
     /// Tests of Python whose names hold this.
     Python(&'static str),
+    /// Tests of files on a disk that fails.
+    Disk,
     /// The image by each way of having a compiler.
     Ways,
 }
 
 /// The runs: each prints more where TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 17] = [
+const RUNS: [(&str, Run, &str); 18] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -73,6 +75,7 @@ const RUNS: [(&str, Run, &str); 17] = [
         "sessions: 1,000 disconnects and restarts by each kind of link, everything set again (simulated)",
     ),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
+    ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),
     (
         "view",
         Run::Browser("stream.test.mjs"),
@@ -122,6 +125,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Image(module) => targets::measured(module, log, &longer)?,
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,
         Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
+        Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),
     };
     let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;

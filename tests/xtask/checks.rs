@@ -1,5 +1,5 @@
-//! `cargo xtask test`: every check. Two run at a time: while one compiles on all cores the other mostly waits for cargo, and while
-//! one runs the emulator, which takes one core, the other has the rest.
+//! `cargo xtask test`: every check. Two run at a time: while one compiles on all cores the other mostly waits
+//! for cargo, and while one runs the emulator, which takes one core, the other has the rest.
 
 use crate::counts::Counts;
 use crate::cross::Toolchain;
@@ -38,6 +38,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
     ("view", browser::check),
     ("python", targets::python),
+    ("disk", targets::disk),
     ("clippy", clippy),
     ("docs", docs),
     ("locks", compare_locks),
@@ -146,7 +147,8 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
     }
 }
 
-/// Cargo in a folder. What a later build would reuse takes longer to write than it is worth here, unless somebody asks for it.
+/// Cargo in a folder. What a later build would reuse takes longer to write than it is worth here, unless
+/// somebody asks for it.
 pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     let mut command = Command::new("cargo");
     command.args(args).current_dir(folder);

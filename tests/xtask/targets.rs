@@ -1,4 +1,5 @@
-//! The test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, or Python.
+//! The test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, Python, or
+//! calls that fail.
 
 use crate::checks::cargo;
 use crate::cross::Toolchain;
@@ -11,10 +12,10 @@ pub type End<T = ()> = Result<Result<T, String>, String>;
 
 /// All of them by package; cargo passes them over even where it is asked for all targets.
 pub const APART: &[(&str, &[&str])] =
-    &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python"])];
+    &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python", "disk"])];
 
-/// What all of the workspace's builds have in common, so that none builds anew what another has built: cargo takes the features
-/// of dependencies from all packages and targets that it is asked for.
+/// What all of the workspace's builds have in common, so that none builds anew what another has built: cargo
+/// takes the features of dependencies from all packages and targets that it is asked for.
 pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
 
 /// The part of the tests on the emulated board that a module holds; what it measured is shown.
@@ -95,6 +96,22 @@ pub fn read_by_python(names: &[&str], log: &Path, variables: &[(&str, &str)]) ->
     let python = install::python()?.to_string_lossy().into_owned();
     let variables = [variables, &[("TAXEL_PYTHON", python.as_str())]].concat();
     Ok(printed("python", names, log, &variables))
+}
+
+/// Every command that writes, on a disk that fails; what was tried is shown.
+pub fn disk(log: &Path) -> End {
+    shown(on_failing_disk(log, &[])?)
+}
+
+/// What was tried on a disk that fails.
+pub fn on_failing_disk(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
+    if !cfg!(all(target_os = "linux", target_env = "gnu")) {
+        return Err("a program's calls are made to fail on Linux with glibc alone".into());
+    }
+    let mut build = cargo(&["build", "--package", "taxel-disk"], paths::root());
+    process::run_into(&mut build, log).map_err(|why| format!("what makes calls fail is not built: {why}"))?;
+    let library = paths::target().join("debug/libtaxel_disk.so").to_string_lossy().into_owned();
+    Ok(printed("disk", &[], log, &[variables, &[("TAXEL_DISK", library.as_str())]].concat()))
 }
 
 /// Recordings through the pipeline, and recorded touches, recognised with people and days kept apart.

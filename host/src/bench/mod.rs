@@ -74,21 +74,22 @@ pub struct Report {
 /// Runs the command.
 pub fn run(args: BenchArgs) -> Result<()> {
     match args.table.unwrap_or(Table::Stages(args.output)) {
-        Table::Stages(output) => output.put(&stages::report()?),
-        Table::Acquisition(output) => output.put(&acquisition::report()),
-        Table::Amplifier(output) => output.put(&amplifier::report()),
-        Table::Nmi(output) => output.put(&nmi::report()?),
+        Table::Stages(output) => output.put(stages::report),
+        Table::Acquisition(output) => output.put(|| Ok(acquisition::report())),
+        Table::Amplifier(output) => output.put(|| Ok(amplifier::report())),
+        Table::Nmi(output) => output.put(nmi::report),
         Table::Record(args) => record::run(&args),
     }
 }
 
 impl Output {
-    /// Prints a report, and draws it where a file is named.
-    pub fn put(&self, report: &Report) -> Result<()> {
+    /// Prints a report, and draws it where a file is named; one that cannot be written is refused before the
+    /// work.
+    pub fn put(&self, report: impl FnOnce() -> Result<Report>) -> Result<()> {
         let none: [&PathBuf; 0] = [];
-        if let Some(file) = &self.svg {
-            output::Output::file(file, self.force, none)?.write(report.chart.svg().as_bytes())?;
-        }
+        let chart = self.svg.as_ref().map(|file| output::Output::file(file, self.force, none)).transpose()?;
+        let report = report()?;
+        chart.map_or(Ok(()), |file| file.write(report.chart.svg().as_bytes()))?;
         if self.json {
             println!("{}", report.json);
         } else {

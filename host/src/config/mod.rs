@@ -119,7 +119,8 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
     }
 }
 
-/// A file's text without the first line that names its schema: a file that is begun like it gets a line of its own.
+/// A file's text without the first line that names its schema: a file that is begun like it gets a line of its
+/// own.
 fn without_schema(text: &str) -> &str {
     match text.strip_prefix("#:schema") {
         Some(rest) => rest.split_once('\n').map_or("", |(_, rest)| rest),
@@ -137,9 +138,10 @@ fn begin(output: Output, force: Force, kind: Kind, text: &str) -> Result<()> {
     let schema = file.with_file_name(kind.schema_file());
     let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
     let beside = (!is_known).then(|| Output::file(&schema, force, [&file])).transpose()?;
+    // First: where the file itself cannot be written, the command can be typed again as it was.
+    beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
     // Editors look for `#:schema` in the first line.
     output.write(format!("#:schema ./{}\n{text}", kind.schema_file()).as_bytes())?;
-    beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
     println!("{} and {} are written.", file.display(), schema.display());
     Ok(())
 }

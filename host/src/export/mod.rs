@@ -9,6 +9,7 @@
 //!
 //! Each goes through the recording image by image: memory does not grow with its length.
 
+mod archive;
 mod args;
 mod contacts;
 mod csv;

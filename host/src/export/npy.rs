@@ -1,13 +1,14 @@
-//! NumPy arrays inside an archive, each written to a file of its own until all are complete: an archive takes one after the
-//! other, a recording tells all at once.
+//! NumPy arrays inside an archive, each written to a file of its own until all are complete: an archive takes
+//! one after the other, a recording tells all at once.
 
+use super::archive::Archive;
 use crate::output::Scratch;
 use anyhow::Result;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Seek, Write};
 use std::path::Path;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipArchive, ZipWriter};
+use zip::{CompressionMethod, ZipArchive};
 
 /// Of deflate: most of a garment is 0 most of the time, which the fastest level compresses to a hundredth, too.
 const LEVEL: i64 = 1;
@@ -37,7 +38,7 @@ numbers!(u16: "<u2", u32: "<u4", u64: "<u8", f64: "<f8");
 
 /// An array being written.
 pub struct Array {
-    archive: ZipWriter<BufWriter<File>>,
+    archive: Archive<BufWriter<File>>,
     scratch: Scratch,
     waiting: Vec<u8>,
 }
@@ -46,10 +47,10 @@ impl Array {
     /// Begins an array of this name, type and shape, beside the `output`.
     pub fn begin(output: &Path, name: &str, kind: &str, shape: &[u64]) -> Result<Array> {
         let scratch = Scratch::beside(output)?;
-        let mut archive = ZipWriter::new(BufWriter::new(scratch.file.try_clone()?));
+        let mut archive = Archive::new(BufWriter::new(scratch.file.try_clone()?));
         let options = SimpleFileOptions::default().large_file(true);
         let options = options.compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL));
-        archive.start_file(format!("{name}.npy"), options)?;
+        archive.zip.start_file(format!("{name}.npy"), options)?;
         Ok(Array { archive, scratch, waiting: head(kind, shape) })
     }
 
@@ -57,18 +58,18 @@ impl Array {
     pub fn put<T: Number>(&mut self, values: impl IntoIterator<Item = T>) -> Result<()> {
         values.into_iter().for_each(|value| value.put(&mut self.waiting));
         if self.waiting.len() >= PIECE {
-            self.archive.write_all(&self.waiting)?;
+            self.archive.zip.write_all(&self.waiting)?;
             self.waiting.clear();
         }
         Ok(())
     }
 
     /// Copies the array into an archive.
-    pub fn finish(mut self, into: &mut ZipWriter<impl Write + Seek>) -> Result<()> {
-        self.archive.write_all(&self.waiting)?;
+    pub fn finish(mut self, into: &mut Archive<impl Write + Seek>) -> Result<()> {
+        self.archive.zip.write_all(&self.waiting)?;
         self.archive.finish()?.flush()?;
         let mut archive = ZipArchive::new(BufReader::new(&self.scratch.file))?;
-        Ok(into.raw_copy_file(archive.by_index_raw(0)?)?)
+        Ok(into.zip.raw_copy_file(archive.by_index_raw(0)?)?)
     }
 }
 

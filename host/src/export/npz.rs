@@ -11,6 +11,7 @@
 //! | `contact_id`, `_panel`, `_total`, `_peak`, `_area` | u32 \[m\] | |
 //! | `contact_x`, `_y`, `_azimuth`, `_nmi` | f64 \[m\] | taxels, taxels, rad (NaN: none), 1 |
 
+use super::archive::Archive;
 use super::entries::Entries;
 use super::frames::{self, Frame, Frames, Worn};
 use super::npy::{Array, Number};
@@ -19,7 +20,6 @@ use std::io::{Seek, Write};
 use std::path::Path;
 use std::rc::Rc;
 use taxel_core::body::Placed;
-use zip::ZipWriter;
 
 /// An array's name, and its value for a contact.
 type Column<T> = (&'static str, fn(&Placed) -> T);
@@ -42,8 +42,8 @@ const REAL: [Column<f64>; 4] = [
 /// The other arrays that are no panel's.
 const OWN: [&str; 6] = ["frame", "time_us", "host_time_us", "intent", "concepts", "contact_frame"];
 
-/// Writes the archive to `out`, which is at `output`; the number of frames. It goes through the recording twice: arrays
-/// begin with their sizes.
+/// Writes the archive to `out`, which is at `output`; the number of frames. It goes through the recording
+/// twice: arrays begin with their sizes.
 pub fn write(frames: &Frames<'_>, output: &Path, out: impl Write + Seek) -> Result<u64> {
     let (mut contacts, mut worn) = (0, None);
     let count = frames.each("counting", |frame| {
@@ -54,7 +54,7 @@ pub fn write(frames: &Frames<'_>, output: &Path, out: impl Write + Seek) -> Resu
     let worn = worn.context("it holds no image")?;
     let mut arrays = Arrays::begin(output, &worn, [count, contacts])?;
     frames.each("exporting", |frame| arrays.take(frame))?;
-    let mut archive = ZipWriter::new(out);
+    let mut archive = Archive::new(out);
     arrays.finish(&mut archive)?;
     archive.finish()?.flush()?;
     Ok(count)
@@ -120,7 +120,7 @@ impl Arrays {
         Ok(())
     }
 
-    fn finish(self, archive: &mut ZipWriter<impl Write + Seek>) -> Result<()> {
+    fn finish(self, archive: &mut Archive<impl Write + Seek>) -> Result<()> {
         let Arrays { panels, numbers, times, host_times, intent, of, whole, real } = self;
         let first = panels.into_iter().chain([numbers, times, host_times]);
         let second = intent.into_iter().flatten().chain([of]).chain(whole).chain(real);

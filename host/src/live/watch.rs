@@ -186,7 +186,8 @@ struct Saver {
 
 impl Saver {
     fn open(path: &Path, args: &LiveArgs) -> Result<Saver> {
-        let file = Output::file(path, args.force, args.board.files())?.begin()?;
+        let (file, begun) = Output::file(path, args.force, args.board.files())?.begin()?;
+        begun.name()?;
         Ok(Saver { file, path: path.into() })
     }
 

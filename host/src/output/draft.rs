@@ -1,15 +1,15 @@
 //! The content of an output, before the output has it.
 
 use super::file::{Output, folder};
-use super::part;
-use super::place::Place;
+use super::part::{self, Part};
+use super::place::{self, Place};
 use crate::verbose;
 use anyhow::{Context, Result};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
-use std::path::PathBuf;
 
-/// Content that is being written. Errors name the output. Dropped without [`Draft::keep`], the output is as it was before.
+/// Content that is being written. Errors name the output. Dropped without [`Draft::keep`], the output is as it
+/// was before.
 #[derive(Debug)]
 pub struct Draft {
     output: Output,
@@ -24,26 +24,12 @@ enum Sink {
     File(BufWriter<File>, Part),
 }
 
-/// A temporary file, removed when dropped.
-#[derive(Debug)]
-struct Part(PathBuf);
-
-impl Drop for Part {
-    fn drop(&mut self) {
-        // Where it has the output's name by now, there is none.
-        _ = fs::remove_file(&self.0);
-    }
-}
-
 impl Draft {
     pub(super) fn of(output: Output) -> Result<Draft> {
         let place = || format!("{} cannot be written", output.name.display());
         let sink = match &output.place {
             Place::Standard => Sink::Standard(stdout()),
-            Place::Device(path) => {
-                let file = File::options().write(true).open(path).with_context(place)?;
-                Sink::Device(BufWriter::new(file))
-            }
+            Place::Device(path) => Sink::Device(BufWriter::new(place::device(path).with_context(place)?)),
             Place::File(path, _) => {
                 let (file, part) =
                     part::make(folder(path), |part| File::create_new(part)).with_context(place)?;
@@ -64,7 +50,8 @@ impl Draft {
         self.output.take_name(&part.0)
     }
 
-    /// The error with the output's name. One of the standard output stays as it is: a reader that is gone is no failure.
+    /// The error with the output's name. One of the standard output stays as it is: a reader that is gone is no
+    /// failure.
     fn told<T>(&self, done: io::Result<T>) -> io::Result<T> {
         done.map_err(|error| match self.sink {
             Sink::Standard(_) => error,

@@ -2,8 +2,8 @@
 
 use super::draft::Draft;
 use super::force::Force;
-use super::part;
-use super::place::Place;
+use super::part::{self, Part};
+use super::place::{self, Place};
 use super::same::is_same;
 use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
@@ -78,28 +78,21 @@ impl Output {
         Draft::of(self)
     }
 
-    /// Gives the name from the start to a file that is still empty: for a recording, of which a crash shall leave what was
-    /// written. An old file that is replaced is gone at once; who has it open goes on reading it.
-    pub fn begin(self) -> Result<File> {
+    /// Begins a file that has its name before it is complete: a recording, of which a crash shall leave what
+    /// was written. It gets the name with [`Begun::name`], once its beginning is written. An old file that is
+    /// replaced is gone then; who has it open goes on reading it.
+    pub fn begin(self) -> Result<(File, Begun)> {
         let place = || format!("{} cannot be written", self.name.display());
-        match &self.place {
+        let (file, part) = match &self.place {
             Place::Standard => bail!("the standard output cannot be cut back: name a file"),
-            Place::Device(path) => File::options().write(true).open(path).with_context(place),
-            Place::File(path, false) => {
-                let file = File::create_new(path).map_err(|error| match error.kind() {
-                    ErrorKind::AlreadyExists => exists(&self.name),
-                    _ => anyhow::Error::new(error).context(place()),
-                })?;
-                part::sync_folder(folder(path)).with_context(place)?;
-                Ok(file)
-            }
-            Place::File(path, true) => {
+            Place::Device(path) => (place::device(path).with_context(place)?, None),
+            Place::File(path, _) => {
                 let (file, part) =
                     part::make(folder(path), |part| File::create_new(part)).with_context(place)?;
-                self.take_name(&part).inspect_err(|_| _ = fs::remove_file(&part))?;
-                Ok(file)
+                (file, Some(Part(part)))
             }
-        }
+        };
+        Ok((file, Begun { output: self, part }))
     }
 
     /// Refuses what is an input; it may have become one since it was looked at.
@@ -133,6 +126,23 @@ impl Output {
             })?;
         }
         part::sync_folder(folder(path)).with_context(place)
+    }
+}
+
+/// A file that is written and has no name yet. Dropped, it is gone.
+#[derive(Debug)]
+pub struct Begun {
+    output: Output,
+    part: Option<Part>,
+}
+
+impl Begun {
+    /// Gives it the output's name; what was written so far is on the disk when this returns.
+    pub fn name(self) -> Result<()> {
+        let Some(Part(part)) = &self.part else { return Ok(()) };
+        let place = || format!("{} cannot be written", self.output.name.display());
+        File::open(part).and_then(|file| file.sync_all()).with_context(place)?;
+        self.output.take_name(part)
     }
 }
 

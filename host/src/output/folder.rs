@@ -8,26 +8,27 @@ use crate::fault::Fault;
 use crate::verbose;
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// The content of a folder that is being written, in a temporary folder inside it. Dropped without [`Folder::keep`], the
+/// The content of a folder that is being written, in a temporary folder. Dropped without [`Folder::keep`], the
 /// folder is as it was before.
 #[derive(Debug)]
 pub struct Folder {
     name: PathBuf,
     /// Its path without links.
     path: PathBuf,
-    /// Where its content lies until it is complete.
+    /// Where its content lies until it is complete: beside the folder, or inside it where nothing can be made
+    /// beside it.
     part: PathBuf,
-    /// It was not there before.
-    is_new: bool,
+    force: Force,
+    ours: fn(&Path) -> bool,
 }
 
 impl Folder {
-    /// Begins a folder that does not exist or is empty; with `--force` one that holds nothing but files of which `ours`,
-    /// told their paths inside the folder, says that they are such an output's. `inputs` are the files that the command
-    /// reads.
+    /// Begins a folder that does not exist or is empty; with `--force` one that holds nothing but files of
+    /// which `ours`, told their paths inside the folder, says that they are such an output's. `inputs` are the
+    /// files that the command reads.
     pub fn begin<P: AsRef<Path>>(
         name: &Path,
         force: Force,
@@ -38,29 +39,34 @@ impl Folder {
         if name == Path::new("-") {
             bail!(Fault::usage("-o -: a folder cannot be written to the standard output, name a folder"));
         }
-        let is_new = !name.exists();
-        if is_new {
-            fs::create_dir_all(name).with_context(place)?;
-        } else if !name.is_dir() {
+        let path = place_of(name).with_context(place)?;
+        if path.exists() && !path.is_dir() {
             bail!("{shown} is a file: name a folder");
         }
-        let path = fs::canonicalize(name).with_context(place)?;
         for input in inputs.into_iter().filter_map(|input| fs::canonicalize(input).ok()) {
             if input.ancestors().any(|folder| is_same(folder, &path)) {
                 bail!("{shown} is the folder of {}, which this command reads: name another", input.display());
             }
         }
-        for file in files(&path).with_context(place)? {
-            if !force.force {
+        let mut folder = Folder { name: name.into(), path, part: PathBuf::new(), force, ours };
+        folder.may_be_replaced()?;
+        folder.part = temporary(&folder.path).with_context(place)?;
+        Ok(folder)
+    }
+
+    /// Refuses a folder that holds what is no such output's: it would be lost.
+    fn may_be_replaced(&self) -> Result<()> {
+        let shown = self.name.display();
+        for file in files(&self.path).with_context(|| format!("{shown} cannot be written"))? {
+            if !self.force.force {
                 bail!("{shown} is not empty: name another folder, or --force to replace its content");
             }
-            let inside = file.strip_prefix(&path)?;
-            if !ours(inside) {
+            let inside = file.strip_prefix(&self.path)?;
+            if !(self.ours)(inside) {
                 bail!("{shown} holds {}, which is no such output: name another folder", inside.display());
             }
         }
-        let (_, part) = part::make(&path, |part| fs::create_dir(part)).with_context(place)?;
-        Ok(Folder { name: name.into(), path, part, is_new })
+        Ok(())
     }
 
     /// Begins a file inside it; folders on the way are made.
@@ -93,47 +99,134 @@ impl Folder {
         self.keep_unsynced()
     }
 
-    /// Puts the content in its place and leaves it to the system when it reaches the disk: for very many small files that
-    /// can be made again, each of which would be waited for.
-    pub fn keep_unsynced(self) -> Result<()> {
-        let place = || format!("{} cannot be written", self.name.display());
-        let (_, old) = part::make(&self.path, |old| fs::create_dir(old)).with_context(place)?;
-        for entry in entries(&self.path).with_context(place)? {
-            if entry != self.part && entry != old {
-                move_into(&entry, &old).with_context(place)?;
+    /// Puts the content in its place and leaves it to the system when it reaches the disk: for very many small
+    /// files that can be made again, each of which would be waited for.
+    pub fn keep_unsynced(mut self) -> Result<()> {
+        let shown = self.name.display().to_string();
+        let place = || format!("{shown} cannot be written");
+        // Files may have come, or a link, since it was looked at.
+        if fs::symlink_metadata(&self.path).is_ok_and(|known| !known.is_dir()) {
+            bail!("{}: it has become a link or a file meanwhile", place());
+        }
+        self.may_be_replaced()?;
+        if self.part.starts_with(&self.path) {
+            self.move_inside().with_context(place)?;
+        } else {
+            self.take_place().with_context(place)?;
+        }
+        part::sync_folder(parent(&self.part)).with_context(place)?;
+        verbose::tell(format_args!("has written {shown}"));
+        let left = || format!("{shown} is written, but {} is left", self.part.display());
+        remove(&self.part).with_context(left)
+    }
+
+    /// Gives the folder's name to the temporary one, and the other way round.
+    fn take_place(&self) -> io::Result<()> {
+        let Ok(old) = fs::metadata(&self.path) else { return fs::rename(&self.part, &self.path) };
+        // A folder keeps who may read it.
+        fs::set_permissions(&self.part, old.permissions())?;
+        part::exchange(&self.part, &self.path)
+    }
+
+    /// Exchanges the content. What has been moved is moved back where something cannot be.
+    fn move_inside(&mut self) -> Result<()> {
+        let (_, aside) = part::make(&self.part, |aside| fs::create_dir(aside))?;
+        let is_content = |entry: &PathBuf| *entry != aside && !is_temporary(entry);
+        let (mut old, mut new) = (entries(&self.path)?, entries(&self.part)?);
+        old.retain(is_content);
+        new.retain(is_content);
+        let moves =
+            old.iter().map(|entry| (entry, &aside)).chain(new.iter().map(|entry| (entry, &self.path)));
+        let mut moved = Vec::new();
+        for (from, folder) in moves {
+            let to = folder.join(from.file_name().unwrap_or_default());
+            if let Err(error) = fs::rename(from, &to) {
+                let back = |(from, to): &(&PathBuf, PathBuf)| fs::rename(to, from);
+                if moved.iter().rev().try_for_each(back).is_err() {
+                    // It may hold the only copy of what was there.
+                    let left = std::mem::take(&mut self.part);
+                    return Err(error).with_context(|| format!("what it held is in {}", left.display()));
+                }
+                return Err(error.into());
             }
+            moved.push((from, to));
         }
-        for entry in entries(&self.part).with_context(place)? {
-            move_into(&entry, &self.path).with_context(place)?;
-        }
-        part::sync_folder(&self.path).with_context(place)?;
-        verbose::tell(format_args!("has written {}", self.name.display()));
-        fs::remove_dir_all(&old).with_context(place)
+        Ok(())
     }
 }
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        _ = fs::remove_dir_all(&self.part);
-        if self.is_new {
-            // Only where it is empty.
-            _ = fs::remove_dir(&self.path);
+        _ = remove(&self.part);
+    }
+}
+
+/// The path without links of a folder that is there, or is going to be in one that is made now.
+fn place_of(name: &Path) -> Result<PathBuf> {
+    if name.exists() {
+        return Ok(fs::canonicalize(name)?);
+    }
+    if fs::symlink_metadata(name).is_ok() {
+        bail!("it is a link to what does not exist: name that");
+    }
+    let last = name.file_name().context("it names no folder")?;
+    let around = name.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    fs::create_dir_all(around)?;
+    Ok(fs::canonicalize(around)?.join(last))
+}
+
+/// A temporary folder beside `path`, from which it can be moved there; else inside.
+fn temporary(path: &Path) -> Result<PathBuf> {
+    let make = |folder: &Path| part::make(folder, |part| fs::create_dir(part)).map(|(_, part)| part);
+    match make(parent(path)) {
+        Ok(part) if !path.exists() || is_on_one_disk(&part, path) => Ok(part),
+        Err(error) if !path.exists() => Err(error),
+        beside => {
+            _ = beside.map(fs::remove_dir);
+            make(path)
         }
     }
 }
 
-fn move_into(entry: &Path, folder: &Path) -> std::io::Result<()> {
-    entry.file_name().map_or(Ok(()), |name| fs::rename(entry, folder.join(name)))
+#[cfg(unix)]
+fn is_on_one_disk(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    matches!((fs::metadata(a), fs::metadata(b)), (Ok(a), Ok(b)) if a.dev() == b.dev())
 }
 
-fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+#[cfg(not(unix))]
+fn is_on_one_disk(_: &Path, _: &Path) -> bool {
+    true
+}
+
+/// Removes a temporary folder, if it is still there; what could not be removed is tried once more.
+fn remove(part: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(part).or_else(|_| fs::remove_dir_all(part)) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a kill has left it, or another process is writing it.
+fn is_temporary(entry: &Path) -> bool {
+    entry.file_name().is_some_and(|name| part::is_one(Path::new(name)))
+}
+
+fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
 }
 
-/// All files in a folder and in those in it; links are not followed.
-fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+/// All files in a folder and in those in it; links are not followed. None where there is no folder, nor what a
+/// kill has left of a command like this one.
+fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
+    if !folder.exists() {
+        return Ok(found);
+    }
     for entry in entries(folder)? {
+        if is_temporary(&entry) {
+            continue;
+        }
         if fs::symlink_metadata(&entry)?.is_dir() {
             found.extend(files(&entry)?);
         } else {

@@ -1,7 +1,7 @@
 //! What the name of an output leads to.
 
-use anyhow::{Context, Result, bail};
-use std::fs;
+use anyhow::{Context, Result, bail, ensure};
+use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ impl Place {
             bail!("{shown} is a folder: name a file");
         }
         if !known.is_file() {
-            return device(name, known.file_type());
+            return taken(name, known.file_type());
         }
         if known.permissions().readonly() {
             bail!("{shown} is read-only: give another name");
@@ -61,9 +61,16 @@ fn new(name: &Path) -> Result<Place> {
     Ok(Place::File(real.join(last), false))
 }
 
+/// Opens a device. An error: a file has taken its place meanwhile, which would be written over.
+pub fn device(path: &Path) -> Result<File> {
+    let file = File::options().write(true).open(path)?;
+    ensure!(!file.metadata()?.is_file(), "it was a device, and is a file now");
+    Ok(file)
+}
+
 /// A device that takes bytes one after the other.
 #[cfg(unix)]
-fn device(name: &Path, kind: fs::FileType) -> Result<Place> {
+fn taken(name: &Path, kind: fs::FileType) -> Result<Place> {
     use std::os::unix::fs::FileTypeExt;
     if kind.is_block_device() || kind.is_socket() {
         bail!("{} is a disk or a socket: name a file", name.display());
@@ -72,6 +79,6 @@ fn device(name: &Path, kind: fs::FileType) -> Result<Place> {
 }
 
 #[cfg(not(unix))]
-fn device(name: &Path, _: fs::FileType) -> Result<Place> {
+fn taken(name: &Path, _: fs::FileType) -> Result<Place> {
     Ok(Place::Device(name.into()))
 }

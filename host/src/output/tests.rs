@@ -128,7 +128,8 @@ fn a_file_that_appears_meanwhile_is_not_replaced() {
     let mut draft = output.draft().unwrap();
     fs::write(scratch.at("new.csv"), "another's").unwrap();
     draft.write_all(b"ours").unwrap();
-    for error in [draft.keep().unwrap_err(), begun.begin().unwrap_err()] {
+    let begun = begun.begin().unwrap().1;
+    for error in [draft.keep().unwrap_err(), begun.name().unwrap_err()] {
         assert!(error.to_string().contains("already exists"), "{error}");
     }
     assert_eq!(scratch.read("new.csv"), "another's");
@@ -157,15 +158,23 @@ fn a_link_that_changes_meanwhile_does_not_lead_to_an_input() {
 }
 
 #[test]
-fn a_recording_has_its_name_from_the_start() {
+fn a_recording_has_its_name_once_it_is_begun() {
     let scratch = Scratch::new();
-    let mut new = scratch.output("new.mcap", false).unwrap().begin().unwrap();
-    let mut file = scratch.output("old.csv", true).unwrap().begin().unwrap();
-    new.write_all(b"half").unwrap();
-    file.write_all(b"whole").unwrap();
+    let begin = |name: &str, force: bool| scratch.output(name, force).unwrap().begin().unwrap();
+    let ((mut new, new_begun), (mut file, begun)) = (begin("new.mcap", false), begin("old.csv", true));
+    new.write_all(b"ha").unwrap();
+    file.write_all(b"who").unwrap();
+    assert_eq!(scratch.read("old.csv"), "old");
+    assert!(!scratch.at("new.mcap").exists());
+    new_begun.name().unwrap();
+    begun.name().unwrap();
+    new.write_all(b"lf").unwrap();
+    file.write_all(b"le").unwrap();
     assert_eq!((scratch.read("new.mcap"), scratch.read("old.csv")), ("half".into(), "whole".into()));
     assert_eq!(scratch.names(), ["in.mcap", "new.mcap", "old.csv", "sub"]);
     assert!(scratch.refused("new.mcap", false).contains("--force"));
+    drop(begin("other.mcap", false));
+    assert_eq!(scratch.names(), ["in.mcap", "new.mcap", "old.csv", "sub"]);
 }
 
 #[cfg(unix)]

@@ -11,7 +11,7 @@ use super::tally::{COUNTS, Tally};
 use crate::client::{Client, Event, Worn};
 use crate::fault::Fault;
 use crate::live::Show;
-use crate::output::{Force, Output};
+use crate::output::{Begun, Force, Output};
 use crate::progress::{self, Unit};
 use crate::stop;
 use anyhow::{Context, Result};
@@ -214,13 +214,28 @@ impl Recorder {
     }
 }
 
-/// Begins a file, and the one beside it. Both have their names from the start: a crash leaves what was written.
+/// Begins a file, and the one beside it. They get their names when they can be read: a crash leaves what was
+/// written, and what cannot be begun takes no name.
 fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
     let output = |path: &Path| Output::file(path, Force { force: plan.force }, &plan.inputs);
     let main = output(path)?;
-    let ros2 = plan.ros2.then(|| output(&beside(path))?.begin()).transpose()?;
-    RecordingFile::create(main.begin()?, ros2)
-        .with_context(|| format!("{} cannot be written", path.display()))
+    let (ros2, ros2_begun) = match plan.ros2 {
+        true => output(&beside(path))?.begin().map(|(file, begun)| (Some(file), Some(begun)))?,
+        false => (None, None),
+    };
+    let (main, main_begun) = main.begin()?;
+    let file =
+        RecordingFile::create(main, ros2).with_context(|| format!("{} cannot be written", path.display()))?;
+    main_begun.name()?;
+    match ros2_begun.map_or(Ok(()), Begun::name) {
+        Ok(()) => Ok(file),
+        Err(error) => {
+            // The one that has its name is an empty recording, and not half of one; of two errors the first is
+            // told.
+            _ = file.finish();
+            Err(error)
+        }
+    }
 }
 
 impl Show for Recorder {

@@ -159,7 +159,8 @@ fn what_is_damaged_is_passed_over_and_counted() {
             damaged[at] ^= 0x80;
             let path = file("damaged", &damaged);
             let (times, skipped) = read(&path);
-            // Times of a chunk, and some bits of LZ4's head, have no checksum: what is read then is right all the same.
+            // Times of a chunk, and some bits of LZ4's head, have no checksum: what is read then is right all
+            // the same.
             let is_read = times.len() == 12;
             let unknown = at == second && bytes.len() < whole.bytes.len();
             assert!(is_read || times == others, "{at}: {times:?}");
@@ -220,6 +221,91 @@ fn a_full_disk_leaves_a_whole_file() {
     }
     assert_eq!(before, 8, "a byte too few costs the last chunk");
     assert!(intact > whole.bytes.len() / 4, "{intact} of {}", whole.bytes.len());
+}
+
+/// A disk that fails from a write on, and does not cut for a while either.
+#[derive(Debug)]
+struct Failing {
+    bytes: Vec<u8>,
+    at: usize,
+    /// Writes and cuts until it fails, and of how many each then does.
+    until: usize,
+    writes: usize,
+    cuts: usize,
+    kind: io::ErrorKind,
+}
+
+impl Write for &mut Failing {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.until == 0 && self.writes > 0 {
+            self.writes -= 1;
+            return Err(io::Error::new(self.kind, "it fails"));
+        }
+        self.until = self.until.saturating_sub(1);
+        let taken = if self.until == 0 && self.writes > 0 { bytes.len().div_ceil(2) } else { bytes.len() };
+        self.bytes.resize(self.at, 0);
+        self.bytes.extend_from_slice(&bytes[..taken]);
+        self.at += taken;
+        Ok(taken)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Store for &mut Failing {
+    fn keep(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        if self.until == 0 && self.cuts > 0 {
+            self.cuts -= 1;
+            return Err(io::Error::other("it fails"));
+        }
+        self.bytes.truncate(length as usize);
+        self.at = length as usize;
+        Ok(())
+    }
+}
+
+/// What is left of twenty chunks of four messages where a disk fails so: messages once it is repaired.
+fn left(until: usize, writes: usize, cuts: usize, kind: io::ErrorKind) -> u64 {
+    let mut disk = Failing { bytes: Vec::new(), at: 0, until, writes, cuts, kind };
+    let mut writer = Writer::create(&mut disk, "").unwrap();
+    let channels = [writer.channel("/a", &JSON).unwrap(), writer.channel("/b", &JSON).unwrap()];
+    for chunk in 0..20u64 {
+        for message in 0..4u64 {
+            let time = 100 * chunk + message;
+            writer.message(channels[message as usize % 2], time, time + 5, &[b'x'; 50]).unwrap();
+        }
+        if writer.flush().is_err() {
+            break;
+        }
+    }
+    _ = writer.finish();
+    let path = file("failing", &disk.bytes);
+    let found = scan(&path).unwrap();
+    assert_eq!(found.damaged(), (0, 0), "fails after {until}, {writes} writes and {cuts} cuts");
+    let repaired = repaired(&path);
+    let count = messages(&repaired);
+    [path, repaired].iter().for_each(|path| std::fs::remove_file(path).unwrap());
+    count
+}
+
+#[test]
+fn a_disk_that_fails_costs_the_last_chunk_at_most() {
+    use io::ErrorKind::{Other, StorageFull};
+    // The header, two channels and a half of the third chunk; the end can be written later, or never.
+    for (writes, cuts) in [(1, 0), (1, 1), (2, 0), (2, 2), (1000, 0), (1000, 1000)] {
+        assert_eq!(left(6, writes, cuts, Other), 8, "{writes} writes, {cuts} cuts");
+    }
+    // Only the end fails.
+    assert_eq!(left(24, 1000, 0, Other), 80);
+    // A disk that stays full although room was given back: no more is given up than the end takes.
+    let kept = left(24, 1000, 0, StorageFull);
+    assert!((40..80).contains(&kept), "{kept} of 80 messages");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! A recording being written.
 //!
-//! What is written is whole at any time: records outside chunks and chunks with their index are appended in one piece, and
-//! what could not be written is cut off again. A kill between two pieces leaves a file without its end, which
-//! [`repair`](super::repair()) adds.
+//! What is written is whole at any time: records outside chunks and chunks with their index are appended in one
+//! piece, and what could not be written is cut off again, before anything else is written. A kill between two
+//! pieces leaves a file without its end, which [`repair`](super::repair()) adds.
 
 use super::append::{append, sized, write};
 use super::chunk::Chunk;
@@ -15,6 +15,7 @@ use mcap::records::{
     op,
 };
 use std::collections::BTreeMap;
+use std::io::{self, ErrorKind};
 
 /// Plain bytes of a chunk after which it is closed whatever the time.
 const LARGE: usize = 4 << 20;
@@ -38,6 +39,8 @@ pub struct Writer<S: Store> {
     store: S,
     /// Bytes that are written, all of them whole.
     length: u64,
+    /// Bytes of a record that was not written whole may lie behind them.
+    torn: bool,
     contents: Contents,
     chunk: Chunk,
     sequences: BTreeMap<u16, u32>,
@@ -49,6 +52,7 @@ impl<S: Store> Writer<S> {
         let mut writer = Writer {
             store,
             length: 0,
+            torn: false,
             contents: Contents::default(),
             chunk: Chunk::default(),
             sequences: BTreeMap::new(),
@@ -62,15 +66,26 @@ impl<S: Store> Writer<S> {
 
     /// Appends all of it, or nothing.
     fn put(&mut self, bytes: &[u8]) -> Result<()> {
+        if self.torn {
+            self.cut(self.length)?;
+        }
         let written = self.store.write_all(bytes).and_then(|()| self.store.flush());
         if let Err(error) = written {
             let error = anyhow::Error::from(error);
-            return Err(match self.store.cut(self.length) {
+            return Err(match self.cut(self.length) {
                 Ok(()) => error,
                 Err(_) => error.context("its last record is written in part"),
             });
         }
         self.length += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Forgets what lies behind the first `length` bytes.
+    fn cut(&mut self, length: u64) -> Result<()> {
+        self.torn = true;
+        self.store.cut(length)?;
+        (self.torn, self.length) = (false, length);
         Ok(())
     }
 
@@ -168,19 +183,23 @@ impl<S: Store> Writer<S> {
         Ok(self.store.keep()?)
     }
 
-    /// Writes the end. Where there is no room even for it, chunks are given up from behind until it fits. The bytes of the file.
+    /// Writes the end. Where there is no room for it, chunks are given up from behind until it fits into
+    /// theirs. Where it cannot be written even so, the file stays without it, and [`repair`](super::repair())
+    /// adds it. The bytes of the file.
     pub fn finish(mut self) -> Result<u64> {
         let closed = self.close();
+        let full = self.length;
         loop {
             let end = self.contents.end(self.length)?;
-            match (self.put(&end), self.contents.chunks.last()) {
-                (Ok(()), _) => break,
-                (Err(error), None) => return Err(error),
-                (Err(_), Some(last)) => {
-                    self.length = last.index.chunk_start_offset;
-                    self.store.cut(self.length)?;
-                    self.contents.cut(self.length);
+            let Err(error) = self.put(&end) else { break };
+            let freed = full - self.length;
+            match self.contents.chunks.last() {
+                Some(last) if is_full(&error) && freed < end.len() as u64 => {
+                    let start = last.index.chunk_start_offset;
+                    self.cut(start)?;
+                    self.contents.cut(start);
                 }
+                _ => return Err(error),
             }
         }
         self.store.keep()?;
@@ -191,4 +210,10 @@ impl<S: Store> Writer<S> {
     pub fn bytes(&self) -> u64 {
         self.length
     }
+}
+
+/// Whether an error says that there is no room.
+fn is_full(error: &anyhow::Error) -> bool {
+    let kind = error.downcast_ref::<io::Error>().map(io::Error::kind);
+    matches!(kind, Some(ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge))
 }

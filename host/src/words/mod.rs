@@ -1,8 +1,9 @@
-//! Errors in the words of the user, not in those of the libraries: `must be a whole number from 0 to 255, not "a"` instead of
-//! `invalid type: string "a", expected u8`.
+//! Errors in the words of the user, not in those of the libraries: `must be a whole number from 0 to 255, not
+//! "a"` instead of `invalid type: string "a", expected u8`.
 //!
-//! Who parses a file of the user turns the reader's error into a sentence by [`toml`] or [`json`], which name file, line and
-//! key. What nobody has put into words on its way up is translated where the program prints it, by [`sentence`].
+//! Who parses a file of the user turns the reader's error into a sentence by [`toml`] or [`json`], which name
+//! file, line and key. What nobody has put into words on its way up is translated where the program prints it,
+//! by [`sentence`].
 
 mod json;
 mod meant;
@@ -23,7 +24,9 @@ use std::error::Error;
 /// An error and its causes as one sentence on one line, without what a terminal would obey: causes quote files
 /// and boards.
 pub fn sentence(error: &anyhow::Error) -> String {
-    let causes: Vec<String> = error.chain().map(cause).collect();
+    let mut causes: Vec<String> = error.chain().map(cause).collect();
+    // Some libraries quote their cause, and name it as well.
+    causes.dedup_by(|cause, quoting| quoting.ends_with(cause.as_str()));
     let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");
     printable(&line).into_owned()
 }
@@ -46,7 +49,7 @@ fn io(message: &str) -> String {
         "failed to fill whole buffer" => return "it ends too early".into(),
         _ => {}
     }
-    let mut text = message.to_string();
+    let mut text = message.trim_start_matches("i/o error: ").to_string();
     while let Some(start) = text.find(" (os error ") {
         let Some(length) = text[start..].find(')') else { break };
         text.replace_range(start..=start + length, "");

@@ -201,4 +201,56 @@ fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     let done = folder.run(&["calibrate", "--simulate", "7", "-o", "/dev/full"]);
     assert!(!done.status.success());
     assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the numbers are printed");
+    let done = folder.run(&["setup", "--simulate", "7", "-o", "/dev/full"]);
+    assert!(!done.status.success());
+    assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the garment is printed");
+}
+
+/// A command whose standard output or error leads to a full disk.
+#[cfg(target_os = "linux")]
+fn on_full_disk(folder: &Folder, args: &[&str], is_error: bool) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_taxel"));
+    command.args(args).current_dir(&folder.0).stdin(std::process::Stdio::null());
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    if is_error {
+        command.stderr(full)
+    } else {
+        command.stdout(full)
+    };
+    command.output().unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_on_a_full_disk_is_named() {
+    let folder = Folder::new("output-full");
+    fs::write(folder.0.join("frames.csv"), "0,0\n0,9\n").unwrap();
+    let commands: [&[&str]; 7] = [
+        &["info", "in.mcap"],
+        &["scenes"],
+        &["config", "schema"],
+        &["process", "frames.csv", "--json"],
+        &["live", "--source", "sim:press", "--frames", "5", "--json"],
+        &["fcm", "tactile"],
+        &["setup", "--simulate", "7"],
+    ];
+    for command in commands {
+        let done = on_full_disk(&folder, command, false);
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{command:?}: {told}");
+        let error = "error: the standard output cannot be written: no space left on device\n";
+        assert!(told.ends_with(error), "{command:?}: {told}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_on_a_full_disk_ends_no_recording() {
+    let folder = Folder::new("log-full");
+    let record = ["-v", "record", "--source", "sim:press", "--frames", "40", "-o", "new.mcap"];
+    let done = on_full_disk(&folder, &record, true);
+    assert!(done.status.success(), "{}", done.status);
+    assert!(taxel::recording::scan(&folder.0.join("new.mcap")).unwrap().whole);
+    let done = on_full_disk(&folder, &["info", "no-such.mcap"], true);
+    assert_eq!(done.status.code(), Some(1), "the error cannot be told, its status can");
 }

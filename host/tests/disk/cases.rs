@@ -1,0 +1,175 @@
+//! The commands that write files, each with what it writes.
+
+/// How it is known that an output is complete.
+#[derive(Debug, Clone, Copy)]
+pub enum Content {
+    /// Each run writes the same.
+    Same,
+    /// It ends like this; a date or a name stands in it.
+    Ends(&'static str),
+    /// Whatever was taken before a fault stays.
+    Begins,
+    /// A table of TOML; a date or what was measured stands in it.
+    Toml,
+    /// A recording, of which a fault leaves what was said before.
+    Recording,
+}
+
+/// What a command writes.
+#[derive(Debug, Clone, Copy)]
+pub struct Output {
+    pub name: &'static str,
+    pub is_folder: bool,
+    pub content: Content,
+}
+
+impl Output {
+    /// Whether a file is it, or lies in it.
+    pub fn holds(&self, name: &str) -> bool {
+        let temporary = name.contains(".part");
+        let rest = name.strip_prefix(self.name).filter(|_| !temporary);
+        rest.is_some_and(|rest| {
+            if self.is_folder { rest.starts_with('/') || rest.is_empty() } else { rest.is_empty() }
+        })
+    }
+
+    /// Files that it held before.
+    pub fn old(&self) -> Vec<String> {
+        match (self.is_folder, self.name) {
+            (false, name) => vec![name.into()],
+            (true, "set") => vec!["set/data/old.parquet".into(), "set/meta/old.json".into()],
+            (true, name) => vec![format!("{name}/old.png"), format!("{name}/mat/old.png")],
+        }
+    }
+}
+
+/// When a command may replace an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Replaces {
+    /// With `--force`.
+    Forced,
+    /// Always: it is what the user names.
+    Always,
+}
+
+/// A command.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    pub name: &'static str,
+    pub args: &'static str,
+    pub outputs: &'static [Output],
+    pub replaces: Replaces,
+    /// What it reads from its standard input.
+    pub answers: &'static str,
+    /// It takes seconds: fewer of its calls are tried.
+    pub is_slow: bool,
+}
+
+impl Case {
+    /// Whether the output exists.
+    pub fn variants(&self) -> impl Iterator<Item = bool> + use<> {
+        let always = self.replaces == Replaces::Always;
+        [false, true].into_iter().filter(move |replaces| *replaces || !always)
+    }
+
+    /// The command line.
+    pub fn args(&self, replaces: bool) -> Vec<&'static str> {
+        let force = (replaces && self.replaces == Replaces::Forced).then_some("--force");
+        self.args.split(' ').chain(force).collect()
+    }
+
+    /// What a variant is called.
+    pub fn shown(&self, replaces: bool) -> &'static str {
+        if replaces { "exists" } else { "new" }
+    }
+}
+
+const fn file(name: &'static str) -> Output {
+    Output { name, is_folder: false, content: Content::Same }
+}
+
+const fn folder(name: &'static str) -> Output {
+    Output { name, is_folder: true, content: Content::Same }
+}
+
+const fn ends(name: &'static str, end: &'static str) -> Output {
+    Output { name, is_folder: false, content: Content::Ends(end) }
+}
+
+const fn begins(name: &'static str) -> Output {
+    Output { name, is_folder: false, content: Content::Begins }
+}
+
+const fn table(name: &'static str) -> Output {
+    Output { name, is_folder: false, content: Content::Toml }
+}
+
+const fn recording(name: &'static str) -> Output {
+    Output { name, is_folder: false, content: Content::Recording }
+}
+
+const fn case(name: &'static str, args: &'static str, outputs: &'static [Output]) -> Case {
+    Case { name, args, outputs, replaces: Replaces::Forced, answers: "", is_slow: false }
+}
+
+const MAP: &str = "press\nkindness\n\npress > kindness\n\n0.9\ntanh\n0\n\npress rise 0 30000\n";
+
+/// All of them.
+pub const CASES: &[Case] = &[
+    case("export csv", "export in.mcap --to csv --every 20 -o out.csv", &[file("out.csv")]),
+    case("export contacts", "export in.mcap --to csv --contacts -o out.csv", &[file("out.csv")]),
+    case("export npz", "export in.mcap --to npz --every 10 -o out.npz", &[file("out.npz")]),
+    case("export png", "export in.mcap --to png --every 40 -o images", &[folder("images")]),
+    case("export lerobot", "export in.mcap --to lerobot -o set", &[folder("set")]),
+    case("report", "report in.mcap -o out.html", &[ends("out.html", "</html>\n")]),
+    case("record", "record --source sim:press --seconds 2 -o out.mcap", &[recording("out.mcap")]),
+    case(
+        "record ros2",
+        "record --source sim:press --seconds 1.5 --ros2 -o out.mcap",
+        &[recording("out.mcap"), recording("out.ros2.mcap")],
+    ),
+    case(
+        "record rotate",
+        "record --source sim:press --seconds 3 --rotate 1s -o out.mcap",
+        &[recording("out.mcap"), recording("out-0002.mcap"), recording("out-0003.mcap")],
+    ),
+    case("live save", "live --source sim:pat --frames 30 --json --save out.bytes", &[begins("out.bytes")]),
+    case("live svg", "live --source sim:pat --frames 30 --svg out.svg", &[ends("out.svg", "</svg>\n")]),
+    case("info repair", "info cut.mcap --repair -o out.mcap", &[file("out.mcap")]),
+    case("info repair whole", "info in.mcap --repair -o out.mcap", &[file("out.mcap")]),
+    Case {
+        replaces: Replaces::Always,
+        ..case("info repair in place", "info cut.mcap --repair --in-place", &[file("cut.mcap")])
+    },
+    case(
+        "config new",
+        "config new garment.toml --like block-4x16",
+        &[file("garment.toml"), file("taxel-garment.schema.json")],
+    ),
+    case("config scene", "config scene scene.toml", &[file("scene.toml"), file("taxel-scene.schema.json")]),
+    Case {
+        is_slow: true,
+        ..case(
+            "calibrate",
+            "calibrate --simulate 7 --garment block-4x16 --weights 5,20 -o out.toml",
+            &[table("out.toml")],
+        )
+    },
+    case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
+    case("settle", "settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
+    Case { answers: MAP, ..case("fcm new", "fcm new -o map.toml", &[file("map.toml")]) },
+    case("fcm combine", "fcm combine tactile tactile -o map.toml", &[file("map.toml")]),
+    case("fcm merge", "fcm merge tactile tactile -o map.toml", &[file("map.toml")]),
+    case("fcm draw", "fcm draw tactile -o map.svg", &[file("map.svg")]),
+    case("fcm learn", "fcm learn tactile --touches touches.csv --folds 2 -o map.toml", &[file("map.toml")]),
+    case("shapes prune", "shapes prune base.json -o out.json", &[file("out.json")]),
+    Case {
+        replaces: Replaces::Always,
+        ..case(
+            "shapes learn",
+            "shapes learn more --source sim:box.toml --touches 2 -o base.json",
+            &[file("base.json")],
+        )
+    },
+    case("bench amplifier", "bench amplifier --svg out.svg", &[ends("out.svg", "</svg>\n")]),
+];
