@@ -173,7 +173,7 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
     read(&mut board, 0.3, &scene, &mut told);
     board.look("stats");
     told.edges(&scene, &edges(&mut board));
-    told.last.iter().for_each(|name| panic!("{name} lasts at rest"));
+    assert!(told.last.is_empty(), "{:?} last at rest", told.last);
     (told.begun, told.pins) = Default::default();
     let mut done = 0;
     for sequence in 0..sequences {
