@@ -36,7 +36,9 @@ fn read(data: &[u8]) {
     let rebuilt = Scratch::new(&rebuilt, "mcap");
     assert!(scan(rebuilt.path()).expect("it was written here").whole, "a repaired recording is whole");
     let kept = count(rebuilt.path(), usize::MAX);
-    assert!(kept >= messages, "{messages} messages can be read, and {kept} of them are kept");
+    // Of a file that is damaged, a reader may take other bytes for records than `repair` does.
+    let is_sound = found.damage.is_empty();
+    assert!(kept >= messages || !is_sound, "{messages} messages can be read, and {kept} of them are kept");
 }
 
 /// Messages that can be read; each file has an end.

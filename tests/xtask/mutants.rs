@@ -21,25 +21,28 @@ struct Part {
     name: &'static str,
     folder: &'static str,
     package: &'static str,
-    /// Of cargo-mutants, then of `cargo test`, then of the tests.
-    tests: [&'static [&'static str]; 3],
+    /// The test target beside those of the modules.
+    target: &'static str,
+    /// What is in the names of its tests: the others take minutes, and look at something else.
+    tests: &'static [&'static str],
 }
 
-const CORE: [&[&str]; 3] = [&[], &["--lib", "--test", "core"], &[]];
-
 const PARTS: [Part; 3] = [
-    Part { name: "contact", folder: "core/src/contact", package: "taxel-core", tests: CORE },
-    Part { name: "wire", folder: "core/src/wire", package: "taxel-core", tests: CORE },
     Part {
-        name: "store",
-        folder: "store/src",
-        package: "taxel-store",
-        tests: [
-            &["--test-package", "taxel-store,taxel"],
-            &["--lib", "--test", "library"],
-            &["store::", "index::tests"],
-        ],
+        name: "contact",
+        folder: "core/src/contact",
+        package: "taxel-core",
+        target: "core",
+        tests: &["contact", "hard::", "moments", "dense", "bounds::", "tracking::", "board"],
     },
+    Part {
+        name: "wire",
+        folder: "core/src/wire",
+        package: "taxel-core",
+        target: "core",
+        tests: &["wire", "golden", "board", "exchange"],
+    },
+    Part { name: "store", folder: "store/src", package: "taxel-store", target: "settings", tests: &[""] },
 ];
 
 /// How changes ended, as cargo-mutants names the files that list them.
@@ -80,21 +83,17 @@ impl Asked {
 pub fn run(args: &[String]) -> Result<(), String> {
     let asked = Asked::read(args)?;
     let tool = install::cargo_tool("cargo-mutants", "26.2.0").map_err(|why| format!("not run: {why}"))?;
-    let mut all = Vec::new();
-    for (number, part) in PARTS.iter().enumerate() {
-        all.extend(listed(&tool, part)?.into_iter().map(|name| (number, name)));
+    let (mut known, mut ends) = (0, Vec::new());
+    for (part, share) in PARTS.iter().zip(shares(asked.count)) {
+        let mut names = listed(&tool, part)?;
+        known += names.len();
+        shuffle(&mut names, asked.seed);
+        names.truncate(share);
+        println!("{}: {} changes ...", part.name, names.len());
+        ends.push(tested(&tool, part, &names)?);
     }
-    let known = all.len();
-    shuffle(&mut all, asked.seed);
-    all.truncate(asked.count);
-    let mut ends = Vec::new();
-    for (number, part) in PARTS.iter().enumerate() {
-        let chosen: Vec<&str> =
-            all.iter().filter(|(of, _)| *of == number).map(|(_, name)| name.as_str()).collect();
-        println!("{}: {} changes ...", part.name, chosen.len());
-        ends.push(if chosen.is_empty() { Ended::new() } else { tested(&tool, part, &chosen)? });
-    }
-    let head = format!("{} of {known} changes, chosen by seed {}:", all.len(), asked.seed);
+    let count: usize = ends.iter().flat_map(Ended::values).map(Vec::len).sum();
+    let head = format!("{count} of {known} changes, chosen by seed {}, as many of each part:", asked.seed);
     let before = std::fs::read_to_string(written()).unwrap_or_default();
     let text = format!("{TITLE}\n\n{head}\n{}\n{}", table(&ends), missed(&ends, &explained(&before)));
     print!("{text}");
@@ -102,6 +101,11 @@ pub fn run(args: &[String]) -> Result<(), String> {
         std::fs::write(written(), text).map_err(|error| format!("{}: {error}", written().display()))?;
     }
     Ok(())
+}
+
+/// As many of each part, so that each is judged; the first take what is left.
+fn shares(count: usize) -> [usize; PARTS.len()] {
+    std::array::from_fn(|part| (count + PARTS.len() - 1 - part) / PARTS.len())
 }
 
 fn written() -> PathBuf {
@@ -113,8 +117,9 @@ fn mutants(tool: &Path, part: &Part) -> Command {
     let mut command = Command::new(tool);
     command.args(["mutants", "--no-config", "--colors", "never", "--dir"]).arg(paths::root());
     command.args(["--package", part.package, "--file", &format!("{}/**", part.folder)]);
-    // What one change has built serves the next, and the next run.
-    command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "0");
+    // What one change has built serves the next, and the next run: only what has changed is compiled, and quickly.
+    command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "1");
+    command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "0");
     command
 }
 
@@ -127,7 +132,10 @@ fn listed(tool: &Path, part: &Part) -> Result<Vec<String>, String> {
 }
 
 /// Tests those of the names.
-fn tested(tool: &Path, part: &Part, names: &[&str]) -> Result<Ended, String> {
+fn tested(tool: &Path, part: &Part, names: &[String]) -> Result<Ended, String> {
+    if names.is_empty() {
+        return Ok(Ended::new());
+    }
     let output = paths::target().join("mutants").join(part.name);
     let _ = std::fs::remove_dir_all(&output);
     std::fs::create_dir_all(&output).map_err(|error| format!("{}: {error}", output.display()))?;
@@ -135,11 +143,7 @@ fn tested(tool: &Path, part: &Part, names: &[&str]) -> Result<Ended, String> {
     let mut command = mutants(tool, part);
     command.arg("--output").arg(&output).args(["--no-times", "--timeout-multiplier", "4"]);
     names.iter().for_each(|name| _ = command.arg("--re").arg(format!("^{}$", escaped(name))));
-    let [own, cargo, tests] = part.tests;
-    command.args(own).arg("--").args(cargo);
-    if !tests.is_empty() {
-        command.arg("--").args(tests);
-    }
+    command.args(["--", "--lib", "--test", part.target, "--"]).args(part.tests);
     // It fails where a change is not noticed, too: what it lists counts.
     let end = process::run_into(&mut command, &log);
     let read = |end: &&'static str| {
@@ -255,7 +259,7 @@ mod tests {
             shuffle(&mut list, seed);
             list
         };
-        assert_eq!(chosen(1), chosen(1));
+        assert_eq!((chosen(1), shares(200), shares(4)), (chosen(1), [67, 67, 66], [2, 1, 1]));
         assert_ne!(chosen(1), chosen(2));
         assert_eq!(
             escaped("a.rs:1: f -> Option<u8> with Some(0)"),
