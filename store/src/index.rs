@@ -104,4 +104,23 @@ mod tests {
         assert_eq!(postcard::from_bytes::<Older>(bytes), Ok((VERSION, index.entries)));
         assert_eq!(Index::read(&bytes[1..bytes.len() - 1]), None);
     }
+
+    #[test]
+    fn an_entry_holds_its_own_content_alone() {
+        let entry = Entry::of(Part::Gain, 0, b"gain");
+        assert!(entry.holds(b"gain"));
+        assert!(!entry.holds(b"gaim") && !entry.holds(b"gai"));
+        assert!(!Entry { length: 5, ..entry }.holds(b"gain"));
+    }
+
+    #[test]
+    fn the_longest_index_fits_its_bytes_and_no_others() {
+        let mut index = Index::new(u8::MAX);
+        for part in Part::ALL {
+            let entry = Entry { part: part as u8, place: 1, length: u16::MAX, sum: u32::MAX };
+            index.entries.push(entry).unwrap();
+        }
+        let mut bytes = [0; Index::BYTES];
+        assert_eq!(index.write(&mut bytes).map(<[u8]>::len), Some(Index::BYTES));
+    }
 }

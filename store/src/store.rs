@@ -105,6 +105,9 @@ impl<F: NorFlash> Store<F> {
             // What cannot be read does not come back: the new takes its place.
             Err(_) => None,
         };
+        if old.is_none() {
+            self.clear()?;
+        }
         let mut new = Index::new(settings.saves);
         let mut content = [0; PART_BYTES];
         for part in Part::ALL {
@@ -125,6 +128,28 @@ impl<F: NorFlash> Store<F> {
         }
         self.put_index(&new)?;
         Ok(Saved::Written)
+    }
+
+    /// Erases the sectors that hold anything: another program may have left there what settings cannot be written over.
+    fn clear(&mut self) -> Result<(), StoreError> {
+        for start in self.map.flash_range().step_by(F::ERASE_SIZE) {
+            let end = start + F::ERASE_SIZE as u32;
+            if !self.is_blank(start..end)? {
+                self.map.flash().0.erase(start, end).map_err(|_| StoreError::Flash)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn is_blank(&mut self, sector: Range<u32>) -> Result<bool, StoreError> {
+        let mut bytes = [0; 64];
+        for start in sector.step_by(bytes.len()) {
+            self.map.flash().0.read(start, &mut bytes).map_err(|_| StoreError::Flash)?;
+            if bytes.iter().any(|byte| *byte != 0xff) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Puts what is stored aside, until the next save: a board that starts does not use it. Or takes it up

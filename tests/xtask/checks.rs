@@ -162,7 +162,8 @@ fn fmt(log: &Path) -> End {
     let check = |folder| {
         process::run_into(&mut cargo(&["fmt", "--all", "--", "--check", "--color=never"], folder), log)
     };
-    Ok(check(paths::root()).and_then(|()| check(paths::firmware())))
+    let apart = [paths::root(), paths::firmware(), paths::fuzz().join("targets")];
+    Ok(apart.into_iter().try_for_each(check))
 }
 
 fn clippy(log: &Path) -> End {
@@ -186,8 +187,12 @@ fn compare_locks(_: &Path) -> End {
         std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
     };
     let root = read(paths::root().join("Cargo.lock"));
-    let firmware = read(paths::firmware().join("Cargo.lock"));
-    Ok(root.and_then(|root| locks::compare(&root, &firmware?)))
+    let apart = [("firmware/", paths::firmware()), ("fuzz/targets/", paths::fuzz().join("targets"))];
+    Ok(root.and_then(|root| {
+        apart
+            .into_iter()
+            .try_for_each(|(name, folder)| locks::compare(&root, &read(folder.join("Cargo.lock"))?, name))
+    }))
 }
 
 fn test(log: &Path) -> End {

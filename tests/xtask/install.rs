@@ -104,3 +104,17 @@ pub fn python() -> Result<PathBuf, String> {
     std::fs::copy(&wanted, &note).map_err(|error| format!("{}: {error}", note.display()))?;
     Ok(python)
 }
+
+/// A program of cargo's registry in this version, in a folder of its own.
+pub fn cargo_tool(name: &str, version: &str) -> Result<PathBuf, String> {
+    let _alone = alone();
+    let folder = crate::paths::target().join(format!("tools/{name}-{version}"));
+    let program = folder.join("bin").join(name);
+    if program.exists() {
+        return Ok(program);
+    }
+    let mut install = Command::new("cargo");
+    install.args(["install", name, "--version", version, "--locked", "--root"]).arg(&folder);
+    eprintln!("xtask: {}", process::shown(&install));
+    process::output(&mut install).map(|_| program).ok_or(format!("`{}` failed", process::shown(&install)))
+}

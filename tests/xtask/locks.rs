@@ -1,5 +1,6 @@
-//! The firmware has a lock file of its own. What is tested on the host must be what runs on the board: the core is built
-//! from the same versions of the same crates in both.
+//! The firmware and what a fuzzer runs have lock files of their own. What is tested on the host must be what
+//! runs on the board and what is fuzzed: the core is built from the same versions of the same crates in all of
+//! them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,16 +10,17 @@ const SHARED: &str = "taxel-core";
 /// A package as the lock files name it.
 type Package<'a> = (&'a str, &'a str);
 
-/// Compares what two lock files say of the core. Features may add crates on one side; what both hold must agree.
-pub fn compare(root: &str, firmware: &str) -> Result<(), String> {
-    let (here, there) = (closure(root)?, closure(firmware)?);
+/// Compares what the lock file of the root and that of a folder say of the core. Features may add crates on one
+/// side; what both hold must agree.
+pub fn compare(root: &str, other: &str, folder: &str) -> Result<(), String> {
+    let (here, there) = (closure(root)?, closure(other)?);
     let versions = |name: &str| {
         let of_name = here.iter().filter(|(n, _)| *n == name);
         of_name.map(|(_, version)| version.to_string()).collect::<Vec<_>>().join(" and ")
     };
     let differ = there.difference(&here).filter(|(name, _)| !versions(name).is_empty());
     let differ: Vec<String> = differ
-        .map(|(name, version)| format!("{name} ({} here, {version} in firmware/)", versions(name)))
+        .map(|(name, version)| format!("{name} ({} here, {version} in {folder})", versions(name)))
         .collect();
     if differ.is_empty() {
         Ok(())
@@ -80,12 +82,10 @@ mod tests {
         let (syn1, syn2): ((_, _, &[&str]), (_, _, &[&str])) = (("syn", "1.0.0", &[]), ("syn", "2.0.0", &[]));
         let root = lock(&[core, ("crc", "3.4.0", &[]), ("clap", "4.6.0", &["syn 1.0.0"]), syn1, syn2]);
         let plain = ("taxel-core", "0.1.0", ["crc", "syn"].as_slice());
-        assert_eq!(
-            compare(&root, &lock(&[plain, ("crc", "3.4.0", &[]), ("clap", "3.0.0", &[]), syn2])),
-            Ok(())
-        );
-        let message = compare(&root, &lock(&[plain, ("crc", "3.3.0", &[]), syn2])).unwrap_err();
+        let compare = |other: &str| compare(&root, other, "firmware/");
+        assert_eq!(compare(&lock(&[plain, ("crc", "3.4.0", &[]), ("clap", "3.0.0", &[]), syn2])), Ok(()));
+        let message = compare(&lock(&[plain, ("crc", "3.3.0", &[]), syn2])).unwrap_err();
         assert_eq!(message, "the core's dependencies differ: crc (3.4.0 here, 3.3.0 in firmware/)");
-        assert!(compare(&root, &lock(&[])).is_err());
+        assert!(compare(&lock(&[])).is_err());
     }
 }

@@ -8,8 +8,10 @@ mod cross;
 mod elf;
 mod excerpt;
 mod firmware;
+mod fuzz;
 mod install;
 mod locks;
+mod mutants;
 mod names;
 mod no_panic;
 mod paths;
@@ -37,6 +39,11 @@ usage: cargo xtask COMMAND
                         the core beside imageproc, and OpenCV where Python has it: microseconds per panel
   campaign [--only NAME] [--write]
                         long runs on the emulated and the simulated board; --write: and write down what they print, docs/bench/campaign.txt
+  fuzz [--minutes N] [TARGET...]
+                        each fuzz target, or these, for 10 minutes or N, with AddressSanitizer; needs a nightly compiler
+  mutants [--count N] [--seed S] [--write]
+                        change the core and the store in N places (200), chosen by a seed, one at a time: do the tests notice?
+                        --write: and write it down, docs/bench/mutants.txt
   test [--recorded] [--only NAME] [--may-miss NAME]
                         every check, two at a time; one that cannot run fails the run, unless it is named as one that may be missing;
                         --recorded, or TAXEL_DATA set to folders of recordings: and those that need recordings
@@ -67,6 +74,8 @@ fn main() -> ExitCode {
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
         Some("campaign") => campaign::run(rest).map(|()| true),
+        Some("fuzz") => fuzz::run(rest),
+        Some("mutants") => mutants::run(rest).map(|()| true),
         Some("test") => checks::run(rest),
         _ => Err(USAGE.to_string()),
     };

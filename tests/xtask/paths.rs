@@ -12,6 +12,11 @@ pub fn firmware() -> PathBuf {
     root().join("firmware")
 }
 
+/// What a fuzzer runs.
+pub fn fuzz() -> PathBuf {
+    root().join("fuzz")
+}
+
 /// The emulator harness.
 pub fn emulator() -> PathBuf {
     root().join("tests/emulator")
@@ -30,4 +35,13 @@ pub fn target() -> PathBuf {
 /// The folder of everything that is built for the microcontroller, a folder a way (see `cross`).
 pub fn cross_target() -> PathBuf {
     target().join("firmware")
+}
+
+/// Where a run writes what it says, without what the last one said.
+pub fn log(name: &str) -> Result<PathBuf, String> {
+    let folder = target().join("xtask");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let log = folder.join(format!("{name}.log"));
+    let _ = std::fs::remove_file(&log);
+    Ok(log)
 }

@@ -23,6 +23,7 @@ mod viewer;
 
 pub use hub::Hub;
 pub use mailbox::{Mailbox, Parcel, Shot};
+pub use page::hear;
 pub use recent::Recent;
 pub use recorded::{Order, Player};
 pub use said::{Kind, Said};

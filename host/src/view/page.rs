@@ -5,7 +5,7 @@ use super::mailbox::{Mailbox, Parcel};
 use super::message;
 use super::past::Past;
 use crate::serve::Mute;
-use std::io;
+use std::io::{self, Read};
 use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
 use std::thread;
@@ -24,7 +24,7 @@ pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Arc<Mailbox>)
     thread::scope(|scope| {
         let reader = thread::Builder::new().name("page reader".into());
         let reader = reader.spawn_scoped(scope, || {
-            read(reading, rest, hub, mailbox);
+            hear(reading, rest, hub, mailbox);
             mailbox.close();
         })?;
         let written = write(stream, hub, mailbox);
@@ -68,7 +68,9 @@ fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
     Ok(())
 }
 
-fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
+/// Does what a page asks for over its WebSocket, until it goes. `rest` are the first bytes, which have been
+/// read already.
+pub fn hear(stream: impl Read, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
     let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
     // Any error ends it: the page has gone, or does not speak WebSocket.
     while let Ok(said) = socket.read() {

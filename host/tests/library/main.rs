@@ -23,7 +23,6 @@ mod settle;
 mod setup;
 mod shape_of;
 mod shapes;
-mod store;
 mod tables;
 mod touch;
 mod view_recording;

@@ -1,7 +1,10 @@
 //! Settings in flash: what was stored is what is loaded, also where the power fails at any step of a save.
 
-use embedded_storage::nor_flash::ReadNorFlash;
-use taxel::sim::{Cut, SimFlash};
+#[path = "../../host/src/sim/flash.rs"]
+mod flash;
+
+use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
+use flash::{Cut, SimFlash};
 use taxel_core::acquire::ScanError;
 use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved, Settings};
 use taxel_core::condition::Certificate;
@@ -315,5 +318,24 @@ fn power_may_fail_while_levels_are_kept() {
         let steps = flash.steps();
         assert_eq!(keep_levels(&mut flash, LEVELS, wanted), Ok(Saved::Unchanged));
         assert_eq!(flash.steps(), steps);
+    }
+}
+
+/// What boot loaders, other firmware and half an erasure leave: a flash need not be empty when it is first used.
+#[test]
+fn a_flash_that_something_else_has_written_takes_settings() {
+    let mut random = Random(19);
+    for round in 0..200 {
+        let mut flash = SimFlash::default();
+        for _ in 0..1 + random.below(9) {
+            let place = random.below(FOUR_SECTORS - 600);
+            let bytes: Vec<u8> = (0..random.below(600)).map(|_| random.below(256) as u8).collect();
+            // Bits that would have to rise stay as they are.
+            let _ = flash.write(place, &bytes);
+        }
+        let mut kept = Kept::new(Garment::block(), 64);
+        (0..3).for_each(|_| kept.change(&mut random));
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "round {round}");
+        assert_eq!(load::<64>(&mut flash), Ok(Some(kept)), "round {round}");
     }
 }
