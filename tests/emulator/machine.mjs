@@ -78,9 +78,12 @@ export class Machine {
     this.boot();
   }
 
-  /** The stack is all but used up: what is pushed next leaves the memory. */
+  /** The stack is all but used up: what is pushed next leaves the memory. What lies on it goes with it. */
   sink() {
-    this.core.SP = RAM_START + 8;
+    const { core, chip } = this;
+    const { buffer, byteOffset, byteLength } = chip.sramView;
+    new Uint8Array(buffer, byteOffset, byteLength).copyWithin(0, core.SP - RAM_START, this.stack.top - RAM_START);
+    core.SP = RAM_START;
   }
 
   /** A push has met memory that nobody may access, and so will what an exception pushes: the core does nothing more. */

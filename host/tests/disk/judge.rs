@@ -49,10 +49,10 @@ impl Judge<'_> {
         if let Err(why) = self.told(fault, done) {
             require(false, &|| why.clone());
         }
-        if fault.kills() {
-            if let Err(why) = self.again(done) {
-                require(false, &|| format!("the next run: {why}"));
-            }
+        if fault.kills()
+            && let Err(why) = self.again(done)
+        {
+            require(false, &|| format!("the next run: {why}"));
         }
         wrong
     }
