@@ -17,5 +17,6 @@ mod plain;
 mod reflex;
 mod sweep;
 mod taught;
+mod told;
 mod tracking;
 mod wire;

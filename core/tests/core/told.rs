@@ -1,0 +1,98 @@
+//! What a host is told of reactions when it comes late or reads slowly, and what its silence means to the board.
+
+use crate::board::{Bench, FINGER};
+use taxel_core::format::{Micros, Q15, name};
+use taxel_core::garment::Line;
+use taxel_core::react::{Cause, ReactionConfig};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Report, Request};
+
+fn row(cause: Cause, level: i32) -> ReactionConfig {
+    let output = Some(Line { pin: 18, inverted: false });
+    ReactionConfig { name: name("guard"), cause, region: name(""), level, hysteresis: 0, hold_ms: 0, output }
+}
+
+fn scene(row: ReactionConfig) -> Scene {
+    let mut scene = Scene::shipped();
+    scene.react.clear();
+    scene.react.push(row).unwrap();
+    scene
+}
+
+/// A board whose reaction to pressure is at rest.
+fn guarding() -> Bench {
+    let mut bench = Bench::new(scene(row(Cause::Pressure, 300)));
+    bench.ask(&Request::Tare { frames: 1 });
+    bench.scan();
+    bench.drain(usize::MAX, |_| ());
+    bench
+}
+
+fn press(bench: &mut Bench, code: u16) {
+    bench.press(&FINGER, code);
+    (0..4).for_each(|_| bench.scan());
+}
+
+fn told(bench: &mut Bench) -> Vec<bool> {
+    let mut told = Vec::new();
+    bench.drain(usize::MAX, |report| {
+        if let Report::Reaction(report) = report {
+            told.push(report.reaction.active);
+        }
+    });
+    told
+}
+
+#[test]
+fn a_host_that_connects_late_is_told_what_lasts() {
+    let mut bench = guarding();
+    press(&mut bench, 900);
+    assert!(told(&mut bench).is_empty(), "nobody listens");
+    bench.ask(&Request::Start);
+    assert_eq!(told(&mut bench), [true]);
+    press(&mut bench, 0);
+    assert_eq!(told(&mut bench), [false]);
+}
+
+#[test]
+fn a_host_that_reads_slowly_is_told_how_each_reaction_stands() {
+    for times in [20, 21] {
+        let mut bench = guarding();
+        bench.ask(&Request::Start);
+        told(&mut bench);
+        (0..times).for_each(|at| press(&mut bench, if at % 2 == 0 { 900 } else { 0 }));
+        let lost = bench.board.health().lost;
+        let told = told(&mut bench);
+        assert_eq!((told.last(), told.len() < times), (Some(&(times % 2 == 1)), true), "{told:?}");
+        assert!(lost as usize >= times - told.len());
+    }
+}
+
+#[test]
+fn what_a_host_fed_holds_until_it_says_nothing_for_three_seconds() {
+    let mut bench = guarding();
+    bench.ask(&Request::Concept { slot: 1, value: Q15(7) });
+    for _ in 0..20 {
+        bench.now += 2_999_999;
+        bench.ask(&Request::Sync { token: 1 });
+        bench.tick();
+        assert_eq!(bench.board.state().fed.values(Micros(bench.now))[1], Q15(7));
+    }
+    bench.now += 3_000_000;
+    bench.tick();
+    assert_eq!(bench.board.state().fed.values(Micros(bench.now))[1], Q15(0));
+}
+
+#[test]
+fn blindness_is_longer_than_the_board_may_look_away() {
+    let mut bench = guarding();
+    let mut refused = |level: i32| {
+        let bytes = postcard::to_allocvec(&scene(row(Cause::Blind, level))).unwrap();
+        bench.answer(&Request::SetScene(&bytes))
+    };
+    let least = (1..100).find(|level| refused(*level).is_none()).expect("some time is accepted");
+    assert!(least > 1, "{least} ms");
+    let why = "scene: react[0].level must be longer than two frames and a self-test may take, ms";
+    assert_eq!(refused(least - 1).as_deref(), Some(why));
+    assert_eq!(refused(3_600_001).as_deref(), Some("scene: react[0].level must be 1 to 3600000 ms"));
+}
