@@ -84,6 +84,26 @@ fn what_a_host_fed_holds_until_it_says_nothing_for_three_seconds() {
 }
 
 #[test]
+fn raw_codes_that_are_asked_for_change_nothing_else() {
+    let mut bench = guarding();
+    bench.ask(&Request::Start);
+    told(&mut bench);
+    let before = bench.board.setup().scene.clone();
+    let mut rates = Vec::new();
+    for hz in [10, 0] {
+        assert_eq!(bench.answer(&Request::SetRaw { hz }), None);
+        let mut raw = 0;
+        (0..100).for_each(|_| {
+            bench.scan();
+            bench.drain(usize::MAX, |report| raw += usize::from(matches!(report, Report::Raw(_))));
+        });
+        rates.push(raw);
+    }
+    assert!((4..=6).contains(&rates[0]) && rates[1] <= 1, "{rates:?} in half a second each");
+    assert_eq!(bench.board.setup().scene, before);
+}
+
+#[test]
 fn blindness_is_longer_than_the_board_may_look_away() {
     let mut bench = guarding();
     let mut refused = |level: i32| {
