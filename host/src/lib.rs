@@ -32,6 +32,7 @@ pub mod json;
 pub mod learn;
 pub mod live;
 pub mod output;
+mod passed;
 pub mod ports;
 pub mod process;
 pub mod progress;

@@ -116,6 +116,12 @@ impl Emulated {
         self.wait_for("stall")["stall"].as_f64().unwrap()
     }
 
+    /// The supply of the processor's core sags for a moment: whether that resets the chip.
+    pub fn sag(&mut self, millivolts: u32) -> bool {
+        writeln!(self.input, "sag {millivolts}").unwrap();
+        self.wait_for("sag")["sag"]["browns"].as_bool().unwrap()
+    }
+
     /// The program that has the USB port open reads from now on, or does not.
     pub fn read_on(&mut self, reads: bool) {
         writeln!(self.input, "read {}", if reads { "on" } else { "off" }).unwrap();

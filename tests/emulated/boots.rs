@@ -88,6 +88,25 @@ fn three_resets_by_the_watchdog_lead_to_what_ships_and_what_is_saved_is_kept() {
 }
 
 #[test]
+fn a_supply_that_sags_resets_the_chip_and_costs_nothing_that_is_saved() {
+    let flash = blank("sags");
+    let mut board = start(&flash, &[]);
+    started(&mut board, |_| true);
+    save(&mut board, "saved");
+    // A reset by the watchdog is counted, until the power goes.
+    board.look("hang");
+    board.wait_for("reset");
+    started(&mut board, |boot| boot.resets == 1);
+    // The chip's own threshold would let it write the flash with 900 mV.
+    for (millivolts, browns) in [(950, false), (900, true)] {
+        assert_eq!(board.sag(millivolts), browns, "{millivolts} mV");
+    }
+    let told = started(&mut board, |boot| boot.cause == BootCause::Power);
+    assert_eq!(told, (name("saved"), Boot::default()));
+    board.end();
+}
+
+#[test]
 fn a_request_or_a_grounded_pin_leads_to_what_ships_and_back() {
     let flash = blank("asked");
     let mut board = start(&flash, &[]);

@@ -1,11 +1,13 @@
 // The voltage regulator's block, of which rp2040js has nothing: its registers keep what is written, and one of
-// them says what reset the chip as a whole. Supply, brown-out and their thresholds are not modelled.
+// them says what reset the chip as a whole. A supply that sags below the threshold of the brown-out detector resets
+// the chip, if that is switched on (RP2040 datasheet, 2.10.6); what a processor does with too little is not modelled.
 
 import { BasePeripheral } from 'rp2040js';
 
 export const CHIP_RESET_BASE = 0x40064;
 export const BOD = 0x4;
 const VREG = 0x0, CHIP_RESET = 0x8;
+const DETECTS = 1, LOWEST_MV = 473, STEP_MV = 43;
 const AT_RESET = { [VREG]: 0xb1, [BOD]: 0x91 };
 const CAUSES = { power: 1 << 8, pin: 1 << 16, debugger: 1 << 20 };
 
@@ -21,6 +23,12 @@ export class ChipReset extends BasePeripheral {
   readUint32(offset) {
     if (offset === CHIP_RESET) return CAUSES[this.cause];
     return this.kept[offset] ?? super.readUint32(offset);
+  }
+
+  /** Whether the chip resets itself at this voltage of its core. */
+  browns(millivolts) {
+    const detector = this.kept[BOD];
+    return (detector & DETECTS) !== 0 && millivolts < LOWEST_MV + STEP_MV * ((detector >>> 4) & 15);
   }
 
   writeUint32(offset, value) {

@@ -14,3 +14,16 @@ test('each cause has its bit, and the regulator keeps what it is told', () => {
   assert.equal(it.readUint32(4), 0x93);
   assert.throws(() => it.readUint32(12), /Unimplemented/);
 });
+
+test('a supply below the threshold resets the chip while the detector is on', () => {
+  const { chip } = board();
+  const it = new ChipReset(chip);
+  const lowest = () => [...Array(1200).keys()].find((millivolts) => !it.browns(millivolts));
+  assert.equal(lowest(), 860);
+  for (const [step, millivolts] of [[0, 473], [0b1011, 946], [15, 1118]]) {
+    it.writeUint32(4, (step << 4) | 1);
+    assert.equal(lowest(), millivolts);
+    it.writeUint32(4, step << 4);
+    assert.equal(lowest(), 0);
+  }
+});

@@ -7,7 +7,7 @@ import { parseArgs } from 'node:util';
 import { setImmediate, setTimeout } from 'node:timers/promises';
 import { allowed } from './allow.mjs';
 import { Check } from './check.mjs';
-import { BOD, CHIP_RESET_BASE } from './chip_reset.mjs';
+import { BOD } from './chip_reset.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
 import { Link } from './link.mjs';
@@ -83,7 +83,7 @@ function statistics(machine, garment, link, started) {
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
       uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
-    marks: machine.marks, check: garment?.check, brown_out: machine.chip.peripherals[CHIP_RESET_BASE].kept[BOD],
+    marks: machine.marks, check: garment?.check, brown_out: machine.supply.kept[BOD],
   };
 }
 
@@ -121,11 +121,11 @@ async function main() {
   const overUsb = options.link === 'usb';
   const image = loadImage(options.image);
   const board = {
-    /** The power comes, or the watchdog has reset the machine `after` which another one goes on. */
-    start(after) {
+    /** The power comes, or the watchdog has reset the machine `after` which another one goes on, or it has `browned` out. */
+    start(after, browned) {
       const machine = new Machine(image, {
         allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
-        onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after, micros: Number(options.clock),
+        onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after, browned, micros: Number(options.clock),
         onLockUp: (us) => say({ lockup: us }),
       });
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
@@ -174,6 +174,13 @@ async function main() {
     sink: () => {
       board.machine.sink();
       say({ sink: board.machine.micros });
+    },
+    /** The core's supply sags for a moment, mV. */
+    sag: (millivolts) => {
+      const { machine } = board;
+      const browns = machine.supply.browns(Number(millivolts));
+      if (browns) board.start(machine, true);
+      say({ sag: { browns, us: machine.micros } });
     },
     hang: () => {
       board.machine.hung = true;

@@ -38,13 +38,13 @@ export class Machine {
   /**
    * `allowed(text)`: whether an emulator warning is expected. `onByte`: a byte left on UART0. `onBytes`: bytes came over USB.
    * `onKnown`: what the board said on USB that it is. `restarts`: a reset by the watchdog is a `WatchdogReset`,
-   * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that the watchdog has reset,
-   * whose flash and scratch registers this one has; all else begins anew, its memory and its time included, which is
+   * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that has been reset, whose flash
+   * this one has, and its scratch registers unless `browned`; all else begins anew, its memory and its time included, which is
    * `micros` then. `onLockUp(us)`: the core has met memory that nobody may access, and does nothing more.
    */
   constructor(
     { flash, symbols },
-    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, micros = 0, onLockUp = () => {} } = {},
+    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, browned = false, micros = 0, onLockUp = () => {} } = {},
   ) {
     const chip = new RP2040();
     Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts, onLockUp });
@@ -69,9 +69,11 @@ export class Machine {
     });
     this.pads = new Pads(chip);
     this.mpu = new Mpu(chip.ppb);
-    chip.peripherals[CHIP_RESET_BASE] = new ChipReset(chip, after?.chip.peripherals[CHIP_RESET_BASE].cause ?? cause);
+    const before = browned ? undefined : after?.chip.peripherals[CHIP_RESET_BASE].cause;
+    this.supply = chip.peripherals[CHIP_RESET_BASE] = new ChipReset(chip, before ?? (browned ? 'power' : cause));
     if (after === undefined) for (const { offset, bytes } of flash) chip.flash.set(bytes, offset);
-    else this.follow(after.chip);
+    else chip.flash.set(after.chip.flash);
+    if (after !== undefined && !browned) this.follow(after.chip);
     this.rom = new Rom(chip);
     this.guard();
     this.tapMemory();
@@ -94,9 +96,8 @@ export class Machine {
     this.onLockUp(this.micros);
   }
 
-  /** What outlasts a reset by the watchdog. */
+  /** What outlasts a reset by the watchdog, besides the flash. */
   follow(before) {
-    this.chip.flash.set(before.flash);
     const [from, to] = [before, this.chip].map((chip) => chip.peripherals[WATCHDOG_BASE]);
     to.scratchData.set(from.scratchData);
     to.reason = from.reason;

@@ -97,7 +97,7 @@ pub fn python() -> Result<PathBuf, String> {
     let mut make = Command::new("python3");
     make.args(["-m", "venv"]).arg(&folder);
     let mut install = Command::new(&python);
-    install.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted);
+    install.args(["-m", "pip", "install", "--quiet", "--require-hashes", "--requirement"]).arg(&wanted);
     for command in [&mut make, &mut install] {
         process::output(command).ok_or(format!("`{}` failed", process::shown(command)))?;
     }

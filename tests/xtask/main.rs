@@ -19,6 +19,7 @@ mod process;
 mod recordings;
 mod report;
 mod sizes;
+mod supply;
 mod targets;
 mod uf2;
 mod ways;
@@ -44,6 +45,9 @@ usage: cargo xtask COMMAND
   mutants [--count N] [--seed S] [--write]
                         change the core and the store in N places (200), chosen by a seed, one at a time: do the tests notice?
                         --write: and write it down, docs/bench/mutants.txt
+  soak [--minutes N]    boards that break and come back, recorded, watched and set anew for 20 minutes, or N: what grows, what is lost?
+  supply [--may-miss advisories]
+                        what dependencies are: sources, licences, advisories; and lists of them, target/sbom
   test [--recorded] [--only NAME] [--may-miss NAME]
                         every check, two at a time; one that cannot run fails the run, unless it is named as one that may be missing;
                         --recorded, or TAXEL_DATA set to folders of recordings: and those that need recordings
@@ -76,6 +80,8 @@ fn main() -> ExitCode {
         Some("campaign") => campaign::run(rest).map(|()| true),
         Some("fuzz") => fuzz::run(rest),
         Some("mutants") => mutants::run(rest).map(|()| true),
+        Some("soak") => targets::soak(rest).map(|()| true),
+        Some("supply") => supply::run(rest),
         Some("test") => checks::run(rest),
         _ => Err(USAGE.to_string()),
     };

@@ -14,6 +14,9 @@ pub type End<T = ()> = Result<Result<T, String>, String>;
 pub const APART: &[(&str, &[&str])] =
     &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python", "disk"])];
 
+/// Minutes of a soak where nobody says otherwise.
+const SOAK_MINUTES: f64 = 20.0;
+
 /// What all of the workspace's builds have in common, so that none builds anew what another has built: cargo
 /// takes the features of dependencies from all packages and targets that it is asked for.
 pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
@@ -112,6 +115,23 @@ pub fn on_failing_disk(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String
     process::run_into(&mut build, log).map_err(|why| format!("what makes calls fail is not built: {why}"))?;
     let library = paths::target().join("debug/libtaxel_disk.so").to_string_lossy().into_owned();
     Ok(printed("disk", &[], log, &[variables, &[("TAXEL_DISK", library.as_str())]].concat()))
+}
+
+/// `cargo xtask soak`: boards that break and come back, recorded, watched and set anew for minutes.
+pub fn soak(args: &[String]) -> Result<(), String> {
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let minutes = match args[..] {
+        [] => SOAK_MINUTES,
+        ["--minutes", minutes] => minutes
+            .parse()
+            .ok()
+            .filter(|minutes| (0.1..1e5).contains(minutes))
+            .ok_or("--minutes takes a number above 0.1")?,
+        _ => return Err(crate::USAGE.into()),
+    };
+    let mut command = test_target("library");
+    command.args(["--", "--nocapture", "session::soak::"]).env("TAXEL_SOAK_MINUTES", minutes.to_string());
+    process::run(&mut command)
 }
 
 /// Recordings through the pipeline, and recorded touches, recognised with people and days kept apart.

@@ -6,6 +6,7 @@ use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews, request_name};
 use crate::fault::Fault;
 use crate::output::Output;
+use crate::passed::Passed;
 use crate::session::{Returns, Session, Turn};
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
@@ -16,7 +17,6 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 
 /// How long a board that says nothing, or a source that is gone, is waited for where somebody watches for some
@@ -145,9 +145,9 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
 /// When enough has come.
 struct Limits {
     frames: Option<u64>,
-    /// Time that is left, us.
-    left_us: Option<u64>,
-    last: Option<Micros>,
+    /// Time that may pass, us.
+    longest_us: Option<u64>,
+    passed: Passed,
     /// The codes of the last image, which come after it, are waited for.
     codes: bool,
     ended: bool,
@@ -155,24 +155,21 @@ struct Limits {
 
 impl Limits {
     fn of(args: &LiveArgs) -> Limits {
-        let left_us = args.seconds.map(|seconds| (seconds * 1e6) as u64);
-        Limits { frames: args.frames, left_us, last: None, codes: args.taxel.is_some(), ended: false }
+        let longest_us = args.seconds.map(|seconds| (seconds * 1e6) as u64);
+        let (frames, codes) = (args.frames, args.taxel.is_some());
+        Limits { frames, longest_us, passed: Passed::default(), codes, ended: false }
     }
 
     fn reached(&mut self, event: &Event) -> bool {
         if self.frames == Some(0) {
             self.ended |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
         } else if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
-            // A board that starts anew begins at 0: no time passes by that.
-            let passed = time.since(self.last.replace(*time).unwrap_or(*time));
             if let Some(frames) = &mut self.frames {
                 *frames = frames.saturating_sub(1);
                 self.ended |= *frames == 0 && !self.codes;
             }
-            if let Some(left) = &mut self.left_us {
-                *left = left.saturating_sub(passed);
-                self.ended |= *left == 0;
-            }
+            let passed_us = self.passed.until(time.0);
+            self.ended |= self.longest_us.is_some_and(|longest| passed_us >= longest);
         }
         self.ended
     }

@@ -12,6 +12,7 @@ use crate::client::{Client, Event, Worn};
 use crate::fault::Fault;
 use crate::live::Show;
 use crate::output::{Begun, Force, Output};
+use crate::passed::Passed;
 use crate::progress::{self, Unit};
 use crate::stop;
 use anyhow::{Context, Result};
@@ -60,8 +61,8 @@ pub struct Recorder {
     stamps: Stamps,
     standing: Standing,
     worn: Option<Worn>,
-    /// The board's time at which the file began, us.
-    began_us: Option<u64>,
+    /// The board's time since the file began.
+    passed: Passed,
     /// The board's time at which the chunk began, us.
     chunk_us: u64,
     kept: Instant,
@@ -86,7 +87,7 @@ impl Recorder {
             stamps: Stamps::start(),
             standing: Standing::default(),
             worn: None,
-            began_us: None,
+            passed: Passed::default(),
             chunk_us: 0,
             kept: Instant::now(),
             progress: Progress::default(),
@@ -142,8 +143,7 @@ impl Recorder {
         self.standing.take(client, event);
         self.rotate(client, event, stamp)?;
         self.tally[0] = Tally::of(client.counts());
-        let began = *self.began_us.get_or_insert(stamp.board_us);
-        self.progress.take(client, event, stamp.board_us.saturating_sub(began));
+        self.progress.take(client, event, self.passed.until(stamp.board_us));
         let Some(file) = &mut self.file else { return Ok(()) };
         if *event == Event::Hello && client.worn() != self.worn.as_ref() {
             self.worn = client.worn().cloned();
@@ -163,7 +163,7 @@ impl Recorder {
     fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Event::Frame { alone: true, .. } = event else { return Ok(()) };
         let Some(file) = &self.file else { return Ok(()) };
-        let passed = stamp.board_us.saturating_sub(self.began_us.unwrap_or(stamp.board_us));
+        let passed = self.passed.until(stamp.board_us);
         let due = match self.plan.rotate {
             None => false,
             Some(Rotate::After(time)) => passed >= time.as_micros() as u64,
@@ -176,7 +176,7 @@ impl Recorder {
         self.tally[1] = self.tally[0];
         self.number += 1;
         self.path = numbered(&self.plan.path, self.number);
-        self.began_us = None;
+        self.passed = Passed::default();
         let file = self.file.insert(begin(&self.plan, &self.path)?);
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;

@@ -1,12 +1,7 @@
-//! What is in a recording: told at its end, so that a reader need not go through it.
+//! What is in a recording.
 
-use super::append::{HEAD, append, sized, write};
-use super::chunk::{Closed, is_known};
-use anyhow::Result;
-use mcap::MAGIC;
-use mcap::records::{
-    AttachmentIndex, Channel, DataEnd, Footer, MetadataIndex, SchemaHeader, Statistics, SummaryOffset, op,
-};
+use super::chunk::Closed;
+use mcap::records::{AttachmentIndex, Channel, MetadataIndex, SchemaHeader};
 use std::collections::BTreeMap;
 
 /// A channel, with the name of its schema.
@@ -87,85 +82,4 @@ impl Contents {
         self.attachments.retain(|attachment| attachment.offset + attachment.length <= length);
         self.metadata.retain(|metadata| metadata.offset + metadata.length <= length);
     }
-
-    /// The end of a file whose records end at `offset`: summary, its offsets, footer.
-    pub(super) fn end(&self, offset: u64) -> Result<Vec<u8>> {
-        let mut out = Vec::new();
-        append(&mut out, op::DATA_END, &DataEnd::default(), &[])?;
-        let start = out.len();
-        let mut groups = Vec::new();
-        let mut group = |out: &mut Vec<u8>, group_opcode, from: usize| {
-            let (group_start, group_length) = (offset + from as u64, (out.len() - from) as u64);
-            if group_length > 0 {
-                groups.push(SummaryOffset { group_opcode, group_start, group_length });
-            }
-            out.len()
-        };
-        let mut from = start;
-        for (header, data) in self.schemas.values() {
-            append(&mut out, op::SCHEMA, header, &sized(data))?;
-        }
-        from = group(&mut out, op::SCHEMA, from);
-        for channel in self.channels.values() {
-            append(&mut out, op::CHANNEL, channel, &[])?;
-        }
-        from = group(&mut out, op::CHANNEL, from);
-        // Of a chunk that cannot be read, only its index tells how many messages it holds.
-        let is_counted = |chunk: &Closed| !chunk.counts.is_empty() || is_known(&chunk.index.compression);
-        if self.chunks.iter().all(is_counted) {
-            append(&mut out, op::STATISTICS, &self.statistics(), &[])?;
-        }
-        from = group(&mut out, op::STATISTICS, from);
-        for chunk in &self.chunks {
-            append(&mut out, op::CHUNK_INDEX, &chunk.index, &[])?;
-        }
-        from = group(&mut out, op::CHUNK_INDEX, from);
-        for index in &self.attachments {
-            append(&mut out, op::ATTACHMENT_INDEX, index, &[])?;
-        }
-        from = group(&mut out, op::ATTACHMENT_INDEX, from);
-        for index in &self.metadata {
-            append(&mut out, op::METADATA_INDEX, index, &[])?;
-        }
-        group(&mut out, op::METADATA_INDEX, from);
-        let offsets = out.len();
-        for group in &groups {
-            append(&mut out, op::SUMMARY_OFFSET, group, &[])?;
-        }
-        footer(&mut out, offset, start, offsets)?;
-        Ok(out)
-    }
-
-    fn statistics(&self) -> Statistics {
-        let counts = self.counts();
-        let [message_start_time, message_end_time] = self.stretch().unwrap_or([0; 2]);
-        Statistics {
-            message_count: counts.values().sum(),
-            schema_count: self.schemas.len() as u16,
-            channel_count: self.channels.len() as u32,
-            attachment_count: self.attachments.len() as u32,
-            metadata_count: self.metadata.len() as u32,
-            chunk_count: self.chunks.len() as u32,
-            message_start_time,
-            message_end_time,
-            channel_message_counts: counts,
-        }
-    }
-}
-
-/// The footer, whose checksum is that of the summary and of itself up to there, and the last bytes.
-fn footer(out: &mut Vec<u8>, offset: u64, start: usize, offsets: usize) -> Result<()> {
-    let mut footer = Footer {
-        summary_start: offset + start as u64,
-        summary_offset_start: offset + offsets as u64,
-        summary_crc: 0,
-    };
-    let at = out.len();
-    append(out, op::FOOTER, &footer, &[])?;
-    out.truncate(out.len() - size_of::<u32>());
-    footer.summary_crc = crc32fast::hash(&out[start..]);
-    out.truncate(at + HEAD);
-    write(out, &footer)?;
-    out.extend_from_slice(MAGIC);
-    Ok(())
 }

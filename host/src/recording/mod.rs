@@ -9,8 +9,10 @@
 //! | `store.rs` | what is written to: a file, which can be cut back |
 //! | `append.rs` | one record as bytes |
 //! | `chunk.rs` | messages of a second, compressed, with their index |
-//! | `contents.rs` | what is in a file: the summary at its end |
+//! | `contents.rs` | what is in a file |
+//! | `ending.rs` | the end of a file: its summary and its footer |
 //! | `writer.rs` | a file being written |
+//! | `written.rs` | the chunks of such a file, found again for its end |
 //! | `records.rs` | the records of a file, one after the other |
 //! | `messages.rs` | its messages |
 //! | `damage.rs` | what is damaged in the middle of a file, passed over |
@@ -31,6 +33,7 @@ mod chunk;
 mod clips;
 mod contents;
 mod damage;
+mod ending;
 mod found;
 mod lz4;
 mod messages;
@@ -44,6 +47,7 @@ mod store;
 mod summary;
 mod texts;
 mod writer;
+mod written;
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@
 use super::append::{append, sized};
 use super::chunk::{Closed, Index};
 use super::contents::Contents;
+use super::ending::Ending;
 use super::salvage::{Kind, Opened, Piece, Step, Walk};
 use super::scan::Scan;
 use crate::progress::{Progress, Unit};
@@ -34,8 +35,7 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
             Step::Damage(_) => rebuilt.follows_foreign = false,
         }
     }
-    let end = rebuilt.contents.end(rebuilt.length)?;
-    rebuilt.put(&end)?;
+    rebuilt.end()?;
     Ok(rebuilt.length)
 }
 
@@ -167,6 +167,13 @@ impl<W: Write> Rebuilt<'_, W> {
         self.put(&(body.len() as u64).to_le_bytes())?;
         self.put(body)?;
         Ok((offset, self.length - offset))
+    }
+
+    fn end(&mut self) -> Result<()> {
+        let mut ending = Ending::begin(&self.contents, self.length)?;
+        self.contents.chunks.iter().try_for_each(|chunk| ending.chunk(chunk))?;
+        let end = ending.finish(&self.contents)?;
+        self.put(&end)
     }
 
     fn put(&mut self, bytes: &[u8]) -> Result<()> {

@@ -1,7 +1,7 @@
 //! What a recording is written to.
 
 use std::fs::File;
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 /// Bytes that are appended, and cut back where they could not be written whole.
 pub trait Store: Write {
@@ -10,6 +10,13 @@ pub trait Store: Write {
 
     /// Forgets what lies behind the first `length` bytes; the next ones follow there.
     fn cut(&mut self, length: u64) -> io::Result<()>;
+
+    /// Whether it can be read: what goes through a pipe or a socket cannot.
+    fn is_readable(&self) -> bool;
+
+    /// Reads what was written, from `offset` on: how many bytes there were. What is written next follows what was
+    /// written last, as before.
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
 }
 
 impl Store for File {
@@ -20,5 +27,22 @@ impl Store for File {
     fn cut(&mut self, length: u64) -> io::Result<()> {
         self.set_len(length)?;
         self.seek(SeekFrom::Start(length)).map(|_| ())
+    }
+
+    fn is_readable(&self) -> bool {
+        self.metadata().is_ok_and(|known| known.is_file())
+    }
+
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        let place = self.stream_position()?;
+        self.seek(SeekFrom::Start(offset))?;
+        let mut count = 0;
+        while count < bytes.len() {
+            match self.read(&mut bytes[count..])? {
+                0 => break,
+                read => count += read,
+            }
+        }
+        self.seek(SeekFrom::Start(place)).map(|_| count)
     }
 }

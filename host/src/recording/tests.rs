@@ -3,7 +3,7 @@
 use super::append::append;
 use super::{Format, Messages, Skipped, Store, Writer, chunk_indexes, repair, scan};
 use mcap::Summary;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// A disk with so much room.
@@ -36,6 +36,14 @@ impl Store for &mut Disk {
     fn cut(&mut self, length: u64) -> io::Result<()> {
         self.bytes.truncate(length as usize);
         Ok(())
+    }
+
+    fn is_readable(&self) -> bool {
+        true
+    }
+
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        (&self.bytes[offset as usize..]).read(bytes)
     }
 }
 
@@ -267,6 +275,14 @@ impl Store for &mut Failing {
         self.bytes.truncate(length as usize);
         self.at = length as usize;
         Ok(())
+    }
+
+    fn is_readable(&self) -> bool {
+        true
+    }
+
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        (&self.bytes[offset as usize..]).read(bytes)
     }
 }
 

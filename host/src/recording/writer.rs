@@ -7,7 +7,9 @@
 use super::append::{append, sized, write};
 use super::chunk::Chunk;
 use super::contents::Contents;
+use super::ending::Ending;
 use super::store::Store;
+use super::written::Written;
 use anyhow::Result;
 use mcap::MAGIC;
 use mcap::records::{
@@ -19,6 +21,8 @@ use std::io::{self, ErrorKind};
 
 /// Plain bytes of a chunk after which it is closed whatever the time.
 const LARGE: usize = 4 << 20;
+/// Bytes of the end that are written at once.
+const PIECE: usize = 1 << 16;
 
 /// How messages of a channel are to be read.
 #[derive(Debug, Clone, Copy)]
@@ -37,10 +41,12 @@ pub struct Format<'a> {
 #[derive(Debug)]
 pub struct Writer<S: Store> {
     store: S,
+    is_readable: bool,
     /// Bytes that are written, all of them whole.
     length: u64,
     /// Bytes of a record that was not written whole may lie behind them.
     torn: bool,
+    /// Without the chunks, which are found again for the end, where what was written can be read.
     contents: Contents,
     chunk: Chunk,
     sequences: BTreeMap<u16, u32>,
@@ -50,6 +56,7 @@ impl<S: Store> Writer<S> {
     /// Begins a file. `profile` is MCAP's: `ros2`, or empty.
     pub fn create(store: S, profile: &str) -> Result<Writer<S>> {
         let mut writer = Writer {
+            is_readable: store.is_readable(),
             store,
             length: 0,
             torn: false,
@@ -173,7 +180,9 @@ impl<S: Store> Writer<S> {
         let mut out = Vec::new();
         let Some(closed) = self.chunk.close(self.length, &mut out)? else { return Ok(()) };
         self.put(&out)?;
-        self.contents.chunks.push(closed);
+        if !self.is_readable {
+            self.contents.chunks.push(closed);
+        }
         Ok(())
     }
 
@@ -190,20 +199,68 @@ impl<S: Store> Writer<S> {
         let closed = self.close();
         let full = self.length;
         loop {
-            let end = self.contents.end(self.length)?;
-            let Err(error) = self.put(&end) else { break };
-            let freed = full - self.length;
-            match self.contents.chunks.last() {
-                Some(last) if is_full(&error) && freed < end.len() as u64 => {
-                    let start = last.index.chunk_start_offset;
-                    self.cut(start)?;
-                    self.contents.cut(start);
-                }
-                _ => return Err(error),
+            let start = self.length;
+            let Err(error) = self.end() else { break };
+            let fitted = self.length - start;
+            if self.cut(start).is_err() || !is_full(&error) {
+                return Err(error);
             }
+            let needed = self.end_length()?;
+            if full - start >= needed {
+                return Err(error);
+            }
+            // A piece that did not fit may have all but fitted.
+            let missing = needed.saturating_sub(fitted + PIECE as u64).max(1);
+            let Some(start) = self.chunk_before(start.saturating_sub(missing))? else { return Err(error) };
+            self.cut(start)?;
+            self.contents.cut(start);
         }
         self.store.keep()?;
         closed.map(|()| self.length)
+    }
+
+    /// Writes the end, or a part of it.
+    fn end(&mut self) -> Result<()> {
+        self.tell(|writer, piece| writer.put(&piece))
+    }
+
+    /// Bytes that the end takes.
+    fn end_length(&mut self) -> Result<u64> {
+        let mut length = 0;
+        self.tell(|_, piece| {
+            length += piece.len() as u64;
+            Ok(())
+        })?;
+        Ok(length)
+    }
+
+    /// Gives the pieces of the end, one after the other.
+    fn tell(&mut self, mut give: impl FnMut(&mut Self, Vec<u8>) -> Result<()>) -> Result<()> {
+        let mut ending = Ending::begin(&self.contents, self.length)?;
+        self.contents.chunks.iter().try_for_each(|chunk| ending.chunk(chunk))?;
+        let mut written = Written::until(if self.is_readable { self.length } else { 0 });
+        while let Some(chunk) = written.next_chunk(&mut self.store)? {
+            ending.chunk(&chunk)?;
+            if ending.waiting() >= PIECE {
+                give(self, ending.take())?;
+            }
+        }
+        let last = ending.finish(&self.contents)?;
+        give(self, last)
+    }
+
+    /// Where the last chunk begins that begins at `offset` or before it.
+    fn chunk_before(&mut self, offset: u64) -> Result<Option<u64>> {
+        let mut written = Written::until(self.length);
+        let mut last = None;
+        while let Some(chunk) = written.next_chunk(&mut self.store)? {
+            let start = chunk.index.chunk_start_offset;
+            if start > offset {
+                break;
+            }
+            last = Some(start);
+        }
+        Ok(last)
     }
 
     /// Bytes so far, those of the last moment not included.

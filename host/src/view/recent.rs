@@ -1,10 +1,11 @@
 //! The bytes of the last half minute, as a file that `--source file:FILE` reads.
 
+use crate::passed::Passed;
 use std::collections::VecDeque;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};
 
-/// How long bytes are kept, us of the board.
+/// How long bytes are kept, us of the board. Where it starts anew, its clock does, and time goes on from where it was.
 const KEPT: u64 = 30_000_000;
 /// How many of them at most, whatever the board says of its time.
 const BYTES: usize = 64 << 20;
@@ -15,8 +16,8 @@ const LONGEST: usize = 8192;
 #[derive(Debug)]
 struct Piece {
     bytes: Vec<u8>,
-    /// Time of the last image so far.
-    time: Micros,
+    /// The board's time that had passed then, us.
+    at: u64,
     /// Its number on the line.
     seq: u32,
     /// An image that stands alone.
@@ -35,6 +36,9 @@ pub struct Recent {
     garment: Vec<u8>,
     pieces: VecDeque<Piece>,
     held: usize,
+    /// Time of the last image.
+    newest: Micros,
+    passed: Passed,
 }
 
 impl Recent {
@@ -48,9 +52,8 @@ impl Recent {
             };
             let frame = self.begun.clone();
             self.begun.clear();
-            let before = self.pieces.back().map_or(Micros(0), |piece| piece.time);
             let Some((seq, report)) = message.ok().and_then(read) else { continue };
-            let (time, key) = match &report {
+            let key = match &report {
                 Report::Hello(hello) => {
                     if self.garment != hello.garment {
                         self.garment = hello.garment.to_vec();
@@ -59,19 +62,23 @@ impl Recent {
                         self.held = 0;
                     }
                     self.hello = postcard::to_allocvec(&report).unwrap_or_default();
-                    (before, false)
+                    false
                 }
-                Report::Frame(image) => (image.time, image.base.is_none()),
-                _ => (before, false),
+                Report::Frame(image) => {
+                    self.newest = image.time;
+                    image.base.is_none()
+                }
+                _ => false,
             };
             self.held += frame.len();
-            self.pieces.push_back(Piece { bytes: frame, time, seq, key });
-            self.forget(time);
+            let at = self.passed.until(self.newest.0);
+            self.pieces.push_back(Piece { bytes: frame, at, seq, key });
+            self.forget(at);
         }
     }
 
-    fn forget(&mut self, now: Micros) {
-        while self.pieces.front().is_some_and(|oldest| now.since(oldest.time) > KEPT || self.held > BYTES) {
+    fn forget(&mut self, now: u64) {
+        while self.pieces.front().is_some_and(|oldest| now - oldest.at > KEPT || self.held > BYTES) {
             let gone = self.pieces.pop_front();
             self.held -= gone.map_or(0, |piece| piece.bytes.len());
         }
@@ -84,7 +91,7 @@ impl Recent {
 
     /// Time of the last image.
     pub fn newest(&self) -> Micros {
-        self.pieces.back().map_or(Micros(0), |piece| piece.time)
+        self.newest
     }
 
     /// A `Hello` and all that came from the first image on that stands alone; none before there is one.
@@ -155,8 +162,16 @@ mod tests {
             .collect();
         assert_eq!((frames.first(), frames.last(), frames.len()), (Some(&940), Some(&1234), 295));
         assert_eq!((client.counts().lost, client.counts().messages), (0, 296));
+        // The board starts anew every eight seconds: its clock does, too.
+        let mut seq = 1234;
+        for image in (0..20).flat_map(|_| (1..=80).map(image)) {
+            seq += 1;
+            recent.push(&sent(seq, &image));
+        }
+        let kept = recent.recording().unwrap().iter().filter(|byte| **byte == 0).count();
+        assert!((300..=330).contains(&kept), "{kept}");
         // Another garment: nothing of before is of use.
-        recent.push(&sent(1235, &hello(b"two")));
+        recent.push(&sent(seq + 1, &hello(b"two")));
         assert!(recent.recording().is_none());
     }
 }

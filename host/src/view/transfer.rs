@@ -39,6 +39,14 @@ impl<W: Write> Store for &mut Transfer<W> {
     fn cut(&mut self, _: u64) -> io::Result<()> {
         Err(io::ErrorKind::BrokenPipe.into())
     }
+
+    fn is_readable(&self) -> bool {
+        false
+    }
+
+    fn look(&mut self, _: u64, _: &mut [u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
 }
 
 #[cfg(test)]

@@ -5,3 +5,4 @@ mod links;
 mod lost;
 mod restored;
 mod rig;
+mod soak;

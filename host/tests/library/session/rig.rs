@@ -38,6 +38,8 @@ pub struct Rig {
     pub pins: Pins,
     /// It reads nothing.
     pub deaf: bool,
+    /// What its converter sees.
+    pub codes: [Code; 64],
 }
 
 impl Rig {
@@ -55,6 +57,7 @@ impl Rig {
             plugged: true,
             pins: Pins::ANY,
             deaf: false,
+            codes: [Code(100); 64],
         }
     }
 
@@ -117,7 +120,7 @@ impl Rig {
             match self.board.step(now, Input::Tick, &mut ()) {
                 Some(Job::Scan(_)) => {
                     let report = ScanReport { start: now, duration_us: 500, ..ScanReport::default() };
-                    let codes = [Code(100); 64];
+                    let codes = self.codes;
                     self.board.step(now, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
                     self.scanned = Instant::now();
                 }

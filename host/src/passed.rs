@@ -1,0 +1,39 @@
+//! Time that passes on a board, whose clock begins anew when it starts anew.
+
+use std::time::Duration;
+
+/// A clock that goes back by more has begun anew; messages may come in another order than that of their times.
+const ANEW: Duration = Duration::from_secs(1);
+
+/// The time that has passed since the first message.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Passed {
+    last: Option<u64>,
+    us: u64,
+}
+
+impl Passed {
+    /// A message of this time, us of the board, has come: the time that has passed until then, us. By a start
+    /// none passes.
+    pub fn until(&mut self, time_us: u64) -> u64 {
+        let last = self.last.unwrap_or(time_us);
+        self.us = self.us.saturating_add(time_us.saturating_sub(last));
+        let is_anew = last.saturating_sub(time_us) > ANEW.as_micros() as u64;
+        self.last = Some(if is_anew { time_us } else { last.max(time_us) });
+        self.us
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_takes_no_time_and_the_order_of_messages_does_not_matter() {
+        let mut passed = Passed::default();
+        let times = [7_000_000, 7_000_500, 7_000_100, 7_000_900, 300, 1_000, u64::MAX, 5];
+        let until = times.map(|time| passed.until(time));
+        assert_eq!(until[..6], [0, 500, 500, 900, 900, 1_600]);
+        assert_eq!(until[6..], [u64::MAX; 2]);
+    }
+}

@@ -1,0 +1,95 @@
+//! `cargo xtask supply`: where dependencies come from, what their licences allow, what is known against them, and
+//! a list of them for each thing that is given away.
+
+use crate::{install, paths, process};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Packages with a lock of their own: the workspace, the image, the fuzzer's targets.
+const LOCKED: [&str; 3] = ["Cargo.toml", "firmware/Cargo.toml", "fuzz/targets/Cargo.toml"];
+/// What cargo-deny is asked. The list of advisories is on the network; the rest needs nothing.
+const CHECKS: [&str; 4] = ["licenses", "sources", "bans", ADVISORIES];
+const ADVISORIES: &str = "advisories";
+/// What it says where that list cannot be had.
+const NO_LIST: &str = "failed to fetch advisory database";
+/// What is given away, and the folder of its lock.
+const GIVEN: [(&str, &str); 2] = [("taxel", "."), ("taxel-firmware", "firmware")];
+
+/// How a check ended.
+#[derive(Debug, PartialEq, Eq)]
+enum End {
+    Passed,
+    Failed,
+    NotRun,
+}
+
+/// Asks everything, and writes the lists. True: nothing is wrong, and all was asked, or what was not may be missed.
+pub fn run(args: &[String]) -> Result<bool, String> {
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let may_miss = match args[..] {
+        [] => false,
+        ["--may-miss", ADVISORIES] => true,
+        _ => return Err(crate::USAGE.into()),
+    };
+    let deny = install::cargo_tool("cargo-deny", "0.20.2").map_err(|why| format!("not run: {why}"))?;
+    let log = paths::log("supply")?;
+    let mut is_good = true;
+    for manifest in LOCKED {
+        for check in CHECKS {
+            let end = asked(&deny, manifest, check, &log);
+            println!("{manifest}: {check}: {}", end.words());
+            is_good &= end == End::Passed || end == End::NotRun && may_miss;
+        }
+    }
+    println!("all that was said: {}", log.display());
+    for (package, folder) in GIVEN {
+        println!("what {package} is made of: {}", listed(package, folder)?.display());
+    }
+    Ok(is_good)
+}
+
+impl End {
+    fn words(&self) -> &'static str {
+        match self {
+            End::Passed => "passed",
+            End::Failed => "FAILED",
+            End::NotRun => "not run: the list of advisories cannot be had",
+        }
+    }
+}
+
+/// Asks cargo-deny about the dependencies of a package.
+fn asked(deny: &Path, manifest: &str, check: &str, log: &Path) -> End {
+    let mut command = Command::new(deny);
+    command.args(["--locked", "--manifest-path"]).arg(paths::root().join(manifest));
+    command.arg("--config").arg(paths::root().join("deny.toml")).args([
+        "check",
+        "--hide-inclusion-graph",
+        check,
+    ]);
+    let said = || std::fs::read_to_string(log).unwrap_or_default();
+    let before = said().len();
+    match process::run_into(&mut command, log) {
+        Ok(()) => End::Passed,
+        Err(_) if check == ADVISORIES && said().get(before..).is_some_and(|said| said.contains(NO_LIST)) => {
+            End::NotRun
+        }
+        Err(_) => End::Failed,
+    }
+}
+
+/// Writes the list of what a package is made of, in the form of CycloneDX.
+fn listed(package: &str, folder: &str) -> Result<PathBuf, String> {
+    let tool = install::cargo_tool("cargo-sbom", "0.10.0").map_err(|why| format!("not run: {why}"))?;
+    let mut command = Command::new(tool);
+    command.args(["sbom", "--output-format", "cyclone_dx_json_1_6", "--cargo-package", package]);
+    command.arg("--project-directory").arg(paths::root().join(folder));
+    let list = process::output(&mut command).ok_or(format!("`{}` failed", process::shown(&command)))?;
+    let path = paths::target().join(format!("sbom/{package}.cdx.json"));
+    let write = || {
+        std::fs::create_dir_all(path.parent().expect("it lies in a folder"))?;
+        std::fs::write(&path, list)
+    };
+    write().map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(path)
+}
