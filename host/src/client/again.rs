@@ -4,22 +4,28 @@
 use super::wanted::Wish;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
-use taxel_core::wire::Request;
 
 /// How long an answer may take before the request is made again, and how long that of a tare, which comes when
 /// it is done.
 const PATIENCE: Duration = Duration::from_secs(2);
-const TARE: Duration = Duration::from_secs(90);
+const TARE_PATIENCE: Duration = Duration::from_secs(90);
 /// Times that a request is made.
 const TRIES: u8 = 3;
+/// Number of `Tare`.
+const TARE: u8 = 2;
 /// Number in the answer to a request that could not be read.
 const UNREADABLE: u8 = 255;
 
 /// How it ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Restored {
-    /// All has been set: the numbers of the requests, in their order.
-    Done(Vec<u8>),
+    /// All has been set.
+    Done {
+        /// The numbers of the requests, in their order.
+        set: Vec<u8>,
+        /// Why there is no new tare. The board has a baseline in this life: it refuses none before it has.
+        untared: Option<String>,
+    },
     /// The board refuses a request of this number, and why.
     Refused(u8, String),
     /// The board does not answer a request of this number.
@@ -33,6 +39,7 @@ pub(super) struct Again {
     left: VecDeque<Wish>,
     waits: Option<Waiting>,
     done: Vec<u8>,
+    untared: Option<String>,
     ended: Option<Restored>,
 }
 
@@ -58,8 +65,7 @@ impl Again {
     /// The frame that is to be sent now, if one is.
     pub fn due(&mut self) -> Option<Vec<u8>> {
         if let Some(waiting) = &mut self.waits {
-            let patience =
-                if waiting.wish.number == (Request::Tare { frames: 0 }).number() { TARE } else { PATIENCE };
+            let patience = if waiting.wish.number == TARE { TARE_PATIENCE } else { PATIENCE };
             if waiting.since.elapsed() < patience {
                 return None;
             }
@@ -83,25 +89,25 @@ impl Again {
         let Some(waiting) = &mut self.waits else { return };
         if number == UNREADABLE {
             // The line was noisy: it is made again at once.
-            waiting.since = waiting.since.checked_sub(TARE).unwrap_or(waiting.since);
+            waiting.since = waiting.since.checked_sub(TARE_PATIENCE).unwrap_or(waiting.since);
             return;
         }
         if number != waiting.wish.number {
             return;
         }
         match refusal {
-            Some(why) => self.end(Restored::Refused(number, why.into())),
-            None => {
-                self.done.push(number);
-                self.waits = None;
-                self.end_if_over();
-            }
+            Some(why) if number == TARE => self.untared = Some(why.into()),
+            Some(why) => return self.end(Restored::Refused(number, why.into())),
+            None => self.done.push(number),
         }
+        self.waits = None;
+        self.end_if_over();
     }
 
     fn end_if_over(&mut self) {
         if !self.is_under_way() {
-            self.ended = Some(Restored::Done(std::mem::take(&mut self.done)));
+            let (set, untared) = (std::mem::take(&mut self.done), self.untared.take());
+            self.ended = Some(Restored::Done { set, untared });
         }
     }
 
@@ -118,6 +124,7 @@ impl Again {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use taxel_core::wire::Request;
 
     fn wish(number: u8) -> Wish {
         Wish { number, frame: vec![number, 0] }
@@ -138,14 +145,27 @@ mod tests {
         again.answered(UNREADABLE, None);
         assert_eq!(again.due(), Some(vec![3, 0]), "made again at once");
         again.answered(3, None);
-        assert_eq!((again.ended(), again.ended()), (Some(Restored::Done(vec![0, 1, 3])), None));
+        let done = |set: &[u8]| Some(Restored::Done { set: set.into(), untared: None });
+        assert_eq!((again.ended(), again.ended()), (done(&[0, 1, 3]), None));
         again.begin([wish(1), wish(3)].into());
         again.due();
         again.answered(1, Some("too many"));
         assert_eq!(again.ended(), Some(Restored::Refused(1, "too many".into())));
         assert!(!again.is_under_way() && again.due().is_none());
         again.begin(VecDeque::new());
-        assert_eq!(again.ended(), Some(Restored::Done(Vec::new())));
+        assert_eq!(again.ended(), done(&[]));
+    }
+
+    #[test]
+    fn a_tare_that_is_refused_ends_nothing() {
+        assert_eq!(Request::Tare { frames: 1 }.number(), TARE);
+        let mut again = Again::default();
+        again.begin([wish(0), wish(TARE), wish(12)].into());
+        for (number, refusal) in [(0, None), (TARE, Some("touched")), (12, None)] {
+            assert!(again.due().is_some());
+            again.answered(number, refusal);
+        }
+        assert_eq!(again.ended(), Some(Restored::Done { set: vec![0, 12], untared: Some("touched".into()) }));
     }
 
     #[test]

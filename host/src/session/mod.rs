@@ -286,8 +286,8 @@ impl Session {
                     "{label}: after it came back, the board does not answer {request}"
                 )))
             }
-            Restored::Done(requests) => {
-                let mut names: Vec<&str> = requests.iter().map(|number| request_name(*number)).collect();
+            Restored::Done { set, untared } => {
+                let mut names: Vec<&str> = set.iter().map(|number| request_name(*number)).collect();
                 names.dedup();
                 let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
                 let life = match (gap, self.client.has_lived_on()) {
@@ -295,7 +295,8 @@ impl Session {
                     (Some(gap), false) => format!("is back after {gap:.1} s, and its board had started anew"),
                     (None, _) => "has started anew, or did not hear".into(),
                 };
-                self.say(Level::Warn, format!("{label} {life}; set again: {}", names.join(", ")));
+                let untared = untared.map_or(String::new(), |why| format!("; no new tare: {why}"));
+                self.say(Level::Warn, format!("{label} {life}; set again: {}{untared}", names.join(", ")));
             }
         }
         Ok(())

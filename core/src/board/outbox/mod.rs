@@ -250,11 +250,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Once a second: `Hello` until `Start`, then `Health`.
     pub fn tick(&mut self, now: Micros) {
         const SECOND: u64 = 1_000_000;
-        if self.streaming {
-            self.health.get_or_insert(Micros(now.0 + SECOND));
-        } else {
-            self.hello.get_or_insert(Micros(now.0 + SECOND));
-        }
+        let next = if self.streaming { &mut self.health } else { &mut self.hello };
+        next.get_or_insert(Micros(now.0.saturating_add(SECOND)));
     }
 
     /// Takes a report of the time, unless one waits.

@@ -9,8 +9,11 @@ use taxel::client::Event;
 use taxel::fault::status;
 use taxel::live::{LiveArgs, Messages, watch};
 use taxel::session::{Returns, Session};
+use taxel_core::format::Code;
 use taxel_core::garment::Pins;
 use taxel_core::wire::Request;
+
+const TARE: Request<'_> = Request::Tare { frames: 8 };
 
 /// The error with which a session ends.
 fn ends(session: &mut Session) -> anyhow::Error {
@@ -115,6 +118,25 @@ fn a_board_that_does_not_read_holds_nothing_up() {
     let text = format!("{error:#}");
     assert!(text.starts_with("rig is gone: the board has read nothing for 5 s, and "), "{text}");
     assert_eq!(status(&error), 3);
+}
+
+#[test]
+fn a_tare_that_a_touched_board_refuses_when_it_is_back_ends_nothing() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    session.parts().0.start(8).unwrap();
+    until(&mut session, |event| matches!(event, Event::Answer { request, .. } if *request == TARE.number()));
+    rig.lock().unwrap().codes[20..23].fill(Code(2000));
+    until(&mut session, |event| matches!(event, Event::Contacts { .. }));
+    while session.client().contacts().is_empty() {
+        session.poll().unwrap();
+    }
+    // The link breaks before it is read.
+    session.parts().0.request(&TARE).unwrap();
+    rig.lock().unwrap().cut();
+    let text = told(&mut session, "is back after");
+    assert!(text.ends_with("; set again: start; no new tare: something touches the garment"), "{text}");
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
 }
 
 #[test]
