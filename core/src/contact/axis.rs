@@ -51,11 +51,10 @@ impl Normal {
 
     fn axis(&self, spread: &Spread, area: u32) -> Axis {
         let anisotropy = Q15::ratio(spread.d.into(), self.a.wrapping_add(self.b).into());
-        // Not below 32768 / area, rounded down, without the division.
+        // Not below 32768 / area, rounded down, without the division. Of no spread it is 0.
         let share = anisotropy.0 as u32;
         let clear = share >= 4915 || (share >= 655 && (share + 1).saturating_mul(area) > 32768);
-        let defined = spread.d > 0 && clear;
-        Axis { azimuth: defined.then(|| half_angle(spread.mixed, spread.difference)), anisotropy }
+        Axis { azimuth: clear.then(|| half_angle(spread.mixed, spread.difference)), anisotropy }
     }
 
     /// `12 (A + B - D) / m^2`: 24 times the variance across the major axis.

@@ -21,12 +21,34 @@ fn behind(side: Side, along: i64, deep: i64) -> (i64, i64) {
 }
 
 fn sewn(a: Side, b: Side, reversed: bool) -> Garment {
+    sewn_in_part([a, b], [0, 0], N as u16, reversed)
+}
+
+/// The same, sewn from these taxels of the two sides on.
+fn sewn_in_part([a, b]: [Side; 2], starts: [u16; 2], length: u16, reversed: bool) -> Garment {
     let mut garment = Garment::recorded(N as u16, N as u16);
     let other = taxel_core::garment::Panel { name: name("other"), ..garment.panels[0].clone() };
     garment.panels.push(other).unwrap();
-    let edge = |panel, side| Edge { panel, side, start: 0 };
-    garment.seams.push(Seam { a: edge(0, a), b: edge(1, b), length: N as u16, reversed }).unwrap();
+    let edge = |panel, side, start| Edge { panel, side, start };
+    let seam = Seam { a: edge(0, a, starts[0]), b: edge(1, b, starts[1]), length, reversed };
+    garment.seams.push(seam).unwrap();
     garment
+}
+
+/// How many parts hang together, of which `beside` tells which two are neighbours.
+fn parts<T: Copy>(taxels: &[T], beside: impl Fn(T, T) -> bool) -> usize {
+    let mut left: Vec<T> = taxels.to_vec();
+    let mut count = 0;
+    while let Some(first) = left.pop() {
+        count += 1;
+        let mut edge = vec![first];
+        while let Some(taxel) = edge.pop() {
+            let (near, far) = left.into_iter().partition(|other| beside(taxel, *other));
+            left = far;
+            edge.extend::<Vec<T>>(near);
+        }
+    }
+    count
 }
 
 proptest! {
@@ -66,6 +88,44 @@ proptest! {
         // Home is where most of it is, and the first panel in a tie.
         let mass = |panel: usize| rig.values[panel * 81..][..81].iter().map(|f| u32::from(*f)).sum::<u32>();
         prop_assert_eq!(frame.present[0].panel, u8::from(mass(1) > mass(0)));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Taxels here and there along both sides of a seam, which may be as long as the sides or shorter.
+    #[test]
+    fn what_lies_apart_at_a_seam_stays_apart(
+        sides in (0usize..4, 0usize..4),
+        reversed: bool,
+        [here, there] in prop::array::uniform2(prop::collection::vec(prop::bool::weighted(0.4), N as usize)),
+        [start_a, start_b, length] in prop::array::uniform3(0..N),
+    ) {
+        let (a, b) = (SIDES[sides.0], SIDES[sides.1]);
+        let length = (1 + length).min(N - start_a).min(N - start_b);
+        let starts = [start_a, start_b].map(|start| start as u16);
+        let mut rig = Rig::new(&sewn_in_part([a, b], starts, length as u16, reversed));
+        let mut taxels = Vec::new();
+        for (panel, side, row) in [(0u8, a, &here), (1, b, &there)] {
+            for (along, _) in (0..N).zip(row).filter(|(_, pressed)| **pressed) {
+                let (x, y) = behind(side, along, 0);
+                rig.set(panel, y as u16, x as u16, 1000);
+                taxels.push((panel, along));
+            }
+        }
+        // Where a taxel lies along the seam, counted as on the first side.
+        let at = |(panel, along): (u8, i64)| {
+            let from_start = along - if panel == 0 { start_a } else { start_b };
+            let turned = if panel == 1 && reversed { length - 1 - from_start } else { from_start };
+            (0..length).contains(&turned).then_some(turned)
+        };
+        let beside = |one: (u8, i64), other: (u8, i64)| match (at(one), at(other)) {
+            _ if one.0 == other.0 => (one.1 - other.1).abs() == 1,
+            (Some(one), Some(other)) => (one - other).abs() <= 1,
+            _ => false,
+        };
+        prop_assert_eq!(rig.frame().present.len(), parts(&taxels, beside));
     }
 }
 
