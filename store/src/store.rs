@@ -97,8 +97,63 @@ impl<F: NorFlash> Store<F> {
         Ok(Store { map: MapStorage::new(Waitless(flash), config, Cache::new_uncached()) })
     }
 
-    /// Stores what has changed. Whatever happens meanwhile, what is loaded later are the old settings or these.
+    /// Stores what has changed. Whatever happens meanwhile, what is loaded later are the old settings or these;
+    /// unless something else has written into the sectors, so that nothing can be added: then they are erased
+    /// before, and a power cut may leave neither.
     pub fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, StoreError> {
+        let in_the_way = match self.change(settings) {
+            Ok(Saved::Unchanged) => return Ok(Saved::Unchanged),
+            // A flash says nothing of bits that it could not raise.
+            Ok(Saved::Written) => !self.holds(settings)?,
+            Err(error @ StoreError::TooLong(_)) => return Err(error),
+            Err(StoreError::Full) if !self.has_room(settings)? => return Err(StoreError::Full),
+            Err(_) => true,
+        };
+        if in_the_way {
+            self.clear()?;
+            self.change(settings)?;
+        }
+        Ok(Saved::Written)
+    }
+
+    /// Whether these settings can be read.
+    #[inline(never)] // its room on the stack is not needed before
+    fn holds(&mut self, settings: &Settings<'_>) -> Result<bool, StoreError> {
+        let index = match self.index() {
+            Ok(Some(index)) => index,
+            Ok(None) | Err(StoreError::Damaged | StoreError::Version) => return Ok(false),
+            Err(error) => return Err(error),
+        };
+        let mut content = [0; PART_BYTES];
+        for part in Part::ALL {
+            let content = settings.write(part, &mut content).map_err(|_| StoreError::TooLong(part))?;
+            let holds = match (index.entry(part), content) {
+                (Some(entry), Some(content)) => entry.holds(content) && self.stands(&entry, content)?,
+                (None, None) => true,
+                _ => false,
+            };
+            if !holds {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether these settings fit sectors that hold nothing else: four items each, and one sector stays free.
+    #[inline(never)] // likewise
+    fn has_room(&mut self, settings: &Settings<'_>) -> Result<bool, StoreError> {
+        let mut content = [0; PART_BYTES];
+        let mut items = 1;
+        for part in Part::ALL {
+            let content = settings.write(part, &mut content).map_err(|_| StoreError::TooLong(part))?;
+            items += content.map_or(0, |content| content.len().div_ceil(CHUNK));
+        }
+        let sectors = self.map.flash_range().len() / F::ERASE_SIZE;
+        Ok(items <= 4 * sectors.saturating_sub(1))
+    }
+
+    #[inline(never)] // its room on the stack is not needed afterwards
+    fn change(&mut self, settings: &Settings<'_>) -> Result<Saved, StoreError> {
         let old = match self.index() {
             Ok(index) => index,
             Err(StoreError::Flash) => return Err(StoreError::Flash),

@@ -23,6 +23,11 @@ const BROKEN: i32 = 2 * COMMON;
 /// A panel is fast that moves by more than so many counts in a turn.
 const FAST: i32 = 4;
 
+/// After so many halves of a turn at most a panel is no longer taken to drift fast, and each that is fast counts for
+/// so many: noise hides the drift from the witnesses now and then, and when it turns it is slow for seconds.
+const LASTING: u8 = 40;
+const LASTS: u8 = 4;
+
 /// What each panel drifts in a turn, counts.
 ///
 /// Twice in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the panel is known to
@@ -46,6 +51,8 @@ struct Panel {
     steps: [i8; 2],
     /// All of it so far, modulo 2^32.
     drifted: i32,
+    /// Halves of a turn for which it is still taken to drift fast.
+    lately: u8,
 }
 
 impl Panel {
@@ -57,13 +64,14 @@ impl Panel {
 
 impl Consensus {
     pub const fn new() -> Self {
-        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0 };
+        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0, lately: 0 };
         Consensus { panels: [panel; PANELS], fast: false }
     }
 
     /// Begins anew, since baselines have been set.
     pub fn forget(&mut self) {
-        self.panels.iter_mut().for_each(|panel| (panel.begun, panel.steps) = (false, [0; 2]));
+        let begin = |panel: &mut Panel| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
+        self.panels.iter_mut().for_each(begin);
         self.fast = false;
     }
 
@@ -75,6 +83,11 @@ impl Consensus {
     /// What a panel has drifted so far, counts modulo 2^32.
     pub fn drifted(&self, panel: u8) -> i32 {
         self.panels.get(usize::from(panel)).map_or(0, |panel| panel.drifted)
+    }
+
+    /// Whether this panel drifts fast, or did a moment ago.
+    pub fn was_fast(&self, panel: u8) -> bool {
+        self.panels.get(usize::from(panel)).is_some_and(|panel| panel.lately > 0)
     }
 
     /// Whether one of the panels drifts fast.
@@ -143,6 +156,10 @@ impl Consensus {
             };
             *known = (i32::from(*known) + step + forgotten).clamp(0, 0xffff) as u16;
         }
+        panel.lately = match panel.in_turn().abs() > FAST {
+            true => panel.lately.saturating_add(LASTS).min(LASTING),
+            false => panel.lately.saturating_sub(1),
+        };
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
     }
 }

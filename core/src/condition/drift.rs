@@ -3,12 +3,13 @@
 //! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
 //! whatever the frame rate. Its taxels move by what their panel drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
 //! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
-//! never swallowed, and neither is a slow one once it shows. Only a tared baseline drifts: recordings are taken as they are.
+//! never swallowed, and neither is a slow one once it shows. While a panel drifts fast, what shows less than a sixteenth of a contact's peak
+//! is none of it: what lies around it would drift apart, join it, and take along what lies around that. Only a tared baseline drifts: recordings are taken as they are.
 
 use super::feedback::Feedback;
 use super::rates::{OWN, beside};
 use super::sampled::Sampled;
-use super::slices::{row_mut, row_of};
+use super::slices::{panel_of, row_mut, row_of};
 use super::state::ConditionState;
 use super::terms::Terms;
 use crate::format::Code;
@@ -56,9 +57,12 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         whole: bool,
     ) {
         let columns = usize::from(area.columns);
+        let fast = self.consensus.was_fast(panel);
+        let images = (panel_of(&self.calibrated, area), panel_of(&self.filtered, area));
         self.consensus.vote(panel, area, sampled.codes, (&self.baseline, &self.gain), whole, |at| {
             let row = at.checked_div(columns).unwrap_or(0);
-            feedback.holds(panel, row as u16, at.wrapping_sub(row * columns) as u16)
+            let shown = images.0.get(at).max(images.1.get(at)).filter(|_| fast).copied().unwrap_or(u16::MAX);
+            feedback.presses(panel, row as u16, at.wrapping_sub(row * columns) as u16, shown)
         });
     }
 
@@ -77,16 +81,18 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         if !touched && !self.rows.contains(area.first_row.saturating_add(row)) {
             return self.follow_row(area, row, sampled.codes, terms, common, |_, _| beside + OWN);
         }
-        self.follow_row(area, row, sampled.codes, terms, common, |column, quiet| {
-            match touched && feedback.holds(panel, row, column) {
+        let fast = self.consensus.was_fast(panel);
+        self.follow_row(area, row, sampled.codes, terms, common, |column, shown| {
+            let least = if fast { shown } else { u16::MAX };
+            match touched && feedback.presses(panel, row, column, least) {
                 true => 0,
-                false => beside + if quiet { OWN } else { 0 },
+                false => beside + if shown == 0 { OWN } else { 0 },
             }
         });
     }
 
     /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most what `own` says of
-    /// its column and of whether it reads 0.
+    /// its column and of what it shows.
     #[inline(always)]
     fn follow_row(
         &mut self,
@@ -95,7 +101,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         codes: &[Code],
         terms: Terms,
         common: i32,
-        own: impl Fn(u16, bool) -> i32,
+        own: impl Fn(u16, u16) -> i32,
     ) {
         let silent = terms.silent();
         let images = row_of(&self.calibrated, area, row).iter().zip(row_of(&self.filtered, area, row));
@@ -105,7 +111,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             (0u16..).zip(taxels.zip(row_of(codes, area, row).iter().zip(images)))
         {
             let was = i32::from(*rest);
-            let own = own(column, *before == 0 && *after == 0);
+            let own = own(column, *before.max(after));
             let step = (i32::from(code.0) - was).min(common + own).max(common - own);
             let now = (was + step).clamp(0, 0xffff);
             let step = now - was;

@@ -6,13 +6,22 @@ use heapless::Vec;
 /// Most rectangles of contacts that reach across a seam into another panel.
 pub const CARRIED: usize = 16;
 
-/// The rectangles of the last frame's contacts: there the baseline stands still, and a weak contact is kept.
+/// A contact of the last frame, or its part beyond a seam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pressed {
+    /// Where it was.
+    pub rect: Rect,
+    /// Greatest pressure of the contact, counts.
+    pub peak: u16,
+}
+
+/// The last frame's contacts: there the baseline stands still, and a weak contact is kept.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Feedback<const CONTACTS: usize> {
     /// In each contact's home panel.
-    pub home: Vec<Rect, CONTACTS>,
+    pub home: Vec<Pressed, CONTACTS>,
     /// Its parts beyond a seam.
-    pub beyond: Vec<Rect, CARRIED>,
+    pub beyond: Vec<Pressed, CARRIED>,
 }
 
 impl<const CONTACTS: usize> Feedback<CONTACTS> {
@@ -26,9 +35,16 @@ impl<const CONTACTS: usize> Feedback<CONTACTS> {
         self.touches(panel, row, column, column)
     }
 
+    /// Whether a taxel that shows so many counts lies within one taxel of a contact, of whose peak that is a
+    /// sixteenth at least.
+    pub fn presses(&self, panel: u8, row: u16, column: u16, shown: u16) -> bool {
+        let near = |held: &&Pressed| held.rect.holds(panel, row, column, 1);
+        self.home.iter().chain(&self.beyond).filter(near).any(|held| shown >= held.peak / 16)
+    }
+
     /// Whether columns `left ..= right` of a row come within one taxel of a contact.
     pub fn touches(&self, panel: u8, row: u16, left: u16, right: u16) -> bool {
-        self.home.iter().chain(&self.beyond).any(|rect| {
+        self.home.iter().chain(&self.beyond).any(|Pressed { rect, .. }| {
             rect.panel == panel
                 && row.saturating_add(1) >= rect.top
                 && row <= rect.bottom.saturating_add(1)

@@ -61,7 +61,7 @@ pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
 pub use edge::{Gradient, sobel};
 pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
-pub use feedback::{CARRIED, Feedback};
+pub use feedback::{CARRIED, Feedback, Pressed};
 pub(crate) use held::Held;
 pub use image::Image;
 pub use points::{MARGIN, POINTS};

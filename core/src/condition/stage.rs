@@ -86,6 +86,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 #[cfg(test)]
 mod tests {
     extern crate std;
+    use super::super::feedback::Pressed;
     use super::super::{Tare, UNITY};
     use super::*;
     use crate::format::Micros;
@@ -233,7 +234,8 @@ mod tests {
                 let inner = (10..14).contains(&row) && (5..9).contains(&column);
                 codes[row * 16 + column] = Code(if inner { 1007 } else { 27 });
             }
-            feedback.home.push(Rect { panel: 0, top: 10, bottom: 13, left: 5, right: 8 }).unwrap();
+            let rect = Rect { panel: 0, top: 10, bottom: 13, left: 5, right: 8 };
+            feedback.home.push(Pressed { rect, peak: 1000 }).unwrap();
             assert_eq!(run(&mut state, &codes, &feedback, 30), [7; 2048]);
             // The rest drifts: what is held goes with it.
             let drifted: Vec<Code> = codes.iter().map(|code| Code(code.0 + 12)).collect();

@@ -8,7 +8,7 @@ use super::part::{NONE, Part};
 use super::piece::Piece;
 use super::strip::{Strip, strips, values_of};
 use super::sums::{NARROW, squares};
-use crate::condition::{CARRIED, Feedback, Image};
+use crate::condition::{CARRIED, Feedback, Image, Pressed};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Area, Layout, Place, Rect};
 use core::slice::from_ref;
@@ -234,10 +234,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         feedback.beyond.clear();
         // Each list has the capacity of its source. (`extend` would panic on a full one.)
         for component in &self.list {
-            let _ = feedback.home.push(component.bounds);
+            let _ = feedback.home.push(Pressed { rect: component.bounds, peak: component.peak });
         }
-        for (_, rect) in &self.beyond {
-            let _ = feedback.beyond.push(*rect);
+        for (contact, rect) in &self.beyond {
+            let peak = self.list.get(usize::from(*contact)).map_or(0, |component| component.peak);
+            let _ = feedback.beyond.push(Pressed { rect: *rect, peak });
         }
     }
 }

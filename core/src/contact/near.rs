@@ -1,7 +1,7 @@
 //! Faint parts near contacts of the previous frame, which go on as those.
 
 use super::label::Labels;
-use crate::condition::Feedback;
+use crate::condition::{Feedback, Pressed};
 use crate::garment::{Area, Layout, Rect};
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
@@ -16,7 +16,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         if self.whole_parts().all(|(_, part)| part.peak >= high.into()) {
             return;
         }
-        for rect in last.home.iter().chain(&last.beyond) {
+        for Pressed { rect, .. } in last.home.iter().chain(&last.beyond) {
             if let Some(area) = layout.areas().get(usize::from(rect.panel)) {
                 self.mark_held_by(area, rect);
             }

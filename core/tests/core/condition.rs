@@ -2,7 +2,7 @@
 
 use crate::dense::Dense;
 use proptest::prelude::*;
-use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Sampled};
+use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Pressed, Sampled};
 use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Absent, Garment, Layout, Rect};
 
@@ -148,7 +148,8 @@ proptest! {
             if noise.next(2) == 1 {
                 let (top, left) = (noise.next(area.rows.into()) as u16, noise.next(area.columns.into()) as u16);
                 let (bottom, right) = ((top + 2).min(area.rows - 1), (left + 2).min(area.columns - 1));
-                let _ = feedback.home.push(Rect { panel: 0, top, bottom, left, right });
+                let rect = Rect { panel: 0, top, bottom, left, right };
+                let _ = feedback.home.push(Pressed { rect, peak: [40, 400, 4000][noise.next(3) as usize] });
             }
         }
     }

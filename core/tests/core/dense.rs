@@ -2,9 +2,9 @@
 
 #![allow(dead_code)]
 
-use taxel_core::condition::{ConditionConfig, Filter, MARGIN, POINTS, Sampled};
+use taxel_core::condition::{ConditionConfig, Filter, MARGIN, POINTS, Pressed, Sampled};
 use taxel_core::format::Code;
-use taxel_core::garment::{Area, Layout, Rect};
+use taxel_core::garment::{Area, Layout};
 
 /// Calibration, and what drift needs.
 pub struct Dense {
@@ -20,6 +20,8 @@ pub struct Dense {
     points: Vec<(usize, u16)>,
     /// What each panel drifted in the half of a turn before and drifts in this one, and where its witnesses would be, had they drifted as it has.
     common: Vec<([i32; 2], Option<Vec<i32>>)>,
+    /// Halves of a turn for which each panel is still taken to drift fast.
+    lately: Vec<u8>,
 }
 
 impl Dense {
@@ -33,16 +35,28 @@ impl Dense {
         }
         let rest = vec![rest; layout.taxels()];
         let common = vec![([0; 2], None); layout.areas().len()];
-        Dense { config, falling, rest, gain, tared: false, slot: 0, due: 0, points: Vec::new(), common }
+        Dense {
+            config,
+            falling,
+            rest,
+            gain,
+            tared: false,
+            slot: 0,
+            due: 0,
+            points: Vec::new(),
+            lately: vec![0; common.len()],
+            common,
+        }
     }
 
     /// No drift is known, as after a baseline was set.
     pub fn forget(&mut self) {
         self.common.fill(([0; 2], None));
+        self.lately.fill(0);
     }
 
     /// The image of a frame; then the baseline follows drift.
-    pub fn process(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect]) -> Vec<u16> {
+    pub fn process(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Pressed]) -> Vec<u16> {
         let Sampled { codes, panels, .. } = *sampled;
         let before: Vec<u16> =
             (0..layout.taxels()).map(|taxel| self.value(layout, codes, panels, taxel)).collect();
@@ -52,8 +66,8 @@ impl Dense {
             self.persist(&before, &mut after, &points);
         }
         if self.config.track_baseline && self.tared {
-            let shows: Vec<bool> = before.iter().zip(&after).map(|(a, b)| *a != 0 || *b != 0).collect();
-            self.follow(layout, sampled, held, &shows);
+            let shown: Vec<u16> = before.iter().zip(&after).map(|(a, b)| *a.max(b)).collect();
+            self.follow(layout, sampled, held, &shown);
         }
         after
     }
@@ -88,7 +102,7 @@ impl Dense {
     }
 
     /// Every row once in 0.7 s, or in 0.35 s while a panel drifts fast, and before either half of a panel's rows its witnesses.
-    fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Rect], shows: &[bool]) {
+    fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Pressed], shown: &[u16]) {
         let slots: u16 = layout.areas().iter().map(|area| area.rows + 2).sum();
         while self.due <= sampled.now.0 {
             let mut slot = self.slot;
@@ -101,10 +115,10 @@ impl Dense {
                     let first = area.rows / 2;
                     if sampled.panels >> panel & 1 == 0 {
                     } else if slot == 0 || slot == first + 1 {
-                        self.vote(panel, area, sampled.codes, held, slot == 0);
+                        self.vote(panel, area, sampled.codes, held, shown, slot == 0);
                     } else {
                         let row = if slot <= first { slot - 1 } else { slot - 2 };
-                        self.follow_row(panel, area, row, sampled.codes, held, shows);
+                        self.follow_row(panel, area, row, sampled.codes, held, shown);
                     }
                     break;
                 }
@@ -119,16 +133,18 @@ impl Dense {
         area: &Area,
         row: u16,
         codes: &[Code],
-        held: &[Rect],
-        shows: &[bool],
+        held: &[Pressed],
+        shown: &[u16],
     ) {
         let common = self.in_turn(panel);
         for column in 0..area.columns {
             let taxel = usize::from(area.base + row * area.columns + column);
             let Some(code) = codes.get(taxel) else { continue };
-            let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
+            let slow = self.lately[panel] == 0;
+            let presses = |held: &Pressed| slow || shown[taxel] >= held.peak / 16;
+            let near = held.iter().any(|held| held.rect.holds(panel as u8, row, column, 1) && presses(held));
             // What is common and a quarter of it, and a count where nothing shows.
-            let beside = (f64::from(common.abs()) * 1.25).floor() as i32 + i32::from(!shows[taxel]);
+            let beside = (f64::from(common.abs()) * 1.25).floor() as i32 + i32::from(shown[taxel] == 0);
             let beside = if near { 0 } else { beside };
             let off = i32::from(code.0) - i32::from(self.rest[taxel]);
             let step = off.clamp(common - beside, common + beside);
@@ -138,7 +154,15 @@ impl Dense {
 
     /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what is known, the
     /// same way and by a quarter of their median at least, the panel moves by that; if only most of them are, by one, where a turn begins.
-    fn vote(&mut self, panel: usize, area: &Area, codes: &[Code], held: &[Rect], whole: bool) {
+    fn vote(
+        &mut self,
+        panel: usize,
+        area: &Area,
+        codes: &[Code],
+        held: &[Pressed],
+        shown: &[u16],
+        whole: bool,
+    ) {
         let taxels = usize::from(area.rows * area.columns);
         let places: Vec<usize> = (0..16).map(|witness| witness * ((taxels / 16) | 1) % taxels).collect();
         let rest = |at: &usize| i32::from(self.rest[usize::from(area.base) + at]);
@@ -146,7 +170,9 @@ impl Dense {
         let beyond = |(at, known): (&usize, &i32), noise: u32| {
             let taxel = usize::from(area.base) + at;
             let (row, column) = (*at as u16 / area.columns, *at as u16 % area.columns);
-            let near = held.iter().any(|rect| rect.holds(panel as u8, row, column, 1));
+            let slow = self.lately[panel] == 0;
+            let presses = |held: &Pressed| slow || shown[taxel] >= held.peak / 16;
+            let near = held.iter().any(|held| held.rect.holds(panel as u8, row, column, 1) && presses(held));
             let code = codes.get(taxel).filter(|_| self.gain[taxel] != 0)?;
             let (code, rest) = (i32::from(code.0), rest(at));
             if near && code.abs_diff(rest) > 4 {
@@ -186,6 +212,9 @@ impl Dense {
             *known = (*known).clamp(0, 65535);
         }
         self.common[panel] = ([before, step], Some(known));
+        let lately = self.lately[panel];
+        self.lately[panel] =
+            if (before + step).abs() > 4 { 40.min(lately + 4) } else { lately.saturating_sub(1) };
     }
 }
 
