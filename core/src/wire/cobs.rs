@@ -181,14 +181,17 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Lengths around the group of 254, with zeros in every place that matters; and many zeros behind a full group.
+    /// Lengths around the group of 254, with zeros in every place that matters, among small bytes and great ones; and
+    /// many zeros behind a full group.
     fn data() -> impl Iterator<Item = Vec<u8>> {
         let lengths = [1, 2, 5, 252, 253, 254, 255, 256, 507, 508, 509, 510, 762, 763, 1200];
         let zeros = [usize::MAX, 0, 1, 7, 252, 253, 254, 255, 507, 508, 509, 762];
-        let few = lengths.into_iter().flat_map(move |length| {
-            zeros.into_iter().map(move |zero| {
-                let byte = |i| if i == zero || i + 1 == length && zero == 1 { 0 } else { i as u8 | 1 };
-                (0..length).map(byte).collect()
+        let few = [1, 0x81].into_iter().flat_map(move |bits| {
+            lengths.into_iter().flat_map(move |length| {
+                zeros.into_iter().map(move |zero| {
+                    let byte = |i| if i == zero || i + 1 == length && zero == 1 { 0 } else { i as u8 | bits };
+                    (0..length).map(byte).collect()
+                })
             })
         });
         let many = (400..=1200)
