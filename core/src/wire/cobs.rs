@@ -181,15 +181,16 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Lengths around the group of 254, with zeros in every place that matters, among small bytes and great ones; and
-    /// many zeros behind a full group.
+    /// Lengths around the group of 254, with zeros in every place that matters, among bytes of all sorts and among 0x80, of
+    /// which a borrow would make what a zero leaves; and many zeros behind a full group.
     fn data() -> impl Iterator<Item = Vec<u8>> {
         let lengths = [1, 2, 5, 252, 253, 254, 255, 256, 507, 508, 509, 510, 762, 763, 1200];
         let zeros = [usize::MAX, 0, 1, 7, 252, 253, 254, 255, 507, 508, 509, 762];
-        let few = [1, 0x81].into_iter().flat_map(move |bits| {
+        let fills: [fn(usize) -> u8; 2] = [|i| i as u8 | 1, |_| 0x80];
+        let few = fills.into_iter().flat_map(move |fill| {
             lengths.into_iter().flat_map(move |length| {
                 zeros.into_iter().map(move |zero| {
-                    let byte = |i| if i == zero || i + 1 == length && zero == 1 { 0 } else { i as u8 | bits };
+                    let byte = |i| if i == zero || i + 1 == length && zero == 1 { 0 } else { fill(i) };
                     (0..length).map(byte).collect()
                 })
             })
