@@ -11,11 +11,8 @@ pub trait Store: Write {
     /// Forgets what lies behind the first `length` bytes; the next ones follow there.
     fn cut(&mut self, length: u64) -> io::Result<()>;
 
-    /// Whether it can be read: what goes through a pipe or a socket cannot.
-    fn is_readable(&self) -> bool;
-
     /// Reads what was written, from `offset` on: how many bytes there were. What is written next follows what was
-    /// written last, as before.
+    /// written last, as before. An error: it cannot be read, as what goes through a pipe or a socket cannot.
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
 }
 
@@ -29,11 +26,10 @@ impl Store for File {
         self.seek(SeekFrom::Start(length)).map(|_| ())
     }
 
-    fn is_readable(&self) -> bool {
-        self.metadata().is_ok_and(|known| known.is_file())
-    }
-
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        if !self.metadata()?.is_file() {
+            return Err(io::ErrorKind::Unsupported.into());
+        }
         let place = self.stream_position()?;
         self.seek(SeekFrom::Start(offset))?;
         let mut count = 0;

@@ -38,10 +38,6 @@ impl Store for &mut Disk {
         Ok(())
     }
 
-    fn is_readable(&self) -> bool {
-        true
-    }
-
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
         (&self.bytes[offset as usize..]).read(bytes)
     }
@@ -275,10 +271,6 @@ impl Store for &mut Failing {
         self.bytes.truncate(length as usize);
         self.at = length as usize;
         Ok(())
-    }
-
-    fn is_readable(&self) -> bool {
-        true
     }
 
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {

@@ -54,9 +54,9 @@ pub struct Writer<S: Store> {
 
 impl<S: Store> Writer<S> {
     /// Begins a file. `profile` is MCAP's: `ros2`, or empty.
-    pub fn create(store: S, profile: &str) -> Result<Writer<S>> {
+    pub fn create(mut store: S, profile: &str) -> Result<Writer<S>> {
         let mut writer = Writer {
-            is_readable: store.is_readable(),
+            is_readable: store.look(0, &mut [0]).is_ok(),
             store,
             length: 0,
             torn: false,

@@ -40,10 +40,6 @@ impl<W: Write> Store for &mut Transfer<W> {
         Err(io::ErrorKind::BrokenPipe.into())
     }
 
-    fn is_readable(&self) -> bool {
-        false
-    }
-
     fn look(&mut self, _: u64, _: &mut [u8]) -> io::Result<usize> {
         Err(io::ErrorKind::Unsupported.into())
     }

@@ -4,8 +4,11 @@ use super::rig::{Trial, feel, garments};
 use taxel::sim::Course;
 use taxel_core::garment::Garment;
 
-/// Held from 30 s on for so long, at so many counts per second: the pressure at the end, as a part of that at the
-/// beginning. 30 s of drift tell how much of it each taxel makes.
+/// The touch: 3 N of a fingertip, counts.
+const TOUCH: f64 = 3_000.0;
+
+/// Held from 30 s on for so long, at so many counts per second: the pressure at the end, as a part of that of the
+/// touch. 30 s of drift tell how much of it each taxel makes.
 fn left(trial: &Trial, course: Course, seconds: f64) -> f64 {
     let end = 30.3 + seconds;
     let trial = Trial { common: course, ..trial.clone() }.touched("finger", 3.0, 30.0, 0.3, seconds + 5.0);
@@ -16,7 +19,7 @@ fn left(trial: &Trial, course: Course, seconds: f64) -> f64 {
         trial.garment.name, course.rate
     );
     assert_eq!((felt.felt(0.0, 30.0), felt.felt(30.5, end)), (0.0, 1.0), "{}", trial.garment.name);
-    last / first
+    last / TOUCH
 }
 
 #[test]
@@ -35,9 +38,9 @@ fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
     for (garment, quickest) in garments() {
         // In the second case the drift turns in the moment in which the touch begins: on one of the garments more
         // joins it, before the drift is known again.
-        for (hz, way, most) in [(quickest.min(400.0), 1_200.0, 1.3), (25.0, 600.0, 4.0)] {
+        for (hz, way, most) in [(quickest.min(400.0), 1_200.0, 1.2), (25.0, 600.0, 4.0)] {
             let part = left(&Trial::new(garment.clone(), hz), Course { rate: 20.0, way }, 60.0);
-            assert!((0.7..most).contains(&part), "{part}");
+            assert!((0.8..most).contains(&part), "{part}");
         }
     }
 }
