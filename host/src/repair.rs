@@ -75,6 +75,10 @@ pub fn found(scan: &Scan) -> String {
     } else if bytes > 0 {
         words.push(format!("{bytes} bytes are damaged"));
     }
+    if scan.corrected > 0 {
+        let (s, stand) = if scan.corrected == 1 { ("", "stands") } else { ("s", "stand") };
+        words.push(format!("{} record{s} that {stand} wrong can be put right", scan.corrected));
+    }
     if !scan.ended {
         words.push(format!("without its end, {} bytes torn", scan.torn));
     }
@@ -83,7 +87,7 @@ pub fn found(scan: &Scan) -> String {
     }
     match (words.is_empty(), scan.whole) {
         (true, true) => "whole".into(),
-        (true, false) => "its summary is damaged".into(),
+        (true, false) => "its end does not tell what is in it".into(),
         _ => words.join(", "),
     }
 }

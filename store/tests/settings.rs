@@ -277,6 +277,20 @@ fn power_may_fail_while_settings_are_put_aside() {
     }
 }
 
+#[test]
+fn a_flash_that_cannot_be_read_is_said_to_be_so() {
+    let mut flash = SimFlash::default();
+    let kept = Kept::new(Garment::block(), 64);
+    save(&mut flash, &kept).unwrap();
+    flash.cut_at(flash.steps(), Cut::Before);
+    assert!(flash.write(0, &[0]).is_err(), "the power is off from here on");
+    for aside in [true, false] {
+        assert_eq!(Store::new(&mut flash, range(64)).unwrap().put_aside(aside), Err(StoreError::Flash));
+    }
+    assert_eq!(save(&mut flash, &kept), Err(StoreError::Flash));
+    assert_eq!(load::<64>(&mut flash), Err(StoreError::Flash));
+}
+
 /// The sectors that hold the levels of outputs.
 const LEVELS: [u32; 2] = [0, 4096];
 

@@ -13,6 +13,8 @@ const COUNT: usize = 200;
 const TITLE: &str = "Changes that the tests notice; `cargo xtask mutants --write` writes this.";
 /// What the list of the others begins with.
 const MISSED: &str = "Not noticed, and why:";
+/// With this an explanation begins where no test can notice a change: it is not counted.
+const EQUAL: &str = "changes nothing";
 /// Why, where nobody has said.
 const UNEXPLAINED: &str = "not explained";
 
@@ -95,7 +97,8 @@ pub fn run(args: &[String]) -> Result<(), String> {
     let count: usize = ends.iter().flat_map(Ended::values).map(Vec::len).sum();
     let head = format!("{count} of {known} changes, chosen by seed {}, as many of each part:", asked.seed);
     let before = std::fs::read_to_string(written()).unwrap_or_default();
-    let text = format!("{TITLE}\n\n{head}\n{}\n{}", table(&ends), missed(&ends, &explained(&before)));
+    let explained = explained(&before);
+    let text = format!("{TITLE}\n\n{head}\n{}\n{}", table(&ends, &explained), missed(&ends, &explained));
     print!("{text}");
     if asked.write {
         std::fs::write(written(), text).map_err(|error| format!("{}: {error}", written().display()))?;
@@ -182,22 +185,28 @@ fn shuffle<T>(list: &mut [T], seed: u64) {
 }
 
 /// How many of each part were noticed. A test that does not end notices, too; what does not compile is no
-/// change.
-fn table(ends: &[Ended]) -> String {
-    let count = |ended: &Ended, end| ended.get(end).map_or(0, Vec::len);
-    let mut rows: Vec<(&str, [usize; 4])> =
-        PARTS.iter().zip(ends).map(|(part, ended)| (part.name, ENDS.map(|end| count(ended, end)))).collect();
+/// change, and neither is what changes nothing.
+fn table(ends: &[Ended], explained: &BTreeMap<String, String>) -> String {
+    let row = |ended: &Ended| {
+        let [caught, missed, timeout, unviable] = ENDS.map(|end| ended.get(end).map_or(0, Vec::len));
+        let is_equal =
+            |name: &&String| explained.get(&lasting(name)).is_some_and(|why| why.starts_with(EQUAL));
+        let equal = ended.get("missed").into_iter().flatten().filter(is_equal).count();
+        [caught, missed - equal, timeout, equal, unviable]
+    };
+    let mut rows: Vec<(&str, [usize; 5])> =
+        PARTS.iter().zip(ends).map(|(part, ended)| (part.name, row(ended))).collect();
     let sum = |of: usize| rows.iter().map(|(_, counts)| counts[of]).sum();
-    rows.push(("all", [0, 1, 2, 3].map(sum)));
+    rows.push(("all", [0, 1, 2, 3, 4].map(sum)));
     let mut text = format!(
-        "{:<9}{:>9}{:>9}{:>9}{:>10}{:>9}\n",
-        "part", "caught", "missed", "timeout", "unviable", "share"
+        "{:<9}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}\n",
+        "part", "caught", "missed", "timeout", "equal", "unviable", "share"
     );
-    for (name, [caught, missed, timeout, unviable]) in rows {
+    for (name, [caught, missed, timeout, equal, unviable]) in rows {
         let noticed = caught + timeout;
         let share =
             (100 * noticed).checked_div(noticed + missed).map_or("-".into(), |share| format!("{share} %"));
-        text += &format!("{name:<9}{caught:>9}{missed:>9}{timeout:>9}{unviable:>10}{share:>9}\n");
+        text += &format!("{name:<9}{caught:>9}{missed:>9}{timeout:>9}{equal:>9}{unviable:>10}{share:>9}\n");
     }
     text
 }
@@ -245,11 +254,14 @@ mod tests {
         let lines: Vec<&str> = again.lines().map(str::trim).collect();
         assert_eq!(lines[1..3], ["core/src/wire/a.rs:8:9: replace + with - in f", "what is added is 0"]);
         assert_eq!(lines[4], UNEXPLAINED);
-        let table = table(&ends);
-        assert!(
-            table.lines().any(|line| line.split_whitespace().eq(["wire", "17", "2", "0", "0", "89", "%"])),
-            "{table}"
-        );
+        let share = |explained: &str| {
+            let table = table(&ends, &super::explained(explained));
+            let line = table.lines().find(|line| line.starts_with("wire")).expect("a line of each part");
+            line.split_whitespace().skip(1).map(String::from).collect::<Vec<_>>()
+        };
+        assert_eq!(share(&said), ["17", "2", "0", "0", "0", "89", "%"]);
+        let said = said.replace("what is added is 0", "changes nothing: what is added is 0");
+        assert_eq!(share(&said), ["17", "1", "0", "1", "0", "94", "%"]);
     }
 
     #[test]

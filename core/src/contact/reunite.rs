@@ -120,3 +120,27 @@ fn have_near_columns(a: &Piece, b: &Piece) -> bool {
     let (Some(a), Some(b)) = (bits(a), bits(b)) else { return false };
     (a | a << 1 | a << 2 | a >> 1 | a >> 2) & b != 0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::bits::WORD;
+    use crate::contact::sums::Sums;
+
+    /// A piece of one taxel.
+    fn at(column: u16) -> Piece {
+        let taxels = 1 << (column % WORD);
+        let (row, part, area, peak, sums) = (0, 0, 1, 1, Sums::NONE);
+        Piece { taxels, all: taxels, row, part, left: column, right: column, area, peak, sums }
+    }
+
+    #[test]
+    fn two_columns_are_near_and_three_are_not_wherever_they_lie() {
+        for column in [0, 1, 31, 32, 40, 100, 1_000, 60_000] {
+            for apart in 0..100 {
+                let (a, b) = (at(column), at(column + apart));
+                assert_eq!([have_near_columns(&a, &b), have_near_columns(&b, &a)], [apart <= 2; 2]);
+            }
+        }
+    }
+}

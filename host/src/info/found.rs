@@ -103,6 +103,7 @@ impl Found<'_> {
             "damaged_chunks": scan.map(|scan| scan.damaged().0),
             "damaged_bytes": scan.map(|scan| scan.damaged().1),
             "damaged_seconds": self.checked.as_ref().map(|(_, skipped)| skipped.time.as_secs_f64()),
+            "corrected_records": scan.map(|scan| scan.corrected),
             "unread_chunks": scan.map(|scan| scan.foreign),
             "start_us": first / 1000,
             "end_us": last / 1000,

@@ -5,7 +5,7 @@ use super::contents::Contents;
 use super::salvage::{Damage, Kind, Piece, Step, Walk};
 use crate::progress::{Progress, Unit};
 use anyhow::Result;
-use mcap::records::{Header, Metadata};
+use mcap::records::{Header, Metadata, Statistics};
 use std::path::Path;
 
 /// What is in a file.
@@ -21,6 +21,8 @@ pub struct Scan {
     pub torn: u64,
     /// Bytes that cannot be read, those behind what can be read included.
     pub damage: Vec<Damage>,
+    /// Records that can be read though their number, their length or their fields stand wrong in the file.
+    pub corrected: usize,
     /// Chunks of compressions or of a size that are not read here: no message in them can be read.
     pub foreign: usize,
     /// Words of the file by name.
@@ -39,6 +41,7 @@ pub fn scan(path: &Path) -> Result<Scan> {
         ended,
         torn: 0,
         damage: Vec::new(),
+        corrected: 0,
         foreign: 0,
         metadata: Vec::new(),
         header: None,
@@ -54,10 +57,12 @@ pub fn scan(path: &Path) -> Result<Scan> {
     }
     let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());
     scan.torn = last.map_or(0, |last| last.length);
+    let is_counted = walk.marks.statistics.as_ref().is_none_or(|told| scan.is_counted_by(told));
     // The summary's own checksum covers what it says.
     scan.contents.schemas.append(&mut walk.marks.schemas);
     scan.contents.channels.append(&mut walk.marks.channels);
-    scan.whole = walk.marks.is_sound && scan.damage.is_empty() && scan.header.is_some();
+    let is_sound = walk.marks.is_sound && scan.damage.is_empty() && scan.corrected == 0;
+    scan.whole = is_sound && is_counted && scan.header.is_some();
     Ok(scan)
 }
 
@@ -68,8 +73,22 @@ impl Scan {
         inside.fold((0, 0), |(chunks, bytes), damage| (chunks + damage.chunks, bytes + damage.length))
     }
 
+    /// Whether there are as many records of each kind as the file's end says; a record whose number stands wrong may pass
+    /// for another. What is in chunks that are not read here is not known.
+    fn is_counted_by(&self, told: &Statistics) -> bool {
+        let found = &self.contents;
+        let messages: u64 = found.counts().values().sum();
+        let inside = [found.schemas.len() as u64, found.channels.len() as u64, messages];
+        let beside = [found.attachments.len(), found.metadata.len(), found.chunks()].map(|count| count as u64);
+        let is_read = self.foreign == 0;
+        let told_inside = [told.schema_count.into(), told.channel_count.into(), told.message_count];
+        (!is_read || inside == told_inside)
+            && beside == [told.attachment_count, told.metadata_count, told.chunk_count].map(u64::from)
+    }
+
     fn take(&mut self, piece: Piece) {
         let (offset, length) = (piece.offset, piece.end - piece.offset);
+        self.corrected += usize::from(piece.is_corrected);
         let contents = &mut self.contents;
         match piece.kind {
             Kind::Header(header) => _ = self.header.get_or_insert(header),

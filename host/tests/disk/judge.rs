@@ -5,16 +5,12 @@ use crate::faults::Fault;
 use crate::names;
 use crate::run::{Done, Run};
 use crate::stage::{Files, Stage};
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use taxel::recording::{repair, scan};
 
 /// Words of the program's language, which no user knows.
 const FOREIGN: [&str; 7] = ["panicked", "os error", "Err(", "Os {", "unwrap", "kind:", "RUST_"];
-
-/// Messages that recordings held which met the same fault earlier, by their names.
-pub type Held = BTreeMap<&'static str, u64>;
 
 /// What a command finds, and leaves where nothing fails.
 pub struct Judge<'a> {
@@ -25,8 +21,8 @@ pub struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// What is wrong. `held`: messages that a recording held which met its fault earlier.
-    pub fn judge(&self, fault: Fault, done: &Done, held: &mut Held) -> Vec<String> {
+    /// What is wrong.
+    pub fn judge(&self, fault: Fault, done: &Done) -> Vec<String> {
         let mut wrong = Vec::new();
         let mut require = |holds: bool, why: &dyn Fn() -> String| {
             if !holds {
@@ -42,7 +38,7 @@ impl Judge<'_> {
         let may_stay = if fault.kills() { 2 } else { 0 };
         require(left.len() <= may_stay || fault == Fault::ReadOnly, &|| format!("left: {left:?}"));
         for output in self.case.outputs {
-            if let Err(why) = self.output(output, fault, done, held) {
+            if let Err(why) = self.output(output, fault, done) {
                 require(false, &|| format!("{}: {why}", output.name));
             }
         }
@@ -77,7 +73,7 @@ impl Judge<'_> {
     }
 
     /// An output holds all of the old or all of the new.
-    fn output(&self, output: &Output, fault: Fault, done: &Done, held: &mut Held) -> Result<(), String> {
+    fn output(&self, output: &Output, fault: Fault, done: &Done) -> Result<(), String> {
         let of = |files: &Files| -> Files {
             let own = files.iter().filter(|(name, _)| output.holds(name));
             own.map(|(name, bytes)| (name.clone(), bytes.clone())).collect()
@@ -98,12 +94,22 @@ impl Judge<'_> {
                 now.iter().all(|(name, bytes)| new.get(name).is_some_and(|new| new.starts_with(bytes)))
             }
             Content::Recording => {
-                let path = done.place.folder.join(output.name);
-                match now.is_empty() || now == old {
-                    true => Ok(false),
-                    false => is_recording(&path, done.succeeded(), held.entry(output.name).or_default())
-                        .map(|()| true),
-                }?
+                let [path, held] =
+                    [&done.place.folder, &done.place.held()].map(|folder| folder.join(output.name));
+                let was_begun = fs::read(&held).is_ok_and(|held| old.get(output.name) != Some(&held));
+                if now.is_empty() || now == old {
+                    if was_begun {
+                        return Err("it was begun, and is gone".into());
+                    }
+                    false
+                } else {
+                    let kept = messages(&path, done.succeeded())?;
+                    let held = if was_begun { messages(&held, false)? } else { 0 };
+                    if kept < held {
+                        return Err(format!("{kept} messages, {held} before the fault"));
+                    }
+                    true
+                }
             }
         };
         match (is_new, now == old, done.succeeded()) {
@@ -153,10 +159,7 @@ impl Judge<'_> {
             // What it went on from is another file by now.
             return Ok(());
         }
-        self.case
-            .outputs
-            .iter()
-            .try_for_each(|output| self.output(output, Fault::None, &again, &mut Held::new()))
+        self.case.outputs.iter().try_for_each(|output| self.output(output, Fault::None, &again))
     }
 }
 
@@ -166,8 +169,8 @@ fn keys(bytes: &[u8]) -> Option<Vec<String>> {
     Some(table.keys().cloned().collect())
 }
 
-/// Whether a recording can be read: repaired, it holds no less than one that met its fault earlier.
-fn is_recording(path: &Path, must_be_whole: bool, held: &mut u64) -> Result<(), String> {
+/// Messages of a recording that can be read, once it is repaired; an error: some of it is damaged.
+fn messages(path: &Path, must_be_whole: bool) -> Result<u64, String> {
     let told = |error: anyhow::Error| format!("{error:#}");
     let found = scan(path).map_err(told)?;
     let (chunks, bytes) = found.damaged();
@@ -180,10 +183,5 @@ fn is_recording(path: &Path, must_be_whole: bool, held: &mut u64) -> Result<(), 
     fs::write(&beside, repaired).unwrap();
     let found = scan(&beside).map_err(told);
     fs::remove_file(beside).unwrap();
-    let count = found?.contents.counts().values().sum();
-    if count < *held {
-        return Err(format!("{count} messages, {held} with a fault that came earlier"));
-    }
-    *held = count;
-    Ok(())
+    Ok(found?.contents.counts().values().sum())
 }

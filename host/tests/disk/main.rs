@@ -10,7 +10,7 @@ mod stage;
 
 use cases::{CASES, Case};
 use faults::Fault;
-use judge::{Held, Judge};
+use judge::Judge;
 use run::Run;
 use stage::{Files, Stage};
 use std::collections::BTreeSet;
@@ -48,7 +48,6 @@ fn try_out(case: &Case, stage: &Stage, replaces: bool) -> Tally {
     let judge = Judge { case, stage, before: &before, whole: &whole.after };
     let mut tally = Tally { calls: whole.calls.len(), ..Tally::default() };
     for fault in Fault::ALL {
-        let mut held = Held::new();
         for call in tried(whole.calls.len()) {
             if !fault.concerns(&whole.calls[call - 1]) || fault.is_left_out(call, case) {
                 continue;
@@ -62,7 +61,7 @@ fn try_out(case: &Case, stage: &Stage, replaces: bool) -> Tally {
             tally.runs += 1;
             let place =
                 format!("{} ({}), {fault:?} at {}", case.name, case.shown(replaces), whole.calls[call - 1]);
-            let wrong = judge.judge(fault, &done, &mut held);
+            let wrong = judge.judge(fault, &done);
             tally.wrong.extend(
                 wrong.into_iter().map(|why| format!("{place}: {why}\n    said: {}", done.said.trim())),
             );

@@ -40,7 +40,7 @@ impl Run<'_> {
         command.env("TAXEL_DISK_FOLDER", &place.folder).env("TAXEL_DISK_NOTES", &notes);
         command.env("TAXEL_DISK_CALL", self.call.to_string()).env("TAXEL_DISK_FAULT", self.fault.name());
         command.env("TAXEL_DISK_TARGET", place.folder.join(target));
-        command.env("TAXEL_DISK_PRECIOUS", place.around.join(precious));
+        command.env("TAXEL_DISK_PRECIOUS", place.around.join(precious)).env("TAXEL_DISK_HELD", place.held());
         let output = command.stdin(Stdio::from(fs::File::open(answers).unwrap())).output().unwrap();
         let notes = fs::read_to_string(notes).unwrap_or_default();
         Done {

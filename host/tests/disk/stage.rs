@@ -69,6 +69,7 @@ impl Stage {
         let around = self.root.join(format!("run-{}", COUNT.fetch_add(1, Ordering::Relaxed)));
         let place = Place { folder: around.join("disk"), around };
         fs::create_dir_all(place.around.join("precious-folder")).unwrap();
+        fs::create_dir_all(place.held()).unwrap();
         fs::write(place.around.join("precious"), PRECIOUS).unwrap();
         fs::write(place.around.join("precious-folder/file.png"), PRECIOUS).unwrap();
         for (name, bytes) in files {
@@ -93,6 +94,11 @@ pub struct Place {
 }
 
 impl Place {
+    /// Where copies lie of what the folder held when the fault came.
+    pub fn held(&self) -> PathBuf {
+        self.around.join("held")
+    }
+
     /// Whether what is precious is as it was.
     pub fn is_precious_safe(&self) -> bool {
         let safe =

@@ -2,7 +2,7 @@
 
 use super::super::source::Source;
 use super::super::summary::End;
-use mcap::records::{Channel, Record, SchemaHeader};
+use mcap::records::{Channel, Record, SchemaHeader, Statistics};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
@@ -21,6 +21,8 @@ pub struct Marks {
     pub schemas: BTreeMap<u16, (SchemaHeader, Vec<u8>)>,
     /// Channels by number.
     pub channels: BTreeMap<u16, Channel>,
+    /// How many records of each kind there are.
+    pub statistics: Option<Statistics>,
 }
 
 impl Marks {
@@ -46,6 +48,7 @@ impl Marks {
                 self.chunks.insert(index.chunk_start_offset);
                 self.records.insert(index.chunk_start_offset);
             }
+            Record::Statistics(statistics) => self.statistics = Some(statistics),
             Record::AttachmentIndex(index) => _ = self.records.insert(index.offset),
             Record::MetadataIndex(index) => _ = self.records.insert(index.offset),
             _ => {}

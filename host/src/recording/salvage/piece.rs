@@ -23,6 +23,8 @@ pub struct Piece {
     pub body: Vec<u8>,
     /// What it says.
     pub kind: Kind,
+    /// Its number, its length or its fields stand wrong in the file.
+    pub is_corrected: bool,
 }
 
 /// What a record says.

@@ -147,7 +147,9 @@ impl Walk {
             return Ok(None);
         }
         let body = self.source.read(at + HEAD as u64, head.length)?;
-        let piece = |number, kind, body| Some(Piece { offset: at, end, op: number, body, kind });
+        let piece = |number, kind, body| {
+            Some(Piece { offset: at, end, op: number, body, kind, is_corrected: number != head.op })
+        };
         if let Some(index) = self.follows_chunk(&body) {
             return Ok(piece(op::MESSAGE_INDEX, Kind::Index(index), body));
         }
@@ -155,6 +157,7 @@ impl Walk {
             return Ok(piece(number, kind, body));
         }
         Ok(match parse(head.op, &body) {
+            Some((Kind::Footer, _)) if self.source.read(end, MAGIC.len() as u64)? != MAGIC => None,
             Some((kind, true)) if !self.swallows(at, end) => piece(head.op, kind, body),
             Some((kind, _)) if self.ends(at, end)? => piece(head.op, kind, body),
             _ => None,
@@ -172,8 +175,13 @@ impl Walk {
             return Ok(None);
         };
         let by_fields = (used as u64).saturating_add(told.compressed_size);
-        let piece =
-            |length, body, kind| Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind });
+        let piece = |length, body, kind| {
+            let is_corrected = match &kind {
+                Kind::Chunk(header, _) => *header != told || head != Head { op: op::CHUNK, length },
+                _ => false,
+            };
+            Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind, is_corrected })
+        };
         // The shorter first: what follows a compressed chunk would not be missed by its checksum.
         let mut lengths = vec![by_fields, head.length];
         lengths.sort();
@@ -190,7 +198,7 @@ impl Walk {
         }
         // What is not read here may be whole all the same.
         Ok(if !is_known(&told.compression) || told.uncompressed_size > LARGEST {
-            piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told, None))
+            piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told.clone(), None))
         } else {
             piece(head.length, Vec::new(), Kind::BadChunk)
         })

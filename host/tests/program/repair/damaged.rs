@@ -1,6 +1,6 @@
 //! One bit that flips anywhere, and files that end anywhere.
 
-use super::made::{Told, read, recording, records, repaired};
+use super::made::{Told, found, read, recording, records, repaired};
 use mcap::records::op;
 use std::ops::Range;
 
@@ -36,6 +36,25 @@ fn a_bit_costs_one_chunk_at_most() {
             }
         }
     }
+}
+
+#[test]
+fn a_file_that_is_called_whole_needs_nothing_put_right() {
+    let whole = recording();
+    let (before, chunks) = (read(&whole), chunks(&whole));
+    // Numbers of records; and of a chunk times, sizes, checksum and the name of the compression.
+    let numbers = records(&whole).into_iter().map(|(_, start, _)| start);
+    let fields: Vec<usize> = chunks.iter().flat_map(|chunk| chunk.start..chunk.start + 52).collect();
+    for (at, bit) in numbers.chain(fields.clone()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 1 << bit;
+        if found(&damaged).whole {
+            assert!(!fields.contains(&at), "bit {bit} of byte {at}");
+            // Not all numbers are needed: what is told of channels is told twice.
+            assert_eq!(read(&damaged), before, "bit {bit} of byte {at}");
+        }
+    }
+    assert!(found(&whole).whole);
 }
 
 #[test]

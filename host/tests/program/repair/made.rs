@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
-use taxel::recording::{Format, Messages, Writer, repair, scan};
+use taxel::recording::{Format, Messages, Scan, Writer, repair, scan};
 
 /// A message: topic, log time, data.
 pub type Told = (String, u64, Vec<u8>);
@@ -46,6 +46,11 @@ pub fn recording() -> Vec<u8> {
     }
     writer.finish().unwrap();
     fs::read(&scratch.0).unwrap()
+}
+
+/// What is found in a file.
+pub fn found(bytes: &[u8]) -> Scan {
+    scan(&Scratch::new(bytes).0).unwrap()
 }
 
 /// What can be read of a file, with an end; the file itself must be as it was.
