@@ -62,3 +62,23 @@ fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
 fn magnitude(around: &Neighbourhood, column: u16) -> u32 {
     around.gradient(column).magnitude()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::condition::sobel;
+    use crate::garment::Garment;
+
+    #[test]
+    fn a_row_of_any_length_is_as_steep_as_its_taxels() {
+        let layout = Layout::build(&Garment::recorded(3, 45), 135, 65535).unwrap();
+        let values: [u16; 135] = core::array::from_fn(|i| (i * i * 37 % 4001) as u16);
+        let area = &layout.areas()[0];
+        let around = Neighbourhood::of(&values, area, 1);
+        for (column, taxels) in [(0, 1), (0, 0x8000_0101), (0, u32::MAX), (32, 1), (32, 0x1ffe)] {
+            let columns = (0..32).filter(|bit| taxels & 1 << bit != 0).map(|bit| column + bit);
+            let sum: u32 = columns.map(|column| sobel(&values, area, 1, column).magnitude() >> 3).sum();
+            assert_eq!(steepness(&around, taxels, column), sum);
+        }
+    }
+}

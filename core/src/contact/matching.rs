@@ -59,7 +59,10 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         let Tracks { contacts, trails, .. } = tracks;
         let (points, taken, images) = (&self.points, &mut self.taken, &mut self.expected);
         let mut look = |contact: &Contact, taken: &[bool]| {
-            let (at, reach) = expected(contact, seconds, config.gate);
+            let area = layout.areas().get(usize::from(contact.panel));
+            let gate =
+                (u32::from(config.gate) * 16 * area.map_or(0, |area| u32::from(area.taxels_per_cm))) >> 8;
+            let (at, reach) = expected(contact, seconds, gate as i32);
             at.list_images(layout, images);
             nearest(images, points, &crowds, reach, taken)
         };
@@ -114,9 +117,8 @@ fn seconds(us: u64) -> u32 {
     (wide(us.min(16_000_000) as u32, 281_474_977) >> 32) as u32
 }
 
-/// Where a contact should be, and how far from there it may be, in 1/16 taxel.
-fn expected(contact: &Contact, seconds: u32, gate: u16) -> (Point, u32) {
-    let gate = i32::from(gate) * 16;
+/// Where a contact should be, and how far from there it may be; this and the gate in 1/16 taxel.
+fn expected(contact: &Contact, seconds: u32, gate: i32) -> (Point, u32) {
     let step = |v: Fixed16| (signed_wide(v.0, seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
     let still = contact.vx.0 == 0 && contact.vy.0 == 0;
     let (x, y) = if still { (0, 0) } else { (step(contact.vx), step(contact.vy)) };

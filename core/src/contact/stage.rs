@@ -109,10 +109,10 @@ impl ContactConfig {
             return refuse("contact.high", "must not be below contact.low");
         }
         if self.gate == 0 || self.gate > 1000 {
-            return refuse("contact.gate", "must be 1 to 1000 taxels");
+            return refuse("contact.gate", "must be 1 to 1000 cm");
         }
         if self.slip_speed == 0 {
-            return refuse("contact.slip_speed", "must be at least 1 (1/16 taxel/s)");
+            return refuse("contact.slip_speed", "must be at least 1 (1/16 cm/s)");
         }
         Ok(Contacts { config: *self, forms: Forms::default() })
     }

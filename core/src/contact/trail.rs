@@ -52,7 +52,8 @@ impl Trail {
         let change = component.total.abs_diff(contact.total);
         let leaps = self.leaps || change > contact.total / 4;
         let step = if leaps { [0; 2] } else { step };
-        let step = match layout.areas().get(usize::from(component.bounds.panel)) {
+        let area = layout.areas().get(usize::from(component.bounds.panel));
+        let step = match area {
             Some(area) if config.slip_speed != NO_SLIP => {
                 if leaps {
                     self.pattern.forget();
@@ -68,15 +69,25 @@ impl Trail {
         contact.vy = pace.velocity(contact.vy, step[1]);
         // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders with it.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
-        contact.slip = config.slip_speed != NO_SLIP && self.slips(contact, sliding, config, pace);
+        contact.slip = config.slip_speed != NO_SLIP
+            && self.slips(contact, sliding, config, pace, area.map_or(0, |area| area.taxels_per_cm));
     }
 
     /// A slip begins with its steps, and lasts as long as the contact is fast.
-    fn slips(&mut self, contact: &Contact, step: Way, config: &ContactConfig, pace: &Pace) -> bool {
-        let begins = self.slip.begins(step, pace.limit);
-        let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> 12).pow(2);
-        let fast = square(contact.vx) + square(contact.vy) >= u64::from(config.slip_speed).pow(2);
-        begins || (contact.slip && fast)
+    fn slips(
+        &mut self,
+        contact: &Contact,
+        step: Way,
+        config: &ContactConfig,
+        pace: &Pace,
+        taxels_per_cm: u16,
+    ) -> bool {
+        let taxels = |cm: u32| (cm * u32::from(taxels_per_cm)) >> 8;
+        let is_fast = || {
+            let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> 12).pow(2);
+            square(contact.vx) + square(contact.vy) >= u64::from(taxels(config.slip_speed.into())).pow(2)
+        };
+        self.slip.begins(step, taxels(pace.limit.min(LONGEST_WAY))) || (contact.slip && is_fast())
     }
 }
 
@@ -97,9 +108,12 @@ pub(super) struct Pace {
     tau: u32,
     /// Of `tau` and the time since the last frame; none where no time went by.
     inverse: Option<Inverse>,
-    /// Way of the slip speed in the time of [`SLIP_STEPS`] steps, in 2^-12 taxel.
+    /// Way of the slip speed in the time of [`SLIP_STEPS`] steps, in 2^-12 cm.
     limit: u32,
 }
+
+/// A longer way counts as 16 cm, 2^-12 cm: times the taxels in 10 mm it has 32 bits.
+const LONGEST_WAY: u32 = 16 << 12;
 
 /// Times of the last frames.
 #[derive(Debug, Clone)]

@@ -24,6 +24,8 @@ pub struct Area {
     pub pitch_um: [u32; 2],
     /// Area of a taxel, see [`cell_mm2`].
     pub cell_mm2: u32,
+    /// Taxels in 10 mm, see [`taxels_per_cm`].
+    pub taxels_per_cm: u16,
 }
 
 /// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
@@ -33,6 +35,14 @@ pub const ASSUMED_PITCH_UM: u32 = 10_000;
 pub fn cell_mm2(pitch_um: [u32; 2]) -> u32 {
     let [x, y] = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.min(655_399) } / 100);
     (x * y / 100).max(1)
+}
+
+/// Taxels in 10 mm, in Q8, on a panel of this pitch (0: unknown, 10 mm are assumed): along the axis on which they lie closer.
+/// To the nearest, 4 at 655 mm to 25,600 at 0.1 mm.
+pub fn taxels_per_cm(pitch_um: [u32; 2]) -> u16 {
+    let um = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.clamp(100, 655_399) });
+    let least = um[0].min(um[1]);
+    ((256 * ASSUMED_PITCH_UM + least / 2) / least) as u16
 }
 
 /// Where a taxel is.

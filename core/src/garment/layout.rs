@@ -1,6 +1,6 @@
 //! The checked geometry of a garment.
 
-use super::area::{Area, Place, cell_mm2};
+use super::area::{Area, Place, cell_mm2, taxels_per_cm};
 use super::config::{ABSENT, Absent, Garment, PANELS, PITCH_UM, Panel, SEAMS};
 use super::error::GarmentError;
 use super::seam::Joint;
@@ -92,6 +92,7 @@ impl Layout {
                 columns: panel.columns,
                 pitch_um: panel.pitch_um,
                 cell_mm2: cell_mm2(panel.pitch_um),
+                taxels_per_cm: taxels_per_cm(panel.pitch_um),
             });
             self.taxels += panel.rows * panel.columns;
             first_row += panel.rows;

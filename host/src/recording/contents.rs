@@ -75,11 +75,4 @@ impl Contents {
     pub fn attachments(&self) -> impl Iterator<Item = &str> {
         self.attachments.iter().map(|attachment| attachment.name.as_str())
     }
-
-    /// Forgets what lies at `length` or behind it.
-    pub(super) fn cut(&mut self, length: u64) {
-        self.chunks.retain(|chunk| chunk.end() <= length);
-        self.attachments.retain(|attachment| attachment.offset + attachment.length <= length);
-        self.metadata.retain(|metadata| metadata.offset + metadata.length <= length);
-    }
 }

@@ -170,6 +170,12 @@ impl<W: Write> Rebuilt<'_, W> {
     }
 
     fn end(&mut self) -> Result<()> {
+        // What only the old summary told, and nothing has needed.
+        let (channels, schemas) =
+            (self.contents.channels.keys().copied(), self.contents.schemas.keys().copied());
+        let (channels, schemas): (Vec<_>, Vec<_>) = (channels.collect(), schemas.collect());
+        channels.into_iter().try_for_each(|channel| self.channel(channel))?;
+        schemas.into_iter().try_for_each(|schema| self.schema(schema))?;
         let mut ending = Ending::begin(&self.contents, self.length)?;
         self.contents.chunks.iter().try_for_each(|chunk| ending.chunk(chunk))?;
         let end = ending.finish(&self.contents)?;

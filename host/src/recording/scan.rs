@@ -79,7 +79,8 @@ impl Scan {
         let found = &self.contents;
         let messages: u64 = found.counts().values().sum();
         let inside = [found.schemas.len() as u64, found.channels.len() as u64, messages];
-        let beside = [found.attachments.len(), found.metadata.len(), found.chunks()].map(|count| count as u64);
+        let beside =
+            [found.attachments.len(), found.metadata.len(), found.chunks()].map(|count| count as u64);
         let is_read = self.foreign == 0;
         let told_inside = [told.schema_count.into(), told.channel_count.into(), told.message_count];
         (!is_read || inside == told_inside)

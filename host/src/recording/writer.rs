@@ -17,7 +17,6 @@ use mcap::records::{
     op,
 };
 use std::collections::BTreeMap;
-use std::io::{self, ErrorKind};
 
 /// Plain bytes of a chunk after which it is closed whatever the time.
 const LARGE: usize = 4 << 20;
@@ -192,28 +191,15 @@ impl<S: Store> Writer<S> {
         Ok(self.store.keep()?)
     }
 
-    /// Writes the end. Where there is no room for it, chunks are given up from behind until it fits into
-    /// theirs. Where it cannot be written even so, the file stays without it, and [`repair`](super::repair())
-    /// adds it. The bytes of the file.
+    /// Writes the end. Where it cannot be written, the file stays without it and keeps all that it holds;
+    /// [`repair`](super::repair()) adds it. The bytes of the file.
     pub fn finish(mut self) -> Result<u64> {
         let closed = self.close();
-        let full = self.length;
-        loop {
-            let start = self.length;
-            let Err(error) = self.end() else { break };
-            let fitted = self.length - start;
-            if self.cut(start).is_err() || !is_full(&error) {
-                return Err(error);
-            }
-            let needed = self.end_length()?;
-            if full - start >= needed {
-                return Err(error);
-            }
-            // A piece that did not fit may have all but fitted.
-            let missing = needed.saturating_sub(fitted + PIECE as u64).max(1);
-            let Some(start) = self.chunk_before(start.saturating_sub(missing))? else { return Err(error) };
-            self.cut(start)?;
-            self.contents.cut(start);
+        let records = self.length;
+        if let Err(error) = self.end() {
+            // A part of the end that stays is taken for torn bytes.
+            _ = self.cut(records);
+            return Err(error);
         }
         self.store.keep()?;
         closed.map(|()| self.length)
@@ -221,56 +207,22 @@ impl<S: Store> Writer<S> {
 
     /// Writes the end, or a part of it.
     fn end(&mut self) -> Result<()> {
-        self.tell(|writer, piece| writer.put(&piece))
-    }
-
-    /// Bytes that the end takes.
-    fn end_length(&mut self) -> Result<u64> {
-        let mut length = 0;
-        self.tell(|_, piece| {
-            length += piece.len() as u64;
-            Ok(())
-        })?;
-        Ok(length)
-    }
-
-    /// Gives the pieces of the end, one after the other.
-    fn tell(&mut self, mut give: impl FnMut(&mut Self, Vec<u8>) -> Result<()>) -> Result<()> {
         let mut ending = Ending::begin(&self.contents, self.length)?;
         self.contents.chunks.iter().try_for_each(|chunk| ending.chunk(chunk))?;
         let mut written = Written::until(if self.is_readable { self.length } else { 0 });
         while let Some(chunk) = written.next_chunk(&mut self.store)? {
             ending.chunk(&chunk)?;
             if ending.waiting() >= PIECE {
-                give(self, ending.take())?;
+                let piece = ending.take();
+                self.put(&piece)?;
             }
         }
         let last = ending.finish(&self.contents)?;
-        give(self, last)
-    }
-
-    /// Where the last chunk begins that begins at `offset` or before it.
-    fn chunk_before(&mut self, offset: u64) -> Result<Option<u64>> {
-        let mut written = Written::until(self.length);
-        let mut last = None;
-        while let Some(chunk) = written.next_chunk(&mut self.store)? {
-            let start = chunk.index.chunk_start_offset;
-            if start > offset {
-                break;
-            }
-            last = Some(start);
-        }
-        Ok(last)
+        self.put(&last)
     }
 
     /// Bytes so far, those of the last moment not included.
     pub fn bytes(&self) -> u64 {
         self.length
     }
-}
-
-/// Whether an error says that there is no room.
-fn is_full(error: &anyhow::Error) -> bool {
-    let kind = error.downcast_ref::<io::Error>().map(io::Error::kind);
-    matches!(kind, Some(ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge))
 }

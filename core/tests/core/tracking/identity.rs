@@ -159,13 +159,17 @@ fn a_contact_keeps_its_id_over_a_seam() {
 
 #[test]
 fn the_gate_is_the_farthest_leap() {
-    // Four taxels and half the size of one taxel.
-    for (leap, same) in [(4, true), (5, false)] {
-        let mut rig = Rig::mat();
+    // Four cm and half the size of one taxel.
+    for (mm, leap, same) in
+        [(10, 4, true), (10, 5, false), (5, 8, true), (5, 9, false), (20, 2, true), (20, 3, false)]
+    {
+        let mut garment = Garment::mat();
+        garment.panels[0].pitch_um = [1_000 * mm; 2];
+        let mut rig = Rig::new(&garment, ContactConfig::default());
         show(&mut rig, &[([10, 10], [5, 5], 900)]);
         let frame = show(&mut rig, &[([10, 10], [5 + leap, 5 + leap], 900)]);
         let expected: (&[u32], &[u32]) = if same { (&[1], &[]) } else { (&[2], &[1]) };
-        assert_eq!((&ids(&frame.present)[..], &ids(&frame.released)[..]), expected, "{leap}");
+        assert_eq!((&ids(&frame.present)[..], &ids(&frame.released)[..]), expected, "{leap} at {mm} mm");
     }
     // One that gets faster is looked for where it is going: six taxels a frame in the end.
     let mut rig = Rig::mat();

@@ -43,6 +43,33 @@ fn onset(config: ContactConfig, noise: f64, speed: f64, degrees: f64, pressure: 
     None
 }
 
+/// A mat of 64 x 32 taxels that lie so many mm apart.
+fn mat_of(mm: u32) -> Garment {
+    let mut garment = Garment::mat();
+    garment.panels[0].pitch_um = [1_000 * mm; 2];
+    garment
+}
+
+/// The same motion is a slip or none however close the taxels lie.
+#[test]
+fn a_slip_is_one_of_cm_per_second() {
+    let config = ContactConfig::default();
+    for mm in [4, 5, 8, 10, 15] {
+        // A dome of 4 cm, whose speed is told in cm/s.
+        let (taxels, pressure) = (10.0 / f64::from(mm), dome(20.0 / f64::from(mm)));
+        let onset = |speed: f64| {
+            let mut rig = Rig::new(&mat_of(mm), config);
+            (0..120usize).find(|frame| {
+                let way = speed * taxels * FRAME_US as f64 / 1e6 * frame.saturating_sub(60) as f64;
+                rig.draw(|x, y| pressure(x - 15.4, y - 25.3 - way));
+                rig.only().slip
+            })
+        };
+        assert_eq!((onset(0.0), onset(2.5)), (None, None), "{mm} mm");
+        assert!(onset(6.0).is_some_and(|frame| (61..=63).contains(&frame)), "{mm} mm: {:?}", onset(6.0));
+    }
+}
+
 /// The slip speed in taxels per frame.
 fn slip_step(config: ContactConfig) -> f64 {
     f64::from(config.slip_speed) / 16.0 * FRAME_US as f64 / 1e6
