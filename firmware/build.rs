@@ -2,8 +2,8 @@
 
 use std::{env, fs, path::PathBuf};
 
-/// The images, and the memory map of each. A memory.x in the folder where the linker runs would silently win over these: that is why none
-/// lies beside this file.
+/// The images, and the memory map of each. A memory.x in the folder where the linker runs would silently win
+/// over these: that is why none lies beside this file.
 const MAPS: [(&str, &str); 2] = [("taxel-firmware", "../memory.x"), ("bench", "src/bin/bench.x")];
 
 fn main() {

@@ -29,9 +29,10 @@ impl Placed {
         self.region = region(layout, contact);
     }
 
-    /// Speed over the surface in 0.1 mm/s; at 10 mm pitch where the panel gives none, with the pitch cut to 0.1 mm. Each axis
-    /// is held below 2^15 taxels/s and rounded down, and the larger part counts with half of the smaller: at most 11.81 %
-    /// above the true speed, and 2 steps off. At most 98,304,000, at the largest pitch.
+    /// Speed over the surface in 0.1 mm/s; at 10 mm pitch where the panel gives none, with the pitch cut to
+    /// 0.1 mm. Each axis is held below 2^15 taxels/s and rounded down, and the larger part counts with half
+    /// of the smaller: at most 11.81 % above the true speed, and 2 steps off. At most 98,304,000, at the
+    /// largest pitch.
     pub fn speed(&self, layout: &Layout) -> u32 {
         let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
         // 31 and 13 bits.

@@ -1,4 +1,5 @@
-//! Posture: how the robot's joints stand, as the host tells it. Later stages compensate the garment's own folding by it.
+//! Posture: how the robot's joints stand, as the host tells it. Later stages compensate the garment's own
+//! folding by it.
 //!
 //! | | |
 //! |---|---|

@@ -193,12 +193,13 @@ impl Scene {
         Ok(())
     }
 
-    /// The same for codes with a Gaussian noise of that many counts (standard deviation): noise alone begins no contact for
-    /// hours, and a touch of 2x2 taxels is found from five standard deviations on, 990 times in 1,000 in its first frame.
+    /// The same for codes with a Gaussian noise of that many counts (standard deviation): noise alone begins
+    /// no contact for hours, and a touch of 2x2 taxels is found from five standard deviations on, 990 times
+    /// in 1,000 in its first frame.
     ///
-    /// No taxel alone tells that touch from noise, but the mean of 2x2 has half the noise: where [`Filter::Square`] leaves 3.25
-    /// standard deviations of a taxel, 6.5 of the mean were reached, which in 2,048 taxels noise does in one of 12 million
-    /// frames; and the touch is 3.5 of them above that.
+    /// No taxel alone tells that touch from noise, but the mean of 2x2 has half the noise: where
+    /// [`Filter::Square`] leaves 3.25 standard deviations of a taxel, 6.5 of the mean were reached, which in
+    /// 2,048 taxels noise does in one of 12 million frames; and the touch is 3.5 of them above that.
     pub fn against_noise(mut self, deviation: u16) -> Scene {
         let times = |factor: u16| deviation.saturating_mul(factor).max(1);
         self.condition.filter = Filter::Square;

@@ -1,9 +1,11 @@
-//! Links only if no panic is reachable from [`Board`]: the panic handler calls a function that nobody defines. Never run.
+//! Links only if no panic is reachable from [`Board`]: the panic handler calls a function that nobody
+//! defines. Never run.
 //!
-//! What the calls are given comes from outside, so the compiler knows nothing of it: any state, any bytes, any codes.
-//! With `--cfg control` one panic is reachable, and it must not link. `cargo xtask test --only no-panic` builds both, as
-//! the firmware is built. To find a panic, define the function by `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in
-//! the disassembly for who calls `core::panicking`.
+//! What the calls are given comes from outside, so the compiler knows nothing of it: any state, any bytes,
+//! any codes. With `--cfg control` one panic is reachable, and it must not link.
+//! `cargo xtask test --only no-panic` builds both, as the firmware is built. To find a panic, define the
+//! function by `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in the disassembly for who calls
+//! `core::panicking`.
 //!
 //! The loop around the board, an `async fn`, is not covered: polled again after its end it panics.
 #![no_std]

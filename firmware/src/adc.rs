@@ -1,4 +1,5 @@
-//! The converter: one 12-bit sample at a time, of the input that is asked for, or one after the other by itself.
+//! The converter: one 12-bit sample at a time, of the input that is asked for, or one after the other by
+//! itself.
 
 use embassy_rp::adc::{Adc, Blocking, Channel};
 use rp_pac::{ADC, PADS_BANK0};
@@ -73,8 +74,9 @@ impl<const INPUTS: usize> PulledAdc for Converter<INPUTS> {
 /// The converter's channel of the thermometer.
 const THERMOMETER: u8 = 4;
 
-/// The temperature of a code of the thermometer: 27 degrees less one for each 1.721 mV above 0.706 V, at a reference of 3.3 V
-/// (RP2040 datasheet, 4.9.5). 0.1 degrees are lost here at most; two to three counts of noise are a degree.
+/// The temperature of a code of the thermometer: 27 degrees less one for each 1.721 mV above 0.706 V, at a
+/// reference of 3.3 V (RP2040 datasheet, 4.9.5). 0.1 degrees are lost here at most; two to three counts of
+/// noise are a degree.
 pub fn celsius(code: u16) -> Celsius {
     // 2700 + 70_600 / 1.721, less 330_000 / 1.721 for each 4096 counts.
     let hundredths = 43_723 - ((u32::from(code.min(4095)) * 191_749) >> 12) as i32;

@@ -1,16 +1,19 @@
-//! Copies, four words at a time: 13 cycles of a Cortex-M0+ for them, or 25 where they stand otherwise, and the loops of the
-//! compiler's library take 32 or 80.
+//! Copies, four words at a time: 13 cycles of a Cortex-M0+ for them, or 25 where they stand otherwise, and
+//! the loops of the compiler's library take 32 or 80.
 //!
-//! These are the functions that compiled code calls for copies of some length, in place of that library's own, which give way to others.
+//! These are the functions that compiled code calls for copies of some length, in place of that library's
+//! own, which give way to others.
 
-// SAFETY: they do what the run-time ABI for the Arm architecture (5.3.4) asks of them: `r0`, `r1`, `r2` are the places to and from which
-// so many bytes are copied, which overlap in those named `memmove` alone; in those of the names with 4 and 8 both are whole words, and the
-// last may be a part of one. What they change besides `r0` to `r3` they put back. To the front each byte is read before its place is
-// written. `memmove` is the library's.
+// SAFETY: they do what the run-time ABI for the Arm architecture (5.3.4) asks of them: `r0`, `r1`, `r2` are
+// the places to and from which so many bytes are copied, which overlap in those named `memmove` alone; in
+// those of the names with 4 and 8 both are whole words, and the last may be a part of one. What they change
+// besides `r0` to `r3` they put back. To the front each byte is read before its place is written. `memmove`
+// is the library's.
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(
-        // Four words a step from a place so many bytes behind a whole word: `r3` holds what was read and not yet written.
+        // Four words a step from a place so many bytes behind a whole word: `r3` holds what was read and not
+        // yet written.
         ".macro taxel_copy_by bytes",
         "    subs r1, #\\bytes",
         "    ldmia r1!, {{r3}}",

@@ -1,6 +1,6 @@
-//! What lies below the stack may not be touched: memory ends there, and the memory protection unit makes a fault of every access for
-//! certain, whatever the chip's bus does with such an address. The stack can then not even push what an exception needs, the
-//! processor locks up, and the watchdog restarts the board.
+//! What lies below the stack may not be touched: memory ends there, and the memory protection unit makes a
+//! fault of every access for certain, whatever the chip's bus does with such an address. The stack can then
+//! not even push what an exception needs, the processor locks up, and the watchdog restarts the board.
 
 use cortex_m::peripheral::MPU;
 

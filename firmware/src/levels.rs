@@ -1,8 +1,10 @@
-//! The outputs before the program: each stands at its fault level as soon as the first instructions run, as kept in the flash.
+//! The outputs before the program: each stands at its fault level as soon as the first instructions run, as
+//! kept in the flash.
 //!
-//! Memory is cleared only after that: at the 6 MHz of a chip that has just started it takes some 60 ms. embassy-rp has its own function
-//! there, which resets the levels of all pins; the linker (`--wrap`, build.rs) lets this one go around it. When the clocks start,
-//! embassy-rp resets the pads once more, and they are driven again as soon as that is over.
+//! Memory is cleared only after that: at the 6 MHz of a chip that has just started it takes some 60 ms.
+//! embassy-rp has its own function there, which resets the levels of all pins; the linker (`--wrap`,
+//! build.rs) lets this one go around it. When the clocks start, embassy-rp resets the pads once more, and
+//! they are driven again as soon as that is over.
 
 use crate::store::LEVELS;
 use core::ptr;

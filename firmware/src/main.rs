@@ -51,8 +51,8 @@ fn employ(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
     board.employ(Scene::shipped())
 }
 
-/// Gives the board what ships. Functions of their own: the main task's stack would keep room for ever for what is only needed
-/// here.
+/// Gives the board what ships. Functions of their own: the main task's stack would keep room for ever for
+/// what is only needed here.
 #[inline(never)]
 fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
     if let Err(error) = dress(board).and_then(|()| employ(board)) {
@@ -64,7 +64,8 @@ fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
     }
 }
 
-/// The scanner over this board's parts. A function of its own, too: what is put into a static is built on the stack.
+/// The scanner over this board's parts. A function of its own, too: what is put into a static is built on the
+/// stack.
 #[inline(never)]
 fn scanner(
     lines: [(u8, pins::Line); board::LINES],

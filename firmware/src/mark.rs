@@ -1,5 +1,5 @@
-//! Marks for the emulator: it watches one word of memory and sums the cycles between two marks by stage. On a board a
-//! mark is a store.
+//! Marks for the emulator: it watches one word of memory and sums the cycles between two marks by stage. On a
+//! board a mark is a store.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 

@@ -5,7 +5,8 @@ use embassy_rp::{Peri, gpio};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use taxel_core::acquire::{Pad, Pull};
 
-/// A free pin. It stays high-impedance until something drives it, so that a line no garment names disturbs nothing.
+/// A free pin. It stays high-impedance until something drives it, so that a line no garment names disturbs
+/// nothing.
 pub struct Line(gpio::Flex<'static>);
 
 impl Line {

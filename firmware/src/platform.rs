@@ -20,8 +20,8 @@ use taxel_core::{
 };
 use taxel_store::{Found, StoreError};
 
-/// The board restarts when the loop has not come round for this long. The core refuses garments and scenes whose frames take
-/// nearly as long.
+/// The board restarts when the loop has not come round for this long. The core refuses garments and scenes
+/// whose frames take nearly as long.
 pub const WATCHDOG: Duration = Duration::from_millis(WATCHDOG_MS as u64);
 
 /// The LED changes this often, as long as the loop runs.
@@ -51,8 +51,8 @@ impl Clock for Timer {
     }
 }
 
-/// Waits by counting instructions: the timer's microseconds are too coarse for the settling of a multiplexer, and a wait
-/// that ends up to 1 us early would read the wrong taxel.
+/// Waits by counting instructions: the timer's microseconds are too coarse for the settling of a multiplexer,
+/// and a wait that ends up to 1 us early would read the wrong taxel.
 #[derive(Debug, Clone, Copy)]
 pub struct Settle {
     /// Rounds of the waiting loop per nanosecond, in units of 2^-16.
@@ -74,8 +74,8 @@ impl Settle {
     }
 
     fn wait(&self, ns: u32) {
-        // No division here: this core has none, and one in software takes 2 us. `delay` does one round more than it is
-        // told, which makes up for the rounding.
+        // No division here: this core has none, and one in software takes 2 us. `delay` does one round more
+        // than it is told, which makes up for the rounding.
         cortex_m::asm::delay((ns * self.rounds_per_ns) >> 16);
     }
 }

@@ -1,10 +1,10 @@
-//! The supply of the processor: below this voltage the chip resets itself. A processor that goes on with less may write nonsense into the
-//! flash.
+//! The supply of the processor: below this voltage the chip resets itself. A processor that goes on with less
+//! may write nonsense into the flash.
 
 use rp_pac::VREG_AND_CHIP_RESET;
 
-/// 0.946 V of 1.1 V, the highest step that leaves room for the regulator's 3 % and the comparator's own error (RP2040
-/// datasheet, 2.10.6); the chip starts with 0.86 V.
+/// 0.946 V of 1.1 V, the highest step that leaves room for the regulator's 3 % and the comparator's own error
+/// (RP2040 datasheet, 2.10.6); the chip starts with 0.86 V.
 const THRESHOLD: u8 = 0b1011;
 
 /// Raises the threshold of the brown-out detector.

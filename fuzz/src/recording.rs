@@ -1,4 +1,5 @@
-//! A recording of any bytes, or of any records behind valid checksums: every reader ends, and what `repair` writes is whole.
+//! A recording of any bytes, or of any records behind valid checksums: every reader ends, and what `repair`
+//! writes is whole.
 
 use crate::bytes::Bytes;
 use crate::mcap;
@@ -9,7 +10,8 @@ use taxel::recording::{Clips, Messages, Overview, chunk_indexes, footer, repair,
 /// How many bytes a recording may hold per byte of its file: LZ4 packs 255 into one.
 const MOST: usize = 255;
 
-/// Reads the bytes as a recording in every way there is: as they are, or as its records, as the first of them says.
+/// Reads the bytes as a recording in every way there is: as they are, or as its records, as the first of them
+/// says.
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
     match bytes.byte() % 2 {

@@ -6,7 +6,8 @@
 //! | `.npz` | named arrays like that |
 //! | `.csv`, `.txt` | a row per line, numbers separated by commas, a blank line between frames; `#` starts a comment |
 //!
-//! Every value is an integer in 0 ..= 65535, or the error names file, array, frame, row and column (all from 0).
+//! Every value is an integer in 0 ..= 65535, or the error names file, array, frame, row and column (all from
+//! 0).
 
 mod csv;
 mod npy;
@@ -58,8 +59,8 @@ pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
     read().with_context(|| path.display().to_string())
 }
 
-/// Reads all arrays of two or three dimensions in the order of their names. A file that holds one array without a name
-/// gives it the name of the file.
+/// Reads all arrays of two or three dimensions in the order of their names. A file that holds one array
+/// without a name gives it the name of the file.
 pub fn read_all(path: &Path) -> Result<Vec<(String, Frames)>> {
     let read = || match open(path)? {
         Source::Archive(mut archive) => archive.all(),
@@ -81,7 +82,8 @@ pub fn list(path: &Path, array: &str) -> Result<Option<Vec<u16>>> {
     archive(path, |archive| archive.list(array))
 }
 
-/// The texts of an array of one dimension in an archive, as names of classes are; none where there is no such array.
+/// The texts of an array of one dimension in an archive, as names of classes are; none where there is no such
+/// array.
 pub fn texts(path: &Path, array: &str) -> Result<Option<Vec<String>>> {
     archive(path, |archive| archive.texts(array))
 }

@@ -1,4 +1,5 @@
-//! The host's end of the wire: bytes in any split go in, events come out, and what is known of the garment stays here.
+//! The host's end of the wire: bytes in any split go in, events come out, and what is known of the garment
+//! stays here.
 //!
 //! ```
 //! use taxel::client::{Client, Event};

@@ -1,23 +1,25 @@
 //! The host's time of what a board has seen, from round trips of `Sync`: bounds, not a guess with an error bar.
 //!
-//! A request that the host sent at `asked` was read by the board at `received`, and its answer, handed to the link at `sent`,
-//! came at `answered`: the board's `received` is not before `asked`, and its `sent` not after `answered`, however long
-//! and however unequal the two ways were. Each round trip so bounds the offset of the two clocks from both sides; bounds
-//! of earlier trips are carried on, widened by what the clocks can have drifted since, and cut with the new ones. A trip
-//! that waited in a queue bounds less, and does no harm. The rate is bounded likewise, by bounds of the offset that lie
-//! minutes apart.
+//! A request that the host sent at `asked` was read by the board at `received`, and its answer, handed to the
+//! link at `sent`, came at `answered`: the board's `received` is not before `asked`, and its `sent` not after
+//! `answered`, however long and however unequal the two ways were. Each round trip so bounds the offset of
+//! the two clocks from both sides; bounds of earlier trips are carried on, widened by what the clocks can
+//! have drifted since, and cut with the new ones. A trip that waited in a queue bounds less, and does no
+//! harm. The rate is bounded likewise, by bounds of the offset that lie minutes apart.
 //!
-//! What is assumed: the clocks differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at most. Bounds
-//! that leave nothing over mean that it did not hold, or that a clock was set: then everything begins with the last trip.
+//! What is assumed: the clocks differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at
+//! most. Bounds that leave nothing over mean that it did not hold, or that a clock was set: then everything
+//! begins with the last trip.
 
 use std::collections::VecDeque;
 use std::time::{Instant, SystemTime};
 use taxel_core::format::Micros;
 
-/// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm, a host that follows a time server
-/// turns its clock by 500 ppm at most.
+/// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm, a host that
+/// follows a time server turns its clock by 500 ppm at most.
 pub const RATE_LIMIT: f64 = 500e-6;
-/// Fastest change of that difference, per second: 0.1 ppm/s, a cheap crystal that warms by 6 degrees in a minute.
+/// Fastest change of that difference, per second: 0.1 ppm/s, a cheap crystal that warms by 6 degrees in a
+/// minute.
 pub const WANDER: f64 = 0.1e-6;
 /// Time between two bounds that are kept for the rate, us.
 const SPACING: f64 = 4e6;

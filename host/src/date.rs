@@ -21,8 +21,8 @@ pub fn parts(text: &str) -> Option<(u16, u8, u8)> {
     Some((year.parse().ok()?, month.parse().ok()?, day.parse().ok()?))
 }
 
-/// The day that many days after 1 January 1970: whole spans of 400 years have 146,097 days, and a year that begins in March
-/// has its leap day last.
+/// The day that many days after 1 January 1970: whole spans of 400 years have 146,097 days, and a year that
+/// begins in March has its leap day last.
 fn date(days: u64) -> String {
     let days = days + 719_468;
     let (span, day) = (days / 146_097, days % 146_097);

@@ -7,8 +7,8 @@
 //! | 2 | wrong use: another command line is needed | [`Fault::usage`], [`Blame::usage`] |
 //! | 3 | the board is at fault: no answer, a refusal, faulty lines or taxels | [`Fault::board`], [`Blame::board`] |
 //!
-//! A mark adds no words to the error, and contexts above it keep it. The first mark counts: who found the error knows best.
-//! `anyhow!("{error:#}")` loses it; use `context`.
+//! A mark adds no words to the error, and contexts above it keep it. The first mark counts: who found the
+//! error knows best. `anyhow!("{error:#}")` loses it; use `context`.
 //!
 //! ```
 //! use anyhow::{Context, Result, ensure};
@@ -38,7 +38,8 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// The command line is wrong: a name that is not known, options that do not go together, a number out of its range.
+    /// The command line is wrong: a name that is not known, options that do not go together, a number out of
+    /// its range.
     pub fn usage(message: impl fmt::Display) -> Fault {
         Fault { status: 2, error: Error::msg(message.to_string()) }
     }

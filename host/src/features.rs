@@ -1,4 +1,5 @@
-//! `taxel features`: moments, NMI and axis of one recorded image as it stands, without conditioning or thresholds.
+//! `taxel features`: moments, NMI and axis of one recorded image as it stands, without conditioning or
+//! thresholds.
 
 use crate::arrays;
 use crate::fault::Fault;
@@ -25,8 +26,8 @@ pub struct FeaturesArgs {
     pub json: bool,
 }
 
-/// Features of one image. The sums are exact; x is the column and y the row, from 0. What an image without pressure does
-/// not have is none.
+/// Features of one image. The sums are exact; x is the column and y the row, from 0. What an image without
+/// pressure does not have is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Features {
     /// sum f
@@ -86,8 +87,8 @@ pub fn run(args: FeaturesArgs) -> Result<()> {
 }
 
 impl Features {
-    /// Of an image of rows of `columns` values. Refused are images whose moment of inertia times mass takes more than 64
-    /// bits, for which the core's arithmetic is not exact.
+    /// Of an image of rows of `columns` values. Refused are images whose moment of inertia times mass takes
+    /// more than 64 bits, for which the core's arithmetic is not exact.
     pub fn of(image: &[u16], columns: usize) -> Result<Features> {
         let moments = Moments::of_image(image, columns);
         if wide_jm(&moments) != Some(moments.jm().into()) {

@@ -25,17 +25,19 @@ pub struct HealthArgs {
     /// `auto`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `file:FILE` or `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Images to wait for; each of 2,048 taxels is judged once in 90 frames. Touch the garment meanwhile to find dead taxels
+    /// Images to wait for; each of 2,048 taxels is judged once in 90 frames. Touch the garment meanwhile to
+    /// find dead taxels
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub frames: u64,
     /// Take the mean of the first N frames as the baseline [default: what a simulated scene says, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
-    /// Run the self-test of select lines and inputs, and judge every taxel anew [default: report the board's last self-test]
+    /// Run the self-test of select lines and inputs, and judge every taxel anew [default: report the board's
+    /// last self-test]
     #[arg(long)]
     pub self_test: bool,
-    /// Whether the blocks are passive matrices: if so, contacts that three others may have made are reported as ghosts
-    /// [default: true for the preset `block-4x16`]
+    /// Whether the blocks are passive matrices: if so, contacts that three others may have made are reported
+    /// as ghosts [default: true for the preset `block-4x16`]
     #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
     pub passive: Option<bool>,
     /// Print JSON instead of a table

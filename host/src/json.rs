@@ -1,7 +1,7 @@
 //! The JSON objects that every command prints alike.
 //!
-//! Lengths in taxels and, with `_mm`, in millimetres where the garment knows its pitch; angles in radians, times in
-//! seconds, pressure in counts. Floats are finite or `null`.
+//! Lengths in taxels and, with `_mm`, in millimetres where the garment knows its pitch; angles in radians,
+//! times in seconds, pressure in counts. Floats are finite or `null`.
 
 use serde_json::{Map, Value, json};
 use taxel_core::body::Placed;

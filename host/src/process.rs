@@ -45,7 +45,8 @@ pub struct ProcessArgs {
     /// Take the mean of the first N frames as the baseline
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub tare: u16,
-    /// Forms (outline, azimuth, breadth, shape) that are looked at in a frame, in turn: 1 to 254, or all; a board looks at 1
+    /// Forms (outline, azimuth, breadth, shape) that are looked at in a frame, in turn: 1 to 254, or all; a
+    /// board looks at 1
     #[arg(long, value_name = "N", value_parser = forms, default_value = "all")]
     pub forms: u8,
     /// Print JSON, one object per frame

@@ -1,4 +1,5 @@
-//! How far something is that takes long: on the standard error, where it is a terminal, from the third second on.
+//! How far something is that takes long: on the standard error, where it is a terminal, from the third second
+//! on.
 
 use crate::verbose;
 use std::fmt;

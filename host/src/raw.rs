@@ -27,8 +27,8 @@ pub struct Codes {
     pub codes: Vec<u16>,
 }
 
-/// A board that streams raw codes and nothing else. One that is dropped without [`RawBoard::leave`] or [`RawBoard::give_back`], be it
-/// by an error or Ctrl-C, gets the garment and the scene back that it had.
+/// A board that streams raw codes and nothing else. One that is dropped without [`RawBoard::leave`] or
+/// [`RawBoard::give_back`], be it by an error or Ctrl-C, gets the garment and the scene back that it had.
 pub struct RawBoard {
     session: Session,
     scene: Scene,

@@ -1,4 +1,5 @@
-//! `taxel replay`: a recording as if its board were there; `--source replay:FILE` does the same for every other command.
+//! `taxel replay`: a recording as if its board were there; `--source replay:FILE` does the same for every
+//! other command.
 
 use crate::live::{self, LiveArgs};
 use crate::source::{SourceSpec, Speed};

@@ -4,8 +4,9 @@ use crate::words::{Step, line_of};
 use anyhow::{Error, anyhow};
 use std::fmt::Display;
 
-/// An error about a key of a file, in one sentence: ``mine.toml, line 12, `blocks[3].input`: ...``. A path is keys with dots
-/// between them, and indices from 0; where the file does not say the whole path, the line is that of the part that it says.
+/// An error about a key of a file, in one sentence: ``mine.toml, line 12, `blocks[3].input`: ...``. A path is
+/// keys with dots between them, and indices from 0; where the file does not say the whole path, the line is
+/// that of the part that it says.
 pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> Error {
     let steps: Vec<Step<'_>> = steps(path).collect();
     match line_of(text, &steps) {

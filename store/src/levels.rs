@@ -1,4 +1,5 @@
-//! Levels of the outputs, in two sectors of their own: a board that starts reads them where they lie, before it has any memory.
+//! Levels of the outputs, in two sectors of their own: a board that starts reads them where they lie, before
+//! it has any memory.
 //!
 //! | word | what |
 //! |---|---|
@@ -7,8 +8,8 @@
 //! | 2 | those of them that are high |
 //! | 3 | CRC-32/ISO-HDLC of the bytes before, in the order of the flash |
 //!
-//! A record is written into the sector that does not hold the one in force: whatever happens meanwhile, the old or
-//! the new one is.
+//! A record is written into the sector that does not hold the one in force: whatever happens meanwhile, the
+//! old or the new one is.
 
 use crate::store::StoreError;
 use embedded_storage::nor_flash::NorFlash;
@@ -64,8 +65,8 @@ fn sum_of(words: [u32; 3]) -> u32 {
     !crc
 }
 
-/// Keeps levels in the sectors that begin at `sectors`. What is in force already is left alone; so are blank sectors, where no
-/// pin is to be driven.
+/// Keeps levels in the sectors that begin at `sectors`. What is in force already is left alone; so are blank
+/// sectors, where no pin is to be driven.
 pub fn keep_levels<F: NorFlash>(
     flash: &mut F,
     sectors: [u32; 2],

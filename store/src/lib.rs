@@ -1,4 +1,5 @@
-//! Settings of a board in NOR flash, the same code under a real flash and under a simulated one whose power is cut.
+//! Settings of a board in NOR flash, the same code under a real flash and under a simulated one whose power
+//! is cut.
 //!
 //! | file | what |
 //! |---|---|
@@ -7,9 +8,10 @@
 //! | `levels.rs` | where the outputs stand when a board starts |
 //! | `waitless.rs` | a flash that blocks, where one that waits is asked for |
 //!
-//! The parts of the settings lie as items of at most [`CHUNK`] bytes in a map of sequential-storage. Each part has two places:
-//! a save writes the parts that have changed to the place that is not in force, and then one item, the index, which puts
-//! them in force together. Until that item is whole, the old index and all that it names are untouched.
+//! The parts of the settings lie as items of at most [`CHUNK`] bytes in a map of sequential-storage. Each
+//! part has two places: a save writes the parts that have changed to the place that is not in force, and then
+//! one item, the index, which puts them in force together. Until that item is whole, the old index and all
+//! that it names are untouched.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

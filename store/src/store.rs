@@ -185,7 +185,8 @@ impl<F: NorFlash> Store<F> {
         Ok(Saved::Written)
     }
 
-    /// Erases the sectors that hold anything: another program may have left there what settings cannot be written over.
+    /// Erases the sectors that hold anything: another program may have left there what settings cannot be
+    /// written over.
     fn clear(&mut self) -> Result<(), StoreError> {
         for start in self.map.flash_range().step_by(F::ERASE_SIZE) {
             let end = start + F::ERASE_SIZE as u32;

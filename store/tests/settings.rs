@@ -335,7 +335,8 @@ fn power_may_fail_while_levels_are_kept() {
     }
 }
 
-/// What boot loaders, other firmware and half an erasure leave: a flash need not be empty when it is first used.
+/// What boot loaders, other firmware and half an erasure leave: a flash need not be empty when it is first
+/// used.
 #[test]
 fn a_flash_that_something_else_has_written_takes_settings() {
     let mut random = Random(19);

@@ -35,7 +35,8 @@ pub struct Chain {
 pub struct Said {
     /// Bytes on the wire.
     pub bytes: u32,
-    /// CRC-32/ISO-HDLC of them: images, contacts, shapes, symbols, intentions, in the order in which they were sent.
+    /// CRC-32/ISO-HDLC of them: images, contacts, shapes, symbols, intentions, in the order in which they
+    /// were sent.
     pub digest: u32,
 }
 
@@ -70,8 +71,8 @@ impl Chain {
         self.drain(&mut (), |_| ())
     }
 
-    /// A scan is done; what the board sends goes to `link`, too. `probe` is told what the board does; [`Stage::Scan`] is
-    /// what is no work of the board.
+    /// A scan is done; what the board sends goes to `link`, too. `probe` is told what the board does;
+    /// [`Stage::Scan`] is what is no work of the board.
     pub fn scanned(&mut self, codes: &[Code], probe: &mut impl Probe, link: impl FnMut(&[u8])) -> Said {
         self.scans += 1;
         let now = self.now();

@@ -1,4 +1,5 @@
-//! Copies of bytes between places that stand otherwise in their words, as messages meet them on their way through the rings of a link.
+//! Copies of bytes between places that stand otherwise in their words, as messages meet them on their way
+//! through the rings of a link.
 
 use core::hint::black_box;
 

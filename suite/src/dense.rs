@@ -1,5 +1,5 @@
-//! The plain chain: every taxel calibrated, filtered, labelled and summed by definition, touched or not. It knows no seams, no
-//! shapes and no tracks: it is less than the core does.
+//! The plain chain: every taxel calibrated, filtered, labelled and summed by definition, touched or not. It
+//! knows no seams, no shapes and no tracks: it is less than the core does.
 
 use crate::chain::TAXELS;
 use crate::pattern::Pattern;

@@ -85,7 +85,8 @@ impl Kernel {
         ])
     }
 
-    /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`] and [`Stage::Scan`].
+    /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`]
+    /// and [`Stage::Scan`].
     pub fn run(self, bench: &mut Bench, codes: &[Code; TAXELS], probe: &mut impl Probe) -> u32 {
         probe.begin(Stage::Idle);
         match self {

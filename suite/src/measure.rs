@@ -22,7 +22,8 @@ pub enum Measure {
     Libm,
 }
 
-/// What is computed, as its format holds it: column and row of the centroid, NMI (eq. 4 of the source), azimuth.
+/// What is computed, as its format holds it: column and row of the centroid, NMI (eq. 4 of the source),
+/// azimuth.
 pub type Raw = [u32; 4];
 
 impl Measure {

@@ -1,4 +1,5 @@
-//! What touches the reference garment in a scene: pressure and codes of every taxel in every frame, from integers alone.
+//! What touches the reference garment in a scene: pressure and codes of every taxel in every frame, from
+//! integers alone.
 
 use crate::chain::{FULL_SCALE, TAXELS};
 use taxel_core::format::Code;
@@ -57,7 +58,8 @@ impl Disc {
         (PEAK * (left << 10).isqrt() / (RADIUS.unsigned_abs() << 5)) as u16
     }
 
-    /// Adds its pressure to the image of the garment; what lies beyond the right flank of the chest is on the back.
+    /// Adds its pressure to the image of the garment; what lies beyond the right flank of the chest is on the
+    /// back.
     fn press(&self, image: &mut [u16; TAXELS]) {
         for (row, column) in (0..ROWS as i32).flat_map(|row| (0..2 * COLUMNS as i32).map(move |c| (row, c))) {
             let (panel, inside) = match column.checked_sub(COLUMNS as i32) {

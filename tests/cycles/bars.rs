@@ -55,10 +55,12 @@ const BARS: [Bar; 6] = [
     Bar { scene: INFERENCE, what: "ten concepts", most: 25_000, of: kernel },
 ];
 
-/// How far a figure may be from the one that was written, in percent, and in cycles where it is small, if both are of one compiler.
+/// How far a figure may be from the one that was written, in percent, and in cycles where it is small, if
+/// both are of one compiler.
 const TOLERANCE: u64 = 10;
 const SMALL: u64 = 500;
-/// By how much an image of another compiler may exceed a bar, in percent: rustup's library keeps frame pointers, which cost 3 to 6 %.
+/// By how much an image of another compiler may exceed a bar, in percent: rustup's library keeps frame
+/// pointers, which cost 3 to 6 %.
 const MARGIN: u64 = 6;
 
 /// The bars and what is measured against them.
@@ -106,8 +108,8 @@ pub fn write(table: &Table, folder: &Path) -> Result<(), String> {
 
 const RENEW: &str = "`cargo xtask cycles --write` renews the table";
 
-/// No bar is missed; and if the table that was written is of the same compiler, no figure is far from the one in it. Else the
-/// figures are put beside each other, for people.
+/// No bar is missed; and if the table that was written is of the same compiler, no figure is far from the one
+/// in it. Else the figures are put beside each other, for people.
 pub fn compare(table: &Table, folder: &Path) -> Result<(), String> {
     let text = std::fs::read_to_string(folder.join("cycles.json"))
         .map_err(|error| format!("{}: {error}; {RENEW}", folder.display()))?;

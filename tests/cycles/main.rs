@@ -1,5 +1,6 @@
-//! What each stage and each variant costs on the emulated board, beside its error; the board must say the same as this
-//! machine. `cargo xtask cycles` shows or writes the tables, `cargo xtask test --only cycles` compares them.
+//! What each stage and each variant costs on the emulated board, beside its error; the board must say the
+//! same as this machine. `cargo xtask cycles` shows or writes the tables, `cargo xtask test --only cycles`
+//! compares them.
 
 mod bars;
 mod board;

@@ -106,7 +106,8 @@ impl Plan {
         }
     }
 
-    /// Copies the folder's files to another, where no call is counted: none of them may hold less after the fault.
+    /// Copies the folder's files to another, where no call is counted: none of them may hold less after the
+    /// fault.
     fn keep_what_is_held(&self) {
         for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
             if entry.file_type().is_ok_and(|kind| kind.is_file()) {

@@ -1,5 +1,5 @@
-//! The firmware image on the emulated board, as a host sees it: messages on a TCP socket, and the harness's own lines.
-//! A part of the targets that run it; `tests/emulator/README.md` says what the harness does.
+//! The firmware image on the emulated board, as a host sees it: messages on a TCP socket, and the harness's
+//! own lines. A part of the targets that run it; `tests/emulator/README.md` says what the harness does.
 
 #![allow(dead_code)] // each target that runs the emulator uses a part of it
 
@@ -40,8 +40,8 @@ pub struct Emulated {
 }
 
 impl Emulated {
-    /// Runs the image that TAXEL_FIRMWARE_ELF names with `garment` on its pins. The taxels show `rest` until `play`, then
-    /// the frames of `codes`. `options` are further ones of the harness.
+    /// Runs the image that TAXEL_FIRMWARE_ELF names with `garment` on its pins. The taxels show `rest` until
+    /// `play`, then the frames of `codes`. `options` are further ones of the harness.
     pub fn start(garment: &Garment, codes: &[u16], rest: u16, options: &[&str]) -> Emulated {
         let image = std::env::var_os("TAXEL_FIRMWARE_ELF")
             .expect("TAXEL_FIRMWARE_ELF names no image: run this by `cargo xtask test --only emulator`");
@@ -91,8 +91,8 @@ impl Emulated {
         Micros(self.wait_for("play")["play"]["us"].as_f64().unwrap() as u64)
     }
 
-    /// What the harness answers to a command: `stats`, what it has counted so far, or `stack`, how deep the stack was since
-    /// it was last asked.
+    /// What the harness answers to a command: `stats`, what it has counted so far, or `stack`, how deep the
+    /// stack was since it was last asked.
     pub fn look(&mut self, at: &str) -> Value {
         writeln!(self.input, "{at}").unwrap();
         self.wait_for(at)[at].take()

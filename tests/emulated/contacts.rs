@@ -1,4 +1,5 @@
-//! The firmware image on the emulated board: five moving contacts at full speed. `cargo xtask test --only emulator`.
+//! The firmware image on the emulated board: five moving contacts at full speed.
+//! `cargo xtask test --only emulator`.
 
 use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
@@ -14,8 +15,8 @@ const SCAN_US: u64 = 5_120;
 const SCANS: usize = 800;
 /// The scene lasts 2.5 s: played at this rate, all five contacts move during all of them.
 const RATE: f64 = 0.42;
-/// Scans of the scene before the first touch at 0.2 s, and how often they are shown: the emulator waits for nobody, and a busy
-/// machine asks for the tare late.
+/// Scans of the scene before the first touch at 0.2 s, and how often they are shown: the emulator waits for
+/// nobody, and a busy machine asks for the tare late.
 const IDLE: usize = 90;
 const IDLE_ROUNDS: usize = 6;
 /// Scans from the first touch to the end of the rise.

@@ -103,8 +103,8 @@ fn what_breaks_in_use_is_told_by_itself() {
     board.end();
 }
 
-/// A stroke over a garment that is well; then a dead, a stuck and a noisy taxel; then something presses the dead one and those
-/// around it. When they break, and when the dead one shows, in frames.
+/// A stroke over a garment that is well; then a dead, a stuck and a noisy taxel; then something presses the
+/// dead one and those around it. When they break, and when the dead one shows, in frames.
 fn breaking(healthy: u64) -> (Script, u64, u64) {
     let broken = TARED + healthy;
     let seconds = |frames: u64| (frames * FRAME_PERIOD_US) as f64 / 1e6;

@@ -1,5 +1,6 @@
-//! How late the board says, and does, what it feels: from the moment at which voltages rise, whatever the scan is at then.
-//! `cargo xtask test --only emulator-latency`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): more touches.
+//! How late the board says, and does, what it feels: from the moment at which voltages rise, whatever the
+//! scan is at then. `cargo xtask test --only emulator-latency`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`):
+//! more touches.
 
 use crate::board::Emulated;
 use taxel::sim::{frame_codes, load};
@@ -18,8 +19,8 @@ const COLUMNS: usize = 16;
 const PANEL: usize = 32 * COLUMNS;
 /// Time from scan to scan, us.
 const SCAN_US: f64 = 5_120.0;
-/// How long a touch lasts, and the rest before the next one, us: from touch to touch the scan's phase moves on by 0.618 of its
-/// period, which spreads the touches evenly over it.
+/// How long a touch lasts, and the rest before the next one, us: from touch to touch the scan's phase moves
+/// on by 0.618 of its period, which spreads the touches evenly over it.
 const PERIOD_US: f64 = 22_062.0;
 /// Rests before the first touch: the board is told to tare meanwhile.
 const RESTS: usize = 24;
@@ -47,7 +48,8 @@ const fn contacts(touch: usize) -> usize {
     touch % MOST + 1
 }
 
-/// Upper left taxels of the contacts of a touch: anywhere on the garment, apart from each other and from the seams.
+/// Upper left taxels of the contacts of a touch: anywhere on the garment, apart from each other and from the
+/// seams.
 fn places(touch: usize) -> impl Iterator<Item = usize> {
     let mut random = touch as u32;
     (0..contacts(touch)).map(move |contact| {
@@ -193,8 +195,9 @@ fn from_voltage_to_message_and_pin() {
 const ONE_US: f64 = 1_500.0;
 const TWO_US: f64 = 2_200.0;
 
-/// Rest and touch in turn: one contact of 3 x 3, 4 x 4 or 5 x 5 taxels, anywhere on the garment. The noise of 7 counts differs from
-/// one to the next in most taxels: those that stood still for too long would be stuck, and left out.
+/// Rest and touch in turn: one contact of 3 x 3, 4 x 4 or 5 x 5 taxels, anywhere on the garment. The noise of
+/// 7 counts differs from one to the next in most taxels: those that stood still for too long would be stuck,
+/// and left out.
 fn footprints() -> Vec<u16> {
     let empty = |number: usize| {
         (0..TAXELS).map(move |taxel| 100 + ((number * 7919 + taxel * 104_729) >> 3) as u16 % 7)

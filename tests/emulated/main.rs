@@ -1,4 +1,5 @@
-//! The firmware image in the emulator. `cargo xtask test` builds the image first and names it in TAXEL_FIRMWARE_ELF.
+//! The firmware image in the emulator. `cargo xtask test` builds the image first and names it in
+//! TAXEL_FIRMWARE_ELF.
 
 mod board;
 mod boots;

@@ -1,5 +1,5 @@
-//! What goes wrong while the firmware image runs, besides what reads a garment wrongly: the DMA, the clock, the links, the stack.
-//! `cargo xtask test --only emulator-mishaps`.
+//! What goes wrong while the firmware image runs, besides what reads a garment wrongly: the DMA, the clock,
+//! the links, the stack. `cargo xtask test --only emulator-mishaps`.
 
 use crate::board::Emulated;
 use std::time::Instant;

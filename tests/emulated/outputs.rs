@@ -1,5 +1,5 @@
-//! The outputs of the firmware image: where they stand before the program runs, and when the converter stands still.
-//! `cargo xtask test --only emulator-outputs`.
+//! The outputs of the firmware image: where they stand before the program runs, and when the converter stands
+//! still. `cargo xtask test --only emulator-outputs`.
 
 use crate::board::Emulated;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +13,8 @@ use taxel_core::wire::{ContactList, Frame, Report, Request};
 const BLIND_MS: i32 = 60;
 /// The pins of the outputs: a shared one, one that is asserted low, one that only a touch asserts.
 const PINS: &str = "18,19,20";
-/// What the first instructions may take, us of the emulated 125 MHz: 2 ms of the 6.5 MHz of a chip that has just started.
+/// What the first instructions may take, us of the emulated 125 MHz: 2 ms of the 6.5 MHz of a chip that has
+/// just started.
 const FIRST_US: f64 = 2_000.0 * 6.5 / 125.0;
 
 fn scene() -> Scene {

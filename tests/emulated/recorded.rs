@@ -1,5 +1,5 @@
-//! Recorded people on a mat, perceived by the firmware image on the emulated board and by the same core on this machine:
-//! the reports must be the same, byte for byte. `cargo xtask test --only emulator-recorded`.
+//! Recorded people on a mat, perceived by the firmware image on the emulated board and by the same core on
+//! this machine: the reports must be the same, byte for byte. `cargo xtask test --only emulator-recorded`.
 
 use crate::board::Emulated;
 use crate::data;
@@ -20,8 +20,8 @@ const FULL_SCALE: u16 = 4095;
 const STEP: usize = 16;
 /// Frames that are perceived per second: the link carries everything of the fullest one in time.
 const RATE_HZ: u16 = 20;
-/// Time from scan to scan, us, and how many of them show a frame: a little longer than from one perceived frame to the next,
-/// so that each is perceived.
+/// Time from scan to scan, us, and how many of them show a frame: a little longer than from one perceived
+/// frame to the next, so that each is perceived.
 const SCAN_US: u64 = 5_120;
 const DWELL: u64 = 10;
 const TAXELS: usize = 2048;
@@ -76,7 +76,8 @@ fn keep(kept: &mut Reports, report: &Report<'_>) {
     kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));
 }
 
-/// What the board says of frames that began at `from` and later, to the first of `to` and later, and when each began.
+/// What the board says of frames that began at `from` and later, to the first of `to` and later, and when
+/// each began.
 fn from_board(board: &mut Emulated, from: Micros, to: Micros) -> (Reports, BTreeMap<u32, Micros>) {
     let (mut reports, mut times, mut bytes) = (Reports::new(), BTreeMap::new(), 0);
     let mut thinned = None;

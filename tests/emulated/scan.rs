@@ -98,7 +98,8 @@ fn the_whole_garment_at_the_limit_of_the_converter() {
     assert!((spent.scan as f64) < 0.01 * CLOCK / spent.rate);
 }
 
-/// Put back into the order of the taxels, each frame is what the garment showed, in the time of a progressive one.
+/// Put back into the order of the taxels, each frame is what the garment showed, in the time of a progressive
+/// one.
 #[test]
 fn the_whole_garment_interlaced() {
     let mut board = tared(&Garment::reference(), &Scene::shipped().interlaced(Agree::Two));
@@ -109,7 +110,8 @@ fn the_whole_garment_interlaced() {
     assert!(spent.rate >= 195.0);
 }
 
-/// A wiring that a progressive chain cannot follow, as its taxels jump too often, is no matter to an interlaced one.
+/// A wiring that a progressive chain cannot follow, as its taxels jump too often, is no matter to an
+/// interlaced one.
 #[test]
 fn a_mirrored_panel_is_interlaced_by_the_chain() {
     let mut garment = Garment::reference();
@@ -175,7 +177,8 @@ fn a_mean_of_scans() {
     assert!(warm >= 1);
 }
 
-/// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is lost is counted.
+/// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is
+/// lost is counted.
 #[test]
 fn a_chain_that_loses_samples_begins_anew() {
     for depth in [Depth::Twelve, Depth::Interlaced] {

@@ -176,7 +176,8 @@ fn agrees(report: &IntentReport, map: &Map) -> bool {
         && (run.steps, run.outcome) == (report.steps, report.outcome)
 }
 
-/// Waits until all kinds of frames were shown twice; says how much was sent meanwhile. With a map, inferences are compared.
+/// Waits until all kinds of frames were shown twice; says how much was sent meanwhile. With a map, inferences
+/// are compared.
 fn watch(board: &mut Emulated, map: Option<&Map>) {
     let (mut first, mut bytes, mut inferred) = (None, 0, 0);
     loop {

@@ -1,5 +1,6 @@
 //! The board on USB, in the emulator: what arrives, what it costs, and a cable that is pulled.
-//! `cargo xtask test --only emulator-usb`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): all scenes of the bench, for longer.
+//! `cargo xtask test --only emulator-usb`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): all scenes of the
+//! bench, for longer.
 
 use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
@@ -17,12 +18,12 @@ const SCAN_US: u64 = 5_120;
 const REST: usize = 100;
 /// Scans of a scene's beginning that are not looked at: contacts begin, and lists are long.
 const BEGIN: usize = 8;
-/// Cycles that chain, link and interrupts may take together of the 640,000 from any scan to the next; and with the check of each
-/// sub-field of an interlaced scan.
+/// Cycles that chain, link and interrupts may take together of the 640,000 from any scan to the next; and
+/// with the check of each sub-field of an interlaced scan.
 const MOST_CYCLES: u64 = 600_000;
 const MOST_INTERLACED: u64 = 630_000;
-/// The cycles, of the mean and the most, that are held against a bar: rustup's library keeps frame pointers, which cost 3 to
-/// 6 % more. Its images keep to the bars in the mean, and miss no scan.
+/// The cycles, of the mean and the most, that are held against a bar: rustup's library keeps frame pointers,
+/// which cost 3 to 6 % more. Its images keep to the bars in the mean, and miss no scan.
 fn judged((mean, most): (u64, u64)) -> u64 {
     let library = std::env::var("TAXEL_LIBRARY").expect("run by `cargo xtask test`, which names it");
     if library.ends_with("with frame pointers") { mean } else { most }
@@ -81,7 +82,8 @@ struct Came {
 }
 
 impl Came {
-    /// Prints a line, and compares what came with what was counted as left out. `cycles`: from scan to scan, the mean and the most.
+    /// Prints a line, and compares what came with what was counted as left out. `cycles`: from scan to scan,
+    /// the mean and the most.
     fn check(&self, (pattern, whole): Shown, cycles: (u64, u64), most: u64) {
         let (first, last) = (self.budgets[0], self.budgets[self.budgets.len() - 1]);
         let scans = ((last.time.since(first.time) + SCAN_US / 2) / SCAN_US) as u32;
@@ -181,8 +183,8 @@ const FLOODED_US: u64 = 1_500_000;
 fn a_flood_of_requests_stops_no_scan() {
     let scene = postcard::to_allocvec(&Scene::shipped()).unwrap();
     let garment = postcard::to_allocvec(&Garment::reference()).unwrap();
-    // How often each is asked for, and the scans a second that remain at least. After a change of the garment, and in each
-    // self-test, all lines are examined; there is one between two scans.
+    // How often each is asked for, and the scans a second that remain at least. After a change of the
+    // garment, and in each self-test, all lines are examined; there is one between two scans.
     let floods = [
         ("SetScene", Request::SetScene(&scene), 1_000, 180.0),
         ("SetGarment", Request::SetGarment(&garment), 1_000, 100.0),

@@ -1,4 +1,5 @@
-//! `cargo xtask peers`: microseconds per 32 x 64 panel, the core beside imageproc, and OpenCV where Python has it.
+//! `cargo xtask peers`: microseconds per 32 x 64 panel, the core beside imageproc, and OpenCV where Python
+//! has it.
 
 mod chains;
 mod scenes;
@@ -13,8 +14,9 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 use taxel_core::format::Code;
 
-/// Repetitions that are timed together, and how often. All take turns within a round: what else the machine does, and how fast it is
-/// just then, meets them alike. It only ever adds, so the quickest round of each counts; how the ratio of a round is mostly is told, too.
+/// Repetitions that are timed together, and how often. All take turns within a round: what else the machine
+/// does, and how fast it is just then, meets them alike. It only ever adds, so the quickest round of each
+/// counts; how the ratio of a round is mostly is told, too.
 const ROUNDS: usize = 201;
 const REPEATED: u32 = 25;
 
@@ -62,7 +64,8 @@ fn table(rows: &[Value]) -> String {
     text
 }
 
-/// A scene, the chains that see it, and the times of each round: the core's stages, all that it does, imageproc.
+/// A scene, the chains that see it, and the times of each round: the core's stages, all that it does,
+/// imageproc.
 struct Course {
     scene: Scene,
     codes: Vec<Code>,

@@ -16,8 +16,9 @@ pub type Sums = (u64, i64, i64);
 
 const TAXELS: usize = ROWS * COLUMNS;
 
-/// The core's stage condition, and of the stage contact what finds and measures. Their Sobel operator is applied where it is
-/// used, on the contours; what they do besides (baseline, gain, peaks, bounds) is timed with it.
+/// The core's stage condition, and of the stage contact what finds and measures. Their Sobel operator is
+/// applied where it is used, on the contours; what they do besides (baseline, gain, peaks, bounds) is timed
+/// with it.
 pub struct Ours {
     layout: Layout,
     condition: Condition,

@@ -1,4 +1,5 @@
-//! The core and imageproc find the same contacts with the same sums: what `cargo xtask peers` times is the same work.
+//! The core and imageproc find the same contacts with the same sums: what `cargo xtask peers` times is the
+//! same work.
 
 mod chains;
 mod scenes;

@@ -1,4 +1,5 @@
-//! Panels of 32 rows x 64 columns for all peers: 8 bits, because imageproc's median has no more, and 0 where nothing touches.
+//! Panels of 32 rows x 64 columns for all peers: 8 bits, because imageproc's median has no more, and 0 where
+//! nothing touches.
 
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};

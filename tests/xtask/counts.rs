@@ -22,7 +22,8 @@ impl AddAssign for Counts {
 }
 
 impl Counts {
-    /// The sum over all `test result:` lines of cargo and all `# pass` lines of node in a log; none without any.
+    /// The sum over all `test result:` lines of cargo and all `# pass` lines of node in a log; none without
+    /// any.
     pub fn of(log: &str) -> Option<Counts> {
         let mut counts = Counts::default();
         let mut found = false;

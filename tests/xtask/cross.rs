@@ -1,9 +1,10 @@
 //! The compiler for the microcontroller.
 //!
-//! There are three ways to have one. Two build the compiler's library, too, and so without frame pointers: they would take one of the
-//! eight registers that most instructions of a Cortex-M0+ can name, and 3 to 6 % more cycles. That is what `cargo xtask firmware` does
-//! wherever it can: it asks rustup for the library's source, else apt-get for a compiler with source. Only where neither is to be had
-//! is the image built with the library that rustup has for the target. TAXEL_CROSS chooses a way by its name.
+//! There are three ways to have one. Two build the compiler's library, too, and so without frame pointers:
+//! they would take one of the eight registers that most instructions of a Cortex-M0+ can name, and 3 to 6 %
+//! more cycles. That is what `cargo xtask firmware` does wherever it can: it asks rustup for the library's
+//! source, else apt-get for a compiler with source. Only where neither is to be had is the image built with
+//! the library that rustup has for the target. TAXEL_CROSS chooses a way by its name.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
@@ -13,11 +14,12 @@ use std::sync::Mutex;
 /// The microcontroller's target.
 pub const TARGET: &str = "thumbv6m-none-eabi";
 
-/// What describes targets and builds the library is for nightly compilers, or for those that are told to be one.
+/// What describes targets and builds the library is for nightly compilers, or for those that are told to be
+/// one.
 const BOOTSTRAP: (&str, &str) = ("RUSTC_BOOTSTRAP", "1");
 
-/// Loops whose length is not known stay as they are: most are short here, and what leads into an unrolled one takes longer than it saves.
-/// That saves 1 % of a frame's cycles and 8 % of the image.
+/// Loops whose length is not known stay as they are: most are short here, and what leads into an unrolled one
+/// takes longer than it saves. That saves 1 % of a frame's cycles and 8 % of the image.
 const FLAGS: &str = "-Cllvm-args=-unroll-runtime=false";
 
 /// The oldest compiler that the sources are written for.
@@ -90,8 +92,8 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// Finds one, or installs one: the way that TAXEL_CROSS names, else the best that can be had. A way that only needs what is
-    /// there goes before one as good for which something must be installed.
+    /// Finds one, or installs one: the way that TAXEL_CROSS names, else the best that can be had. A way that
+    /// only needs what is there goes before one as good for which something must be installed.
     pub fn find() -> Result<Toolchain, String> {
         if let Some(way) = Way::asked()? {
             return Toolchain::by(way);
@@ -181,7 +183,8 @@ fn folder(way: Way) -> PathBuf {
     paths::cross_target().join(way.name())
 }
 
-/// The folders of all compilers that are new enough: the one in use first, then rustup's others, then the system's.
+/// The folders of all compilers that are new enough: the one in use first, then rustup's others, then the
+/// system's.
 fn sysroots() -> Vec<PathBuf> {
     let mut compilers = vec![PathBuf::from("rustc")];
     let listed =
@@ -218,7 +221,8 @@ fn has_target_library(root: &Path) -> bool {
     })
 }
 
-/// Writes down what a compiler knows of the target, but that frame pointers are not wanted; the file is named as the target is.
+/// Writes down what a compiler knows of the target, but that frame pointers are not wanted; the file is named
+/// as the target is.
 fn describe(root: &Path, way: Way) -> Option<PathBuf> {
     let print = ["-Zunstable-options", "--print", "target-spec-json", "--target", TARGET];
     let known =

@@ -167,7 +167,8 @@ mod tests {
 
     #[test]
     fn reads_what_it_is_for() {
-        // Header, names with notes and symbols at 52, then four section headers: names, symbols, memory for zeros, notes.
+        // Header, names with notes and symbols at 52, then four section headers: names, symbols, memory for
+        // zeros, notes.
         let names = b"\0.text\0.bss\0it\0.comment\0Linker: x\0rustc version 1.95.0 (5980 2026)\0";
         let mut file = vec![0; 52];
         file[..6].copy_from_slice(b"\x7fELF\x01\x01");

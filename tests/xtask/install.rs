@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, MutexGuard};
 
-/// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's source.
+/// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's
+/// source.
 pub const CROSS: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy", "lld"];
 
 /// What the emulator and the browser need.

@@ -120,7 +120,8 @@ fn mutants(tool: &Path, part: &Part) -> Command {
     let mut command = Command::new(tool);
     command.args(["mutants", "--no-config", "--colors", "never", "--dir"]).arg(paths::root());
     command.args(["--package", part.package, "--file", &format!("{}/**", part.folder)]);
-    // What one change has built serves the next, and the next run: only what has changed is compiled, and quickly.
+    // What one change has built serves the next, and the next run: only what has changed is compiled, and
+    // quickly.
     command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "1");
     command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "0");
     command

@@ -1,4 +1,5 @@
-//! Whether a panic is reachable from the core on the microcontroller: what the linker says of `firmware/examples/no_panic.rs`.
+//! Whether a panic is reachable from the core on the microcontroller: what the linker says of
+//! `firmware/examples/no_panic.rs`.
 
 use crate::cross::Toolchain;
 use crate::targets::End;

@@ -7,10 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// A section may differ from the table by so many percent, and by so many bytes however small it is, if both are of one compiler.
+/// A section may differ from the table by so many percent, and by so many bytes however small it is, if both
+/// are of one compiler.
 const PERCENT: u32 = 2;
 const BYTES: u32 = 256;
-/// What an image of any compiler may take of flash and RAM, in KiB: a tenth of flash above the table, and 48 KiB left for the stack.
+/// What an image of any compiler may take of flash and RAM, in KiB: a tenth of flash above the table, and 48
+/// KiB left for the stack.
 const MOST: [(&str, u64); 2] = [("flash", 528), ("RAM", 216)];
 /// Crates and symbols that are listed: the largest.
 const CRATES: usize = 12;
@@ -39,8 +41,8 @@ pub fn write(image: &Image) -> Result<(), String> {
     folder.and_then(|()| std::fs::write(&file, table)).map_err(|error| format!("{}: {error}", file.display()))
 }
 
-/// Holds an image against what any may take, and against the table: strictly if the table is of the same compiler, else the
-/// sections are returned beside the table's, for people.
+/// Holds an image against what any may take, and against the table: strictly if the table is of the same
+/// compiler, else the sections are returned beside the table's, for people.
 pub fn check(image: &Image) -> Result<String, String> {
     for ((what, most), size) in MOST.into_iter().zip(image.sizes()) {
         if size > most * 1024 {
@@ -100,8 +102,8 @@ fn table(image: &[u8], compiler: &str) -> Option<String> {
     Some(text)
 }
 
-/// Whether the sections of two tables are about as large; each that is not is named. Tables of different compilers are put side by
-/// side.
+/// Whether the sections of two tables are about as large; each that is not is named. Tables of different
+/// compilers are put side by side.
 fn compare(kept: &str, found: &str) -> Result<String, String> {
     let compilers = [kept, found].map(compiler);
     let (kept, found) = (sections(kept), sections(found));

@@ -1,5 +1,5 @@
-//! `cargo xtask supply`: where dependencies come from, what their licences allow, what is known against them, and
-//! a list of them for each thing that is given away.
+//! `cargo xtask supply`: where dependencies come from, what their licences allow, what is known against them,
+//! and a list of them for each thing that is given away.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,8 @@ enum End {
     NotRun,
 }
 
-/// Asks everything, and writes the lists. True: nothing is wrong, and all was asked, or what was not may be missed.
+/// Asks everything, and writes the lists. True: nothing is wrong, and all was asked, or what was not may be
+/// missed.
 pub fn run(args: &[String]) -> Result<bool, String> {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let may_miss = match args[..] {

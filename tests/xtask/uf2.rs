@@ -1,5 +1,5 @@
-//! UF2, the file that a board's boot loader takes when it is dropped on its drive: blocks of 512 bytes, each with 256
-//! bytes of flash and where they go.
+//! UF2, the file that a board's boot loader takes when it is dropped on its drive: blocks of 512 bytes, each
+//! with 256 bytes of flash and where they go.
 
 use crate::elf::Segment;
 

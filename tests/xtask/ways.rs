@@ -1,4 +1,5 @@
-//! The image by each way of having a compiler for the board: that each is found, what the image takes, and what a frame costs.
+//! The image by each way of having a compiler for the board: that each is found, what the image takes, and
+//! what a frame costs.
 
 use crate::cross::{Toolchain, Way};
 use crate::{firmware, install, no_panic, process, sizes, targets};

@@ -71,8 +71,8 @@ impl Address<'_> {
     }
 }
 
-/// Goes through all addresses, by select code. Their order within one is that of the taxels of its first block, so that as
-/// many taxels as possible follow each other.
+/// Goes through all addresses, by select code. Their order within one is that of the taxels of its first
+/// block, so that as many taxels as possible follow each other.
 pub(super) fn each<'a>(
     circuit: &'a Circuit,
     plan: &'a Plan,

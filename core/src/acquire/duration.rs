@@ -1,4 +1,5 @@
-//! How long a board may stay away from its loop: the longest that a frame and a self-test of the lines can take.
+//! How long a board may stay away from its loop: the longest that a frame and a self-test of the lines can
+//! take.
 
 use super::rounds::{frame_us, read_by};
 use super::{Plan, SWEEP_ADDRESSES};
@@ -8,8 +9,8 @@ use core::fmt;
 /// The board restarts when its loop has not come round for this long, ms.
 pub const WATCHDOG_MS: u32 = 1000;
 
-/// A frame, or a self-test of the lines, may take this long, ms: half of the watchdog's time. What else the loop does
-/// in one round (a frame perceived, messages encoded) takes less than a tenth of it.
+/// A frame, or a self-test of the lines, may take this long, ms: half of the watchdog's time. What else the
+/// loop does in one round (a frame perceived, messages encoded) takes less than a tenth of it.
 pub const LONGEST_MS: u32 = WATCHDOG_MS / 2;
 
 /// A conversion that the processor asks for and stores, ns at most.
@@ -19,8 +20,9 @@ const CHANGE_NS: u64 = 10_000;
 /// A line or an input in the self-test: two waits of 0.1 ms, and the looks at all lines, ns at most.
 const EXAMINED_NS: u64 = 300_000;
 
-/// The longest that one frame of a plan can take, us: by DMA, or by the processor, whatever takes longer. More addresses than
-/// the tables of the DMA have room for are read by the processor; so are, for other reasons ([`super::Unfit`]), some of the others.
+/// The longest that one frame of a plan can take, us: by DMA, or by the processor, whatever takes longer.
+/// More addresses than the tables of the DMA have room for are read by the processor; so are, for other
+/// reasons ([`super::Unfit`]), some of the others.
 pub fn longest_frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     let (addresses, inputs) = read_by(circuit, plan);
     let conversions = inputs as u64 * u64::from(plan.depth.scans());
@@ -29,7 +31,8 @@ pub fn longest_frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     if addresses > SWEEP_ADDRESSES as u64 { processor } else { processor.max(frame_us(circuit, plan)) }
 }
 
-/// The longest that a self-test of the circuit can take, us: all lines and inputs, and four corners of each block, twice.
+/// The longest that a self-test of the circuit can take, us: all lines and inputs, and four corners of each
+/// block, twice.
 pub fn longest_self_test_us(circuit: &Circuit) -> u64 {
     let corners = 8 * circuit.selects().count() as u64;
     let pins = (circuit.lines().len() + read_by(circuit, &Plan::default()).1) as u64;

@@ -1,9 +1,9 @@
 //! The order of an interlaced scan: sub-fields, each of which meets every small footprint somewhere.
 //!
-//! The taxel at row r and column c of its panel is read in sub-field `(r + 3 c) mod 8`. Any three rows of three columns hold
-//! all eight residues, so a touch of 3 x 3 taxels is met in each eighth of a frame; with four sub-fields, `(r + 2 c) mod 4`,
-//! one of 2 x 2 is; with two, `(r + c) mod 2`, any two neighbours. There are as many sub-fields, of 8, 4 and 2, as last for
-//! at least 100 us each and are not empty.
+//! The taxel at row r and column c of its panel is read in sub-field `(r + 3 c) mod 8`. Any three rows of
+//! three columns hold all eight residues, so a touch of 3 x 3 taxels is met in each eighth of a frame; with
+//! four sub-fields, `(r + 2 c) mod 4`, one of 2 x 2 is; with two, `(r + c) mod 2`, any two neighbours. There
+//! are as many sub-fields, of 8, 4 and 2, as last for at least 100 us each and are not empty.
 //!
 //! | garment | time of a frame | sub-fields | each |
 //! |---|---|---|---|
@@ -11,13 +11,13 @@
 //! | `block-4x16` | 640 us | 4 | 160 us, 16 addresses |
 //! | any of less than 200 us | | refused: a whole frame is as quick | |
 //!
-//! Blocks that are read together, at one address, may lie at other rows and columns of their panels. The sub-field is that of
-//! the one with the lowest input. In the others the order is the same but for a shift, within each block: only a footprint
-//! across two of their blocks may miss a sub-field.
+//! Blocks that are read together, at one address, may lie at other rows and columns of their panels. The
+//! sub-field is that of the one with the lowest input. In the others the order is the same but for a shift,
+//! within each block: only a footprint across two of their blocks may miss a sub-field.
 //!
-//! From one address to the next row and column both change, so a line settles from a taxel that is no neighbour: what is left
-//! of it is a part of the whole signal and not of a difference between neighbours. The bound, a full-scale step, is that of
-//! every order (`taxel bench acquisition`, "order").
+//! From one address to the next row and column both change, so a line settles from a taxel that is no
+//! neighbour: what is left of it is a part of the whole signal and not of a difference between neighbours.
+//! The bound, a full-scale step, is that of every order (`taxel bench acquisition`, "order").
 
 use super::addresses::{self, Address, Inputs, Read};
 use super::rounds::Rounds;
@@ -95,14 +95,16 @@ impl Fields {
         self.addresses.iter().take(field).map(|addresses| usize::from(*addresses)).sum()
     }
 
-    /// Where the codes of a sub-field lie, those of one input after those of the other, where each follows the one before.
+    /// Where the codes of a sub-field lie, those of one input after those of the other, where each follows
+    /// the one before.
     pub fn span(&self, field: usize) -> Range<usize> {
         let first = self.before(field) * self.inputs.len();
         first..first + self.addresses(field) * self.inputs.len()
     }
 
-    /// Goes through all addresses in the order of the scan: its sub-field, the levels of the select lines (bit `n` for GPIO `n`),
-    /// and the taxels that the inputs read. The circuit and the plan are those that the sub-fields are of.
+    /// Goes through all addresses in the order of the scan: its sub-field, the levels of the select lines
+    /// (bit `n` for GPIO `n`), and the taxels that the inputs read. The circuit and the plan are those that
+    /// the sub-fields are of.
     pub fn each(&self, circuit: &Circuit, plan: &Plan, mut take: impl FnMut(usize, u32, Read)) {
         for field in 0..self.count() {
             // Nothing here is refused.

@@ -1,7 +1,8 @@
 //! Reading the garment: a scan plan goes in, a frame of raw codes by taxel number comes out.
 //!
-//! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal pins; a
-//! board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a [`Ring`].
+//! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal
+//! pins; a board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a
+//! [`Ring`].
 
 mod addresses;
 mod duration;
@@ -110,12 +111,14 @@ pub trait Acquire {
     /// Puts a pin that is no select line to a level.
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError>;
 
-    /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the lines or the
-    /// memory, or the circuit changes, which it does at no other time. Has no effect on what only works when it is asked to.
+    /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the
+    /// lines or the memory, or the circuit changes, which it does at no other time. Has no effect on what
+    /// only works when it is asked to.
     fn rest(&mut self) {}
 
-    /// What is to be watched in each sub-field from now on; none: nothing, for now. As [`Reflex::watch`](crate::reflex::Reflex::watch)
-    /// says. Nothing is watched by what reads whole frames only.
+    /// What is to be watched in each sub-field from now on; none: nothing, for now. As
+    /// [`Reflex::watch`](crate::reflex::Reflex::watch) says. Nothing is watched by what reads whole frames
+    /// only.
     fn watch(&mut self, _reflexes: Option<&Reflexes>, _active: u8, _limit: impl Fn(u16) -> Option<u16>) {}
 
     /// The next reflex that has begun and was not told yet.

@@ -41,11 +41,11 @@ impl<C: Clock> Clock for &C {
     }
 }
 
-/// Selects every address in turn, waits for the line to settle, and reads every converter input that has a block there:
-/// by select code, then row, then column. Only lines whose level changes are driven.
+/// Selects every address in turn, waits for the line to settle, and reads every converter input that has a
+/// block there: by select code, then row, then column. Only lines whose level changes are driven.
 ///
-/// Cost per address: the changed lines, the settling time of the garment, as many conversions per input as samples are
-/// averaged.
+/// Cost per address: the changed lines, the settling time of the garment, as many conversions per input as
+/// samples are averaged.
 pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     lines: &'l mut Lines<P, PINS>,
     delay: D,
@@ -107,7 +107,8 @@ where
 
     /// Drives the lines whose levels differ from those of `word`; the number of a pin that fails.
     fn apply(&mut self, word: u32) -> Result<(), u8> {
-        // With nothing known of the levels, at the start or after a failure: all lines, of which there are fewer.
+        // With nothing known of the levels, at the start or after a failure: all lines, of which there are
+        // fewer.
         let mut changed = self.driven.take().map_or(u32::MAX, |driven| driven ^ word);
         while changed != 0 {
             let bit = changed.trailing_zeros();
@@ -230,8 +231,8 @@ fn lost(pin: u8, cursors: &Cursors, column: u8) -> ScanError {
 /// The blocks under one select code that the plan reads.
 type Cursors = heapless::Vec<Cursor, BLOCKS>;
 
-/// Where a block's next sample goes. What a frame's 2,048 samples need is found once per block, and stepped from there:
-/// the select lines are slow enough.
+/// Where a block's next sample goes. What a frame's 2,048 samples need is found once per block, and stepped
+/// from there: the select lines are slow enough.
 struct Cursor {
     input: u8,
     rows: u8,

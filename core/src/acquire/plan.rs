@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come as much
-/// more rarely; and in which order.
+/// How a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come
+/// as much more rarely; and in which order.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Depth {
     /// The upper 8 bits of the converter's 12 (the source's 256 grey levels); codes still span 0 ..= 4095.
@@ -22,8 +22,8 @@ pub enum Depth {
     /// The mean of eight scans.
     #[serde(rename = "mean of 8")]
     MeanOf8,
-    /// All 12 bits, in the order of [`Fields`](super::Fields): every part of the garment is met in each part of a frame, which
-    /// is what a reflex within a frame needs.
+    /// All 12 bits, in the order of [`Fields`](super::Fields): every part of the garment is met in each part
+    /// of a frame, which is what a reflex within a frame needs.
     #[serde(rename = "12 interlaced")]
     Interlaced,
 }

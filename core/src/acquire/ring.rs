@@ -2,8 +2,8 @@
 
 use crate::format::Micros;
 
-/// Places of a ring: one that is read, one that is complete, one that is being filled, and one that comes next, which has
-/// to be known before the converter gets there.
+/// Places of a ring: one that is read, one that is complete, one that is being filled, and one that comes
+/// next, which has to be known before the converter gets there.
 pub const PLACES: usize = 4;
 
 /// Places that [`Ring::turn`] goes round in.
@@ -22,8 +22,8 @@ pub struct Lent {
     pub missed: u32,
 }
 
-/// Which frame is where. Whoever calls [`Ring::complete`] may interrupt whoever calls [`Ring::lend`] at any time, but not
-/// in the midst of it.
+/// Which frame is where. Whoever calls [`Ring::complete`] may interrupt whoever calls [`Ring::lend`] at any
+/// time, but not in the midst of it.
 #[derive(Debug, Clone)]
 pub struct Ring {
     filling: u8,
@@ -65,8 +65,8 @@ impl Ring {
         self.next = (0..PLACES as u8).find(|place| !taken.contains(&Some(*place))).unwrap_or(0);
     }
 
-    /// A frame is complete, at `now`, of those that are put into their places as they come, by whoever calls this: the place of the
-    /// next one. It need not be known before, so [`TURN_PLACES`] are enough.
+    /// A frame is complete, at `now`, of those that are put into their places as they come, by whoever calls
+    /// this: the place of the next one. It need not be known before, so [`TURN_PLACES`] are enough.
     pub fn turn(&mut self, now: Micros) -> u8 {
         let done = self.filling;
         self.complete(now);
@@ -82,8 +82,8 @@ impl Ring {
         Some(lent)
     }
 
-    /// The latest complete frame, once, beside the one that is lent, which stays so: to be read at once, and good if
-    /// [`Ring::is_whole`] afterwards.
+    /// The latest complete frame, once, beside the one that is lent, which stays so: to be read at once, and
+    /// good if [`Ring::is_whole`] afterwards.
     pub fn show(&mut self) -> Option<Lent> {
         self.fresh.take()
     }

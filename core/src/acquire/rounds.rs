@@ -1,10 +1,11 @@
-//! How long a frame takes by a converter that never waits: the one model that the firmware's chain is set up by, that the
-//! simulated board runs by, and that tells the rate of a garment before it is worn.
+//! How long a frame takes by a converter that never waits: the one model that the firmware's chain is set up
+//! by, that the simulated board runs by, and that tells the rate of a garment before it is worn.
 //!
-//! The converter (RP2040 datasheet, 4.9) converts the inputs of the plan and its thermometer in turn and never stops. The select
-//! lines change when the last input has been converted, and the first input that counts afterwards is converted one thermometer later:
-//! 2 us. A line that needs longer is converted in vain for some rounds, all of whose codes are dropped; what is still missing
-//! then, less than a round, is made up by a slower pace of all conversions.
+//! The converter (RP2040 datasheet, 4.9) converts the inputs of the plan and its thermometer in turn and
+//! never stops. The select lines change when the last input has been converted, and the first input that
+//! counts afterwards is converted one thermometer later: 2 us. A line that needs longer is converted in vain
+//! for some rounds, all of whose codes are dropped; what is still missing then, less than a round, is made up
+//! by a slower pace of all conversions.
 //!
 //! | inputs | `settle_ns` | rounds | pace | settled for | address |
 //! |---|---|---|---|---|---|
@@ -33,8 +34,8 @@ pub struct Rounds {
 }
 
 impl Rounds {
-    /// For so many inputs (of more than 255 for 255) and a garment's settling time, of which whole conversions count, one at
-    /// least.
+    /// For so many inputs (of more than 255 for 255) and a garment's settling time, of which whole
+    /// conversions count, one at least.
     pub const fn of(inputs: usize, settle_ns: u32) -> Rounds {
         let conversions = if inputs < 255 { inputs as u32 + 1 } else { 256 };
         let slots = settle_ns / CONVERSION_NS;
@@ -59,8 +60,8 @@ impl Rounds {
         self.conversions.saturating_mul(self.rounds - 1)
     }
 
-    /// From the change of the select lines to the sample of the first input that counts, ns. It begins with the end of the
-    /// last input's conversion.
+    /// From the change of the select lines to the sample of the first input that counts, ns. It begins with
+    /// the end of the last input's conversion.
     pub const fn settling_ns(&self) -> u64 {
         let starts = self.dropped() as u64 + 2;
         ns(starts * self.period_clocks as u64 - CONVERSION_CLOCKS as u64)
@@ -86,12 +87,12 @@ const fn ns(clocks: u64) -> u64 {
     clocks * 125 / 6
 }
 
-/// Time of a frame of this plan, us: from the start of one to the start of the next, where the converter reads the garment by
-/// itself. A mean of several scans takes as many. A plan that reads nothing takes none.
+/// Time of a frame of this plan, us: from the start of one to the start of the next, where the converter
+/// reads the garment by itself. A mean of several scans takes as many. A plan that reads nothing takes none.
 ///
-/// A garment whose wiring the chain cannot follow (see [`super::Unfit`]) is read by the processor, which waits for the exact
-/// settling time, takes 2.2 us for a sample, and 5 us to drive the lines of an address: 8.6 ms for the reference garment
-/// with a mirrored panel (emulated) where this says 5.12.
+/// A garment whose wiring the chain cannot follow (see [`super::Unfit`]) is read by the processor, which
+/// waits for the exact settling time, takes 2.2 us for a sample, and 5 us to drive the lines of an address:
+/// 8.6 ms for the reference garment with a mirrored panel (emulated) where this says 5.12.
 pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     let (addresses, inputs) = read_by(circuit, plan);
     let rounds = Rounds::of(inputs, circuit.settle_ns());
@@ -132,8 +133,8 @@ mod tests {
         assert_eq!(CONVERSION_NS, 2_000);
     }
 
-    /// Every settling is given, none takes longer than by a slower pace alone (but for the rounding to whole clocks), and what it
-    /// costs above the least is bounded.
+    /// Every settling is given, none takes longer than by a slower pace alone (but for the rounding to whole
+    /// clocks), and what it costs above the least is bounded.
     #[test]
     fn every_settling_is_given_at_a_bounded_price() {
         for inputs in 1..=4 {

@@ -1,5 +1,5 @@
-//! What a converter that never waits reads: the select lines' levels in the order of the scan, and where the codes of
-//! each input go. A board whose DMA reads the garment turns this into its tables.
+//! What a converter that never waits reads: the select lines' levels in the order of the scan, and where the
+//! codes of each input go. A board whose DMA reads the garment turns this into its tables.
 
 use super::Plan;
 use super::addresses::{self, Inputs, Read};
@@ -20,8 +20,9 @@ pub const SWEEP_STRETCHES: usize = 64;
 pub struct Stretch {
     /// Index of its first address in [`Sweep::levels`].
     pub first: u16,
-    /// Taxels at that address, by the position of their input in [`Sweep::inputs`]; none where an input reads nothing
-    /// in the whole stretch, which then lies within one row or column of a block (256 addresses at most).
+    /// Taxels at that address, by the position of their input in [`Sweep::inputs`]; none where an input reads
+    /// nothing in the whole stretch, which then lies within one row or column of a block (256 addresses at
+    /// most).
     pub taxels: Read,
 }
 
@@ -57,7 +58,8 @@ impl fmt::Display for Unfit {
 
 impl core::error::Error for Unfit {}
 
-/// The sweep of a plan: up to ADDRESSES addresses in up to STRETCHES stretches, of which there are at least two.
+/// The sweep of a plan: up to ADDRESSES addresses in up to STRETCHES stretches, of which there are at least
+/// two.
 #[derive(Debug)]
 pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
     inputs: Inputs,

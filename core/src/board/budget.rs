@@ -1,5 +1,5 @@
-//! Where the time from one scan to the next goes. The board has no clock of its own: what it does between two calls is
-//! charged by the times of the calls.
+//! Where the time from one scan to the next goes. The board has no clock of its own: what it does between two
+//! calls is charged by the times of the calls.
 
 use super::pace::Pace;
 use crate::format::Micros;
@@ -76,7 +76,8 @@ impl Ledger {
         Micros(self.frame.time.0.saturating_add(self.frame.scan.into()))
     }
 
-    /// From `now` on the board is at something else. `rest`: of the message under way the link has not taken all.
+    /// From `now` on the board is at something else. `rest`: of the message under way the link has not taken
+    /// all.
     pub fn turn(&mut self, now: Micros, doing: Doing, rest: bool) {
         let passed = us(now, self.since);
         match self.doing {
@@ -122,8 +123,8 @@ impl Ledger {
         self.late = if late { self.late.wrapping_add(1) } else { 0 };
     }
 
-    /// The frame under way began to be processed more than half a scan after its own had ended: with any more delay scans will be
-    /// lost.
+    /// The frame under way began to be processed more than half a scan after its own had ended: with any more
+    /// delay scans will be lost.
     pub fn is_late(&self) -> bool {
         !self.late.is_multiple_of(SPARED)
     }

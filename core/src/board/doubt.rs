@@ -1,10 +1,11 @@
-//! What speaks against a line or an input while the board runs is followed by a self-test: a line that breaks in use is told as one
-//! that was broken at the start. What the test takes is counted as scans that are lost.
+//! What speaks against a line or an input while the board runs is followed by a self-test: a line that breaks
+//! in use is told as one that was broken at the start. What the test takes is counted as scans that are lost.
 
 use crate::format::Micros;
 
-/// After a test that said nothing new the next one waits at least so long, and twice as long each time: what presses all of
-/// a garment may look like a fault, and a fault that is known already speaks again in every frame.
+/// After a test that said nothing new the next one waits at least so long, and twice as long each time: what
+/// presses all of a garment may look like a fault, and a fault that is known already speaks again in every
+/// frame.
 const PAUSE_US: u64 = 10_000_000;
 /// Times that it is doubled: 10 min.
 const DOUBLINGS: u8 = 6;
@@ -37,7 +38,8 @@ impl Doubt {
         core::mem::take(&mut self.raised)
     }
 
-    /// A test has ended. `is_new`: it said something else than the one before; `ill`: there are faults. Whether it was for this.
+    /// A test has ended. `is_new`: it said something else than the one before; `ill`: there are faults.
+    /// Whether it was for this.
     pub fn settle(&mut self, now: Micros, is_new: bool, ill: bool) -> bool {
         self.raised = false;
         let followed = core::mem::take(&mut self.followed);

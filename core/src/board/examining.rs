@@ -8,8 +8,8 @@ use crate::selftest::Findings;
 use crate::wire::SelfTestReport;
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// Lines and inputs were examined: at the start, because the garment was changed, because it was asked for, or because
-    /// something spoke against one of them.
+    /// Lines and inputs were examined: at the start, because the garment was changed, because it was asked
+    /// for, or because something spoke against one of them.
     #[inline(never)]
     pub(super) fn examined(&mut self, now: Micros, result: Result<Findings, ScanError>) {
         self.rewired = false;
@@ -26,7 +26,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             }
             return;
         }
-        // Nobody asked for the one at the start, nor for that of a changed garment: it is told with what else is new.
+        // Nobody asked for the one at the start, nor for that of a changed garment: it is told with what else
+        // is new.
         let Some(us) = self.saving.ended(now) else { return };
         self.not_scanned(us);
         if refusal.is_none() {

@@ -16,8 +16,8 @@ pub struct BoardInfo {
 }
 
 impl BoardInfo {
-    /// The board that ships, with its garment's codes of 12 bits and its link at 921,600 Bd; the firmware and a host that
-    /// checks files for it know it from here.
+    /// The board that ships, with its garment's codes of 12 bits and its link at 921,600 Bd; the firmware and
+    /// a host that checks files for it know it from here.
     pub const fn feather(firmware: &'static str) -> BoardInfo {
         BoardInfo { firmware, pins: Pins::FEATHER, full_scale: 4095, link_bytes_per_s: 92_160 }
     }

@@ -14,8 +14,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.log(format_args!("scan: {error}"));
     }
 
-    /// The first scan after some that failed, or after an interruption, began then: what was lost beside those is counted, to the
-    /// nearest scan.
+    /// The first scan after some that failed, or after an interruption, began then: what was lost beside
+    /// those is counted, to the nearest scan.
     #[cold]
     pub(super) fn go_on(&mut self, start: Micros) {
         let failed = u64::from(core::mem::take(&mut self.stumbles)) * u64::from(self.health.scan_us);

@@ -1,5 +1,6 @@
-//! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives what to send
-//! next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a unit test reaches it.
+//! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives
+//! what to send next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a
+//! unit test reaches it.
 
 mod alarms;
 mod budget;
@@ -87,9 +88,8 @@ pub enum Job {
     },
     /// Start anew, as when the power comes.
     Restart,
-    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, somebody asks for it,
-    /// or something speaks against one of them.
-    /// Answered by [`Input::Examined`].
+    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, somebody
+    /// asks for it, or something speaks against one of them. Answered by [`Input::Examined`].
     Examine,
 }
 
@@ -101,8 +101,8 @@ enum Work {
     Reset { undo: bool },
 }
 
-/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in a row, and PARTS
-/// parts of contacts, as [`ContactState`](crate::contact::ContactState) says.
+/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in
+/// a row, and PARTS parts of contacts, as [`ContactState`](crate::contact::ContactState) says.
 pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     info: BoardInfo,
     /// How the board came to start; none: nobody has said.
@@ -151,8 +151,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(board)
     }
 
-    /// A board without a garment, which is made where the caller keeps it, part by part; what its stages remember is put to rest
-    /// there when it begins: the stack of a microcontroller has no room for the whole.
+    /// A board without a garment, which is made where the caller keeps it, part by part; what its stages
+    /// remember is put to rest there when it begins: the stack of a microcontroller has no room for the
+    /// whole.
     #[inline(never)]
     pub fn bare(info: BoardInfo) -> Self {
         Board {

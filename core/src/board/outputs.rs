@@ -2,7 +2,8 @@
 
 use crate::react::Reactions;
 
-/// Levels to be driven. There is one for each pin, the newest: however many change before the next tick, none is lost.
+/// Levels to be driven. There is one for each pin, the newest: however many change before the next tick, none
+/// is lost.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Outputs {
     /// Bit `i`: GPIO `i` is to be driven.

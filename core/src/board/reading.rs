@@ -1,5 +1,5 @@
-//! Reads a scene where it will be kept, field by field: what derived code reads goes through a copy at every level, and the stack
-//! of a microcontroller has no room for several maps of 64 concepts.
+//! Reads a scene where it will be kept, field by field: what derived code reads goes through a copy at every
+//! level, and the stack of a microcontroller has no room for several maps of 64 concepts.
 
 use super::refusal::Refusal;
 use crate::intent::{IntentConfig, MapConfig};
@@ -47,7 +47,8 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// Reads a scene as it travels, in the order in which it declares its fields. What is refused leaves a part of it.
+/// Reads a scene as it travels, in the order in which it declares its fields. What is refused leaves a part
+/// of it.
 #[inline(never)]
 pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     let from = &mut Bytes(bytes);

@@ -1,4 +1,5 @@
-//! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are examined.
+//! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are
+//! examined.
 
 use super::quota::Quota;
 use super::refusal::Refusal;
@@ -14,7 +15,8 @@ type Allowance = Quota<12, 300_000_000>;
 const NOTICE_US: u64 = 50_000;
 /// A save waits so long for what touches the garment to leave it.
 const PATIENCE_US: u64 = 2_000_000;
-/// To erase a sector of the flash and to write it again, ms: as its maker gives it for most; the worst takes ten times as long.
+/// To erase a sector of the flash and to write it again, ms: as its maker gives it for most; the worst takes
+/// ten times as long.
 const SECTOR_MS: u32 = 50;
 /// Its bytes.
 const SECTOR: usize = 4096;

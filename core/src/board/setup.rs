@@ -104,9 +104,9 @@ impl Setup {
         Ok(setup)
     }
 
-    /// Takes another garment for the same scene, and leaves the one that was there in its place; nothing changes if it is refused.
-    /// What is new is built beside what is there, one part after the other: the stack of a microcontroller has no room for two
-    /// setups.
+    /// Takes another garment for the same scene, and leaves the one that was there in its place; nothing
+    /// changes if it is refused. What is new is built beside what is there, one part after the other: the
+    /// stack of a microcontroller has no room for two setups.
     #[inline(never)]
     pub fn change_garment(
         &mut self,
@@ -126,8 +126,8 @@ impl Setup {
         Ok(())
     }
 
-    /// Takes another scene for the same garment, and leaves the one that was there in its place: the stack has no room for a third
-    /// one. Nothing changes if it is refused. What is no part of a scene stays.
+    /// Takes another scene for the same garment, and leaves the one that was there in its place: the stack
+    /// has no room for a third one. Nothing changes if it is refused. What is no part of a scene stays.
     #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Result<(), SetupError> {
         check(info, scene, &self.circuit)?;
@@ -144,7 +144,8 @@ impl Setup {
         done.map_err(SetupError::Scene)
     }
 
-    /// Takes another stream, if the scene differs in nothing else: what is perceived and driven goes on as it was. None: it does.
+    /// Takes another stream, if the scene differs in nothing else: what is perceived and driven goes on as it
+    /// was. None: it does.
     #[inline(never)]
     pub fn change_stream(&mut self, info: &BoardInfo, scene: &mut Scene) -> Option<Result<(), SetupError>> {
         let wanted = core::mem::replace(&mut scene.stream, self.scene.stream);

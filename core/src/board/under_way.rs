@@ -50,8 +50,8 @@ impl UnderWay {
         self.wire.get_mut(START..START + DATA).unwrap_or(&mut [])
     }
 
-    /// As [`UnderWay::put`]; the data, which come last, are the first `length` bytes of the scratch: what goes before them is
-    /// written before them.
+    /// As [`UnderWay::put`]; the data, which come last, are the first `length` bytes of the scratch: what
+    /// goes before them is written before them.
     pub fn put_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> bool {
         let start = self.put_head(number, without, length);
         let frame = start.and_then(|start| close(&mut self.wire, start..START + length));

@@ -16,8 +16,8 @@ const PART: usize = 8;
 const KEPT: usize = 8;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows; whether anything is left. Where nothing is
-    /// marked the image stays as it is.
+    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows; whether anything is
+    /// left. Where nothing is marked the image stays as it is.
     pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], falling: bool) -> bool {
         let limit = panel_of(&self.limit, area);
         let codes = panel_of(codes, area);
@@ -65,7 +65,8 @@ impl Panel<'_> {
         whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, marks, plain) || any
     }
 
-    /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something is quiet again.
+    /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something
+    /// is quiet again.
     fn chunks<const N: usize, const PART: usize, const FALLING: bool>(
         &mut self,
         first: usize,
@@ -141,9 +142,9 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
 
 /// Two taxels at once.
 ///
-/// A difference below 0 sets the highest bit of its half, and borrows from the other half, which counts no more then. Only if what
-/// is taken away has that bit itself may the difference not have it; such a taxel counts as not quiet, and so do some of those
-/// whose difference has more than 15 bits.
+/// A difference below 0 sets the highest bit of its half, and borrows from the other half, which counts no
+/// more then. Only if what is taken away has that bit itself may the difference not have it; such a taxel
+/// counts as not quiet, and so do some of those whose difference has more than 15 bits.
 #[inline(never)] // the few registers of an M0+ are for its loop
 fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
     let doubtful = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
@@ -161,8 +162,8 @@ fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair;
 
 /// One taxel after the other.
 ///
-/// Without a branch per taxel (one is negative, then all are), and not inlined, so that the loop has the registers of a
-/// Cortex-M0+ to itself.
+/// Without a branch per taxel (one is negative, then all are), and not inlined, so that the loop has the
+/// registers of a Cortex-M0+ to itself.
 #[inline(never)]
 fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
     let loud = |(codes, limit): (&[Code; N], &[u16; N])| {
@@ -175,7 +176,8 @@ fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit:
     codes.iter().zip(limit).position(loud).unwrap_or(codes.len())
 }
 
-/// Calibrates until a chunk is quiet, or no marks can be kept; how many hold something, and `found`: which of their taxels.
+/// Calibrates until a chunk is quiet, or no marks can be kept; how many hold something, and `found`: which of
+/// their taxels.
 #[inline(never)]
 fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
@@ -261,8 +263,9 @@ fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: 
 
 /// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them.
 ///
-/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a register. As short as the
-/// compiler unrolls it. Not inlined: five places in memory are all that the registers of a Cortex-M0+ can tell.
+/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a
+/// register. As short as the compiler unrolls it. Not inlined: five places in memory are all that the
+/// registers of a Cortex-M0+ can tell.
 #[inline(never)]
 pub(super) fn scale<const PART: usize, const FALLING: bool>(
     codes: &[Code; PART],
@@ -286,7 +289,8 @@ pub(super) fn scale<const PART: usize, const FALLING: bool>(
     bits
 }
 
-/// The same of all taxels of a chunk, whose gain is 1, given how much farther than from its limit a code is from that at rest.
+/// The same of all taxels of a chunk, whose gain is 1, given how much farther than from its limit a code is
+/// from that at rest.
 #[inline(never)] // the few registers of an M0+ are for this
 fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[Code; N],

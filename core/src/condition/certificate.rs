@@ -3,7 +3,8 @@
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// Which calibration is in force, of which day, and how well it fits. The curves themselves are on the host, in the file of that id.
+/// Which calibration is in force, of which day, and how well it fits. The curves themselves are on the host,
+/// in the file of that id.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Certificate {
     /// CRC-32/ISO-HDLC of gains and curves.

@@ -3,7 +3,8 @@
 /// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
 pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
-/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or a few.
+/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or a
+/// few.
 pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
 
 /// Clamps all of `here` but its ends, each to the range of its eight neighbours.
@@ -49,8 +50,8 @@ fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16
     step::<8, N>(above, here, below, out);
 }
 
-/// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a
-/// taxel: two or three comparisons mostly.
+/// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not
+/// greater settle a taxel: two or three comparisons mostly.
 #[inline(always)]
 fn step<const AT: usize, const N: usize>(
     above: &[u16; N],
@@ -89,7 +90,8 @@ fn three<const N: usize>(row: &[u16; N], at: usize) -> Option<&[u16; 3]> {
     row.get(at - 1..)?.first_chunk()
 }
 
-/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
+/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the
+/// stack.
 #[inline(never)]
 fn greatest<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], at: usize) -> u16 {
     fold_around(above, here, below, at, u16::max)

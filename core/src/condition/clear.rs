@@ -1,7 +1,7 @@
 //! Emptying the images where they may hold something.
 //!
-//! Rows that are calibrated and filtered as a whole are not emptied first: what they held is overwritten. Those of them that hold
-//! nothing any more are emptied once that is known, before the filter looks at them.
+//! Rows that are calibrated and filtered as a whole are not emptied first: what they held is overwritten.
+//! Those of them that hold nothing any more are emptied once that is known, before the filter looks at them.
 
 use super::config::Filter;
 use super::held::Held;
@@ -13,8 +13,8 @@ use crate::garment::{Area, Layout};
 use core::ops::Range;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Empties the images, before and after the filter, but for the rows that it gives back, if there may be any: they are not
-    /// [held](super::Rows) any more, and may still hold something.
+    /// Empties the images, before and after the filter, but for the rows that it gives back, if there may be
+    /// any: they are not [held](super::Rows) any more, and may still hold something.
     pub(super) fn clear(&mut self, layout: &Layout, codes: usize, filter: Filter) -> Option<Held> {
         if self.active == 0 {
             return None;

@@ -23,18 +23,20 @@ const BROKEN: i32 = 2 * COMMON;
 /// A panel is fast that moves by more than so many counts in a turn.
 const FAST: i32 = 4;
 
-/// After so many halves of a turn at most a panel is no longer taken to drift fast, and each that is fast counts for
-/// so many: noise hides the drift from the witnesses now and then, and when it turns it is slow for seconds.
+/// After so many halves of a turn at most a panel is no longer taken to drift fast, and each that is fast
+/// counts for so many: noise hides the drift from the witnesses now and then, and when it turns it is slow
+/// for seconds.
 const LASTING: u8 = 40;
 const LASTS: u8 = 4;
 
 /// What each panel drifts in a turn, counts.
 ///
-/// Twice in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the panel is known to
-/// have. It moves by their median if seven eighths of them are beyond it the same way, by a quarter of the median at least: drift
-/// is common, and where something presses slowly a part of a panel stays at rest. If only most of them are beyond it, it moves by one count a turn.
-/// What sets a witness apart from the others by more than noise is forgotten by a count a turn, and at once where the panel moves
-/// fast, so that it does not hide what all have in common.
+/// Twice in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the
+/// panel is known to have. It moves by their median if seven eighths of them are beyond it the same way, by a
+/// quarter of the median at least: drift is common, and where something presses slowly a part of a panel
+/// stays at rest. If only most of them are beyond it, it moves by one count a turn. What sets a witness apart
+/// from the others by more than noise is forgotten by a count a turn, and at once where the panel moves fast,
+/// so that it does not hide what all have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Consensus {
     panels: [Panel; PANELS],

@@ -1,7 +1,7 @@
 //! Conservative smoothing: a taxel is clamped to the range of its eight neighbours.
 //!
-//! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own neighbour and an
-//! impulse would survive.
+//! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own
+//! neighbour and an impulse would survive.
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::row::Row;
@@ -55,7 +55,8 @@ pub(super) fn conservative(
     true
 }
 
-/// Smooths a panel of sixteen columns and two rows at least; whether it has points. Not inlined, for the registers.
+/// Smooths a panel of sixteen columns and two rows at least; whether it has points. Not inlined, for the
+/// registers.
 #[inline(never)]
 fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     let mut points = false;
@@ -97,8 +98,9 @@ fn mark_all(area: &Area, marks: &mut Rows) {
     }
 }
 
-/// Groups of a row that may hold something once it is smooth: a taxel without pressure gets some from neighbours on both
-/// sides, or from those on the one side that it has. Where a group has more columns, it is at the end of one.
+/// Groups of a row that may hold something once it is smooth: a taxel without pressure gets some from
+/// neighbours on both sides, or from those on the one side that it has. Where a group has more columns, it is
+/// at the end of one.
 fn bridged(groups: u16, there: u16) -> u16 {
     let last = there ^ there >> 1;
     let (before, after) = (groups << 1, groups >> 1);

@@ -1,10 +1,13 @@
 //! The baseline follows drift, in counts per second.
 //!
 //! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
-//! whatever the frame rate. Its taxels move by what their panel drifts as a whole ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
-//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no pressure. So a held contact is
-//! never swallowed, and neither is a slow one once it shows. While a panel drifts fast, what shows less than a sixteenth of a contact's peak
-//! is none of it: what lies around it would drift apart, join it, and take along what lies around that. Only a tared baseline drifts: recordings are taken as they are.
+//! whatever the frame rate. Its taxels move by what their panel drifts as a whole
+//! ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
+//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no
+//! pressure. So a held contact is never swallowed, and neither is a slow one once it shows. While a panel
+//! drifts fast, what shows less than a sixteenth of a contact's peak is none of it: what lies around it would
+//! drift apart, join it, and take along what lies around that. Only a tared baseline drifts: recordings are
+//! taken as they are.
 
 use super::feedback::Feedback;
 use super::rates::{OWN, beside};
@@ -16,8 +19,8 @@ use crate::format::Code;
 use crate::garment::{Area, Layout};
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel, and before the second half of them, its
-    /// witnesses have a turn of their own, so that all frames cost alike.
+    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel, and before the second
+    /// half of them, its witnesses have a turn of their own, so that all frames cost alike.
     pub(super) fn follow_drift<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,
@@ -91,8 +94,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         });
     }
 
-    /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most what `own` says of
-    /// its column and of what it shows.
+    /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most
+    /// what `own` says of its column and of what it shows.
     #[inline(always)]
     fn follow_row(
         &mut self,

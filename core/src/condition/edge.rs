@@ -19,7 +19,8 @@ impl Gradient {
     }
 }
 
-/// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; 0 where the slice does not hold what it takes.
+/// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; 0 where the slice does not hold what
+/// it takes.
 pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
     let (row, column) = (row.min(area.rows.saturating_sub(1)), column.min(area.columns.saturating_sub(1)));
     Neighbourhood::of(values, area, row).gradient(column)
@@ -84,9 +85,11 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// Sum of the magnitudes at some taxels of the middle one of three rows of sixteen, each in eighths: a bit for each column.
+/// Sum of the magnitudes at some taxels of the middle one of three rows of sixteen, each in eighths: a bit
+/// for each column.
 ///
-/// A taxel takes a Cortex-M0+ 40 cycles, each other one 4, counted in its instructions: no place is asked whether it is there.
+/// A taxel takes a Cortex-M0+ 40 cycles, each other one 4, counted in its instructions: no place is asked
+/// whether it is there.
 #[inline(never)] // the few registers of an M0+ are for this
 pub(crate) fn steepness_of_sixteens(rows: [&Sixteen; 3], taxels: u32) -> u32 {
     // A compiler keeps a loop of that length, and with it an index and a shift for each taxel.

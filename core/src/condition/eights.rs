@@ -64,8 +64,9 @@ fn holding(rows: &[u16], groups: u16) -> u32 {
     })
 }
 
-/// Filters eight columns of some rows, neither the first column nor the last. The three of a row around a taxel are sorted once, and
-/// used for it and for those above and below it; what two rows have in common is found once for both.
+/// Filters eight columns of some rows, neither the first column nor the last. The three of a row around a
+/// taxel are sorted once, and used for it and for those above and below it; what two rows have in common is
+/// found once for both.
 #[inline(always)]
 fn filter(values: &[u16], out: &mut [u16], columns: usize, column: usize, rows: Range<usize>) {
     let mut values = values.get(rows.start.saturating_sub(1) * columns..).unwrap_or(&[]);

@@ -12,8 +12,8 @@ use super::state::ConditionState;
 use crate::garment::Area;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Filters the calibrated image of a panel whose filtered image is empty. What either of them may hold takes the place
-    /// of what the calibrated one held.
+    /// Filters the calibrated image of a panel whose filtered image is empty. What either of them may hold
+    /// takes the place of what the calibrated one held.
     pub(super) fn filter(&mut self, area: &Area, filter: Filter) {
         let values = panel_of(&self.calibrated, area);
         let out = panel_mut(&mut self.filtered, area);

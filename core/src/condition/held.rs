@@ -5,7 +5,8 @@ use core::ops::Range;
 /// Rows that are told apart; those from the last of them on are one.
 pub(super) const ENTRIES: usize = 256;
 
-/// A bit for each row by its number over all panels ([`Area::first_row`](crate::garment::Area)` + row`). Rows from 255 on share one.
+/// A bit for each row by its number over all panels ([`Area::first_row`](crate::garment::Area)` + row`). Rows
+/// from 255 on share one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Held([u32; ENTRIES / 32]);
 

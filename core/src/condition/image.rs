@@ -24,7 +24,8 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// The columns of a row that may hold something; all others are 0. Empty if the row holds nothing or does not exist.
+    /// The columns of a row that may hold something; all others are 0. Empty if the row holds nothing or does
+    /// not exist.
     pub fn span(&self, area: &Area, row: u16) -> Range<u16> {
         let groups = if row < area.rows { self.rows.groups(area.first_row.saturating_add(row)) } else { 0 };
         rows::span(area, groups)

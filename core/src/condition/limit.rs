@@ -34,7 +34,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// The last code of a taxel that comes to less than `level` counts; of one that is silenced the last of all.
+    /// The last code of a taxel that comes to less than `level` counts; of one that is silenced the last of
+    /// all.
     pub fn quiet_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
         let terms = Terms { floor: level, falling };
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));

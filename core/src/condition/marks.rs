@@ -30,8 +30,8 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// The groups of the rows from one of the panel on, where rows are of sixteen taxels and have a place each: one bit for each of
-    /// them. What is written there is to be [held](Marks::hold).
+    /// The groups of the rows from one of the panel on, where rows are of sixteen taxels and have a place
+    /// each: one bit for each of them. What is written there is to be [held](Marks::hold).
     #[inline(always)]
     pub fn rows(&mut self, first: usize) -> Option<&mut [u16]> {
         let (panel, sixteen) = (self.panel.clone(), self.columns == SIXTEEN);
@@ -45,7 +45,8 @@ impl<'a> Marks<'a> {
         self.rows.hold(row(rows.start)..row(rows.end));
     }
 
-    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something; 16 at most.
+    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something; 16 at
+    /// most.
     pub fn mark(&mut self, at: usize, count: usize, bits: u32) {
         let mut column = at - self.start;
         while column >= self.columns {
@@ -92,7 +93,8 @@ impl Marks<'_> {
         self.columns / SIXTEEN
     }
 
-    /// The groups of a row that have some of the taxels of a sixteen, given its number in the row and a bit for each of those.
+    /// The groups of a row that have some of the taxels of a sixteen, given its number in the row and a bit
+    /// for each of those.
     #[inline(always)]
     pub fn groups_of_sixteen(&self, sixteen: u32, bits: u32) -> u16 {
         let groups = match self.grain {

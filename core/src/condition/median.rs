@@ -6,9 +6,9 @@ use core::ops::Range;
 
 /// Filters a panel where it may hold something, its border replicated; `out` is empty elsewhere.
 ///
-/// Each column of three is sorted once and used three times; the median of nine is the median of the largest low, the
-/// median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ where all are pressed, see
-/// `docs/bench/cycles.txt`.
+/// Each column of three is sorted once and used three times; the median of nine is the median of the largest
+/// low, the median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ where
+/// all are pressed, see `docs/bench/cycles.txt`.
 pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     mark(area, grain, marks, |row, groups| {
@@ -21,8 +21,8 @@ pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, m
     });
 }
 
-/// Marks the groups of a panel in which something may be left, which `each` is told row by row: five of nine are in two rows at least.
-/// The border is replicated.
+/// Marks the groups of a panel in which something may be left, which `each` is told row by row: five of nine
+/// are in two rows at least. The border is replicated.
 #[inline(always)]
 pub(super) fn mark(area: &Area, grain: u32, marks: &mut Rows, mut each: impl FnMut(usize, u16)) {
     let there = columns_as_groups(0..area.columns.into(), grain);

@@ -8,8 +8,8 @@ use bytemuck::must_cast;
 use wide::u16x16;
 
 impl Panel<'_> {
-    /// Calibrates whole rows of a multiple of sixteen columns, given how much farther than from its limit a code is from that at rest;
-    /// whether anything is left.
+    /// Calibrates whole rows of a multiple of sixteen columns, given how much farther than from its limit a
+    /// code is from that at rest; whether anything is left.
     pub fn calibrate_rows<const FALLING: bool>(&mut self, marks: &mut Marks<'_>, margin: u16) -> bool {
         let (codes, limits) = (self.codes.as_chunks().0, self.limit.as_chunks().0);
         let out = self.out.as_chunks_mut().0;
@@ -33,7 +33,8 @@ impl Panel<'_> {
     }
 }
 
-/// What codes beyond their limits become, and a bit for each; the others become 0, and nothing is written where all are such.
+/// What codes beyond their limits become, and a bit for each; the others become 0, and nothing is written
+/// where all are such.
 #[inline(always)]
 fn exceed<const FALLING: bool>(
     codes: &[Code; SIXTEEN],

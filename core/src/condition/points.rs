@@ -6,8 +6,8 @@ use crate::garment::Area;
 use heapless::Vec;
 
 /// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are
-/// smoothed in the next frame as if they had not been there. Each may be a contact of its own, and twice as many
-/// do not leave time for a frame.
+/// smoothed in the next frame as if they had not been there. Each may be a contact of its own, and twice as
+/// many do not leave time for a frame.
 pub const POINTS: usize = 24;
 
 /// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many

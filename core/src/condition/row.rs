@@ -13,8 +13,9 @@ pub(super) struct Row {
 impl Row {
     /// Filters some columns, and others beside them, N - 2 at a time: they have their neighbours, too.
     ///
-    /// `run` filters all but the ends of some taxels, given with those above and below. `end` filters the first taxel of the row, or
-    /// the last, given the first two of the row above, the row and the row below, or the last two from the last on.
+    /// `run` filters all but the ends of some taxels, given with those above and below. `end` filters the
+    /// first taxel of the row, or the last, given the first two of the row above, the row and the row below,
+    /// or the last two from the last on.
     #[inline(always)]
     pub fn filter<const N: usize>(
         &self,

@@ -8,11 +8,11 @@ use core::ops::Range;
 /// Bits of an entry.
 const GROUPS: u32 = 16;
 
-/// The activity of an image: for each row, by its number over all panels ([`Area::first_row`]` + row`), the columns that
-/// may hold something; whatever it leaves out is 0.
+/// The activity of an image: for each row, by its number over all panels ([`Area::first_row`]` + row`), the
+/// columns that may hold something; whatever it leaves out is 0.
 ///
-/// A row has one bit for each of 16 groups of columns, so up to 16 columns have one of their own. Rows from 255 on share one
-/// entry, so that it answers "may hold something" for any garment.
+/// A row has one bit for each of 16 groups of columns, so up to 16 columns have one of their own. Rows from
+/// 255 on share one entry, so that it answers "may hold something" for any garment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rows {
     groups: [u16; ENTRIES],
@@ -73,7 +73,8 @@ impl Rows {
         }
     }
 
-    /// The groups of some rows, if none of them shares its entry. Those that get some are to be [held](Rows::hold).
+    /// The groups of some rows, if none of them shares its entry. Those that get some are to be
+    /// [held](Rows::hold).
     pub(super) fn places(&mut self, rows: Range<u16>) -> Option<&mut [u16]> {
         self.groups.get_mut(..SHARED)?.get_mut(usize::from(rows.start)..usize::from(rows.end))
     }

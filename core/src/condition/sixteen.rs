@@ -1,20 +1,20 @@
 //! Rows of sixteen taxels, each within the range of its eight neighbours: one comparison after another.
 //!
-//! Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not greater settle a taxel.
-//! Few comparisons settle most: those beside it first.
+//! Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not
+//! greater settle a taxel. Few comparisons settle most: those beside it first.
 
 use super::points::stands_out;
 
 /// Taxels of a row.
 pub(super) const SIXTEEN: usize = 16;
-/// A row and the one before it: two places in memory, that of the row below and that of the result are all that the registers
-/// of a Cortex-M0+ can tell beside what is compared.
+/// A row and the one before it: two places in memory, that of the row below and that of the result are all
+/// that the registers of a Cortex-M0+ can tell beside what is compared.
 pub(super) type Two = [Sixteen; 2];
 /// A row.
 pub(crate) type Sixteen = [u16; SIXTEEN];
 
-/// Clamps the latter of two rows, given the one below. Of four columns none of which is among `groups` nothing may be left.
-/// Sets `points` where a taxel [stands out](stands_out).
+/// Clamps the latter of two rows, given the one below. Of four columns none of which is among `groups`
+/// nothing may be left. Sets `points` where a taxel [stands out](stands_out).
 #[inline(always)]
 pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
     if groups == u16::MAX {
@@ -115,7 +115,8 @@ fn end<const AT: usize, const BESIDE: usize>(
     }
 }
 
-/// The greatest neighbour, given the column before. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the stack.
+/// The greatest neighbour, given the column before. Not inlined, as [`least`], lest the neighbours be kept
+/// for it, one by one, on the stack.
 #[inline(never)]
 fn greatest(two: &Two, below: &Sixteen, first: usize, points: &mut bool) -> u16 {
     let greatest = neighbours(two, below, first).into_iter().fold(0, u16::max);

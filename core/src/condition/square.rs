@@ -3,8 +3,8 @@
 use super::rows::Rows;
 use crate::garment::Area;
 
-/// Clamps each taxel of a panel to the greatest mean of the four squares of 2x2 taxels that it belongs to; beyond the border
-/// there is 0. `out` is empty where nothing is held.
+/// Clamps each taxel of a panel to the greatest mean of the four squares of 2x2 taxels that it belongs to;
+/// beyond the border there is 0. `out` is empty where nothing is held.
 pub(super) fn square(values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
     let columns = usize::from(area.columns);
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));

@@ -32,8 +32,8 @@ impl ConditionConfig {
 impl Condition {
     /// Takes in one frame.
     ///
-    /// `feedback` is what the previous frame's contacts left ([`Feedback::new`] if there are none). While a tare runs, and for its last
-    /// frame, the image is zero.
+    /// `feedback` is what the previous frame's contacts left ([`Feedback::new`] if there are none). While a
+    /// tare runs, and for its last frame, the image is zero.
     pub fn process<'a, const TAXELS: usize, const CONTACTS: usize>(
         &self,
         state: &'a mut ConditionState<TAXELS>,
@@ -230,7 +230,8 @@ mod tests {
             codes.fill(Code(7));
             // Until that was long ago.
             assert_eq!(run(&mut state, &codes, &feedback, 40), [7; 2048]);
-            // A held contact on the chest with a weak fringe: a block of 4 x 4 at 1000, around it 20 counts, below the floor.
+            // A held contact on the chest with a weak fringe: a block of 4 x 4 at 1000, around it 20 counts,
+            // below the floor.
             for (row, column) in (9..15).flat_map(|row| (4..10).map(move |column| (row, column))) {
                 let inner = (10..14).contains(&row) && (5..9).contains(&column);
                 codes[row * 16 + column] = Code(if inner { 1007 } else { 27 });

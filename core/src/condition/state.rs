@@ -61,8 +61,9 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// Starts afresh on a garment: every baseline is `rest` (0, or the full scale of a garment on which pressure lowers
-    /// the code), every gain 1.0, and 0 where a taxel is absent. A tare under way is forgotten.
+    /// Starts afresh on a garment: every baseline is `rest` (0, or the full scale of a garment on which
+    /// pressure lowers the code), every gain 1.0, and 0 where a taxel is absent. A tare under way is
+    /// forgotten.
     pub fn reset(&mut self, layout: &Layout, rest: Code) {
         self.baseline.fill(rest.0);
         self.gain.fill(0);
@@ -83,7 +84,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.turn = Turn::new();
     }
 
-    /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no such taxel.
+    /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no
+    /// such taxel.
     pub fn set_gain(&mut self, taxel: usize, gain: u16) -> bool {
         let Some(held) = self.gain.get_mut(taxel) else { return false };
         *held = gain;
@@ -91,8 +93,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         true
     }
 
-    /// Restores the baseline of a taxel, as a tare would have set it; all of it follows drift from then on. `false` if
-    /// there is no such taxel or a tare is under way.
+    /// Restores the baseline of a taxel, as a tare would have set it; all of it follows drift from then on.
+    /// `false` if there is no such taxel or a tare is under way.
     pub fn set_baseline(&mut self, taxel: usize, rest: Code) -> bool {
         if matches!(self.tracking.tare(), Tare::Running { .. }) {
             return false;
@@ -110,7 +112,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         (!matches!(self.tracking.tare(), Tare::Running { .. })).then_some(&self.baseline)
     }
 
-    /// What a panel has drifted since the start, as its witnesses agree: counts modulo 2^32, of which only differences mean something.
+    /// What a panel has drifted since the start, as its witnesses agree: counts modulo 2^32, of which only
+    /// differences mean something.
     pub fn drifted(&self, panel: u8) -> i32 {
         self.consensus.drifted(panel)
     }
@@ -120,9 +123,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         &self.gain
     }
 
-    /// Takes the mean code of the next `frames` frames (at least 1) as the baseline; a tare under way starts again. The
-    /// panels that the first of those frames works on are tared, the others keep theirs. The old baseline is given up
-    /// at once. It is the caller's part not to tare under load, and to say so where contacts are present.
+    /// Takes the mean code of the next `frames` frames (at least 1) as the baseline; a tare under way starts
+    /// again. The panels that the first of those frames works on are tared, the others keep theirs. The old
+    /// baseline is given up at once. It is the caller's part not to tare under load, and to say so where
+    /// contacts are present.
     pub fn tare(&mut self, frames: u16) {
         self.tracking.request(frames.max(1));
     }

@@ -1,7 +1,7 @@
 //! The code at rest as the mean of some frames.
 //!
-//! A tare needs no memory of its own: while it runs nothing else does, and the 32-bit sums lie in the arrays of the
-//! baseline (low halves) and of the calibrated image (high halves): 65535 frames of 65535 counts fit.
+//! A tare needs no memory of its own: while it runs nothing else does, and the 32-bit sums lie in the arrays
+//! of the baseline (low halves) and of the calibrated image (high halves): 65535 frames of 65535 counts fit.
 
 use super::progress::Tare;
 use super::rows::Rows;

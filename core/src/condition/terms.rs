@@ -19,7 +19,8 @@ impl Terms {
         self.floor.saturating_sub(1)
     }
 
-    /// The last code that is quiet. No code is beyond 65535, or 0: where the margin reaches so far, none is loud.
+    /// The last code that is quiet. No code is beyond 65535, or 0: where the margin reaches so far, none is
+    /// loud.
     pub fn limit(&self, rest: u16, margin: u16) -> u16 {
         if self.falling { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
     }

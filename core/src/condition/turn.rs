@@ -20,7 +20,8 @@ impl Turn {
         Turn { row: 0, due: Micros(0), row_us: 0 }
     }
 
-    /// The next row of so many, if it is due; twice as soon if `hurried`. After a pause at most one whole turn is due.
+    /// The next row of so many, if it is due; twice as soon if `hurried`. After a pause at most one whole
+    /// turn is due.
     pub fn next(&mut self, now: Micros, rows: u16, hurried: bool) -> Option<u16> {
         let turn = u64::from(TURN_US);
         // A clock that was set back waits for nothing.

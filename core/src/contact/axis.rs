@@ -10,7 +10,8 @@ pub struct Axis {
     /// Angle of the major axis from +x towards +y, in (-1/4, 1/4] turn; none where the anisotropy is below
     /// `clamp(1 / area, 0.02, 0.15)`. In taxel coordinates, whatever the pitch. At most 1.3e-6 rad off.
     pub azimuth: Option<Turn>,
-    /// `D / J = sqrt((A - B)^2 + 4 C^2) / (A + B)`: 0 for a disc or square, 1 for a line. Half a step off at most, and 1e-8.
+    /// `D / J = sqrt((A - B)^2 + 4 C^2) / (A + B)`: 0 for a disc or square, 1 for a line. Half a step off at
+    /// most, and 1e-8.
     pub anisotropy: Q15,
 }
 
@@ -113,8 +114,8 @@ pub(crate) fn tenths(pitch_um: u32) -> u32 {
 
 /// Azimuth and anisotropy of a contact of `area` taxels (0 counts as 1).
 ///
-/// For moments of a contact: `A + B < 2^64`, which `Layout::build` asserts, and `|2 C| <= A + B`. Where these do not hold, as
-/// for sums that wrapped, the result means nothing; the function is total all the same.
+/// For moments of a contact: `A + B < 2^64`, which `Layout::build` asserts, and `|2 C| <= A + B`. Where these
+/// do not hold, as for sums that wrapped, the result means nothing; the function is total all the same.
 pub fn axis(central: &Central, area: u32) -> Axis {
     let normal = Normal::of(central);
     normal.axis(&normal.spread(), area)
@@ -146,13 +147,14 @@ fn half_angle(y: i32, x: i32) -> Turn {
 }
 
 /// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
-/// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
-/// taken to millimetres first, so that a pitch that differs along the axes is honoured.
+/// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction.
+/// Moments are taken to millimetres first, so that a pitch that differs along the axes is honoured.
 ///
-/// A pitch that is 0 counts as 10 mm, and every other is cut to 0.1 mm and held within 0.1 and 655.3 mm. At pitches of 2 to 30 mm
-/// that differ by a factor of 4 at most, the result is rounded to the nearest: 0.501 steps off at most. A contact that is all but
-/// isotropic on the cloth (anisotropy below 2^-13) has no direction along which to see the pixel, so that the difference of the
-/// two pitches comes on top. As [`axis`], it is total, and means nothing for sums that wrapped.
+/// A pitch that is 0 counts as 10 mm, and every other is cut to 0.1 mm and held within 0.1 and 655.3 mm. At
+/// pitches of 2 to 30 mm that differ by a factor of 4 at most, the result is rounded to the nearest: 0.501
+/// steps off at most. A contact that is all but isotropic on the cloth (anisotropy below 2^-13) has no
+/// direction along which to see the pixel, so that the difference of the two pitches comes on top. As
+/// [`axis`], it is total, and means nothing for sums that wrapped.
 pub fn breadth(moments: &Moments, pitch_um: [u32; 2]) -> u32 {
     let normal = Normal::of(&moments.central());
     let inverse = Scaled::from_u64(1).over(Scaled::from_u64(moments.m));

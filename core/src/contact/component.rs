@@ -104,7 +104,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Puts a component in the place of the one with the smallest total, which `least` remembers, if it has more.
+    /// Puts a component in the place of the one with the smallest total, which `least` remembers, if it has
+    /// more.
     fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Found) {
         // Of equals the last found gives way.
         let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
@@ -167,7 +168,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the pieces to the components that they belong to, strip by strip: a strip's sums come together in registers.
+    /// Adds the pieces to the components that they belong to, strip by strip: a strip's sums come together in
+    /// registers.
     #[inline(never)] // the few registers of an M0+ are for its loop
     fn take_strips<const RUNS: usize, const PARTS: usize>(
         &mut self,
@@ -357,7 +359,8 @@ impl Component {
         }
     }
 
-    /// Notes where the greatest value is first found, in a piece that has it. The pieces of a row may come in any order.
+    /// Notes where the greatest value is first found, in a piece that has it. The pieces of a row may come in
+    /// any order.
     #[inline(never)] // rarely called
     fn look_for_peak(&mut self, piece: &Piece, panel: u8, area: &Area, values: &[u16]) {
         let row = piece.row - area.first_row;

@@ -5,7 +5,8 @@ use super::label::Labels;
 use crate::condition::{Image, Neighbourhood, steepness_of_sixteens};
 use crate::garment::Layout;
 
-/// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the threshold.
+/// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the
+/// threshold.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contour {
     /// How many there are; a garment has fewer than 2^16.

@@ -1,9 +1,10 @@
-//! How far a pattern of pressure has moved between two small pictures: least squares over temporal change and spatial
-//! slope (Lucas and Kanade 1981), in integers.
+//! How far a pattern of pressure has moved between two small pictures: least squares over temporal change and
+//! spatial slope (Lucas and Kanade 1981), in integers.
 //!
-//! Slopes are taken over three taxels and smoothed across with 1 4 1; the change is smoothed with 1 4 1 both ways. The
-//! quotient of the two is that of the fourth-order compact difference scheme: for a wave of six taxels 1 % off, where plain
-//! central differences are 17 % off. Both pictures share the slope, so that there and back are the same way.
+//! Slopes are taken over three taxels and smoothed across with 1 4 1; the change is smoothed with 1 4 1 both
+//! ways. The quotient of the two is that of the fourth-order compact difference scheme: for a wave of six
+//! taxels 1 % off, where plain central differences are 17 % off. Both pictures share the slope, so that there
+//! and back are the same way.
 
 use super::slopes::{Line, SIDE, Terms, differentiate, products, smooth};
 use crate::format::Inverse;
@@ -32,8 +33,8 @@ pub(super) enum Flow {
     Changed,
 }
 
-/// Sums over the taxels that count: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t in 18ths (14
-/// bits). None exceeds 31 bits, even if all 100 taxels inside count.
+/// Sums over the taxels that count: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t
+/// in 18ths (14 bits). None exceeds 31 bits, even if all 100 taxels inside count.
 #[derive(Debug, Default)]
 struct Sums {
     count: u32,
@@ -53,7 +54,8 @@ struct Sums {
 const FLAT: u32 = 64;
 
 impl Flow {
-    /// Compares the pictures. Along a direction in which there is no pattern, as along a ridge, the way is `expected`.
+    /// Compares the pictures. Along a direction in which there is no pattern, as along a ridge, the way is
+    /// `expected`.
     pub fn of(pictures: &Pictures, expected: [i32; 2]) -> Flow {
         match Sums::of(pictures) {
             Some(sums) => sums.solve(expected),
@@ -131,7 +133,8 @@ impl Sums {
         }
         let left = |w: [i32; 2]| tt.saturating_sub((w[0] * xt + w[1] * yt) >> 12).max(0);
         let determinant = xx * yy - xy * xy;
-        // The standard deviation of w along a direction is that of what is left, over the root of the slope's energy there.
+        // The standard deviation of w along a direction is that of what is left, over the root of the slope's
+        // energy there.
         let clear = |energy: i32, w: [i32; 2]| {
             i64::from(energy) * i64::from(self.count) >= i64::from(left(w)) * CLEAR
         };
@@ -163,8 +166,8 @@ impl Sums {
 /// Two taxels, in w.
 const LONGEST: i32 = 3 << 11;
 
-/// The inverse of the variance of w that is allowed: a standard deviation of 0.135 taxel, 0.101 in w, by the taxels' own
-/// count.
+/// The inverse of the variance of w that is allowed: a standard deviation of 0.135 taxel, 0.101 in w, by the
+/// taxels' own count.
 const CLEAR: i64 = 98;
 
 #[cfg(test)]
@@ -252,7 +255,8 @@ mod tests {
             state >> 8
         };
         for round in 0..2000u32 {
-            // Extremes only, so that slopes and changes are as large as they can be; in stripes, columns and dots.
+            // Extremes only, so that slopes and changes are as large as they can be; in stripes, columns and
+            // dots.
             let extreme = [255u16, 4095, u16::MAX][round as usize % 3];
             let [a, b, c] = [next(), next(), next()];
             let make = |shift: u32| -> Picture {

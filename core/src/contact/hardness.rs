@@ -9,16 +9,18 @@
 //! | RAM | [`Growth`]: 16 bytes a contact |
 //! | M0+ cycles | 30 a frame, and one division of 32 bits where the cue is asked for |
 //!
-//! What gives way wraps around what presses it, so that force and area grow together; what is hard keeps its outline, and only
-//! the force grows. For a ball of radius R in Hertz' contact (Johnson, Contact Mechanics, 1985, 4.2) the patch has radius a, the force
-//! is 4/3 E a^3 / R, and dF/dA = 2 E a / (pi R): proportional to the common modulus E of both. So it compares what has one
-//! shape; a sharper thing of the same stuff also seems harder. A thing that shows no taxel more than in its first frame counts as
-//! one taxel: this is as hard as the garment can tell.
+//! What gives way wraps around what presses it, so that force and area grow together; what is hard keeps its
+//! outline, and only the force grows. For a ball of radius R in Hertz' contact (Johnson, Contact Mechanics,
+//! 1985, 4.2) the patch has radius a, the force is 4/3 E a^3 / R, and dF/dA = 2 E a / (pi R): proportional to
+//! the common modulus E of both. So it compares what has one shape; a sharper thing of the same stuff also
+//! seems harder. A thing that shows no taxel more than in its first frame counts as one taxel: this is as
+//! hard as the garment can tell.
 
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
-/// Below this a thing is soft, counts per cm2: with 1,000 counts per newton it takes another cm2 for each newton more (10 kPa).
+/// Below this a thing is soft, counts per cm2: with 1,000 counts per newton it takes another cm2 for each
+/// newton more (10 kPa).
 pub const SOFT: u32 = 1_000;
 /// From this it is hard, counts per cm2.
 pub const HARD: u32 = 4_000;
@@ -39,8 +41,8 @@ impl Growth {
         self.first.get_or_insert((force, area));
     }
 
-    /// Rise of the force over that of the area, counts per cm2, where a taxel has `cell_mm2` ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has
-    /// doubled. Total.
+    /// Rise of the force over that of the area, counts per cm2, where a taxel has `cell_mm2`
+    /// ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has doubled. Total.
     pub fn hardness(&self, cell_mm2: u32) -> Option<u32> {
         let (force, area) = self.first?;
         let rise = self.greatest.0.checked_sub(force).filter(|rise| *rise >= force.max(1))?;
@@ -138,7 +140,8 @@ mod tests {
         assert_eq!(felt(&[(0, 0), (1, u16::MAX)]).hardness(CM), Some(0));
     }
 
-    /// Hertz: a = (3 F R / 4 E)^(1/3), and the area is pi a^2. The cue between two forces against the exact quotient.
+    /// Hertz: a = (3 F R / 4 E)^(1/3), and the area is pi a^2. The cue between two forces against the exact
+    /// quotient.
     #[test]
     fn balls_of_hertz_are_ordered_by_their_modulus() {
         let area = |newton: f64, kpa: f64| {

@@ -1,10 +1,10 @@
 //! Parts of a contact on both sides of a seam.
 //!
-//! Each pair of parts that neighbour taxels of a seam connect is joined once. The frame of a contact is that of its
-//! heaviest part on its home panel, the panel with most of its mass; every other part is carried into it along the joins that really
-//! connect them, shortest path first and then in the order of the joins: so a grip around a flank stays in one
-//! piece, and a ring that closes over two seams is cut at the later one. Parts of the home panel that are connected only over
-//! another panel are carried like all others.
+//! Each pair of parts that neighbour taxels of a seam connect is joined once. The frame of a contact is that
+//! of its heaviest part on its home panel, the panel with most of its mass; every other part is carried into
+//! it along the joins that really connect them, shortest path first and then in the order of the joins: so a
+//! grip around a flank stays in one piece, and a ring that closes over two seams is cut at the later one.
+//! Parts of the home panel that are connected only over another panel are carried like all others.
 
 use super::bits::{lowest_run, run_of};
 use super::label::Labels;

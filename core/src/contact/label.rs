@@ -97,7 +97,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.mark_sides(start, area, &line);
     }
 
-    /// Appends a piece to its part, and returns that, and the piece if there is room; to a new part, if that is [`NONE`].
+    /// Appends a piece to its part, and returns that, and the piece if there is room; to a new part, if that
+    /// is [`NONE`].
     #[inline(always)]
     pub fn push(&mut self, mut piece: Piece, panel: u8) -> (u16, Option<&mut Piece>) {
         let mut fits = true;
@@ -153,7 +154,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
-    /// Makes the first of the parts that belong together the parent of each of them, and gives it the sums of all.
+    /// Makes the first of the parts that belong together the parent of each of them, and gives it the sums of
+    /// all.
     fn flatten(&mut self) {
         for index in 0..self.parts.len() {
             let Some(part) = self.parts.get(index) else { return };

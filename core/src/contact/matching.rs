@@ -14,8 +14,8 @@ use heapless::Vec;
 /// Work space.
 #[derive(Debug, Clone)]
 pub(super) struct Matching<const CONTACTS: usize> {
-    /// Of each contact the squared distance to the nearest component that is not taken, [`FAR`] if none is within reach, and which one that is,
-    /// the first of equals.
+    /// Of each contact the squared distance to the nearest component that is not taken, [`FAR`] if none is
+    /// within reach, and which one that is, the first of equals.
     least: [(u32, u16); CONTACTS],
     /// Where the components are.
     points: Vec<Point, CONTACTS>,
@@ -163,8 +163,8 @@ fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
     }
 }
 
-/// The least squared distance of the points that are not taken from any of the images, and the first point that has it; [`FAR`] if none is
-/// within reach.
+/// The least squared distance of the points that are not taken from any of the images, and the first point
+/// that has it; [`FAR`] if none is within reach.
 #[inline(never)] // the few registers of an M0+ are for this
 fn nearest(
     images: &Images,

@@ -8,9 +8,10 @@ use crate::garment::{Transform, signed};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
 ///
-/// All are exact integers; what is derived from them ([`Moments::jm`], [`Moments::central`]) is exact as well wherever
-/// `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`, which `Layout::build` asserts for the full scale that it is given:
-/// give it `u16::MAX`, or keep values within what it was given. Beyond that the results wrap; nothing panics.
+/// All are exact integers; what is derived from them ([`Moments::jm`], [`Moments::central`]) is exact as well
+/// wherever `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`, which `Layout::build` asserts for the full scale
+/// that it is given: give it `u16::MAX`, or keep values within what it was given. Beyond that the results
+/// wrap; nothing panics.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Moments {
     /// sum f: mass
@@ -29,7 +30,8 @@ pub struct Moments {
     pub s2: u64,
 }
 
-/// Second moments about the centroid, times the mass: `A = m sxx - sx^2`, `B = m syy - sy^2`, `C = m sxy - sx sy`.
+/// Second moments about the centroid, times the mass: `A = m sxx - sx^2`, `B = m syy - sy^2`,
+/// `C = m sxy - sx sy`.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Central {
     /// along x
@@ -48,8 +50,8 @@ pub(super) const fn is_small(columns: u16, rows: u16, peak: u16) -> bool {
     columns <= 16 && rows <= 32 && peak < 1 << 12
 }
 
-/// Moments in 32 bits, where a multiplication takes one cycle instead of 55: of a piece near the first column and row, everything is
-/// below 128^2 * 2^17 = 2^31.
+/// Moments in 32 bits, where a multiplication takes one cycle instead of 55: of a piece near the first column
+/// and row, everything is below 128^2 * 2^17 = 2^31.
 #[derive(Default)]
 struct Near {
     m: u32,
@@ -118,8 +120,8 @@ impl Moments {
         sum
     }
 
-    /// Adds a piece of a row whose first taxel is (x, y), given what its taxels add up to. Its squares are asked for where they
-    /// did not fit.
+    /// Adds a piece of a row whose first taxel is (x, y), given what its taxels add up to. Its squares are
+    /// asked for where they did not fit.
     pub(super) fn add_piece(
         &mut self,
         x: u32,
@@ -141,7 +143,8 @@ impl Moments {
         self.add(&Near::of(x, y, sums).wide());
     }
 
-    /// Adds pieces of [`FEW`] rows at most, where the first row of their panel counts as 0, and all columns, rows and values are [`is_small`].
+    /// Adds pieces of [`FEW`] rows at most, where the first row of their panel counts as 0, and all columns,
+    /// rows and values are [`is_small`].
     #[inline(never)] // the few registers of an M0+ are for its loops
     pub(super) fn add_few(&mut self, pieces: &[Piece], first_row: u16) {
         // One loop for all of them would have twice as much to keep as there are registers.
@@ -236,8 +239,8 @@ impl Moments {
         }
     }
 
-    /// `J m = m (sxx + syy) - sx^2 - sy^2`: the moment of inertia about the centroid (eq. 3) times the mass. Every step
-    /// wraps, and the result is exact because it fits.
+    /// `J m = m (sxx + syy) - sx^2 - sy^2`: the moment of inertia about the centroid (eq. 3) times the mass.
+    /// Every step wraps, and the result is exact because it fits.
     pub const fn jm(&self) -> u64 {
         let central = self.central();
         central.a.wrapping_add(central.b)

@@ -8,7 +8,8 @@ pub(super) const NONE: u16 = u16::MAX;
 pub(super) struct Part {
     /// sum f; fits, since taxels and values have 16 bits
     pub mass: u32,
-    /// A part with a smaller index that it belongs to, or itself. In a whole frame: the first, which carries the sums of all.
+    /// A part with a smaller index that it belongs to, or itself. In a whole frame: the first, which carries
+    /// the sums of all.
     pub parent: u16,
     /// Of the first: the same, between parts that a seam joins.
     pub group: u16,
@@ -50,7 +51,8 @@ impl Part {
     }
 }
 
-/// The first of the parts that belong together with `part`. Parents have smaller indices, so this ends; it halves the path.
+/// The first of the parts that belong together with `part`. Parents have smaller indices, so this ends; it
+/// halves the path.
 #[cfg_attr(target_pointer_width = "64", inline)]
 pub(super) fn first_of(parts: &mut [Part], mut part: u16) -> u16 {
     let parent = |parts: &[Part], part: u16| parts.get(usize::from(part)).map_or(part, |part| part.parent);

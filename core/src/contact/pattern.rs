@@ -1,8 +1,8 @@
 //! The pattern of pressure inside a contact, and how far it has moved.
 //!
-//! A small picture of the middle of the contact is kept as an anchor, and each frame is compared with it ([`Flow`]):
-//! displacement is measured from a fixed picture, so that the noise of the frames does not add up, and a pattern that
-//! creeps is seen. Where it has moved by half a taxel, the picture is taken anew.
+//! A small picture of the middle of the contact is kept as an anchor, and each frame is compared with it
+//! ([`Flow`]): displacement is measured from a fixed picture, so that the noise of the frames does not add
+//! up, and a pattern that creeps is seen. Where it has moved by half a taxel, the picture is taken anew.
 
 use super::component::Component;
 use super::flow::{Flow, Pictures};
@@ -13,8 +13,8 @@ use crate::garment::{Area, Rect};
 /// Way in 2^-16 taxel along x and y.
 pub(super) type Way = [i32; 2];
 
-/// Smallest contact whose pattern is looked at: a square of ten has six by six taxels that are clear of its outline. With less,
-/// a wave of pressure is not told from a slope.
+/// Smallest contact whose pattern is looked at: a square of ten has six by six taxels that are clear of its
+/// outline. With less, a wave of pressure is not told from a slope.
 const LEAST_AREA: u16 = 100;
 const LEAST_INNER: u32 = 36;
 /// Frames for which a contact without a pattern is left alone.
@@ -68,7 +68,8 @@ impl Pattern {
         self.step = [0; 2];
     }
 
-    /// The step of the pattern since the last frame where there is one, else `step`, that of the contact's centroid.
+    /// The step of the pattern since the last frame where there is one, else `step`, that of the contact's
+    /// centroid.
     pub fn follow(&mut self, component: &Component, area: &Area, image: &Image, low: u16, step: Way) -> Way {
         if self.pause > 0 {
             self.pause -= 1;
@@ -97,8 +98,8 @@ impl Pattern {
         step
     }
 
-    /// The way since the picture was taken; none if there is no picture, or the contact is not what it was: more pressure makes
-    /// the pattern higher, which is not to be taken for a way.
+    /// The way since the picture was taken; none if there is no picture, or the contact is not what it was:
+    /// more pressure makes the pattern higher, which is not to be taken for a way.
     fn compare(&self, component: &Component, area: &Area, image: &Image, step: Way) -> Option<Flow> {
         let (total, peak) = self.taken?;
         let same =

@@ -3,8 +3,8 @@
 use super::bits::{WORD, widened};
 use super::sums::Sums;
 
-/// The taxels of one part in a word: in a row, or in [`WORD`] columns of a longer one. They are whole runs, which have no
-/// touched taxel beside them but in another word.
+/// The taxels of one part in a word: in a row, or in [`WORD`] columns of a longer one. They are whole runs,
+/// which have no touched taxel beside them but in another word.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     /// Bit `i` stands for column `column + i`; not 0.

@@ -19,7 +19,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         pieces.take_while(move |(_, piece)| piece.row <= last)
     }
 
-    /// Those of the taxels of a piece, number `number`, that have all four neighbours in their panel, which is `area`.
+    /// Those of the taxels of a piece, number `number`, that have all four neighbours in their panel, which
+    /// is `area`.
     pub fn enclosed(&self, number: usize, piece: &Piece, area: &Area) -> u32 {
         let (Piece { taxels, row, .. }, column) = (*piece, piece.column());
         let last = area.first_row.saturating_add(area.rows).saturating_sub(1);

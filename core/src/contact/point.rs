@@ -47,8 +47,8 @@ impl Point {
 /// A point, and where it lies in the frames of the panels that seams join to its own.
 pub(super) type Images = Vec<Point, { 1 + 2 * SEAMS }>;
 
-/// The way between two panels (none within one panel, else over one seam) that brings a point closest to another, and
-/// the squared distance that is left.
+/// The way between two panels (none within one panel, else over one seam) that brings a point closest to
+/// another, and the squared distance that is left.
 pub(super) fn nearest_way(layout: &Layout, from: Point, to: Point) -> Option<(Option<Transform>, u32)> {
     let squared = |(x, y): (i32, i32)| {
         let square = |apart: i32| (apart.clamp(-LONGEST, LONGEST).pow(2)) as u32;

@@ -17,12 +17,13 @@ pub enum Phase {
     Released,
 }
 
-/// One contact in one frame. Coordinates are taxels of its home panel, the one with most of its mass; a part beyond a
-/// seam continues them past the border.
+/// One contact in one frame. Coordinates are taxels of its home panel, the one with most of its mass; a part
+/// beyond a seam continues them past the border.
 ///
-/// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`, `anisotropy`, `breadth`) is that of
-/// the last frame in which it was looked at: its first one, and from then on each of those present has its turn, [`Forms`](super::Forms) in a frame.
-/// Of a lone contact it is always of the frame, of five contacts at most four frames old if one has its turn.
+/// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`,
+/// `anisotropy`, `breadth`) is that of the last frame in which it was looked at: its first one, and from then
+/// on each of those present has its turn, [`Forms`](super::Forms) in a frame. Of a lone contact it is always
+/// of the frame, of five contacts at most four frames old if one has its turn.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contact {
     /// From 1 upwards in the order of onsets; the same from onset to release.
@@ -53,10 +54,11 @@ pub struct Contact {
     pub azimuth: Option<Turn>,
     /// 0 for a disc or square, 1 for a line.
     pub anisotropy: Q15,
-    /// Width across the major axis in 0.1 mm, see [`breadth`](super::breadth); at 10 mm pitch where the panel gives none.
+    /// Width across the major axis in 0.1 mm, see [`breadth`](super::breadth); at 10 mm pitch where the panel
+    /// gives none.
     pub breadth: u32,
-    /// Way since onset along x, of the centroid or of the pattern inside; follows the contact across seams. The leaps of
-    /// merging and parting do not count.
+    /// Way since onset along x, of the centroid or of the pattern inside; follows the contact across seams.
+    /// The leaps of merging and parting do not count.
     pub dx: Fixed16,
     /// Way since onset along y.
     pub dy: Fixed16,
@@ -72,6 +74,7 @@ pub struct Contact {
     pub duration_ms: u32,
     /// Greatest total since onset.
     pub peak_total: u32,
-    /// Breadth when it was looked at with the greatest total: what touches, not what is left of it while it comes or goes.
+    /// Breadth when it was looked at with the greatest total: what touches, not what is left of it while it
+    /// comes or goes.
     pub peak_breadth: u32,
 }

@@ -10,8 +10,8 @@ use super::track::Tracks;
 use crate::garment::{Layout, Place, Rect};
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
-    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and have
-    /// hardly come off.
+    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and
+    /// have hardly come off.
     #[inline(never)] // a stack frame of its own is near
     pub fn reunite<const RUNS: usize, const PARTS: usize>(
         &mut self,

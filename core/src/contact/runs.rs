@@ -32,7 +32,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         (flood(all, touched) == all).then_some(part)
     }
 
-    /// Appends the runs of a row, as one piece for each part that they touch or begin; their part, if there is but one.
+    /// Appends the runs of a row, as one piece for each part that they touch or begin; their part, if there
+    /// is but one.
     #[inline(never)] // the few registers of an M0+ are for this
     pub(super) fn scan_runs(&mut self, all: u32, values: &[u16], line: &Line) -> u16 {
         if let Some(part) = self.only_part(all, line) {

@@ -46,7 +46,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// The first taxels from one on that belong to one part, or to [`NONE`]: there may be more of it beside them.
+    /// The first taxels from one on that belong to one part, or to [`NONE`]: there may be more of it beside
+    /// them.
     #[inline(always)]
     pub fn from(&mut self, taxel: i32) -> (u16, Range<i32>) {
         if taxel < self.asked || taxel >= self.taxels.end {
@@ -116,7 +117,8 @@ impl Spot {
         piece.column() == self.column && piece.taxels & self.taxel != 0
     }
 
-    /// How many pieces come before the next that has it, and the row of that: the one after the last if there is none so far.
+    /// How many pieces come before the next that has it, and the row of that: the one after the last if there
+    /// is none so far.
     #[inline(never)] // the few registers of an M0+ are for its loop
     fn skip(self, pieces: &[Piece], last: u16) -> (usize, u16) {
         let found = pieces.iter().position(|piece| piece.row > last || self.is_in(piece));
@@ -124,8 +126,8 @@ impl Spot {
         (number, pieces.get(number).map_or(u16::MAX, |piece| piece.row).min(last.saturating_add(1)))
     }
 
-    /// From a row of a part on: how many pieces come before the next that has it but is of another part, or beyond a row without it;
-    /// and how many have it.
+    /// From a row of a part on: how many pieces come before the next that has it but is of another part, or
+    /// beyond a row without it; and how many have it.
     #[inline(never)] // the few registers of an M0+ are for its loop
     fn pass(self, pieces: &[Piece], first: u16, part: u16) -> (usize, u16) {
         let mut row = first;
@@ -149,7 +151,8 @@ mod tests {
     use crate::garment::{Edge, Garment, Layout, Seam, Side as Of};
     use std::vec;
 
-    /// Two panels of two words a row, sewn in all ways: taxels asked for from the first on, and then here and there.
+    /// Two panels of two words a row, sewn in all ways: taxels asked for from the first on, and then here and
+    /// there.
     #[test]
     fn the_parts_along_a_side_are_those_of_its_taxels() {
         let mut noise = 1u32;

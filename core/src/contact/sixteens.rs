@@ -10,7 +10,8 @@ use bytemuck::must_cast_slice;
 use core::ops::Range;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Appends the runs of rows that follow each other, as one piece for each part; their parts are not weighed yet.
+    /// Appends the runs of rows that follow each other, as one piece for each part; their parts are not
+    /// weighed yet.
     #[inline(never)] // the few registers of an M0+ are for its loop
     pub(super) fn scan_sixteens(&mut self, rows: &[Sixteen], low: u16, line: &mut Line) {
         let mut all = 0;
@@ -34,7 +35,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line.ends = line.ends.map(|end| end | all);
     }
 
-    /// Appends the one run of a row to the part that it touches, and returns that. If it touches several, they belong together.
+    /// Appends the one run of a row to the part that it touches, and returns that. If it touches several,
+    /// they belong together.
     #[inline(never)] // the few registers of an M0+ are for this
     fn scan_run(&mut self, run: u32, values: &[u16], line: &Line) -> u16 {
         let part = if line.reach & run != 0 { line.part } else { self.meet(run, line) };
@@ -58,7 +60,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         part
     }
 
-    /// The part that a run touches, of the pieces in the row above; or [`NONE`]. If there are several, they belong together from now on.
+    /// The part that a run touches, of the pieces in the row above; or [`NONE`]. If there are several, they
+    /// belong together from now on.
     #[inline(never)] // the few registers of an M0+ are for this
     fn meet(&mut self, run: u32, line: &Line) -> u16 {
         let above = self.pieces.get(line.above..).unwrap_or(&[]);

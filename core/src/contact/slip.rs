@@ -11,7 +11,8 @@ pub(super) const SLIP_STEPS: usize = 3;
 pub(super) struct Slip {
     /// The last two steps, the older first.
     steps: [Way; SLIP_STEPS - 1],
-    /// Mean size of the change from one step to the next, in 2^-16 taxel: the contact's own noise, whatever its speed.
+    /// Mean size of the change from one step to the next, in 2^-16 taxel: the contact's own noise, whatever
+    /// its speed.
     jitter: i32,
 }
 
@@ -28,8 +29,8 @@ impl Slip {
         Slip { steps: [[0; 2]; SLIP_STEPS - 1], jitter: JITTER }
     }
 
-    /// Takes the step since the last frame. Whether a slip begins: three steps together are at least `limit` (in 2^-12
-    /// taxel) and three times the jitter, and none of them is behind the others by more than half.
+    /// Takes the step since the last frame. Whether a slip begins: three steps together are at least `limit`
+    /// (in 2^-12 taxel) and three times the jitter, and none of them is behind the others by more than half.
     pub fn begins(&mut self, step: Way, limit: u32) -> bool {
         let step = step.map(|way| (way >> 4).clamp(-LONGEST, LONGEST));
         let [first, second] = self.steps;

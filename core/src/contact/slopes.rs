@@ -1,6 +1,7 @@
 //! How steep two small pictures are, and what has changed between them: row by row.
 //!
-//! Each of its loops is one function, and reads what the one before left: none has more to keep than the registers of a Cortex-M0+.
+//! Each of its loops is one function, and reads what the one before left: none has more to keep than the
+//! registers of a Cortex-M0+.
 
 /// Rows and columns of a picture, at most.
 pub(super) const SIDE: usize = 12;
@@ -19,7 +20,8 @@ pub(super) struct Smooth {
 /// A row of them.
 pub(super) type Line = [Smooth; SIDE];
 
-/// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, of the taxels of a line but the first and the last.
+/// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, of the taxels of a line but the
+/// first and the last.
 pub(super) type Terms = [[i32; 3]; SIDE - 2];
 
 /// Sums, slopes and changes of the middle one of three rows.

@@ -21,9 +21,10 @@ pub struct Contacts {
     pub forms: Forms,
 }
 
-/// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts, which are
-/// touched taxels of one panel that are connected (65534). Half as many runs as taxels suffice wherever the columns are even in number, and of parts one for each square of
-/// two by two taxels, or as many as runs.
+/// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS
+/// parts, which are touched taxels of one panel that are connected (65534). Half as many runs as taxels
+/// suffice wherever the columns are even in number, and of parts one for each square of two by two taxels, or
+/// as many as runs.
 #[derive(Debug, Clone)]
 pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     labels: Labels<RUNS, PARTS>,
@@ -47,7 +48,8 @@ pub struct Touches<'a> {
     pub released: &'a [Contact],
     /// Contacts that did not fit into this frame: those with the smallest totals.
     pub dropped: u16,
-    /// Panels in which something is nearly a contact, a bit each: its peak has three quarters of the high threshold.
+    /// Panels in which something is nearly a contact, a bit each: its peak has three quarters of the high
+    /// threshold.
     pub faint: u8,
     /// Runs and joins across seams that did not fit: parts of contacts may be missing or apart.
     pub overflow: u16,
@@ -136,8 +138,9 @@ impl Contacts {
         self.track(state, layout, image, now)
     }
 
-    /// The components of a frame that are contacts, measured, in the order of their first taxels. For whoever needs no ids
-    /// and no velocities, this is all; of contacts it follows only where they were, which keeps faint ones.
+    /// The components of a frame that are contacts, measured, in the order of their first taxels. For whoever
+    /// needs no ids and no velocities, this is all; of contacts it follows only where they were, which keeps
+    /// faint ones.
     pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
         state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,

@@ -5,8 +5,8 @@ use super::bits::WORD;
 /// Values up to this have squares of which a word's fit in 32 bits: 32 * 11585^2 < 2^32.
 pub(super) const NARROW: u16 = 11585;
 
-/// Sums over taxels of a row, number `i` of which has the pressure f: of those of a word all but the squares fit in 32 bits, as
-/// 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
+/// Sums over taxels of a row, number `i` of which has the pressure f: of those of a word all but the squares
+/// fit in 32 bits, as 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Sums {
     /// sum f
@@ -43,7 +43,8 @@ impl Sums {
         greatest as u16
     }
 
-    /// Becomes those of the values that some bits name, of at most [`WORD`]: bit `i` for number `i`; the greatest of them.
+    /// Becomes those of the values that some bits name, of at most [`WORD`]: bit `i` for number `i`; the
+    /// greatest of them.
     #[inline(never)] // the few registers of an M0+ are for its loop
     pub fn take_named(&mut self, values: &[u16], taxels: u32) -> u16 {
         // The bit of the value that comes next is the highest.

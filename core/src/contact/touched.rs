@@ -37,7 +37,8 @@ fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
 /// A row of sixteen taxels as it stands in memory: pairs of values.
 pub(super) type Sixteen = [u32; 8];
 
-/// The rows of a panel of sixteen columns; none if its values do not stand in pairs, or if the threshold has 16 bits.
+/// The rows of a panel of sixteen columns; none if its values do not stand in pairs, or if the threshold has
+/// 16 bits.
 pub(super) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
     match pod_align_to(values) {
         ([], pairs, []) if columns == 16 && low < 1 << 15 => pairs.as_chunks().0,
@@ -54,8 +55,8 @@ pub(super) fn touched_of_sixteen([a, b, c, d, e, f, g, h]: &Sixteen, low: u16) -
     two(two(two(two(four, *e, low), *f, low), *g, low), *h, low) >> 16
 }
 
-/// Puts two bits, which say whether the values of a pair are not below `low`, above those of the pairs before, which move down. Of eight
-/// pairs they fill the upper half; below them are others.
+/// Puts two bits, which say whether the values of a pair are not below `low`, above those of the pairs
+/// before, which move down. Of eight pairs they fill the upper half; below them are others.
 #[inline(always)]
 fn two(taxels: u32, pair: u32, low: u32) -> u32 {
     const HIGHEST: u32 = 1 << 31 | 1 << 15;

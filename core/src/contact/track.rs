@@ -72,8 +72,9 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.trails.iter().position(|trail| trail.component == component)
     }
 
-    /// Contacts that found no component, but whose last peak lies in one or beside it: they go on as it if nobody else does, and
-    /// where it is another's, whichever had the greater total; of equals the one that is nearer.
+    /// Contacts that found no component, but whose last peak lies in one or beside it: they go on as it if
+    /// nobody else does, and where it is another's, whichever had the greater total; of equals the one that
+    /// is nearer.
     pub fn merge<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
@@ -162,7 +163,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Looks at the form of those that are new, and of as many of those that were `held` before them as are asked for.
+    /// Looks at the form of those that are new, and of as many of those that were `held` before them as are
+    /// asked for.
     fn look<const RUNS: usize, const PARTS: usize>(
         &mut self,
         held: usize,
@@ -247,8 +249,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 }
 
-/// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a splinter
-/// of a contact that lifts.
+/// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a
+/// splinter of a contact that lifts.
 fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Component) -> bool {
     component.peak >= config.high && known.get(usize::from(index)) == Some(&false)
 }

@@ -48,7 +48,8 @@ impl Trail {
             carry(contact, &way);
         }
         let step = [component.x.0.saturating_sub(contact.x.0), component.y.0.saturating_sub(contact.y.0)];
-        // Motion leaves the pressure as it is; what adds or takes a quarter of it at once, moves the centroid otherwise.
+        // Motion leaves the pressure as it is; what adds or takes a quarter of it at once, moves the centroid
+        // otherwise.
         let change = component.total.abs_diff(contact.total);
         let leaps = self.leaps || change > contact.total / 4;
         let step = if leaps { [0; 2] } else { step };
@@ -67,7 +68,8 @@ impl Trail {
         contact.dy = Fixed16(contact.dy.0.saturating_add(step[1]));
         contact.vx = pace.velocity(contact.vx, step[0]);
         contact.vy = pace.velocity(contact.vy, step[1]);
-        // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders with it.
+        // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders
+        // with it.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
         contact.slip = config.slip_speed != NO_SLIP
             && self.slips(contact, sliding, config, pace, area.map_or(0, |area| area.taxels_per_cm));
@@ -143,8 +145,8 @@ impl Clock {
 }
 
 impl Pace {
-    /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over the real time
-    /// between the frames.
+    /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over
+    /// the real time between the frames.
     fn velocity(&self, v: Fixed16, step: i32) -> Fixed16 {
         match self.inverse {
             // 32 + 26 bits and 32 + 20 bits: no overflow.

@@ -28,8 +28,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line.above = here;
     }
 
-    /// Appends the runs of a word, given which pieces of the row above may touch them; the first that may touch those of the next word.
-    /// Both are in the order of their columns.
+    /// Appends the runs of a word, given which pieces of the row above may touch them; the first that may
+    /// touch those of the next word. Both are in the order of their columns.
     #[inline(never)] // the few registers are for its loop
     fn scan_word(
         &mut self,

@@ -6,7 +6,8 @@ use super::shift::left;
 /// Whether the machine divides 64 bits, and multiplies them into 128.
 const WIDE: bool = usize::BITS >= 64;
 
-/// The inverse of a divisor, by Newton's iteration; worth its price (about 100 cycles) from the first quotient on.
+/// The inverse of a divisor, by Newton's iteration; worth its price (about 100 cycles) from the first
+/// quotient on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inverse {
     /// The divisor, shifted so that bit 31 is set; 0 for no divisor.
@@ -76,7 +77,8 @@ impl Inverse {
         if WIDE { self.wide_quotient(value) } else { self.narrow_quotient(value) }
     }
 
-    /// The same of a value for which it is below 2^32, with an inverse of 64 bits: at most 1 too small, it takes less than 1 away.
+    /// The same of a value for which it is below 2^32, with an inverse of 64 bits: at most 1 too small, it
+    /// takes less than 1 away.
     const fn wide_quotient(&self, value: u64) -> u32 {
         let divisor = (self.normal >> self.shift) as u64;
         let quotient = ((value as u128 * self.inverse as u128) >> 64) as u64;
@@ -95,8 +97,8 @@ impl Inverse {
         // The quotient is below 2^32: the shifted value does not lose bits.
         let top = high << self.shift | low >> (32 - self.shift);
         let quotient = (wide(top, self.inverse as u32) >> 31) as u32;
-        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So the rest
-        // is below 7 divisors and fits a word: what is above that need not be known.
+        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So
+        // the rest is below 7 divisors and fits a word: what is above that need not be known.
         let rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
         if rest < divisor {
             quotient
@@ -107,7 +109,8 @@ impl Inverse {
         }
     }
 
-    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor and from any number of units too small.
+    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor and from any number of
+    /// units too small.
     #[cold]
     const fn large_quotient(&self, value: u64) -> u32 {
         let value = left(value, self.shift);

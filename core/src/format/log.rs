@@ -4,8 +4,8 @@ use super::Scaled;
 use super::product::wide;
 
 impl Scaled {
-    /// Logarithm to base 2 in 1/1024, rounded to the nearest (0.501 steps off at most); `i16::MIN`, far below what the core's
-    /// values have, for zero.
+    /// Logarithm to base 2 in 1/1024, rounded to the nearest (0.501 steps off at most); `i16::MIN`, far below
+    /// what the core's values have, for zero.
     pub const fn log2(self) -> i32 {
         let (mut mantissa, exponent) = (self.mantissa(), self.exponent());
         if mantissa == 0 {

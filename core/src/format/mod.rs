@@ -12,11 +12,11 @@
 //! | temperature | [`Celsius`] | degree | -327.68 ..= 327.67 | 0.01 degrees |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
-//! Largest errors of what the core tells are in `docs/bounds.md`, each with the test that asserts it. No function of this folder can
-//! fail: each says what it gives outside the range that it is for.
+//! Largest errors of what the core tells are in `docs/bounds.md`, each with the test that asserts it. No
+//! function of this folder can fail: each says what it gives outside the range that it is for.
 //!
-//! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests and set-up code; no function of the
-//! per-frame path calls them.
+//! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests
+//! and set-up code; no function of the per-frame path calls them.
 
 mod extremes;
 mod invalid;
@@ -153,7 +153,8 @@ impl Q15 {
         f64::from(self.0) / 32768.0
     }
 
-    /// `part / whole` rounded to the nearest, half a step and 1e-9 off at most; 1 from `part = whole` on, and 0 where `whole` is 0.
+    /// `part / whole` rounded to the nearest, half a step and 1e-9 off at most; 1 from `part = whole` on, and
+    /// 0 where `whole` is 0.
     pub const fn ratio(part: u64, whole: u64) -> Q15 {
         if whole == 0 {
             return Q15(0);
@@ -167,8 +168,8 @@ impl Q15 {
     }
 }
 
-/// `2^15 part / whole` rounded to the nearest, for `part` not above `whole` and that below 2^31, digit by digit: half of what
-/// an [`Inverse`] costs for so few.
+/// `2^15 part / whole` rounded to the nearest, for `part` not above `whole` and that below 2^31, digit by
+/// digit: half of what an [`Inverse`] costs for so few.
 const fn share(part: u32, whole: u32) -> u32 {
     let (mut rest, mut quotient, mut digit) = (part, 0, 0);
     while digit < 15 {

@@ -3,8 +3,9 @@
 use super::product::wide;
 use super::shift::left;
 
-/// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where there is no divider:
-/// Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one exact correction.
+/// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where
+/// there is no divider: Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one
+/// exact correction.
 pub const fn root(value: u64) -> u32 {
     if value == 0 {
         return 0;
@@ -34,8 +35,8 @@ const fn exact_root(normal: u64) -> u32 {
 
 /// `sqrt(normal)` for a `normal` with bit 63 or 62 set, one or two off.
 const fn normal_root(normal: u64) -> u32 {
-    // N = normal / 2^64 in [1/4, 1) as Q16, and y, about 1 / sqrt(N), as Q15. The line is 9 % off at most; three rounds
-    // of y (3 - N y^2) / 2 in 16 bits leave 2^-13.
+    // N = normal / 2^64 in [1/4, 1) as Q16, and y, about 1 / sqrt(N), as Q15. The line is 9 % off at most;
+    // three rounds of y (3 - N y^2) / 2 in 16 bits leave 2^-13.
     let n = (normal >> 48) as u32;
     let mut y = 69_885 - ((n * 39_934) >> 16);
     let mut round = 0;
@@ -46,7 +47,8 @@ const fn normal_root(normal: u64) -> u32 {
         y = if y > 0xffff { 0xffff } else { y };
         round += 1;
     }
-    // sqrt(normal) = 2^32 N y; then twice r + (normal - r^2) / (2 r), where 1 / (2 r) = y / 2^33: 2^-25, and the unit.
+    // sqrt(normal) = 2^32 N y; then twice r + (normal - r^2) / (2 r), where 1 / (2 r) = y / 2^33: 2^-25, and
+    // the unit.
     let top = (normal >> 32) as u32;
     let sum = (((top >> 16) * y) as u64 + (((top & 0xffff) * y) >> 16) as u64) << 1;
     let root = if sum > u32::MAX as u64 { u32::MAX } else { sum as u32 };

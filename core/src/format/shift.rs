@@ -1,4 +1,5 @@
-//! Shifts of wide numbers, for a machine whose registers have 32 bits: there the library's are calls of 30 cycles.
+//! Shifts of wide numbers, for a machine whose registers have 32 bits: there the library's are calls of 30
+//! cycles.
 
 /// `value << by`, for less than 64.
 pub(crate) const fn left(value: u64, by: u32) -> u64 {

@@ -37,8 +37,8 @@ pub fn cell_mm2(pitch_um: [u32; 2]) -> u32 {
     (x * y / 100).max(1)
 }
 
-/// Taxels in 10 mm, in Q8, on a panel of this pitch (0: unknown, 10 mm are assumed): along the axis on which they lie closer.
-/// To the nearest, 4 at 655 mm to 25,600 at 0.1 mm.
+/// Taxels in 10 mm, in Q8, on a panel of this pitch (0: unknown, 10 mm are assumed): along the axis on which
+/// they lie closer. To the nearest, 4 at 655 mm to 25,600 at 0.1 mm.
 pub fn taxels_per_cm(pitch_um: [u32; 2]) -> u16 {
     let um = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.clamp(100, 655_399) });
     let least = um[0].min(um[1]);
@@ -56,7 +56,8 @@ pub struct Place {
     pub column: u16,
 }
 
-/// A rectangle of taxels of one panel, last row and column included. Whole words are copied in place, where five halves would be a call.
+/// A rectangle of taxels of one panel, last row and column included. Whole words are copied in place, where
+/// five halves would be a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(align(4))]
 pub struct Rect {

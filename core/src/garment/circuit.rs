@@ -1,4 +1,5 @@
-//! The checked wiring of a garment: which lines to drive for which block, row and column, and what is read then.
+//! The checked wiring of a garment: which lines to drive for which block, row and column, and what is read
+//! then.
 
 use super::area::{Area, Place};
 use super::config::{BLOCKS, Block, Coding, Garment, Group, LINES, Line};
@@ -41,8 +42,8 @@ impl Site {
         (self.origin + row as i32 * self.row_step + column as i32 * self.column_step) as usize
     }
 
-    /// Row and column of the panel at a wired row and column of the block, as far as they are known: up to a multiple of 8. Those of
-    /// a panel of one column are told as columns.
+    /// Row and column of the panel at a wired row and column of the block, as far as they are known: up to a
+    /// multiple of 8. Those of a panel of one column are told as columns.
     pub const fn place(&self, row: u8, column: u8) -> (i32, i32) {
         let (mut y, mut x) = ((self.corner >> 3) as i32, (self.corner & 7) as i32);
         let by_row = row as i32 * self.row_step.signum();
@@ -53,8 +54,8 @@ impl Site {
     }
 }
 
-/// The checked wiring. Levels of all lines form one word, bit `i` for `lines()[i]`: block lines first, then row lines,
-/// column lines and enables.
+/// The checked wiring. Levels of all lines form one word, bit `i` for `lines()[i]`: block lines first, then
+/// row lines, column lines and enables.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Circuit {
     lines: Vec<u8, CIRCUIT_LINES>,
@@ -164,7 +165,8 @@ impl Circuit {
         &self.sites
     }
 
-    /// How a taxel is wired: index of its block, row and column in that; none where there is none. Looks everywhere.
+    /// How a taxel is wired: index of its block, row and column in that; none where there is none. Looks
+    /// everywhere.
     pub fn wired(&self, taxel: usize) -> Option<(u8, u8, u8)> {
         self.sites.iter().find_map(|site| {
             let mut places =
@@ -258,7 +260,8 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
     }
 }
 
-/// Sorts by select code, then by input. By insertion: the library's sort checks that an order is one, and panics.
+/// Sorts by select code, then by input. By insertion: the library's sort checks that an order is one, and
+/// panics.
 fn in_order_of_scan(sites: &mut [Site]) {
     for end in 1..sites.len() {
         for at in (0..end).rev() {

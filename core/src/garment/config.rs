@@ -52,7 +52,8 @@ pub struct Panel {
     pub rows: u16,
     /// Columns (x).
     pub columns: u16,
-    /// Distance of taxel centres along x and along y in micrometres, within [`PITCH_UM`]; both 0 where they are not known.
+    /// Distance of taxel centres along x and along y in micrometres, within [`PITCH_UM`]; both 0 where they
+    /// are not known.
     #[serde(default)]
     pub pitch_um: [u32; 2],
 }
@@ -119,8 +120,8 @@ pub struct Edge {
     pub start: u16,
 }
 
-/// Two stretches of the same length that are sewn together; taxel `i` of the one adjoins taxel `i` of the other,
-/// or `length - 1 - i` where `reversed`.
+/// Two stretches of the same length that are sewn together; taxel `i` of the one adjoins taxel `i` of the
+/// other, or `length - 1 - i` where `reversed`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seam {
@@ -151,8 +152,9 @@ pub struct Absent {
     pub columns: u16,
 }
 
-/// The select lines and the converter. A single binary address is three groups that follow each other; separate row
-/// and column multiplexers are two groups; one-hot rows or chip enables are a group with [`Coding::OneHot`].
+/// The select lines and the converter. A single binary address is three groups that follow each other;
+/// separate row and column multiplexers are two groups; one-hot rows or chip enables are a group with
+/// [`Coding::OneHot`].
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wiring {

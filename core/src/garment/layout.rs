@@ -18,11 +18,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Checks the geometry of `garment` for a program that holds `capacity` taxels with values up to `full_scale`.
+    /// Checks the geometry of `garment` for a program that holds `capacity` taxels with values up to
+    /// `full_scale`.
     ///
-    /// Refused are, besides what is contradictory, panels on which `m^2` times the variance of a contact might not fit
-    /// in 64 bits: `(full_scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64` for N taxels in a box of w x h. Panels that are sewn
-    /// together count as one, with the box of their lengths laid end to end.
+    /// Refused are, besides what is contradictory, panels on which `m^2` times the variance of a contact
+    /// might not fit in 64 bits: `(full_scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64` for N taxels in a box of w x
+    /// h. Panels that are sewn together count as one, with the box of their lengths laid end to end.
     pub fn build(garment: &Garment, capacity: usize, full_scale: u16) -> Result<Layout, GarmentError> {
         let mut layout = Layout {
             areas: Vec::new(),

@@ -21,8 +21,8 @@ impl Garment {
         }
     }
 
-    /// The reference garment: four panels of 32 x 16 (chest, back, left arm, right arm), eight blocks of 4 x 16 stacked
-    /// in each, one converter input per panel; chest and back are sewn together along both flanks.
+    /// The reference garment: four panels of 32 x 16 (chest, back, left arm, right arm), eight blocks of 4 x
+    /// 16 stacked in each, one converter input per panel; chest and back are sewn together along both flanks.
     pub fn reference() -> Garment {
         let panel = |text, link, region, pitch_um| Panel {
             name: name(text),
@@ -53,8 +53,8 @@ impl Garment {
         garment
     }
 
-    /// One mat of 64 x 32 through four inputs: input k reads rows 16 k to 16 k + 15, two blocks of 4 x 16 beside each
-    /// other.
+    /// One mat of 64 x 32 through four inputs: input k reads rows 16 k to 16 k + 15, two blocks of 4 x 16
+    /// beside each other.
     pub fn mat() -> Garment {
         let mut garment = plain("mat-64x32", 64, 32);
         for input in 0..4u8 {
@@ -66,11 +66,11 @@ impl Garment {
         garment
     }
 
-    /// The first thing to solder: one block of 4 x 16, its four rows driven by GP2, GP3, GP6 and GP7 themselves, its sixteen
-    /// columns through one multiplexer (GP9-GP12) to one converter input (GP26).
+    /// The first thing to solder: one block of 4 x 16, its four rows driven by GP2, GP3, GP6 and GP7
+    /// themselves, its sixteen columns through one multiplexer (GP9-GP12) to one converter input (GP26).
     ///
-    /// It settles for 8 us: after the 7 that a delay in whole microseconds is sure to give, a line of 80 pF behind its 10 kOhm
-    /// keeps 0.65 counts of a full-scale step (`taxel bench acquisition`).
+    /// It settles for 8 us: after the 7 that a delay in whole microseconds is sure to give, a line of 80 pF
+    /// behind its 10 kOhm keeps 0.65 counts of a full-scale step (`taxel bench acquisition`).
     pub fn block() -> Garment {
         let mut garment = plain("block-4x16", 4, 16);
         garment.wiring.block.lines.clear();
@@ -109,13 +109,13 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
     }
 }
 
-/// Nine address lines on the pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block (GP2, GP3,
-/// GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
+/// Nine address lines on the pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block
+/// (GP2, GP3, GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
 ///
-/// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds): a conditioned line
-/// with a time constant of 240 ns (3 kOhm and 80 pF) keeps 0.98 counts of a full-scale step then (`taxel bench acquisition`). A
-/// slower line needs a longer time, and a frame takes 512 times as much longer or a little more (`acquire::Rounds`). An amplifier
-/// that is quick enough: `taxel bench amplifier`.
+/// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds): a
+/// conditioned line with a time constant of 240 ns (3 kOhm and 80 pF) keeps 0.98 counts of a full-scale step
+/// then (`taxel bench acquisition`). A slower line needs a longer time, and a frame takes 512 times as much
+/// longer or a little more (`acquire::Rounds`). An amplifier that is quick enough: `taxel bench amplifier`.
 fn reference_wiring() -> Wiring {
     Wiring {
         block: lines(&[2, 3, 6]),

@@ -28,7 +28,8 @@ impl Bands {
         Bands { levels: [0; BANDS], sums: [0; BANDS] }
     }
 
-    /// Adds the total of a frame, less than 2^22; `frame` is its number, from 0. Before the first the total was the same.
+    /// Adds the total of a frame, less than 2^22; `frame` is its number, from 0. Before the first the total
+    /// was the same.
     pub fn add(&mut self, total: u32, frame: u32) {
         let mut input = (total << FRACTION) as i32;
         if frame == 0 {

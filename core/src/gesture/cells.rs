@@ -6,8 +6,8 @@ pub const SIDE: usize = 8;
 /// Cells of a sheet.
 pub const CELLS: usize = SIDE * SIDE;
 
-/// A frame of a sheet in cells, row after row. Each is the sum of its taxels, halved as often as it takes for eight
-/// taxels' worth to be the most; 65,535 at most.
+/// A frame of a sheet in cells, row after row. Each is the sum of its taxels, halved as often as it takes for
+/// eight taxels' worth to be the most; 65,535 at most.
 pub type Cells = [u16; CELLS];
 
 /// How a sheet of rows and columns becomes cells. A side shorter than eight leaves cells empty.
@@ -49,7 +49,8 @@ impl Sheet {
     }
 }
 
-/// For each taxel of a side the cell in which it lies, without a division: the cell advances as its share fills.
+/// For each taxel of a side the cell in which it lies, without a division: the cell advances as its share
+/// fills.
 struct Side {
     size: usize,
     share: usize,

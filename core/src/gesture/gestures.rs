@@ -106,9 +106,10 @@ impl Gestures {
         self.model.name(class.into()).unwrap_or_default()
     }
 
-    /// Takes the frame of time `now` with the panels and totals of the contacts that are `present`; what is new about the touch. A touch begins on the panel
-    /// of the contact with the greatest total and has that panel alone; it ends when nothing has touched the panel for a while.
-    /// While it goes on, an announcement takes that certainty.
+    /// Takes the frame of time `now` with the panels and totals of the contacts that are `present`; what is
+    /// new about the touch. A touch begins on the panel of the contact with the greatest total and has that
+    /// panel alone; it ends when nothing has touched the panel for a while. While it goes on, an announcement
+    /// takes that certainty.
     pub fn process(
         &self,
         state: &mut GestureState,
@@ -177,8 +178,8 @@ impl Gestures {
         state.announced = Announced::new();
     }
 
-    /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed, but the model has
-    /// seen it, as it has in training.
+    /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed,
+    /// but the model has seen it, as it has in training.
     fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
         let decision = self.touches(area).conclude(&state.touch);
         let panel = state.panel.take().unwrap_or_default();

@@ -51,8 +51,8 @@ impl Grid {
         }
     }
 
-    /// The features of the `frames` so far, for mean, variance, greatest value and change of the cells each: log2 (Q8) of
-    /// its ranks among the cells, and log2 (Q8) of the number of cells that share in it.
+    /// The features of the `frames` so far, for mean, variance, greatest value and change of the cells each:
+    /// log2 (Q8) of its ranks among the cells, and log2 (Q8) of the number of cells that share in it.
     pub fn features(&self, frames: u32) -> [u16; GRID] {
         let count = u64::from(frames.max(1));
         let log = log2(count - 1);

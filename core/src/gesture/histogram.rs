@@ -28,8 +28,8 @@ impl<const SHIFT: u32> Histogram<SHIFT> {
         }
     }
 
-    /// The values below which the `shares` of 256 lie, which ascend, of `count` values: within their bin as if these lay
-    /// evenly in it.
+    /// The values below which the `shares` of 256 lie, which ascend, of `count` values: within their bin as
+    /// if these lay evenly in it.
     pub fn percentiles<const N: usize>(&self, shares: &[u16; N], count: u32) -> [u16; N] {
         let mut bins = self.bins.iter().enumerate();
         let (mut below, mut bin, mut held) = (0u32, 0u32, 0u32);

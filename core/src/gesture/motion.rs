@@ -1,5 +1,5 @@
-//! Whether what changes moves on or comes and goes: how neighbouring cells change together, and how much of all change
-//! is left in the total.
+//! Whether what changes moves on or comes and goes: how neighbouring cells change together, and how much of
+//! all change is left in the total.
 
 use super::cells::{CELLS, Cells, SIDE};
 use super::log::log2;
@@ -66,8 +66,9 @@ impl Motion {
         change
     }
 
-    /// Correlation of neighbours' changes across and along the rows (4096 is none, 8192 all), what of the changes is common to
-    /// the sheet (8192 all), how far the change of the total is below that of the cells (log2, Q8).
+    /// Correlation of neighbours' changes across and along the rows (4096 is none, 8192 all), what of the
+    /// changes is common to the sheet (8192 all), how far the change of the total is below that of the cells
+    /// (log2, Q8).
     pub fn features(&self) -> [u16; MOTION] {
         let all = self.squares + REST / 2;
         // With 18 bits of the squares.

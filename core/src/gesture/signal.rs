@@ -9,12 +9,13 @@ pub const SIGNALS: usize = 8;
 /// Names of the numbers, in their order.
 pub const NAMES: [&str; SIGNALS] = ["total", "peak", "area", "x", "y", "spread", "anisotropy", "change"];
 
-/// The numbers of a frame, each in 0 ..= 4095:
-/// log2 of total and of peak (Q8), cells above `pressed` (Q6), centroid (cells, Q9 of eight), spread about it (cells squared, Q7),
-/// anisotropy (Q11), log2 of the change of all cells since the frame before (Q8).
+/// The numbers of a frame, each in 0 ..= 4095: log2 of total and of peak (Q8), cells above `pressed` (Q6),
+/// centroid (cells, Q9 of eight), spread about it (cells squared, Q7), anisotropy (Q11), log2 of the change
+/// of all cells since the frame before (Q8).
 pub type Signals = [u16; SIGNALS];
 
-/// The total of a frame whose cells have changed by `change`, and its numbers; a cell above `pressed` counts as touched.
+/// The total of a frame whose cells have changed by `change`, and its numbers; a cell above `pressed` counts
+/// as touched.
 pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
     let (mut peak, mut area) = (0, 0);
     for cell in cells {
@@ -59,8 +60,8 @@ impl Sums {
         sums
     }
 
-    /// x, y, spread, anisotropy. Sixteen counts more, in the middle of the sheet, keep a sheet that nobody touches from
-    /// having a place that jumps.
+    /// x, y, spread, anisotropy. Sixteen counts more, in the middle of the sheet, keep a sheet that nobody
+    /// touches from having a place that jumps.
     fn form(&self) -> [u16; 4] {
         // The sums with 17 bits of mass, so that what follows fits 32 bits.
         let m = self.m + REST;

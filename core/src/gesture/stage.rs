@@ -43,7 +43,8 @@ impl<'a> Touches<'a> {
         &self.model
     }
 
-    /// Adds a frame: an image of rows of pressures. After [`LONGEST`](super::LONGEST) frames the touch begins anew.
+    /// Adds a frame: an image of rows of pressures. After [`LONGEST`](super::LONGEST) frames the touch begins
+    /// anew.
     pub fn process(&self, state: &mut TouchState, image: &[u16]) {
         state.add(&self.sheet.cells(image), self.model.pressed());
     }

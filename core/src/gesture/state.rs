@@ -12,7 +12,8 @@ use super::signal::{SIGNALS, signals};
 /// Features of a touch.
 pub const FEATURES: usize = SIGNALS * COURSE + GRID + MOTION + BANDS + 1;
 
-/// The features of a touch: those of each course, of the grid, of motion and rhythm, log2 of the number of frames (Q8).
+/// The features of a touch: those of each course, of the grid, of motion and rhythm, log2 of the number of
+/// frames (Q8).
 pub type Features = [u16; FEATURES];
 
 /// Most frames of a touch; the sums have room for as many.

@@ -1,9 +1,10 @@
-//! Whether a converter input still shows its taxels. It cannot be told for sure from codes alone: what speaks against an input is
-//! for a self-test to confirm.
+//! Whether a converter input still shows its taxels. It cannot be told for sure from codes alone: what speaks
+//! against an input is for a self-test to confirm.
 //!
-//! In every fourth frame one input is looked at, by a quarter of a row of each of its blocks, every time of another row. A line that
-//! lies open shows what was converted before, or drifts: many taxels show less pressure than at rest, as no touch makes them. One
-//! that is connected to the supply shows the same everywhere. What an input at rest shows anyway is not told apart from that.
+//! In every fourth frame one input is looked at, by a quarter of a row of each of its blocks, every time of
+//! another row. A line that lies open shows what was converted before, or drifts: many taxels show less
+//! pressure than at rest, as no touch makes them. One that is connected to the supply shows the same
+//! everywhere. What an input at rest shows anyway is not told apart from that.
 
 use super::monitor::Codes;
 use crate::acquire::Plan;
@@ -32,7 +33,8 @@ impl Inputs {
         Inputs { input: u8::MAX, round: 0, turn: 0 }
     }
 
-    /// Looks at an input in every fourth frame. `travel`: how far half of the codes travel while they are watched.
+    /// Looks at an input in every fourth frame. `travel`: how far half of the codes travel while they are
+    /// watched.
     pub fn is_one_odd(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>, travel: u16) -> bool {
         self.turn = self.turn.wrapping_add(1);
         if self.turn & 3 == 2 {

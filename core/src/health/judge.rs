@@ -11,7 +11,8 @@ const RAIL: u16 = 16;
 const SIGNAL: u16 = 3 * RAIL;
 /// Taxels are pressed from here on, counts above rest.
 const PRESSED: i32 = 128;
-/// Where the codes of many taxels travel less than so many steps, one that does not move tells nothing: noise of 1.8 steps rms.
+/// Where the codes of many taxels travel less than so many steps, one that does not move tells nothing: noise
+/// of 1.8 steps rms.
 const LIVELY: u16 = 20;
 /// A code that travels so much further than three times what is usual is not merely noisier than most, counts.
 const LOUD: u16 = 52;
@@ -77,12 +78,13 @@ fn bits(answers: impl Iterator<Item = bool>) -> u32 {
     bits
 }
 
-/// Which of some taxels, from the first one in the lowest bit on, are to be judged. Most are not; bits past the last taxel mean
-/// nothing.
+/// Which of some taxels, from the first one in the lowest bit on, are to be judged. Most are not; bits past
+/// the last taxel mean nothing.
 pub(super) struct Doubtful {
     /// They show other noise than most, or have come to an end of the range.
     pub odd: u32,
-    /// They are beside a taxel that is pressed, and not pressed themselves: nothing but what covers them can speak against them.
+    /// They are beside a taxel that is pressed, and not pressed themselves: nothing but what covers them can
+    /// speak against them.
     pub beside: u32,
 }
 
@@ -118,8 +120,9 @@ impl Shown<'_> {
         self.codes.get(taxel).zip(rest).is_some_and(|(code, rest)| is_pressed(code.0, *rest, self.falling))
     }
 
-    /// Counts those taxels that are well at a distance from a taxel, in rows or columns, whichever is larger: how many there are,
-    /// and how many of them are pressed. Counts no further than past so many that are not.
+    /// Counts those taxels that are well at a distance from a taxel, in rows or columns, whichever is larger:
+    /// how many there are, and how many of them are pressed. Counts no further than past so many that are
+    /// not.
     fn around(
         &self,
         spot: &Spot<'_>,
@@ -153,8 +156,8 @@ impl Shown<'_> {
         (there, pressed)
     }
 
-    /// Whether what presses all around a taxel should press it, too: all neighbours but one, and four fifths of those around
-    /// them. A ring with a hole of one taxel and a wall of one or two reaches less far.
+    /// Whether what presses all around a taxel should press it, too: all neighbours but one, and four fifths
+    /// of those around them. A ring with a hole of one taxel and a wall of one or two reaches less far.
     fn is_covered(&self, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> bool {
         let (there, pressed) = self.around(spot, 1, 1, &is_ill);
         if pressed < 3 || there > pressed + 1 {
@@ -197,8 +200,8 @@ impl Shown<'_> {
         Doubtful { odd, beside: (left | itself >> 1) & !itself }
     }
 
-    /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than the one that may be
-    /// missed, and those that are ill.
+    /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than
+    /// the one that may be missed, and those that are ill.
     ///
     /// Not inlined: on its own it has registers enough.
     #[inline(never)]
@@ -258,8 +261,8 @@ impl Shown<'_> {
         self.rest.and_then(|rest| rest.get(taxel)).is_some_and(|rest| seen.is_around(*rest, RAIL))
     }
 
-    /// Whether a code travelled further than a touch takes it: there and back. What is pressed may shake in proportion, by a
-    /// fifth of its signal; the usual noise comes on top.
+    /// Whether a code travelled further than a touch takes it: there and back. What is pressed may shake in
+    /// proportion, by a fifth of its signal; the usual noise comes on top.
     fn is_restless(&self, seen: &Seen, taxel: usize) -> bool {
         let reach = seen.reach(self.rest.and_then(|rest| rest.get(taxel)).copied());
         let touch = u32::from(reach) * 9 / 4 + self.limits.usual;

@@ -16,7 +16,8 @@ const TOUCHED: u16 = 256;
 
 /// Most ill taxels that are remembered.
 pub const ILL: usize = 128;
-/// Most neighbours that fall ill together. Where more seem to, it is not the taxels that are: none is called so.
+/// Most neighbours that fall ill together. Where more seem to, it is not the taxels that are: none is called
+/// so.
 const FOUND: usize = 16;
 
 /// A taxel that is ill.
@@ -134,8 +135,8 @@ impl Monitor {
         true
     }
 
-    /// Looks at one of the ill taxels, and gives it back if it was called dead and answers to pressure, or if it was called shorted
-    /// and rests: a needle had filled it alone.
+    /// Looks at one of the ill taxels, and gives it back if it was called dead and answers to pressure, or if
+    /// it was called shorted and rests: a needle had filled it alone.
     pub fn acquit(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<IllTaxel> {
         let ill = self.ill.get(usize::from(self.asked)).copied();
         self.asked = ill.map_or(0, |_| self.asked + 1);
@@ -196,8 +197,9 @@ impl Monitor {
         }
     }
 
-    /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its own: what touches or
-    /// shakes it would move them, too. Another noisy one may be among them where the code goes to both sides of that at rest.
+    /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its
+    /// own: what touches or shakes it would move them, too. Another noisy one may be among them where the
+    /// code goes to both sides of that at rest.
     fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> bool {
         let Spot { taxel, area, column, .. } = *spot;
         let columns = usize::from(area.columns);
@@ -230,7 +232,8 @@ impl Monitor {
         Some(())
     }
 
-    /// What is to be said against a taxel that was not known to be ill. Whatever is not there, or not read, shows nothing.
+    /// What is to be said against a taxel that was not known to be ill. Whatever is not there, or not read,
+    /// shows nothing.
     #[inline(never)]
     fn fault(&self, worn: &Worn<'_>, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> Option<TaxelHealth> {
         let Worn { layout, circuit, plan } = *worn;
@@ -255,7 +258,8 @@ impl Default for Monitor {
     }
 }
 
-/// A step towards how far the code of half of the taxels travels, from what some of them show; the first ones tell it alone.
+/// A step towards how far the code of half of the taxels travels, from what some of them show; the first ones
+/// tell it alone.
 fn nearer(usual: u16, seen: &[Seen]) -> u16 {
     let travels = || seen.iter().map(|seen| seen.travel().min(TOUCHED));
     let count = seen.len() as u16;

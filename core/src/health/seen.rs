@@ -5,7 +5,8 @@ use crate::format::Code;
 /// Its last, lowest and highest code, and how far the code went from frame to frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    /// The last code, and above its 16 bits how far the code has travelled: one word is read and written where two halves would be.
+    /// The last code, and above its 16 bits how far the code has travelled: one word is read and written
+    /// where two halves would be.
     course: u32,
     low: u16,
     high: u16,
@@ -23,7 +24,8 @@ impl Seen {
     #[inline]
     pub fn see(&mut self, Code(code): Code) {
         let (code_now, last) = (u32::from(code), self.course & 0xffff);
-        // With codes of 16 bits the travel may pass its end: it is told too short then, and the taxel less noisy than it is.
+        // With codes of 16 bits the travel may pass its end: it is told too short then, and the taxel less
+        // noisy than it is.
         if code_now >= last {
             let way = code_now - last;
             self.course = self.course.wrapping_add(way << 16).wrapping_add(way);
@@ -59,8 +61,8 @@ impl Seen {
         (self.course >> 16) as u16
     }
 
-    /// How far the code got from that at rest; less where it got to both sides, as a touch does not take it. Without a code at
-    /// rest: the distance of the lowest from the highest code.
+    /// How far the code got from that at rest; less where it got to both sides, as a touch does not take it.
+    /// Without a code at rest: the distance of the lowest from the highest code.
     pub fn reach(&self, rest: Option<u16>) -> u16 {
         let Some(rest) = rest else { return self.high.saturating_sub(self.low) };
         let (below, above) = (rest.saturating_sub(self.low), self.high.saturating_sub(rest));

@@ -13,8 +13,8 @@ pub(super) struct Spot<'a> {
     pub column: u16,
 }
 
-/// Goes from row to row, for taxels that are asked for in their order: a place by its number takes a division, and this core has
-/// none.
+/// Goes from row to row, for taxels that are asked for in their order: a place by its number takes a
+/// division, and this core has none.
 pub(super) struct Walk<'a> {
     /// The panel that was reached, and those after it.
     areas: &'a [Area],

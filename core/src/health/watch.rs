@@ -1,5 +1,5 @@
-//! Which taxels are watched when: some begin in every frame, and those that began [`FRAMES`] frames ago have been seen for
-//! long enough. So no frame costs more than another.
+//! Which taxels are watched when: some begin in every frame, and those that began [`FRAMES`] frames ago have
+//! been seen for long enough. So no frame costs more than another.
 
 use super::seen::Seen;
 use crate::format::Code;
@@ -33,7 +33,8 @@ impl Watch {
         self.begun = 0;
     }
 
-    /// Takes a frame of that many taxels. Whether a group has now been seen for long enough: that of age `FRAMES - 1`.
+    /// Takes a frame of that many taxels. Whether a group has now been seen for long enough: that of age
+    /// `FRAMES - 1`.
     pub fn take(&mut self, codes: &[Code], taxels: usize) -> bool {
         if self.begun == 0 {
             (self.group, self.slot) = (0, 0);
@@ -55,8 +56,8 @@ impl Watch {
         usize::from(self.begun) == FRAMES
     }
 
-    /// Takes the codes of the groups in some slots, the first of which began so many frames ago. Their taxels follow each other,
-    /// but for the last group of all, which the first one follows.
+    /// Takes the codes of the groups in some slots, the first of which began so many frames ago. Their taxels
+    /// follow each other, but for the last group of all, which the first one follows.
     fn go_on(&mut self, codes: &[Code], mut from: usize, to: usize, age: usize) {
         let mut group = self.at(age).0;
         while from < to {

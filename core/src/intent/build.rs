@@ -1,5 +1,5 @@
-//! A map from its configuration: every number is checked before it is used, and the map is made where it is kept, because the
-//! stack of a microcontroller has no room for a second one.
+//! A map from its configuration: every number is checked before it is used, and the map is made where it is
+//! kept, because the stack of a microcontroller has no room for a second one.
 
 use super::config::{DECIMALS, MapConfig, Rule};
 use super::error::MapError;
@@ -91,8 +91,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         Ok(())
     }
 
-    /// Chooses `shift` so that no partial sum of any row can leave 32 bits, whatever the state. For threshold maps a
-    /// shift would break ties, so a map that needs one is refused.
+    /// Chooses `shift` so that no partial sum of any row can leave 32 bits, whatever the state. For threshold
+    /// maps a shift would break ties, so a map that needs one is refused.
     fn set_shift(&mut self) -> Result<(), MapError> {
         // |x| <= one, hence |2 x - one| <= 3 one.
         let largest = i64::from(self.one) * if self.rule == Rule::Rescaled { 3 } else { 1 };

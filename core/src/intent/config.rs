@@ -91,7 +91,8 @@ pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub margin: u16,
     /// Time after the release for which the touch still counts, in ms.
     pub hold_ms: u16,
-    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited for.
+    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited
+    /// for.
     pub period_ms: u16,
     /// Largest number of steps of an inference.
     pub steps: u16,

@@ -5,8 +5,9 @@ use super::map::Map;
 use crate::format::Q15;
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// The start of an inference: each input concept encoded, every other concept 0. Inputs of one concept add up, and the sum
-    /// is held within -1 ..= 1 after each of them. `host` holds the values the host feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
+    /// The start of an inference: each input concept encoded, every other concept 0. Inputs of one concept
+    /// add up, and the sum is held within -1 ..= 1 after each of them. `host` holds the values the host
+    /// feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
     pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
         let mut state = [0; N];
         self.encode_into(touch, host, &mut state);

@@ -8,22 +8,25 @@
 //! | latency | none |
 //! | RAM | 150 bytes |
 //!
-//! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) over the youngest earlier frame
-//! that is at least [`WINDOW_US`] older: where frames are slower than that, over one frame. It is that of one region, and at
-//! most that of the whole garment: a contact that crosses a border takes its pressure from one region to another, and nothing has come.
+//! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) over
+//! the youngest earlier frame that is at least [`WINDOW_US`] older: where frames are slower than that, over
+//! one frame. It is that of one region, and at most that of the whole garment: a contact that crosses a
+//! border takes its pressure from one region to another, and nothing has come.
 
 use super::felt::Felt;
 use crate::format::{Inverse, Micros, wide};
 use core::num::NonZeroU32;
 
-/// A rise is measured over this time at least, us: two frames of the reference board, a quarter of the time in which a hand closes.
+/// A rise is measured over this time at least, us: two frames of the reference board, a quarter of the time
+/// in which a hand closes.
 pub const WINDOW_US: u64 = 9_000;
 /// Beats that are closer than this are none of a hand, us.
 const FASTEST_BEAT_US: u64 = 120_000;
 /// Without a beat for this time the rhythm is over, us.
 const SLOWEST_BEAT_US: u64 = 2_000_000;
 
-/// When less than half of what lay there is left for so long, it was taken away, us: what remains flickers while it goes.
+/// When less than half of what lay there is left for so long, it was taken away, us: what remains flickers
+/// while it goes.
 const TAKEN_US: u64 = 200_000;
 
 /// Certain pressure at a time.
@@ -103,8 +106,8 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Takes a frame. `counts`: a touch counts, else what belongs to the last one is forgotten; `memory_us`: for how long a
-    /// touch counts after its end.
+    /// Takes a frame. `counts`: a touch counts, else what belongs to the last one is forgotten; `memory_us`:
+    /// for how long a touch counts after its end.
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
         self.rise = self.rise_of(felt, now);
         if !counts {
@@ -148,7 +151,8 @@ impl Evidence {
         rise
     }
 
-    /// What lies there rests as long as no more than a tenth is added: taking something away is none of its doing.
+    /// What lies there rests as long as no more than a tenth is added: taking something away is none of its
+    /// doing.
     fn rests(&mut self, load: u32, now: Micros) {
         if load > self.rest.saturating_add(self.rest / 10) {
             (self.rest, self.since, self.whole) = (load, now, now);

@@ -1,4 +1,5 @@
-//! Concepts that the host feeds (what a camera sees, how warm the skin is), each with an age after which it no longer counts.
+//! Concepts that the host feeds (what a camera sees, how warm the skin is), each with an age after which it
+//! no longer counts.
 //!
 //! | | |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! What lies on the whole garment in one frame: a hug, a strap and a blow are more than their strongest contact.
+//! What lies on the whole garment in one frame: a hug, a strap and a blow are more than their strongest
+//! contact.
 
 use crate::garment::PANELS;
 
@@ -11,13 +12,14 @@ pub struct Felt {
     pub cover_mm2: u32,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
-    /// By region: the pressure that has come for certain since nothing touched, counts. A taxel may have held up to the high
-    /// threshold of contacts before anything was announced; only what is above that counts.
+    /// By region: the pressure that has come for certain since nothing touched, counts. A taxel may have held
+    /// up to the high threshold of contacts before anything was announced; only what is above that counts.
     pub certain: [u32; PANELS],
 }
 
 impl Felt {
-    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; below `high` counts of a taxel nothing begins.
+    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; below `high` counts of a taxel
+    /// nothing begins.
     pub fn add(&mut self, region: u8, total: u32, peak: u16, area: u16, cell_mm2: u32, high: u16) {
         let area = u32::from(area);
         self.load = self.load.saturating_add(total);

@@ -15,18 +15,19 @@ use super::map::Map;
 use super::transfer::{Transfer, sigmoid_of_twice, tanh};
 use heapless::Vec;
 
-/// Extent in units of 2^-15 up to which a cycle of a smooth map counts as a fixed point: 4.9e-4. Rounding to Q15 is
-/// noise of half a unit at every step, which a map that settles slowly amplifies; fcmpy8 of the reference set (kosko,
-/// tanh, lambda 1) ends in a cycle of period 24 within 8 units of its fixed point.
+/// Extent in units of 2^-15 up to which a cycle of a smooth map counts as a fixed point: 4.9e-4. Rounding to
+/// Q15 is noise of half a unit at every step, which a map that settles slowly amplifies; fcmpy8 of the
+/// reference set (kosko, tanh, lambda 1) ends in a cycle of period 24 within 8 units of its fixed point.
 pub const ROUNDING: i32 = 16;
 
 /// How a trajectory ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Outcome {
-    /// The state reproduces itself. For smooth maps this includes a cycle that keeps within [`ROUNDING`] of where it
-    /// was noticed: a fixed point that rounding does not let come to rest. Its steps are below the resolution of 2^-15, which
-    /// need not mean that the limit is near: a map that creeps towards it ever more slowly rests on the way (1.2e-2 from the
-    /// exact state after as many steps, and 0.22 from that after 100,000, in one of the 48 smooth reference trajectories).
+    /// The state reproduces itself. For smooth maps this includes a cycle that keeps within [`ROUNDING`] of
+    /// where it was noticed: a fixed point that rounding does not let come to rest. Its steps are below the
+    /// resolution of 2^-15, which need not mean that the limit is near: a map that creeps towards it ever
+    /// more slowly rests on the way (1.2e-2 from the exact state after as many steps, and 0.22 from that
+    /// after 100,000, in one of the 48 smooth reference trajectories).
     Fixed,
     /// The state returns after this many steps, and not earlier; at least 2.
     Cycle(u16),
@@ -46,21 +47,24 @@ pub struct Inference<const N: usize> {
 }
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// Runs the map from `start` (the first of the N + 1 states of a trajectory) for at most `steps` steps, and
-    /// stops where it settles. Total and bounded: memory does not depend on `steps`; after no step it is unsettled.
+    /// Runs the map from `start` (the first of the N + 1 states of a trajectory) for at most `steps` steps,
+    /// and stops where it settles. Total and bounded: memory does not depend on `steps`; after no step it is
+    /// unsettled.
     ///
-    /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The period is
-    /// exact; a cycle is noticed after at most three times the steps it took to enter and go round it once.
+    /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The
+    /// period is exact; a cycle is noticed after at most three times the steps it took to enter and go round
+    /// it once.
     pub fn infer(&self, start: &[i32; N], steps: u16) -> Inference<N> {
         let mut run = Inference { state: [0; N], steps, outcome: Outcome::Unsettled };
         self.infer_into(start, steps, &mut run);
         run
     }
 
-    /// As [`Map::infer`], in the place of another result; `start` has a value for each concept of the map. What is beyond these stays as it
-    /// was.
+    /// As [`Map::infer`], in the place of another result; `start` has a value for each concept of the map.
+    /// What is beyond these stays as it was.
     pub fn infer_into(&self, start: &[i32], steps: u16, run: &mut Inference<N>) {
-        // Lists, because they need not be filled with zeros first: a small map must not cost what a large one does.
+        // Lists, because they need not be filled with zeros first: a small map must not cost what a large one
+        // does.
         let (mut next, mut mark) = (Vec::new(), Vec::new());
         self.clamp(start, &mut run.state);
         (run.steps, run.outcome) = (steps, Outcome::Unsettled);
@@ -97,7 +101,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         out
     }
 
-    /// One step from a state within -1 ..= 1, which is what `build` proved the sums for; `next` are as many as there are concepts.
+    /// One step from a state within -1 ..= 1, which is what `build` proved the sums for; `next` are as many
+    /// as there are concepts.
     fn advance(&self, state: &[i32; N], next: &mut Vec<i32, N>) {
         let rescaled = self.rule == Rule::Rescaled;
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };

@@ -1,11 +1,11 @@
 //! Inputs: how a touch, or a value from the host, becomes the activation of a concept.
 //!
-//! A ramp: `at_low` up to `low`, `at_high` from `high` on, and a straight line between. The result is rounded to the
-//! nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source that
-//! describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
+//! A ramp: `at_low` up to `low`, `at_high` from `high` on, and a straight line between. The result is rounded
+//! to the nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source
+//! that describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
 //!
-//! The inputs of one concept add up. A ramp from 0 to 1 and one further on from 0 to -1 are together a trapezoid, and a triangle
-//! where the second begins as the first ends: fuzzy memberships need no other form.
+//! The inputs of one concept add up. A ramp from 0 to 1 and one further on from 0 to -1 are together a
+//! trapezoid, and a triangle where the second begins as the first ends: fuzzy memberships need no other form.
 
 use super::error::MapError;
 use crate::format::{Name, wide};
@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 /// What is known of one touch when its meaning is asked for.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Touch {
-    /// Total pressure in counts: the peak over the touch so far, because a lash is judged by its peak. It therefore
-    /// never falls while the touch lasts.
+    /// Total pressure in counts: the peak over the touch so far, because a lash is judged by its peak. It
+    /// therefore never falls while the touch lasts.
     pub press: u32,
     /// Equivalent width of the contact across its major axis, in 0.1 mm.
     pub breadth: u32,
@@ -26,10 +26,11 @@ pub struct Touch {
     pub duration_ms: u32,
     /// Speed of the contact over the surface, in 0.1 mm/s.
     pub speed: u32,
-    /// How steeply the force came, in counts/ms: the steepest rise since the onset. The stage finds it itself, as all that follows
-    /// up to `own`.
+    /// How steeply the force came, in counts/ms: the steepest rise since the onset. The stage finds it
+    /// itself, as all that follows up to `own`.
     pub rise: u32,
-    /// Steepest rise of the last time, in counts/ms: that of a blow is forgotten while what hit still lies there.
+    /// Steepest rise of the last time, in counts/ms: that of a blow is forgotten while what hit still lies
+    /// there.
     pub blow: u32,
     /// Greatest total pressure of all contacts of the last time, in counts.
     pub load: u32,
@@ -51,8 +52,8 @@ pub struct Touch {
     pub area: u16,
     /// Area of one of them, in mm2; may be 0 where no input is [`Source::Hardness`].
     pub cell_mm2: u32,
-    /// How hard what touches seems, in counts per cm2: see [`hardness`](crate::contact::hardness). The stage finds it itself, and
-    /// only where an input asks for it.
+    /// How hard what touches seems, in counts per cm2: see [`hardness`](crate::contact::hardness). The stage
+    /// finds it itself, and only where an input asks for it.
     pub hardness: Option<u32>,
 }
 

@@ -1,12 +1,13 @@
 //! The fuzzy cognitive map: concepts, signed causal edges between them, a rule and a transfer function.
 //!
 //! z_j = sum_i W\[i\]\[j\] y_i (+ y_j unless the rule is kosko), y = x, or 2 x - 1 for rescaled; then the
-//! [`Transfer`] of z_j - T_j is the next activation of concept j. W\[i\]\[j\] in -1 ..= 1 is the causality value of
-//! the source's edge i -> j: positive increases, negative decreases. Concepts without an incoming edge (an all-zero
-//! column of W) keep their value while `held` is true.
+//! [`Transfer`] of z_j - T_j is the next activation of concept j. W\[i\]\[j\] in -1 ..= 1 is the causality
+//! value of the source's edge i -> j: positive increases, negative decreases. Concepts without an incoming
+//! edge (an all-zero column of W) keep their value while `held` is true.
 //!
-//! [`MapConfig`](super::MapConfig) is what a message says, in decimal steps; [`Map`] is what inference reads: the causes of each concept one
-//! after the other, thresholds folded into a bias, the transfer's gain as one multiplication.
+//! [`MapConfig`](super::MapConfig) is what a message says, in decimal steps; [`Map`] is what inference reads:
+//! the causes of each concept one after the other, thresholds folded into a bias, the transfer's gain as one
+//! multiplication.
 
 use super::config::{CONCEPTS, EDGES, Rule};
 use super::input::{Encoder, Source};
@@ -34,8 +35,8 @@ pub(crate) struct CauseOf {
     pub weight: i16,
 }
 
-/// A checked map, ready for inference. States are arrays of `N` numbers of which the first `len()` count, in units
-/// of 1 / [`Map::one`].
+/// A checked map, ready for inference. States are arrays of `N` numbers of which the first `len()` count, in
+/// units of 1 / [`Map::one`].
 #[derive(Debug, Clone)]
 pub struct Map<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub(crate) concepts: Vec<Name, N>,
@@ -81,7 +82,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         self.concepts.is_empty()
     }
 
-    /// 1.0 of a state: 32768 for smooth maps, 10^decimals for threshold maps, where sums and ties are then exact.
+    /// 1.0 of a state: 32768 for smooth maps, 10^decimals for threshold maps, where sums and ties are then
+    /// exact.
     pub fn one(&self) -> i32 {
         self.one
     }
@@ -107,8 +109,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         })
     }
 
-    /// A value of a state, which is within +-[`Map::one`], as Q15, rounded to the nearest. Total: beyond that, a smooth map gives
-    /// the value as it is, a threshold map its nearer end.
+    /// A value of a state, which is within +-[`Map::one`], as Q15, rounded to the nearest. Total: beyond
+    /// that, a smooth map gives the value as it is, a threshold map its nearer end.
     pub fn q15(&self, value: i32) -> Q15 {
         match core::num::NonZeroU32::new(self.one.unsigned_abs()) {
             Some(one) if self.one != Q15::ONE.0 => {

@@ -1,8 +1,9 @@
 //! Intent: what a touch means, by a fuzzy cognitive map over what was measured of it.
 //!
-//! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer functions, [`infer`] the inference, [`input`] the
-//! encoding of a touch, [`felt`] what lies on the whole garment, [`evidence`] what is remembered of it, [`fed`] what the host feeds, [`stage`] the decision with its debounce, [`why`] the reason for it, [`mod@tactile`] the map that
-//! ships.
+//! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer
+//! functions, [`infer`] the inference, [`input`] the encoding of a touch, [`felt`] what lies on the whole
+//! garment, [`evidence`] what is remembered of it, [`fed`] what the host feeds, [`stage`] the decision with
+//! its debounce, [`why`] the reason for it, [`mod@tactile`] the map that ships.
 
 mod build;
 pub mod config;

@@ -1,4 +1,5 @@
-//! The stage: which touch counts, when to infer, and when a leading intention has lasted long enough to be announced.
+//! The stage: which touch counts, when to infer, and when a leading intention has lasted long enough to be
+//! announced.
 //!
 //! | | |
 //! |---|---|
@@ -162,12 +163,12 @@ impl<const N: usize> Intent<N> {
         &self.map
     }
 
-    /// Takes the touches of one frame. Of several, the one with the greatest press counts; a released one counts on
-    /// for `hold_ms`, also beside weaker ones that still last. `felt` sums up all contacts of the frame; `host` holds the
-    /// values the host feeds, by slot.
+    /// Takes the touches of one frame. Of several, the one with the greatest press counts; a released one
+    /// counts on for `hold_ms`, also beside weaker ones that still last. `felt` sums up all contacts of the
+    /// frame; `host` holds the values the host feeds, by slot.
     ///
-    /// The inference starts from the inputs alone, not from its last result: one touch has one meaning, whatever was
-    /// before. It runs only when the inputs have changed. Total.
+    /// The inference starts from the inputs alone, not from its last result: one touch has one meaning,
+    /// whatever was before. It runs only when the inputs have changed. Total.
     pub fn process<'s>(
         &self,
         state: &'s mut IntentState<N>,

@@ -1,19 +1,21 @@
-//! The map that ships: what is measured of a touch causes kindness, threat and attack; those cause happiness, anger and politeness.
-//! The source prints ten concepts and the matrix with all entries zero: the other ten, which are all measured, and the weights, in
-//! steps of 0.05, are ours. They follow what a person who looks on would say of forty families of touches
-//! (`host/tests/library/meaning`) and of twenty people (`host/tests/library/people`).
+//! The map that ships: what is measured of a touch causes kindness, threat and attack; those cause happiness,
+//! anger and politeness. The source prints ten concepts and the matrix with all entries zero: the other ten,
+//! which are all measured, and the weights, in steps of 0.05, are ours. They follow what a person who looks
+//! on would say of forty families of touches (`host/tests/library/meaning`) and of twenty people
+//! (`host/tests/library/people`).
 //!
-//! Nothing causes an input and no edge closes a loop: the map settles within six steps, whatever is put in. Without a touch every
-//! input is 0, and so is every other concept, exactly. What does not hold is 0 and not its opposite ([`Transfer::Positive`]), so that the
-//! absence of an attack pleases nobody, and feelings follow meanings: where a threat or an attack leads, happiness and politeness are 0.
+//! Nothing causes an input and no edge closes a loop: the map settles within six steps, whatever is put in.
+//! Without a touch every input is 0, and so is every other concept, exactly. What does not hold is 0 and not
+//! its opposite ([`Transfer::Positive`]), so that the absence of an attack pleases nobody, and feelings
+//! follow meanings: where a threat or an attack leads, happiness and politeness are 0.
 
 use super::config::{Edge, MapConfig, Rule};
 use super::input::{Input, Source};
 use super::transfer::Transfer;
 use crate::format::name;
 
-/// Counts of total pressure per newton with the reference garment's usual gain. A scene for another garment writes its
-/// own limit into the input `press`.
+/// Counts of total pressure per newton with the reference garment's usual gain. A scene for another garment
+/// writes its own limit into the input `press`.
 pub const PRESS_PER_NEWTON: i32 = 1000;
 /// Force at which press is 1, hard, in newtons; it begins at -1, light.
 pub const FULL_PRESS_NEWTON: i32 = 30;
@@ -21,17 +23,21 @@ pub const FULL_PRESS_NEWTON: i32 = 30;
 pub const SLOW_RISE: i32 = 400;
 /// Rise from which time is -1: a blow is over in a few hundredths.
 pub const SUDDEN_RISE: i32 = 1000;
-/// Rise up to which a touch comes too slowly for a grip or a stab (slow is -1), and from which it does not, in counts/ms.
+/// Rise up to which a touch comes too slowly for a grip or a stab (slow is -1), and from which it does not,
+/// in counts/ms.
 pub const CREEPING_RISE: [i32; 2] = [90, 130];
-/// Rises at which a blow is -1 and 1, in counts/ms: hearty pats of 25 N stay below 900, slaps of 30 N are above 1,600.
+/// Rises at which a blow is -1 and 1, in counts/ms: hearty pats of 25 N stay below 900, slaps of 30 N are
+/// above 1,600.
 pub const BLOW_RISE: [i32; 2] = [600, 1400];
-/// Width up to which a contact is narrow (shape 0, edge 1), in 0.1 mm: straps, sticks, fingers, the edge of a hand.
+/// Width up to which a contact is narrow (shape 0, edge 1), in 0.1 mm: straps, sticks, fingers, the edge of a
+/// hand.
 pub const NARROW: i32 = 300;
 /// Width from which it is no edge, in 0.1 mm.
 pub const EDGE: i32 = 450;
 /// Width from which it is broad (shape 1), in 0.1 mm: a palm.
 pub const BROAD: i32 = 600;
-/// Pressures of a taxel between which a thing becomes sharp, in counts: a palm that holds with 70 N stays below 2,200.
+/// Pressures of a taxel between which a thing becomes sharp, in counts: a palm that holds with 70 N stays
+/// below 2,200.
 pub const SHARP: [i32; 2] = [2600, 3400];
 /// Loads between which a grip becomes firm, in counts.
 pub const FIRM: [i32; 2] = [18_000, 25_000];
@@ -48,7 +54,8 @@ pub const NOTICED: [i32; 2] = [400, 600];
 /// Times between which what lies still is no longer noticed, in ms.
 pub const STILL_MS: [i32; 2] = [2000, 2100];
 
-/// The concepts: the ten of the source in the order of its matrix, with the inputs by their meaning, then further inputs.
+/// The concepts: the ten of the source in the order of its matrix, with the inputs by their meaning, then
+/// further inputs.
 const CONCEPTS: [&str; 20] = [
     "press",
     "shape",
@@ -136,8 +143,8 @@ const EDGES: [(u8, u8, i16); 36] = [
     (ATTACK, POLITENESS, -100),  // nor is an attack
 ];
 
-/// The ramps: concept, source, range, and the activation at both ends. Where both sides of a measure say something, they differ
-/// in sign: light and hard. Where one side alone does, the other is 0.
+/// The ramps: concept, source, range, and the activation at both ends. Where both sides of a measure say
+/// something, they differ in sign: light and hard. Where one side alone does, the other is 0.
 const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 18] = [
     (PRESS, Source::Press, [0, FULL_PRESS_NEWTON * PRESS_PER_NEWTON], [-100, 100]),
     (SHAPE, Source::Breadth, [NARROW, BROAD], [0, 100]),

@@ -8,11 +8,11 @@
 //! | tanh | tanh(lambda z) | -1 ..= 1 |
 //! | positive | tanh(lambda z) if z > 0, else 0 | 0 ..= 1 |
 //!
-//! T enters all five in the same way, as the level that z is measured from. The trivalent function with T = 0.2 is
-//! therefore the sign of z - 0.2, not a dead zone of +-0.2 (which would have no meaning for T < 0).
+//! T enters all five in the same way, as the level that z is measured from. The trivalent function with T =
+//! 0.2 is therefore the sign of z - 0.2, not a dead zone of +-0.2 (which would have no meaning for T < 0).
 //!
-//! Smooth functions are read from one table of 513 points with linear interpolation. Largest errors, asserted by the
-//! tests: tanh 0.9 steps of 2^-15, sigmoid 0.75 steps.
+//! Smooth functions are read from one table of 513 points with linear interpolation. Largest errors, asserted
+//! by the tests: tanh 0.9 steps of 2^-15, sigmoid 0.75 steps.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,8 @@ pub enum Transfer {
     /// The hyperbolic tangent, -1 ..= 1: 0 stays 0, so a quiet map is silent.
     #[default]
     Tanh,
-    /// The hyperbolic tangent above 0, else 0: what does not hold is 0, and its absence speaks for nothing else.
+    /// The hyperbolic tangent above 0, else 0: what does not hold is 0, and its absence speaks for nothing
+    /// else.
     Positive,
 }
 
@@ -52,8 +53,8 @@ const LIMIT: i32 = 8 << ARGUMENT_BITS;
 /// tanh of |u| (Q26) in Q23. Total: beyond 8 the result is 1.
 fn tanh_q23(u: i32) -> u32 {
     const ONE: u32 = 1 << 23;
-    // A step of the table is 1/64 = 2^20 units; 14 of its 20 fraction bits are used. Neighbours differ by at most
-    // 2^17, so the product stays below 2^31.
+    // A step of the table is 1/64 = 2^20 units; 14 of its 20 fraction bits are used. Neighbours differ by at
+    // most 2^17, so the product stays below 2^31.
     let size = u.unsigned_abs().min(LIMIT as u32);
     let (index, fraction) = ((size >> 20) as usize, (size & 0xF_FFFF) >> 6);
     let low = TANH.get(index).copied().unwrap_or(ONE);
@@ -67,8 +68,8 @@ pub fn tanh(u: i32) -> i32 {
     if u < 0 { -value } else { value }
 }
 
-/// The logistic function of 2 `u` (`u` in Q26) in Q15: the same table as [`tanh`], 0 ..= 32768. Error: 0.75 steps.
-/// sigmoid(-u) = 32768 - sigmoid(u) exactly.
+/// The logistic function of 2 `u` (`u` in Q26) in Q15: the same table as [`tanh`], 0 ..= 32768. Error: 0.75
+/// steps. sigmoid(-u) = 32768 - sigmoid(u) exactly.
 pub fn sigmoid_of_twice(u: i32) -> i32 {
     let positive = (((1 << 23) + tanh_q23(u) + (1 << 8)) >> 9) as i32;
     if u < 0 { 32768 - positive } else { positive }
@@ -89,8 +90,8 @@ impl Gain {
     /// The gain of a map that has none yet: everything becomes 0.
     pub(crate) const NONE: Gain = Gain { factor: 0, shift: 0, limit: 0 };
 
-    /// The gain nearest to `numerator / denominator`, relative error below 2^-16. Both below 2^60; 0 / x is no gain
-    /// and is built as the smallest one. Only called by `build`, hence 128-bit arithmetic.
+    /// The gain nearest to `numerator / denominator`, relative error below 2^-16. Both below 2^60; 0 / x is
+    /// no gain and is built as the smallest one. Only called by `build`, hence 128-bit arithmetic.
     pub(crate) fn new(numerator: u64, denominator: u64) -> Gain {
         let (n, d) = (u128::from(numerator.max(1)), u128::from(denominator.max(1)));
         let rounded = |n: u128, d: u128| (n + d / 2).checked_div(d).unwrap_or(u128::MAX);
@@ -115,8 +116,8 @@ impl Gain {
     pub fn apply(self, sum: i32) -> i32 {
         // Not `clamp`, which panics on an empty range: the compiler cannot know that `limit` is positive.
         let sum = sum.max(-self.limit).min(self.limit);
-        // With shift > 0: |sum| << shift <= 2^29 * 2^16 / factor <= 2^30 by the choice of `limit` (rounded up by
-        // less than one unit, hence wrapping rather than a proof to the last bit).
+        // With shift > 0: |sum| << shift <= 2^29 * 2^16 / factor <= 2^30 by the choice of `limit` (rounded up
+        // by less than one unit, hence wrapping rather than a proof to the last bit).
         let sum = if self.shift > 0 { sum.wrapping_shl(self.shift.unsigned_abs().into()) } else { sum };
         let factor = i32::from(self.factor);
         let high = (sum >> 16).wrapping_mul(factor);

@@ -19,8 +19,8 @@ pub struct Part {
 pub struct Why<const N: usize> {
     /// Index of the concept.
     pub concept: u8,
-    /// One part for each incoming edge, in the order of the map; then for itself, unless the rule is kosko (an edge from itself is
-    /// in that part).
+    /// One part for each incoming edge, in the order of the map; then for itself, unless the rule is kosko
+    /// (an edge from itself is in that part).
     pub parts: Vec<Part, N>,
     /// T of this concept.
     pub threshold: Q15,
@@ -62,7 +62,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         let _ = why.parts.push(Part { from, value });
     }
 
-    /// A product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest, halves away from 0.
+    /// A product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest, halves away
+    /// from 0.
     fn product_q15(&self, product: i64) -> Q15 {
         let unit = u64::from(self.one.unsigned_abs()) * u64::from(self.step.unsigned_abs());
         let scaled = product.unsigned_abs() << 15; // |product| <= 2^15 * 3 * 2^15: 47 bits with the shift

@@ -20,9 +20,11 @@ pub struct Pipeline {
     pub(super) contact: Contacts,
     pub(super) shape: Option<Shapes<BUILT_IN>>,
     pub(super) symbol: Symbols,
-    /// Touch over time; none: not recognised. It is no part of a scene, and stays where the scene or the garment changes.
+    /// Touch over time; none: not recognised. It is no part of a scene, and stays where the scene or the
+    /// garment changes.
     pub gestures: Option<Gestures>,
-    /// Confidence that an announcement of a gesture takes. It stays as well, also where another model is asked for.
+    /// Confidence that an announcement of a gesture takes. It stays as well, also where another model is
+    /// asked for.
     pub certainty: Certainty,
     pub(super) friendliness: [i8; PANELS],
     pub(super) intent: Option<Intent>,
@@ -37,8 +39,9 @@ impl Pipeline {
         Ok(pipeline)
     }
 
-    /// As [`Pipeline::build`], in the place of what it was: on a microcontroller the stack has no room for a second one. After an
-    /// error some stages are those of the new scene and some are not: it is to be filled again with what it was.
+    /// As [`Pipeline::build`], in the place of what it was: on a microcontroller the stack has no room for a
+    /// second one. After an error some stages are those of the new scene and some are not: it is to be filled
+    /// again with what it was.
     pub fn fill(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
         scene.stream.check()?;
         self.panels = scene.plan.panels;

@@ -90,8 +90,8 @@ impl Pipeline {
         }
     }
 
-    /// Gives contacts their shapes and their places on the body; those that have gone, and those that were not looked at, keep the
-    /// shape that they had.
+    /// Gives contacts their shapes and their places on the body; those that have gone, and those that were
+    /// not looked at, keep the shape that they had.
     #[inline(always)] // once, and its iterators take what is there
     fn place(
         &self,
@@ -183,8 +183,8 @@ fn look<const RUNS: usize, const PARTS: usize>(
     present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
 }
 
-/// The shape that a contact had. Lists of contacts are in the order of their onset, so that what is left of one can be overwritten
-/// by what comes before.
+/// The shape that a contact had. Lists of contacts are in the order of their onset, so that what is left of
+/// one can be overwritten by what comes before.
 fn shape_in(list: &[Placed], id: u32) -> Shape {
     list.iter().find(|placed| placed.contact.id == id).map_or_else(Shape::default, |placed| placed.shape)
 }

@@ -25,12 +25,13 @@ pub enum Cause {
     Concept(Name),
     /// This intention leads: 1.
     Leading(Leading),
-    /// Greatest pressure of a taxel, counts, as of `Pressure`; and it begins before the frame is complete, as soon as so many taxels
-    /// agree. Needs an interlaced scan.
+    /// Greatest pressure of a taxel, counts, as of `Pressure`; and it begins before the frame is complete, as
+    /// soon as so many taxels agree. Needs an interlaced scan.
     Reflex(Agree),
     /// What is wrong with the board: faults of lines and inputs, and 1 where the last scan failed.
     Fault,
-    /// Time since a frame was perceived, ms; as long as none was, a save is about to stop the scan or a tare runs, 2147483647.
+    /// Time since a frame was perceived, ms; as long as none was, a save is about to stop the scan or a tare
+    /// runs, 2147483647.
     Blind,
     /// Number of ill taxels.
     Ill,
@@ -48,8 +49,8 @@ pub struct ReactionConfig {
     pub name: Name,
     /// What is looked at.
     pub cause: Cause,
-    /// Only in this region of the body; empty: anywhere. Only pressure, force, contacts, slip, reflexes and ill taxels have
-    /// one.
+    /// Only in this region of the body; empty: anywhere. Only pressure, force, contacts, slip, reflexes and
+    /// ill taxels have one.
     #[serde(default)]
     pub region: Name,
     /// It begins when the value reaches this, in the unit of the cause.

@@ -12,8 +12,8 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Of all outputs of a table: asserted where a reaction to a fault or to blindness asserts them, for a board
-    /// that starts rules out neither; else at rest.
+    /// Of all outputs of a table: asserted where a reaction to a fault or to blindness asserts them, for a
+    /// board that starts rules out neither; else at rest.
     pub fn of(rows: &[ReactionConfig]) -> Levels {
         let mut levels = Levels::default();
         for row in rows {

@@ -10,15 +10,17 @@ use serde::{Deserialize, Serialize};
 pub enum Agree {
     /// One: soonest, and every impulse on a taxel is a reflex.
     One,
-    /// Two of one panel within the time of a frame: of the same frame at most two rows and two columns apart, else neighbours.
+    /// Two of one panel within the time of a frame: of the same frame at most two rows and two columns apart,
+    /// else neighbours.
     ///
-    /// An impulse that hits one taxel in one frame, and neither it nor its eight neighbours again in the next, never does that
-    /// where no two of a frame are so near each other.
+    /// An impulse that hits one taxel in one frame, and neither it nor its eight neighbours again in the
+    /// next, never does that where no two of a frame are so near each other.
     #[default]
     Two,
 }
 
-/// Taxels that are remembered: in 2,048 with impulses on a hundredth of them, as many as a frame and a half has.
+/// Taxels that are remembered: in 2,048 with impulses on a hundredth of them, as many as a frame and a half
+/// has.
 const SEEN: usize = 32;
 /// Greatest distance in rows and in columns of two taxels that agree, in one frame and across two.
 const NEAR: u16 = 2;
@@ -59,7 +61,8 @@ impl Recent {
         self.field = self.field.wrapping_add(1);
     }
 
-    /// A taxel that agrees with this one, which is remembered. `within`: the present sub-field's place in its frame, of `count`.
+    /// A taxel that agrees with this one, which is remembered. `within`: the present sub-field's place in its
+    /// frame, of `count`.
     pub fn agree(&mut self, taxel: u16, spot: Spot, within: usize, count: usize) -> Option<u16> {
         let near = |seen: &&Seen| {
             let age = self.field.wrapping_sub(seen.field) as usize;

@@ -72,7 +72,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         }
     }
 
-    /// Another order of the scan, whose taxels are told by [`Reflex::order`]. Nothing is watched until all limits are set.
+    /// Another order of the scan, whose taxels are told by [`Reflex::order`]. Nothing is watched until all
+    /// limits are set.
     pub fn begin(&mut self, fields: Fields, falling: bool) {
         (self.fields, self.falling) = (fields, falling);
         self.entries.fill(Entry { taxel: NOWHERE, limit: u16::MAX });
@@ -89,8 +90,9 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         }
     }
 
-    /// What is to be watched from now on; none: nothing, for now. `active`: the rows whose reactions last, a bit each. `limit`: the last code
-    /// of a taxel that is quiet; none where it is not watched. To be called with each frame: the limits follow the baseline by and by.
+    /// What is to be watched from now on; none: nothing, for now. `active`: the rows whose reactions last, a
+    /// bit each. `limit`: the last code of a taxel that is quiet; none where it is not watched. To be called
+    /// with each frame: the limits follow the baseline by and by.
     pub fn watch(&mut self, reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Option<u16>) {
         let Some(reflexes) = reflexes else { return self.disarm() };
         if self.reflexes != *reflexes {
@@ -124,8 +126,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         self.recent.clear();
     }
 
-    /// Takes the codes of a sub-field, those of one input after those of the other, and puts them into their places of `frame`, by
-    /// taxel number. A mask of the rows that begin, whose pins are to be asserted.
+    /// Takes the codes of a sub-field, those of one input after those of the other, and puts them into their
+    /// places of `frame`, by taxel number. A mask of the rows that begin, whose pins are to be asserted.
     pub fn check(&mut self, field: usize, codes: &[Code], frame: &mut [Code], now: Micros) -> u8 {
         self.recent.turn();
         let addresses = self.fields.addresses(field).max(1);

@@ -8,11 +8,13 @@
 //! | RAM | [`Reflex`]: 4 bytes a taxel and 700 |
 //! | Cortex-M0+ | `docs/reflex.md` |
 //!
-//! Contacts, shapes and meanings need whole frames. A pin that is to move within a millisecond does not: a reaction whose cause
-//! is [`Cause::Reflex`](crate::react::Cause::Reflex) begins when one taxel of its region is beyond the limit, or two that are
-//! near each other, as [`Agree`] says. It ends as every other reaction does, by frames.
+//! Contacts, shapes and meanings need whole frames. A pin that is to move within a millisecond does not: a
+//! reaction whose cause is [`Cause::Reflex`](crate::react::Cause::Reflex) begins when one taxel of its region
+//! is beyond the limit, or two that are near each other, as [`Agree`] says. It ends as every other reaction
+//! does, by frames.
 //!
-//! Taxels that are silenced (absent, dead, stuck, noisy) have a limit that no code passes. While a tare runs nothing is watched.
+//! Taxels that are silenced (absent, dead, stuck, noisy) have a limit that no code passes. While a tare runs
+//! nothing is watched.
 
 mod agree;
 mod check;

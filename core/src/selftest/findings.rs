@@ -54,8 +54,8 @@ pub struct Findings {
     pub lines: u8,
     /// Converter inputs that were examined.
     pub inputs: u8,
-    /// Lines in the order of the wiring, then inputs. Of two lines that are bridged the first one is named; at most
-    /// [`FAULTS`], those beyond are left out.
+    /// Lines in the order of the wiring, then inputs. Of two lines that are bridged the first one is named;
+    /// at most [`FAULTS`], those beyond are left out.
     pub faults: Vec<PinFault, FAULTS>,
 }
 

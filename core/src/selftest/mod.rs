@@ -7,15 +7,17 @@
 //! | input open | it follows its own resistor, whatever is selected |
 //! | input at ground, at the supply | it stays there against its resistor, whatever is selected |
 //!
-//! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of each of its blocks,
-//! pulled up and pulled down. The reference garment takes 2.6 ms (simulated): one frame is not scanned.
+//! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of
+//! each of its blocks, pulled up and pulled down. The reference garment takes 2.6 ms (simulated): one frame
+//! is not scanned.
 //!
-//! While the board runs, the levels of the lines are looked at, and so are the codes of the inputs: what speaks against one of them
-//! makes the board examine them all again ([`Examine::is_misled`], `board/doubt.rs`, `health/inputs.rs`).
+//! While the board runs, the levels of the lines are looked at, and so are the codes of the inputs: what
+//! speaks against one of them makes the board examine them all again ([`Examine::is_misled`],
+//! `board/doubt.rs`, `health/inputs.rs`).
 //!
-//! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its pin; a source
-//! of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What reacts to the select lines sees
-//! levels that nobody asked for; outputs of reactions are not touched.
+//! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its
+//! pin; a source of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What
+//! reacts to the select lines sees levels that nobody asked for; outputs of reactions are not touched.
 
 mod findings;
 mod inputs;
@@ -32,8 +34,8 @@ pub trait Examine {
     /// Examines all lines and inputs of a circuit; an error says what failed before the end.
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError>;
 
-    /// Between two scans: drives the select lines to some address, another one each time, at which [`Examine::is_misled`] looks at
-    /// them. What looks at them while it scans need not.
+    /// Between two scans: drives the select lines to some address, another one each time, at which
+    /// [`Examine::is_misled`] looks at them. What looks at them while it scans need not.
     fn pose(&mut self, _circuit: &Circuit) {}
 
     /// Whether a select line showed another level than it was driven to, since this was asked last.

@@ -1,11 +1,13 @@
 //! The base of shapes that comes with the program: rectangle, round, finger.
 //!
-//! The prototypes are learned, not measured: 16 per class, placed by k-means and moved by generalised learning vector
-//! quantisation (GLVQ) in the space of [`features`](super::features). The examples were the rectangles, discs and fingers of the project's
-//! reference set `shapes.npz` (grids 4 x 16, 16 x 16 and 32 x 64; gain 0.2 to 0.9; as they are, and blurred, median-filtered and with
-//! noise of 0, 1 and 3 % of the full scale: the sets B_n0, C_n0, C_n1, C_n3 and D_n3; 840 images), and 1,800 drawn ones: discs,
-//! rotated rectangles with sides of 1 : 1 to 1 : 1.8, and fingers (capsules with a pressure that falls off towards the rim and one
-//! end), in the same grids and gains, blurred by 0 to 0.8 taxel, with noise of 0 and 1 %, and the conservative filter.
+//! The prototypes are learned, not measured: 16 per class, placed by k-means and moved by generalised
+//! learning vector quantisation (GLVQ) in the space of [`features`](super::features). The examples were the
+//! rectangles, discs and fingers of the project's reference set `shapes.npz` (grids 4 x 16, 16 x 16 and 32 x
+//! 64; gain 0.2 to 0.9; as they are, and blurred, median-filtered and with noise of 0, 1 and 3 % of the full
+//! scale: the sets B_n0, C_n0, C_n1, C_n3 and D_n3; 840 images), and 1,800 drawn ones: discs, rotated
+//! rectangles with sides of 1 : 1 to 1 : 1.8, and fingers (capsules with a pressure that falls off towards
+//! the rim and one end), in the same grids and gains, blurred by 0 to 0.8 taxel, with noise of 0 and 1 %, and
+//! the conservative filter.
 //!
 //! Right answers among three classes, by the nearest prototype (chance is 33 %):
 //!
@@ -14,8 +16,8 @@
 //! | reference set, learned from (in five folds by shape: 71, 77, 89 %) | 71 % | 79 % | 89 % |
 //! | drawn by `host/tests/library/shapes.rs`, from codes to class | 86 % | 96 % | 89 % |
 //!
-//! On a grid of 4 x 16 a shape is some 12 taxels, and what goes wrong is mostly square against round; on finer grids, short fingers
-//! against rectangles.
+//! On a grid of 4 x 16 a shape is some 12 taxels, and what goes wrong is mostly square against round; on
+//! finer grids, short fingers against rectangles.
 
 use super::features::Features;
 use super::knn::{Base, Class, Prototype};

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct ShapeConfig {
     /// Neighbours that vote: 1 to 9, and not more than the base has prototypes.
     pub k: u8,
-    /// A contact farther than this from every prototype is unknown; in the units of [`super::Features`], at least 1.
+    /// A contact farther than this from every prototype is unknown; in the units of [`super::Features`], at
+    /// least 1.
     pub reject: u16,
 }
 

@@ -41,8 +41,8 @@ pub const MEASURE_NAMES: [&str; MEASURES] = [
 /// What a touch is like, in numbers; see [`descriptor`].
 pub type Descriptor = [i16; MEASURES];
 
-/// Describes a touch. Logarithms are to base 2 in 1/1024, ratios in 1/4096; J is the moment of inertia about the centroid, and
-/// "area" counts taxels.
+/// Describes a touch. Logarithms are to base 2 in 1/1024, ratios in 1/4096; J is the moment of inertia about
+/// the centroid, and "area" counts taxels.
 ///
 /// | | | |
 /// |---|---|---|
@@ -66,8 +66,9 @@ pub type Descriptor = [i16; MEASURES];
 /// | summits | log of 1 + taxels not below any neighbour | |
 /// | euler | log of 1 + the Euler number, with its sign: parts less holes | |
 ///
-/// Total; all 0 where there is no pressure. The moments are exact, what they lead to is rounded to the nearest step; sums of higher order
-/// have coordinates rounded as in [`Spread`]. What that makes of a measure is tested against floats.
+/// Total; all 0 where there is no pressure. The moments are exact, what they lead to is rounded to the
+/// nearest step; sums of higher order have coordinates rounded as in [`Spread`]. What that makes of a measure
+/// is tested against floats.
 pub fn descriptor(patch: &Patch) -> Descriptor {
     let moments = Moments::of_image(patch.values(), patch.columns());
     let peak = patch.values().iter().copied().max().unwrap_or(0);
@@ -121,8 +122,8 @@ fn ratio(value: Q15) -> i16 {
     saturated((value.0 + 4) >> 3)
 }
 
-/// Logarithms of `J m` with Sheppard's correction and without; of a single taxel the moment of its square, `m^2 / 12` after
-/// correction.
+/// Logarithms of `J m` with Sheppard's correction and without; of a single taxel the moment of its square,
+/// `m^2 / 12` after correction.
 fn inertia(moments: &Moments) -> [i32; 2] {
     let (m, jm) = (Scaled::from_u64(moments.m), moments.jm());
     let pixel = m.times(m).times(TWELFTH).log2();

@@ -15,10 +15,11 @@ pub type Features = [i16; FEATURES];
 /// - NMI sqrt(sum f^2 / sum f) with Sheppard's correction, in 1/8192;
 /// - NMI sqrt(peak) with Sheppard's correction, in 1/4096;
 /// - anisotropy, in 1/1024;
-/// - logarithm to base 2 of the area in taxels, in 1/64: what a grid does to a shape depends on how many taxels see it.
+/// - logarithm to base 2 of the area in taxels, in 1/64: what a grid does to a shape depends on how many
+///   taxels see it.
 ///
-/// None of them follows pressure, place or direction. Total: forms above 4 and 8 saturate, no area counts as one taxel, and the
-/// anisotropy is held within 0 and 1.
+/// None of them follows pressure, place or direction. Total: forms above 4 and 8 saturate, no area counts as
+/// one taxel, and the anisotropy is held within 0 and 1.
 pub fn features(nmi: &Nmi, contact: &Contact) -> Features {
     let anisotropy = contact.anisotropy.0.clamp(0, 32768) >> 5;
     [form(nmi.s2_sheppard, 13), form(nmi.peak_sheppard, 12), anisotropy as i16, size(contact.area)]

@@ -55,9 +55,9 @@ impl<const PROTOTYPES: usize> Base<PROTOTYPES> {
 /// Most neighbours that vote.
 pub(super) const VOTERS: usize = 9;
 
-/// The class of the majority of the `k` nearest prototypes (of equals, the one with the nearest), and its confidence: its
-/// share of the votes, each weighed by how near it is. Unknown, with the confidence of that, if even the nearest is
-/// farther than `reject`.
+/// The class of the majority of the `k` nearest prototypes (of equals, the one with the nearest), and its
+/// confidence: its share of the votes, each weighed by how near it is. Unknown, with the confidence of that,
+/// if even the nearest is farther than `reject`.
 pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reject: u32) -> (Class, Q15) {
     let limit = reject.saturating_mul(reject);
     // Most touches are like something: what is farther need not be compared in full.
@@ -84,8 +84,8 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
     (best.0, Q15::ratio(own, all))
 }
 
-/// The `k` nearest prototypes in the order of their squared distance, if that is below a limit; of equals the first in the
-/// base.
+/// The `k` nearest prototypes in the order of their squared distance, if that is below a limit; of equals the
+/// first in the base.
 fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) -> [(u32, Class); VOTERS] {
     let mut nearest = [(limit, Class::UNKNOWN); VOTERS];
     if k == 1 {

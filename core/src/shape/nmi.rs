@@ -1,16 +1,17 @@
 //! The normalised moment of inertia (eq. 4 of the source) and its forms that do not follow pressure.
 //!
-//! `NMI = sqrt(J) / m` as published is immune to rotation, scale and translation, but not to pressure: with f -> a f it goes as
-//! a^-1/2, and the width of the converter shifts it the same way. Two factors undo this: the square root of the peak, and that of
-//! the pressure-weighted mean `sum f^2 / sum f`, which suffers less from noise and coarse grids. Sheppard's correction
-//! takes the variance of the pixel itself out of the moment of inertia: J - m / 6.
+//! `NMI = sqrt(J) / m` as published is immune to rotation, scale and translation, but not to pressure: with f
+//! -> a f it goes as a^-1/2, and the width of the converter shifts it the same way. Two factors undo this:
+//! the square root of the peak, and that of the pressure-weighted mean `sum f^2 / sum f`, which suffers less
+//! from noise and coarse grids. Sheppard's correction takes the variance of the pixel itself out of the
+//! moment of inertia: J - m / 6.
 //!
-//! Which form strays least is told by `taxel bench nmi` (one touch turned, scaled, shifted or pressed harder): by peak with the
-//! correction on a fine grid, 0.4 % on 32 x 64; by sum of squares without it on a block of 4 x 16, where a touch is
-//! hardly wider than the pixel whose variance the correction takes away.
+//! Which form strays least is told by `taxel bench nmi` (one touch turned, scaled, shifted or pressed
+//! harder): by peak with the correction on a fine grid, 0.4 % on 32 x 64; by sum of squares without it on a
+//! block of 4 x 16, where a touch is hardly wider than the pixel whose variance the correction takes away.
 //!
-//! Error of every form: half a step of 2^-24, and 4e-9 of the value. Under a whole gain the forms with a factor stay within
-//! twice that (both asserted against 60 digits).
+//! Error of every form: half a step of 2^-24, and 4e-9 of the value. Under a whole gain the forms with a
+//! factor stay within twice that (both asserted against 60 digits).
 
 use crate::contact::Moments;
 use crate::format::{Fixed24, Scaled, product};
@@ -31,8 +32,9 @@ pub struct Nmi {
     pub s2_sheppard: Fixed24,
 }
 
-/// All forms of a contact or an image whose greatest value is `peak`. Total: 0 for no pressure, and just below 256 for what
-/// would be more (few counts very far apart). For moments that wrapped, or another peak, the result means nothing.
+/// All forms of a contact or an image whose greatest value is `peak`. Total: 0 for no pressure, and just
+/// below 256 for what would be more (few counts very far apart). For moments that wrapped, or another peak,
+/// the result means nothing.
 pub fn nmi(moments: &Moments, peak: u16) -> Nmi {
     if moments.m == 0 {
         return Nmi::default();

@@ -61,9 +61,9 @@ impl Outline {
     }
 }
 
-/// What a taxel that is touched adds to twelve times the Euler number for the square of four at one of its corners. Gray's sum
-/// counts a square 1 if one of the four is touched, -1 if three are, -2 if two across are, and is four times the number; here
-/// all that are touched share it, in thirds.
+/// What a taxel that is touched adds to twelve times the Euler number for the square of four at one of its
+/// corners. Gray's sum counts a square 1 if one of the four is touched, -1 if three are, -2 if two across
+/// are, and is four times the number; here all that are touched share it, in thirds.
 fn corner([beside, across, other]: &[u16; 3]) -> i32 {
     match (*beside > 0, *across > 0, *other > 0) {
         (false, false, false) => 3,

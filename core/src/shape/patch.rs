@@ -2,7 +2,8 @@
 
 use crate::contact::Moments;
 
-/// A rectangle of values: those of a touch, and 0 elsewhere. Row after row; what is missing of the last row counts as 0.
+/// A rectangle of values: those of a touch, and 0 elsewhere. Row after row; what is missing of the last row
+/// counts as 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Patch<'a> {
     values: &'a [u16],

@@ -9,8 +9,8 @@ use crate::garment::{Layout, Place};
 /// Taxels of the rectangle around a contact; of a larger one the last rows are left out.
 const PATCH: usize = 2048;
 
-/// Describes a contact, which is number `index` of those that `contacts` holds, by the taxels that are its own. Of one that crosses a
-/// seam, what lies on its home panel is seen. None: there is no such panel.
+/// Describes a contact, which is number `index` of those that `contacts` holds, by the taxels that are its
+/// own. Of one that crosses a seam, what lies on its home panel is seen. None: there is no such panel.
 #[inline(never)] // it needs stack only meanwhile
 pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
     contacts: &ContactState<CONTACTS, RUNS, PARTS>,

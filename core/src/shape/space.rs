@@ -7,10 +7,12 @@ use serde::{Deserialize, Serialize};
 /// Most dimensions of a space.
 pub const DIMENSIONS: usize = 12;
 
-/// A place in a space, in 1/256 of the spread that the trainer found within a class; 0 in dimensions that it does not have.
+/// A place in a space, in 1/256 of the spread that the trainer found within a class; 0 in dimensions that it
+/// does not have.
 pub type Point = [i16; DIMENSIONS];
 
-/// `point = weights (descriptor - origin) / 2^shift`, rounded to the nearest; saturates at the ends of an `i16`.
+/// `point = weights (descriptor - origin) / 2^shift`, rounded to the nearest; saturates at the ends of an
+/// `i16`.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Space {

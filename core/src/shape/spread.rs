@@ -1,11 +1,12 @@
-//! How the pressure of a touch lies about its centroid: sums of the third and fourth order, and those of its area.
+//! How the pressure of a touch lies about its centroid: sums of the third and fourth order, and those of its
+//! area.
 
 use super::patch::Patch;
 use crate::contact::Moments;
 use crate::format::{Scaled, product};
 
-/// Sums over a patch, in coordinates (x, y) from the centroid in units of `2^-bits` taxel, rounded to the nearest; r is the
-/// distance. Values of more than 14 bits lose the rest.
+/// Sums over a patch, in coordinates (x, y) from the centroid in units of `2^-bits` taxel, rounded to the
+/// nearest; r is the distance. Values of more than 14 bits lose the rest.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Spread {
     /// Fraction bits of the coordinates: as many as keep all sums in 63 bits for 4,096 taxels.
@@ -27,7 +28,8 @@ pub struct Spread {
 impl Spread {
     /// Of a patch with its moments (coordinates from its first taxel) and its peak.
     pub fn of(patch: &Patch, moments: &Moments, peak: u16) -> Spread {
-        // Two taxels are at most 1.42 times the extent apart: below 2^11 units; f < 2^14, and there are 2^12 taxels.
+        // Two taxels are at most 1.42 times the extent apart: below 2^11 units; f < 2^14, and there are 2^12
+        // taxels.
         let down = (0..24).find(|down| (patch.extent() << 8) >> down <= 1446).unwrap_or(24);
         let mut spread = Spread { bits: 8 - down as i16, ..Spread::default() };
         let mass = Scaled::from_u64(moments.m);

@@ -19,8 +19,8 @@ pub struct Shape {
     pub nmi_s2: Fixed24,
     /// Class in the base of shapes.
     pub class: Class,
-    /// Of a known class: its share of the neighbours' votes, the nearer ones counting more. Of an unknown one: how far beyond the
-    /// limit it is, from 0 at the limit to 1.
+    /// Of a known class: its share of the neighbours' votes, the nearer ones counting more. Of an unknown
+    /// one: how far beyond the limit it is, from 0 at the limit to 1.
     pub confidence: Q15,
 }
 

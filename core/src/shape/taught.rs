@@ -1,9 +1,10 @@
 //! Shapes that the host taught the board while it runs, in the place of those that are built in.
 //!
-//! A gallery arrives in parts: its head first, then its prototypes, some at a time. From the head on the built-in base is in
-//! force again, and the gallery from its last prototype on, if it is right.
+//! A gallery arrives in parts: its head first, then its prototypes, some at a time. From the head on the
+//! built-in base is in force again, and the gallery from its last prototype on, if it is right.
 //!
-//! One contact is looked at in a frame, those that nobody has looked at first: a description takes as long as everything else.
+//! One contact is looked at in a frame, those that nobody has looked at first: a description takes as long as
+//! everything else.
 
 use super::gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery};
 use super::knn::Class;
@@ -116,7 +117,8 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         Ok(())
     }
 
-    /// Which of the contacts, given by their ids, is to be looked at: the first that is not known yet, else each in turn.
+    /// Which of the contacts, given by their ids, is to be looked at: the first that is not known yet, else
+    /// each in turn.
     pub fn choose(&mut self, contacts: impl ExactSizeIterator<Item = u32> + Clone) -> Option<usize> {
         self.known.retain(|known| contacts.clone().any(|id| id == known.contact));
         let new = contacts.clone().position(|id| self.known.iter().all(|known| known.contact != id));
@@ -143,8 +145,8 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         }
     }
 
-    /// Puts what is known of a contact in the place of what the built-in base says: its class, 1 + that of the gallery, and how
-    /// often such a vote is right.
+    /// Puts what is known of a contact in the place of what the built-in base says: its class, 1 + that of
+    /// the gallery, and how often such a vote is right.
     pub fn tell(&self, contact: &Contact, shape: &mut Shape) {
         let known = self.known.iter().find(|known| known.contact == contact.id);
         (shape.class, shape.confidence) =

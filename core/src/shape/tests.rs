@@ -169,9 +169,9 @@ fn euler(values: &[u16], columns: usize) -> i32 {
     parts - holes
 }
 
-/// Steps that a measure may be off: what is made of exact sums by logarithms alone, two; a Sobel magnitude loses up to an eighth of a
-/// count; what needs rounded coordinates is 1/32 off for a small
-/// touch in a patch of 64 columns.
+/// Steps that a measure may be off: what is made of exact sums by logarithms alone, two; a Sobel magnitude
+/// loses up to an eighth of a count; what needs rounded coordinates is 1/32 off for a small touch in a patch
+/// of 64 columns.
 fn bound(measure: &str) -> f64 {
     match measure {
         "anisotropy" | "anisotropy_area" | "offset" => 1.0,

@@ -7,8 +7,8 @@
 //! | latency | none |
 //! | RAM | [`SymbolState`]: about 24 bytes a contact, 20 a region |
 //!
-//! Words do not flicker. A measure has to pass its limit by an eighth; a shape has to outweigh what spoke for the one that was
-//! said; and what slid is said to move for a while longer.
+//! Words do not flicker. A measure has to pass its limit by an eighth; a shape has to outweigh what spoke for
+//! the one that was said; and what slid is said to move for a while longer.
 
 mod config;
 mod said;

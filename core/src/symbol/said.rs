@@ -91,7 +91,8 @@ impl Said {
         self.words.moving = self.still_ms < STILL;
     }
 
-    /// A class was seen for some time with this confidence (Q15): a vote of the majority, whose lead is held between bounds.
+    /// A class was seen for some time with this confidence (Q15): a vote of the majority, whose lead is held
+    /// between bounds.
     fn weigh(&mut self, class: Class, confidence: Q15, ms: u8) {
         // 16 + 8 bits, rounded up, so that any class gets through in the end.
         let weight = (confidence.0.clamp(0, 1 << 15) as u32 * u32::from(ms)).div_ceil(1 << 15) as u16;
@@ -105,8 +106,8 @@ impl Said {
     }
 }
 
-/// What was said of a contact. Those present are in the order in which they came, as what was said of them: it is mostly
-/// at `at`, after what was said of the one before.
+/// What was said of a contact. Those present are in the order in which they came, as what was said of them:
+/// it is mostly at `at`, after what was said of the one before.
 pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Option<&'a mut Said> {
     if said.get(*at).is_none_or(|said| said.contact != id) {
         *at = said.iter().position(|said| said.contact == id)?;
@@ -116,8 +117,8 @@ pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Opti
     found
 }
 
-/// Index of the word for `measure` among rising `limits`; from the word said before it moves only when a limit is passed
-/// by an eighth.
+/// Index of the word for `measure` among rising `limits`; from the word said before it moves only when a
+/// limit is passed by an eighth.
 fn word(measure: u32, limits: &[u32], before: Option<usize>) -> usize {
     let plain = limits.iter().take_while(|limit| measure >= **limit).count();
     match before {

@@ -71,7 +71,7 @@ pub struct Words {
     pub span: Span,
     /// It slides over the surface, or did within the last quarter of a second.
     pub moving: bool,
-    /// What shape, by the evidence of the last 0.4 s in which it pressed with at least half of its greatest total: what is left of
-    /// it later has another.
+    /// What shape, by the evidence of the last 0.4 s in which it pressed with at least half of its greatest
+    /// total: what is left of it later has another.
     pub class: Class,
 }

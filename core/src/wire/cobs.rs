@@ -1,12 +1,12 @@
-//! COBS: a group is a code byte, which tells where the next group begins, and bytes that are not 0; a 0 of the data is where the
-//! next one begins.
+//! COBS: a group is a code byte, which tells where the next group begins, and bytes that are not 0; a 0 of
+//! the data is where the next one begins.
 //!
-//! It is coded where the data are: a 0 becomes a code byte, and what is not 0 stays. Only a full group of 254 bytes, behind which a
-//! code byte comes in between, moves what stands before it.
+//! It is coded where the data are: a 0 becomes a code byte, and what is not 0 stays. Only a full group of 254
+//! bytes, behind which a code byte comes in between, moves what stands before it.
 //!
-//! COBS is coded here and not by the crate `cobs` (0.3): that one walks its buffers by plain indices, whose checks are
-//! panics in the image unless the optimiser proves every one of them away, and it takes a zero inside a frame for the
-//! frame's end. The test below compares the two.
+//! COBS is coded here and not by the crate `cobs` (0.3): that one walks its buffers by plain indices, whose
+//! checks are panics in the image unless the optimiser proves every one of them away, and it takes a zero
+//! inside a frame for the frame's end. The test below compares the two.
 
 use bytemuck::pod_align_to;
 use core::mem::replace;
@@ -21,8 +21,8 @@ pub(super) const fn between(data: usize) -> usize {
     data / GROUP
 }
 
-/// Codes what stands in `data` there, with [`between`] bytes and one before, and one behind, which gets a 0x00. Where the
-/// code stands, with its 0x00; `None` if there is no room.
+/// Codes what stands in `data` there, with [`between`] bytes and one before, and one behind, which gets a
+/// 0x00. Where the code stands, with its 0x00; `None` if there is no room.
 ///
 /// Data that end with a full group end with it: no empty group follows.
 pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>> {
@@ -34,8 +34,8 @@ pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>
     }
 }
 
-/// Makes code bytes of the first of some bytes and of all zeros but the last. An error: where a code byte would have to tell more
-/// than it can; what is before it is coded.
+/// Makes code bytes of the first of some bytes and of all zeros but the last. An error: where a code byte
+/// would have to tell more than it can; what is before it is coded.
 #[inline(never)] // the few registers of an M0+ are for its loop
 fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let start = bytes.as_ptr().addr();
@@ -46,14 +46,15 @@ fn link(bytes: &mut [u8]) -> Result<(), usize> {
     linked.and_then(|()| group.end_in(last)).map_err(|Long| ptr::from_ref(group.head).addr() - start)
 }
 
-/// Bytes that are looked at in a turn, each by code of its own: 5 cycles of an M0+ for each, and 10 more for a zero. By words four
-/// bytes without a zero would take 15, but those with one 50.
+/// Bytes that are looked at in a turn, each by code of its own: 5 cycles of an M0+ for each, and 10 more for
+/// a zero. By words four bytes without a zero would take 15, but those with one 50.
 const BLOCK: usize = 16;
 
 /// A group that has not ended.
 struct Group<'a> {
     head: &'a mut u8,
-    /// Its code byte if the first byte of the block is a zero. Within a block in which it began this is that much less, modulo 2^32.
+    /// Its code byte if the first byte of the block is a zero. Within a block in which it began this is that
+    /// much less, modulo 2^32.
     code: u32,
 }
 
@@ -87,9 +88,11 @@ fn has_zero<const WORDS: usize>(words: &[u32; WORDS]) -> bool {
     words.iter().fold(0, |zeros, word| zeros | word.wrapping_sub(ONES) & !word) & ONES << 7 != 0
 }
 
-/// As [`stuff`] from the code byte at `head` on, where a full group may begin; what stands before it moves out of its way.
+/// As [`stuff`] from the code byte at `head` on, where a full group may begin; what stands before it moves
+/// out of its way.
 ///
-/// It moves by as much as could come in between. Where that is not all needed, what follows moves too, and ends earlier.
+/// It moves by as much as could come in between. Where that is not all needed, what follows moves too, and
+/// ends earlier.
 #[inline(never)]
 fn apart(place: &mut [u8], data: Range<usize>, head: usize) -> Option<Range<usize>> {
     let most = between(data.end - head - 1);
@@ -117,7 +120,8 @@ fn apart(place: &mut [u8], data: Range<usize>, head: usize) -> Option<Range<usiz
     Some(first..head + 1)
 }
 
-/// Code bytes that come in between those from `head` to the zero at `next`; at the end a full group has none behind it.
+/// Code bytes that come in between those from `head` to the zero at `next`; at the end a full group has none
+/// behind it.
 const fn full(head: usize, next: usize, end: usize) -> usize {
     (next - head).saturating_sub(if next == end { 2 } else { 1 }) / GROUP
 }
@@ -181,8 +185,8 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Lengths around the group of 254, with zeros in every place that matters, among bytes of all sorts and among 0x80, of
-    /// which a borrow would make what a zero leaves; and many zeros behind a full group.
+    /// Lengths around the group of 254, with zeros in every place that matters, among bytes of all sorts and
+    /// among 0x80, of which a borrow would make what a zero leaves; and many zeros behind a full group.
     fn data() -> impl Iterator<Item = Vec<u8>> {
         let lengths = [1, 2, 5, 252, 253, 254, 255, 256, 507, 508, 509, 510, 762, 763, 1200];
         let zeros = [usize::MAX, 0, 1, 7, 252, 253, 254, 255, 507, 508, 509, 762];

@@ -6,8 +6,8 @@
 //! | CRC-32/ISO-HDLC (zlib, Ethernet) | finds any change of the message | 4 bytes; a table of 1 KiB in flash |
 //! | COBS | no zero inside a frame, so that 0x00 ends it and nothing else does | 1 byte, and 1 for each 254 |
 //!
-//! The CRC is checked over the bytes as received, before anything reads them as a message; a message that leaves bytes
-//! over is an error. The length of a frame is known before it is written: [`frame_bound`].
+//! The CRC is checked over the bytes as received, before anything reads them as a message; a message that
+//! leaves bytes over is an error. The length of a frame is known before it is written: [`frame_bound`].
 
 use super::{cobs, crc32, writer};
 use core::fmt;
@@ -55,7 +55,8 @@ pub const fn frame_bound(bytes: usize) -> usize {
     body.saturating_add(cobs::between(body)).saturating_add(2)
 }
 
-/// Writes `message` into `out` as one frame with its 0x00, and returns that; [`frame_bound`] tells what `out` needs.
+/// Writes `message` into `out` as one frame with its 0x00, and returns that; [`frame_bound`] tells what `out`
+/// needs.
 pub fn encode<'a, T: Serialize + ?Sized>(message: &T, out: &'a mut [u8]) -> Result<&'a [u8], WireError> {
     let frame = frame(message, out)?;
     out.get(frame).ok_or(WireError::NoRoom)
@@ -72,8 +73,8 @@ pub(crate) fn frame<T: Serialize + ?Sized>(message: &T, out: &mut [u8]) -> Resul
     close(out, start..start + bytes).ok_or(WireError::NoRoom)
 }
 
-/// Makes a frame of the message in `message`, there: where it stands, with its 0x00. It needs [`lead`] bytes before it, and `None`
-/// means that there is no room.
+/// Makes a frame of the message in `message`, there: where it stands, with its 0x00. It needs [`lead`] bytes
+/// before it, and `None` means that there is no room.
 pub(crate) fn close(place: &mut [u8], message: Range<usize>) -> Option<Range<usize>> {
     let crc = crc32::of(place.get(message.clone())?);
     *place.get_mut(message.end..)?.first_chunk_mut()? = crc.to_le_bytes();
@@ -85,7 +86,8 @@ pub(crate) const fn lead(bytes: usize) -> usize {
     1 + cobs::between(bytes + crc32::BYTES)
 }
 
-/// Opens one received `frame` (without its 0x00) in place: checks length, COBS and CRC, and returns the message's bytes.
+/// Opens one received `frame` (without its 0x00) in place: checks length, COBS and CRC, and returns the
+/// message's bytes.
 pub fn open(frame: &mut [u8]) -> Result<&[u8], WireError> {
     if frame.len() <= crc32::BYTES + 1 {
         return Err(WireError::TooShort);

@@ -1,4 +1,5 @@
-//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Four bytes are loaded together: 7 cycles of an M0+ for each.
+//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Four bytes are loaded together: 7 cycles
+//! of an M0+ for each.
 
 use bytemuck::pod_align_to;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};

@@ -1,11 +1,12 @@
 //! Writes the code of an image; the [module of its reader](super::image) says what it is.
 //!
 //! Runs with one unchanged taxel between them are joined: a new run costs at least 2 bytes, an unchanged
-//! taxel within one costs 1 (alone: 2 for the first after a value above 63). 2 would cost as much, 0 costs 6 % more on a
-//! pressed image that does not move.
+//! taxel within one costs 1 (alone: 2 for the first after a value above 63). 2 would cost as much, 0 costs 6
+//! % more on a pressed image that does not move.
 //!
-//! Quiet taxels far from a run are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 41 with a base, counted in its
-//! instructions. What is near a run is told by [stretches](super::stretch), with about 80 for each.
+//! Quiet taxels far from a run are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 41 with a base,
+//! counted in its instructions. What is near a run is told by [stretches](super::stretch), with about 80 for
+//! each.
 
 use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
 use bytemuck::pod_align_to;
@@ -18,7 +19,8 @@ pub(super) const RUN: usize = 127;
 /// No varint of an image is as large: 3 bytes hold 21 bits.
 const LIMIT: usize = 1 << 21;
 
-/// Codes `values` into `out` and returns the length. `None`: no room, or a base of another length, or 2^21 taxels.
+/// Codes `values` into `out` and returns the length. `None`: no room, or a base of another length, or 2^21
+/// taxels.
 pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Option<usize> {
     if values.len() >= LIMIT || base.is_some_and(|base| base.len() != values.len()) {
         return None;
@@ -29,7 +31,8 @@ pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Opt
     Some(room - encoder.room())
 }
 
-/// How many taxels from the first on are 0: this is the loop that sees all quiet taxels of an image that stands alone.
+/// How many taxels from the first on are 0: this is the loop that sees all quiet taxels of an image that
+/// stands alone.
 fn zeros(values: &[u16]) -> usize {
     let whole = values.as_chunks::<8>().0.iter().take_while(|block| zero(block)).count() * 8;
     whole + values.iter().skip(whole).take_while(|value| **value == 0).count()
@@ -40,7 +43,8 @@ fn zero([a, b, c, d, e, f, g, h]: &[u16; 8]) -> bool {
     a | b | c | d | e | f | g | h == 0
 }
 
-/// How many taxels from the first on are those of the base: this is the loop that sees most quiet taxels of a difference.
+/// How many taxels from the first on are those of the base: this is the loop that sees most quiet taxels of a
+/// difference.
 #[inline(never)]
 fn same(values: &[u16], base: &[u16]) -> usize {
     let far = same_blocks(values, base);
@@ -62,7 +66,8 @@ fn equal([a, b, c, d]: &[u32; 4], [e, f, g, h]: &[u32; 4]) -> bool {
     (a ^ e) | (b ^ f) | (c ^ g) | (d ^ h) == 0
 }
 
-/// Writes the code of an image part by part, in the order of the taxels; those between two parts keep the reference.
+/// Writes the code of an image part by part, in the order of the taxels; those between two parts keep the
+/// reference.
 pub(super) struct Encoder<'a> {
     out: &'a mut [u8],
     /// First taxel that is not told yet.
@@ -79,8 +84,8 @@ impl<'a> Encoder<'a> {
         self.out.len()
     }
 
-    /// Codes a part of the taxels. `values`, and the base, may go on behind it: two at least keep the reference there, and what begins
-    /// behind them is told here or with the next part. `None`: no room.
+    /// Codes a part of the taxels. `values`, and the base, may go on behind it: two at least keep the
+    /// reference there, and what begins behind them is told here or with the next part. `None`: no room.
     #[inline(always)] // what it hands on needs no place on the stack then
     pub fn part(&mut self, part: Range<usize>, values: &[u16], base: Option<&[u16]>) -> Option<()> {
         match base {
@@ -135,7 +140,8 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Codes taxels by stretches, as far as those follow each other closely; the first taxel that was not looked at.
+    /// Codes taxels by stretches, as far as those follow each other closely; the first taxel that was not
+    /// looked at.
     #[inline(never)] // with little else in its loop
     fn stretches(&mut self, taxels: Range<usize>, values: &[u16], base: &[u16]) -> Option<usize> {
         let base = base.get(..values.len())?;
@@ -185,7 +191,8 @@ const FAR: usize = (1 << 14) - LANES;
 /// Where a stretch is written, with the head of its run.
 type Place = [u8; 3 + ROOM];
 
-/// Tells a stretch and writes the head of its run, behind `skip` unchanged taxels; nothing that counts where it has no run.
+/// Tells a stretch and writes the head of its run, behind `skip` unchanged taxels; nothing that counts where
+/// it has no run.
 #[inline(always)]
 fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, length, room @ .., _] = place;
@@ -212,7 +219,8 @@ struct More<'a> {
     out: &'a mut [u8],
 }
 
-/// Writes what is left of a run, at most so many taxels. `ALONE`: of an image without a base, where `base` begins with the taxel before.
+/// Writes what is left of a run, at most so many taxels. `ALONE`: of an image without a base, where `base`
+/// begins with the taxel before.
 #[inline(never)]
 fn rest<'a, const ALONE: bool>(
     mut out: &'a mut [u8],

@@ -1,9 +1,10 @@
 //! Lossless coding of the conditioned image, alone or as the difference to a base image.
 //!
-//! The code is a sequence of runs: `varint(skip) varint(count)`, then `count` zigzag varints. `skip` taxels keep the
-//! reference (the base; alone: 0), then `count` taxels are given; what follows the last run keeps the reference. With a
-//! base each number is `value - base`; alone it is the value less the one before it in the run (the first: less 0).
-//! Varints are those of postcard (7 bits a byte, the lowest first), at most 3 bytes and never longer than needed.
+//! The code is a sequence of runs: `varint(skip) varint(count)`, then `count` zigzag varints. `skip` taxels
+//! keep the reference (the base; alone: 0), then `count` taxels are given; what follows the last run keeps
+//! the reference. With a base each number is `value - base`; alone it is the value less the one before it in
+//! the run (the first: less 0). Varints are those of postcard (7 bits a byte, the lowest first), at most 3
+//! bytes and never longer than needed.
 //!
 //! | 2,048 taxels, 12 bits | bytes |
 //! |---|---|
@@ -19,8 +20,8 @@ use core::{fmt, slice};
 
 /// The longest code of an image of `taxels` taxels of `bits` bits: the numbers and the heads of the runs.
 ///
-/// A run of fewer taxels than a run can have is followed by at least 2 unchanged taxels, which cost nothing; the head of the
-/// next has at most 4 bytes.
+/// A run of fewer taxels than a run can have is followed by at least 2 unchanged taxels, which cost nothing;
+/// the head of the next has at most 4 bytes.
 pub const fn image_bound(taxels: usize, bits: u32) -> usize {
     // A difference has one bit more than a value.
     let each = match bits {
@@ -82,7 +83,8 @@ impl fmt::Display for ImageError {
 
 impl core::error::Error for ImageError {}
 
-/// Decodes `data` into all of `out`. After an error `out` is part of one image and part of another: not to be used.
+/// Decodes `data` into all of `out`. After an error `out` is part of one image and part of another: not to be
+/// used.
 pub fn decode_image(data: &[u8], base: Option<&[u16]>, out: &mut [u16]) -> Result<(), ImageError> {
     let mut bytes = data.iter();
     let done = start(base, out).and_then(|()| runs(&mut bytes, base.is_none(), out));

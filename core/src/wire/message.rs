@@ -82,7 +82,8 @@ pub enum Report<'a> {
     Forms(FormsReport),
 }
 
-/// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is moved into one.
+/// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is
+/// moved into one.
 impl Report<'_> {
     /// Of `Hello`.
     pub const HELLO: u32 = 0;
@@ -257,7 +258,8 @@ pub struct Health {
     pub process_us: u32,
 }
 
-/// Where the time of frames went: of each kind the most that any of them took, all that was done until the next frame included.
+/// Where the time of frames went: of each kind the most that any of them took, all that was done until the
+/// next frame included.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Budget {
     /// Number of the last scan of these.
@@ -347,7 +349,8 @@ pub struct GestureReport {
     pub ended: bool,
 }
 
-/// How sure the [`GestureReport`] is that follows, which is of the same frame and touch. Not told where the model does not know.
+/// How sure the [`GestureReport`] is that follows, which is of the same frame and touch. Not told where the
+/// model does not know.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ConfidenceReport {
     /// Number of the scan.
@@ -360,7 +363,8 @@ pub struct ConfidenceReport {
     pub confidence: Q15,
 }
 
-/// Contacts whose baseline is unsure: all of each may be drift, and no intention follows from it. See [`unsure`](crate::unsure).
+/// Contacts whose baseline is unsure: all of each may be drift, and no intention follows from it. See
+/// [`unsure`](crate::unsure).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnsureReport {
     /// Number of the scan.
@@ -371,15 +375,16 @@ pub struct UnsureReport {
     pub contacts: Vec<u32, CONTACTS>,
 }
 
-/// How old the forms of contacts are, if [`Request::SetForms`] asked for it; told before the [`ContactList`] of that frame, where one
-/// of them is not of it.
+/// How old the forms of contacts are, if [`Request::SetForms`] asked for it; told before the [`ContactList`]
+/// of that frame, where one of them is not of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FormsReport {
     /// Number of the scan.
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// Ids of those whose form is not of this frame, with the frames since it was looked at; 255: at least so many.
+    /// Ids of those whose form is not of this frame, with the frames since it was looked at; 255: at least so
+    /// many.
     pub ages: Vec<(u32, u8), LISTED>,
 }
 
@@ -392,7 +397,8 @@ pub struct ShapesReport {
     pub names: Vec<Name, GALLERY_CLASSES>,
 }
 
-/// A reaction began before its frame was complete. The `Reaction` itself follows it, or was told with a frame that showed the cause.
+/// A reaction began before its frame was complete. The `Reaction` itself follows it, or was told with a frame
+/// that showed the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReflexReport {
     /// Number of the scan in which it began.
@@ -475,7 +481,8 @@ pub enum Request<'a> {
     },
     /// How the robot's joints stand.
     Posture(Posture),
-    /// Value of a concept that the host feeds, until the next one, or until the host says nothing for 3 s: 0 then.
+    /// Value of a concept that the host feeds, until the next one, or until the host says nothing for 3 s: 0
+    /// then.
     Concept {
         /// slot of the map's input
         slot: u8,
@@ -484,7 +491,8 @@ pub enum Request<'a> {
     },
     /// The next image is to stand alone.
     KeyFrame,
-    /// Examine lines and inputs, and judge all taxels anew: those that were ill count as good until they are found again.
+    /// Examine lines and inputs, and judge all taxels anew: those that were ill count as good until they are
+    /// found again.
     SelfTest,
     /// Store garment, scene and calibration.
     Save,
@@ -500,21 +508,22 @@ pub enum Request<'a> {
         /// a second; 0: never, 65535: for each frame
         hz: u16,
     },
-    /// Value of a concept that the host feeds, with its age and what counts when it is too old, or the host has said nothing
-    /// for 3 s.
+    /// Value of a concept that the host feeds, with its age and what counts when it is too old, or the host
+    /// has said nothing for 3 s.
     Feed(Feed),
     /// How gestures are recognised from now on; none: not at all, as at the start. Not a part of the scene.
     SetGestures(Option<GestureConfig>),
-    /// Which calibration the gains that were set belong to; `Hello` names it until a gain or the garment changes.
+    /// Which calibration the gains that were set belong to; `Hello` names it until a gain or the garment
+    /// changes.
     SetCalibration(Certificate),
-    /// postcard of a [`GalleryHead`](crate::shape::GalleryHead), whose prototypes follow; empty: the built-in base is in force
-    /// again
+    /// postcard of a [`GalleryHead`](crate::shape::GalleryHead), whose prototypes follow; empty: the built-in
+    /// base is in force again
     SetShapes(&'a [u8]),
-    /// postcard of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery, a list. With the last of them
-    /// the gallery is in force, or refused and forgotten.
+    /// postcard of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery, a list.
+    /// With the last of them the gallery is in force, or refused and forgotten.
     AddShapes(&'a [u8]),
-    /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the start. Not a part of
-    /// the scene; it stays when `SetGestures` comes.
+    /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the
+    /// start. Not a part of the scene; it stays when `SetGestures` comes.
     SetCertainty(u16),
     /// Put the stored settings aside, or take them up again; the board starts anew as soon as it has answered.
     /// What is put aside is kept until the next `Save`.
@@ -522,14 +531,16 @@ pub enum Request<'a> {
         /// take them up again
         undo: bool,
     },
-    /// How many forms are looked at in a frame from now on. Not a part of the scene; it stays when `SetScene` comes.
+    /// How many forms are looked at in a frame from now on. Not a part of the scene; it stays when `SetScene`
+    /// comes.
     SetForms {
         /// Of contacts that were there before, in turn; 0: all; 1 at the start.
         in_frame: u8,
         /// Whether [`FormsReport`]s are told.
         ages: bool,
     },
-    /// Raw codes a second, beside those that the scene streams, until the next such request. Nothing else changes.
+    /// Raw codes a second, beside those that the scene streams, until the next such request. Nothing else
+    /// changes.
     SetRaw {
         /// 0: as the scene says; 65535: with every scan
         hz: u16,

@@ -1,13 +1,13 @@
 //! The wire: messages between board and host, and the frames that carry them.
 //!
-//! A frame is `COBS(postcard(message) ++ CRC) ++ 0x00`, where CRC is CRC-32/ISO-HDLC of the postcard bytes, little-endian.
-//! A message from the board is `(seq, report)`, one to the board is a [`Request`].
-//! `seq` (u32, wraps) counts the messages handed to the link: a gap is a loss. `frame` (u32) counts scans: a gap
-//! without a gap in `seq` is thinning.
+//! A frame is `COBS(postcard(message) ++ CRC) ++ 0x00`, where CRC is CRC-32/ISO-HDLC of the postcard bytes,
+//! little-endian. A message from the board is `(seq, report)`, one to the board is a [`Request`]. `seq` (u32,
+//! wraps) counts the messages handed to the link: a gap is a loss. `frame` (u32) counts scans: a gap without
+//! a gap in `seq` is thinning.
 //!
-//! Variants are only appended, and fields of a shipped variant never change. postcard writes a variant's number and every
-//! unsigned integer as a varint (7 bits a byte, low first), signed ones zigzag, sequences and strings with their length
-//! before them, an option as 0 or 1 and its value.
+//! Variants are only appended, and fields of a shipped variant never change. postcard writes a variant's
+//! number and every unsigned integer as a varint (7 bits a byte, low first), signed ones zigzag, sequences
+//! and strings with their length before them, an option as 0 or 1 and its value.
 //!
 //! | number | report | when |
 //! |--:|---|---|
@@ -34,12 +34,12 @@
 //! | 20 | [`UnsureReport`] | when a contact is found to be perhaps nothing but drift, or to be more; the newest state |
 //! | 21 | [`FormsReport`] | if asked for: before a `Contacts` in which a form is older than its frame |
 //!
-//! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole messages: over USB
-//! while a program there has opened its port, else over the UART.
+//! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole
+//! messages: over USB while a program there has opened its port, else over the UART.
 //!
-//! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see [`encode_image`]:
-//! alone where `base` is none, else the difference to the frame of that number, which is the last `Frame` before it.
-//! `Raw` has the same coding, always alone.
+//! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see
+//! [`encode_image`]: alone where `base` is none, else the difference to the frame of that number, which is
+//! the last `Frame` before it. `Raw` has the same coding, always alone.
 
 mod cobs;
 mod codec;

@@ -4,12 +4,12 @@ use super::codec::{WireError, open};
 
 /// Collects the bytes of a link until a 0x00 and opens the frame before it.
 ///
-/// A frame that has a 0x00 on both sides is received, whatever came before the first of them; only garbage that is
-/// directly followed by a frame, without a 0x00 between, takes that frame with it. A sender that starts therefore sends a
-/// 0x00 first: frames of no bytes are nothing.
+/// A frame that has a 0x00 on both sides is received, whatever came before the first of them; only garbage
+/// that is directly followed by a frame, without a 0x00 between, takes that frame with it. A sender that
+/// starts therefore sends a 0x00 first: frames of no bytes are nothing.
 ///
-/// `N` is the longest frame without its 0x00; [`frame_bound`](super::frame_bound) gives it for a message. A longer one
-/// is dropped up to its 0x00 and reported there as [`WireError::TooLong`], once.
+/// `N` is the longest frame without its 0x00; [`frame_bound`](super::frame_bound) gives it for a message. A
+/// longer one is dropped up to its 0x00 and reported there as [`WireError::TooLong`], once.
 #[derive(Debug, Clone)]
 pub struct Receiver<const N: usize> {
     frame: [u8; N],
@@ -23,8 +23,8 @@ impl<const N: usize> Receiver<N> {
         Receiver { frame: [0; N], length: 0 }
     }
 
-    /// Takes one byte; at a 0x00 that ends a frame, returns the bytes of its message (for [`decode`](super::decode)) or
-    /// what is wrong with it.
+    /// Takes one byte; at a 0x00 that ends a frame, returns the bytes of its message (for
+    /// [`decode`](super::decode)) or what is wrong with it.
     pub fn push(&mut self, byte: u8) -> Option<Result<&[u8], WireError>> {
         if byte != 0 {
             match self.frame.get_mut(self.length) {

@@ -6,8 +6,8 @@ use crate::garment::Layout;
 use bytemuck::{try_cast_slice, try_cast_slice_mut};
 use core::ops::Range;
 
-/// The image that was sent last, which the next one is told by its difference to. Only rows in which one of them may hold
-/// something are looked at.
+/// The image that was sent last, which the next one is told by its difference to. Only rows in which one of
+/// them may hold something are looked at.
 pub(crate) struct Reference<const TAXELS: usize> {
     values: [u16; TAXELS],
     /// Rows of `values` that may hold something.
@@ -33,8 +33,8 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         self.sum
     }
 
-    /// Writes the code of `image` into `out`, `alone` or as the difference, and keeps it; the length of the code. `None`: no
-    /// room, and what is kept is part of one image and part of another.
+    /// Writes the code of `image` into `out`, `alone` or as the difference, and keeps it; the length of the
+    /// code. `None`: no room, and what is kept is part of one image and part of another.
     pub fn advance(
         &mut self,
         layout: &Layout,
@@ -128,8 +128,8 @@ fn keep(kept: &mut [u16], values: &[u16]) {
 /// Words of a small block: a row of sixteen taxels.
 const BLOCK: usize = 8;
 
-/// By itself it is a few instructions that move many words each; of all blocks together a compiler would make a call of `memcpy`, which
-/// takes twice as long.
+/// By itself it is a few instructions that move many words each; of all blocks together a compiler would make
+/// a call of `memcpy`, which takes twice as long.
 #[inline(never)]
 fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS]) {
     *kept = *block;
@@ -137,7 +137,8 @@ fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS])
 
 /// What taxels from number `start` on have in the [`image_sum`](super::image_sum).
 ///
-/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no multiplication.
+/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no
+/// multiplication.
 #[inline(never)]
 fn sum_of(start: usize, values: &[u16]) -> u32 {
     let (mut plain, mut placed) = (0u32, 0u32);

@@ -1,8 +1,8 @@
-//! A stretch of taxels of a difference: what is unchanged first, then a run, as far as both go. Within the run of an image that
-//! stands alone each taxel differs from the one before it.
+//! A stretch of taxels of a difference: what is unchanged first, then a run, as far as both go. Within the
+//! run of an image that stands alone each taxel differs from the one before it.
 //!
-//! A taxel that has changed takes a Cortex-M0+ 16 cycles here, an unchanged one before a run 7, within one 19, counted in its
-//! instructions: each place has its own code, and the few registers hold all it needs.
+//! A taxel that has changed takes a Cortex-M0+ 16 cycles here, an unchanged one before a run 7, within one
+//! 19, counted in its instructions: each place has its own code, and the few registers hold all it needs.
 
 use core::hint::cold_path;
 
@@ -30,8 +30,8 @@ impl Told {
         (self.taxels & 0xffff) as usize
     }
 
-    /// First taxel that is not told: the first of two unchanged ones, or one whose difference needs three bytes, or the one behind
-    /// the stretch.
+    /// First taxel that is not told: the first of two unchanged ones, or one whose difference needs three
+    /// bytes, or the one behind the stretch.
     #[inline(always)]
     pub fn next(&self) -> usize {
         (self.taxels << 1 >> 17) as usize
@@ -60,8 +60,8 @@ pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) ->
     tell(out, now, base)
 }
 
-/// As [`tell`] within a run, which goes on with the first taxel. `ALONE`: each differs from the one before it, `base` begins with that of
-/// the first, and a taxel need not be told if it is 0.
+/// As [`tell`] within a run, which goes on with the first taxel. `ALONE`: each differs from the one before
+/// it, `base` begins with that of the first, and a taxel need not be told if it is 0.
 #[inline(never)]
 fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
     let state = State { out, within: true, quiet: 0 };

@@ -1,5 +1,6 @@
-//! Writes messages as postcard does, a number at a time and without a buffer in between: what the crate `postcard` (1.1) does with
-//! a slice costs an M0+ a call of `memcpy` for each number. The test below compares the two.
+//! Writes messages as postcard does, a number at a time and without a buffer in between: what the crate
+//! `postcard` (1.1) does with a slice costs an M0+ a call of `memcpy` for each number. The test below
+//! compares the two.
 //!
 //! The place that is left goes from number to number by value, so that it stays in registers.
 

@@ -76,7 +76,8 @@ impl Rig {
     }
 }
 
-/// Uniform noise of up to two counts, over and over: a prime number of values, so that no taxel sees a short period.
+/// Uniform noise of up to two counts, over and over: a prime number of values, so that no taxel sees a short
+/// period.
 fn small_noise() -> impl FnMut() -> f64 {
     let mut random = Random(7);
     let values: Vec<f64> = (0..65_521).map(|_| random.unit() * 4.0 - 2.0).collect();
@@ -92,8 +93,8 @@ fn held(taxel: usize) -> bool {
     (6..10).contains(&(taxel / 16)) && (6..10).contains(&(taxel % 16))
 }
 
-/// Holds 16 taxels at 1,000 counts for `frames` under a drift of so many counts per frame (which some taxels do not make), then
-/// lets go; the largest error of the pressure.
+/// Holds 16 taxels at 1,000 counts for `frames` under a drift of so many counts per frame (which some taxels
+/// do not make), then lets go; the largest error of the pressure.
 fn hold(frames: u32, drift: f64, moves: impl Fn(usize) -> bool) -> f64 {
     let mut rig = Rig::new(&Garment::recorded(16, 16), &Scene::shipped());
     let mut noise = small_noise();

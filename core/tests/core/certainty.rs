@@ -6,7 +6,8 @@ use taxel_core::gesture::GestureConfig;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
 
-/// Of one touch of a finger, held for 3 s: of each gesture that is told, whether the touch is over, and the confidence.
+/// Of one touch of a finger, held for 3 s: of each gesture that is told, whether the touch is over, and the
+/// confidence.
 fn touch(bench: &mut Bench) -> Vec<(bool, Q15)> {
     let (mut before, mut told) = (None, Vec::new());
     for scan in 0..900 {

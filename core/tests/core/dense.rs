@@ -1,4 +1,5 @@
-//! Conditioning by its definition: every taxel of every frame, nothing left out and nothing carried from image to image.
+//! Conditioning by its definition: every taxel of every frame, nothing left out and nothing carried from
+//! image to image.
 
 #![allow(dead_code)]
 
@@ -18,7 +19,8 @@ pub struct Dense {
     due: u64,
     /// The points of the frame before: taxels that stood out of their neighbours, and what they had.
     points: Vec<(usize, u16)>,
-    /// What each panel drifted in the half of a turn before and drifts in this one, and where its witnesses would be, had they drifted as it has.
+    /// What each panel drifted in the half of a turn before and drifts in this one, and where its witnesses
+    /// would be, had they drifted as it has.
     common: Vec<([i32; 2], Option<Vec<i32>>)>,
     /// Halves of a turn for which each panel is still taken to drift fast.
     lately: Vec<u8>,
@@ -101,7 +103,8 @@ impl Dense {
         self.common[panel].0.iter().sum()
     }
 
-    /// Every row once in 0.7 s, or in 0.35 s while a panel drifts fast, and before either half of a panel's rows its witnesses.
+    /// Every row once in 0.7 s, or in 0.35 s while a panel drifts fast, and before either half of a panel's
+    /// rows its witnesses.
     fn follow(&mut self, layout: &Layout, sampled: &Sampled<'_>, held: &[Pressed], shown: &[u16]) {
         let slots: u16 = layout.areas().iter().map(|area| area.rows + 2).sum();
         while self.due <= sampled.now.0 {
@@ -152,8 +155,9 @@ impl Dense {
         }
     }
 
-    /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what is known, the
-    /// same way and by a quarter of their median at least, the panel moves by that; if only most of them are, by one, where a turn begins.
+    /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what
+    /// is known, the same way and by a quarter of their median at least, the panel moves by that; if only
+    /// most of them are, by one, where a turn begins.
     fn vote(
         &mut self,
         panel: usize,

@@ -1,6 +1,7 @@
 //! The bytes of every message, frozen: a changed byte is a changed wire.
 //!
-//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new variant adds a line; no line changes.
+//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new variant adds a line; no
+//! line changes.
 
 use heapless::Vec;
 use std::fmt::Write;

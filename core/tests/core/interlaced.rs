@@ -159,8 +159,9 @@ fn progressive(circuit: &Circuit) -> Option<Vec<Code>> {
 const PANEL: (usize, usize) = (32, 16);
 const ADDRESS_US: f64 = 10.0;
 
-/// Where a round touch seems to be, and how broad, that moves along the columns by `speed` taxels a frame; it is at `at` in the middle
-/// of the frame. `time`: when a taxel of the first panel is read, us from the start of the frame.
+/// Where a round touch seems to be, and how broad, that moves along the columns by `speed` taxels a frame; it
+/// is at `at` in the middle of the frame. `time`: when a taxel of the first panel is read, us from the start
+/// of the frame.
 fn seen(time: &[f64], at: (f64, f64), speed: f64) -> (f64, f64) {
     let (mut mass, mut first, mut second) = (0.0, 0.0, 0.0);
     for (taxel, time) in time.iter().enumerate() {
@@ -173,7 +174,8 @@ fn seen(time: &[f64], at: (f64, f64), speed: f64) -> (f64, f64) {
     (first / mass, second / mass - (first / mass).powi(2))
 }
 
-/// The skew between neighbours, as docs/reflex.md has it: `cargo test -p taxel-core --test core -- skew --nocapture`.
+/// The skew between neighbours, as docs/reflex.md has it:
+/// `cargo test -p taxel-core --test core -- skew --nocapture`.
 #[test]
 fn skew_of_a_moving_touch() {
     let (_, circuit) = built(&Garment::reference());
@@ -207,7 +209,8 @@ fn skew_of_a_moving_touch() {
         largest.push((speed, row_by_row, fields));
     }
     for (speed, row_by_row, fields) in largest {
-        // Row by row a touch at an edge is read half a frame early or late; interlaced all of it around the middle.
+        // Row by row a touch at an edge is read half a frame early or late; interlaced all of it around the
+        // middle.
         assert!(row_by_row.0 > 0.3 * speed);
         assert!(fields.0 < 0.16 * speed, "{speed}: {fields:?}");
         assert!(fields.1 < 0.15 * speed, "{speed}: {fields:?}");
@@ -217,8 +220,8 @@ fn skew_of_a_moving_touch() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Whatever the garment: every taxel once, in a frame that is the progressive one where there is one; and every footprint within a block
-    /// of the lowest input is met in every sub-field.
+    /// Whatever the garment: every taxel once, in a frame that is the progressive one where there is one; and
+    /// every footprint within a block of the lowest input is met in every sub-field.
     #[test]
     fn a_still_scene_is_the_same_in_both_orders(garment in garments()) {
         let (layout, circuit) = built(&garment);
@@ -243,7 +246,8 @@ proptest! {
         }
     }
 
-    /// A frame that is put together while another is read is never put where that one is, and every frame is lent or counted.
+    /// A frame that is put together while another is read is never put where that one is, and every frame is
+    /// lent or counted.
     #[test]
     fn three_places_are_enough_where_codes_are_copied(reads in proptest::collection::vec(any::<bool>(), 1..200)) {
         let mut ring = Ring::new(Micros(0));

@@ -1,4 +1,5 @@
-//! The core by itself: exact references, golden bytes, hard images, properties. `cargo test -p taxel-core` runs this alone.
+//! The core by itself: exact references, golden bytes, hard images, properties. `cargo test -p taxel-core`
+//! runs this alone.
 
 mod baseline;
 mod board;

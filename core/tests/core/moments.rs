@@ -1,5 +1,5 @@
-//! Moments, NMI and axes against the reference file `reference/moments.json` (25 digits), and on drawn touches. Their bounds are
-//! asserted by the test target `bounds`.
+//! Moments, NMI and axes against the reference file `reference/moments.json` (25 digits), and on drawn
+//! touches. Their bounds are asserted by the test target `bounds`.
 
 use serde_json::Value;
 use taxel_core::contact::{Axis, Moments, axis, breadth};
@@ -159,7 +159,8 @@ fn breadth_is_that_of_a_strip() {
     // A single taxel and a line are one pixel broad.
     assert_eq!(breadth(&drawn(|x, y| x == 3.0 && y == 63.0).0, [10_000, 10_000]), 100);
     assert_eq!(breadth(&drawn(|_, y| y == 63.0).0, [10_000, 7_000]), 70);
-    // A disc of diameter 40: the strip with its variance is sqrt(3) / 2 as broad, and the pixel is counted twice.
+    // A disc of diameter 40: the strip with its variance is sqrt(3) / 2 as broad, and the pixel is counted
+    // twice.
     let disc = drawn(|x, y| (x - 32.0).hypot(y - 32.0) < 20.0).0;
     let want = (12.0f64 * 20.0 * 20.0 / 4.0 + 1.0).sqrt() * 100.0;
     assert!((f64::from(breadth(&disc, [10_000, 10_000])) - want).abs() < 0.01 * want);

@@ -1,5 +1,6 @@
-//! Outputs that can be relied on: whatever is asked, whatever fails, whatever touches, no pin is at rest while its cause holds, and
-//! every begin and end is told. The judge is a board of its own: it knows what was done, when, and what was told.
+//! Outputs that can be relied on: whatever is asked, whatever fails, whatever touches, no pin is at rest
+//! while its cause holds, and every begin and end is told. The judge is a board of its own: it knows what was
+//! done, when, and what was told.
 
 use crate::board::{Bench, FINGER};
 use std::collections::BTreeMap;

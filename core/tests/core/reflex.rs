@@ -193,8 +193,9 @@ impl Random {
     }
 }
 
-/// Impulses of a hundredth of the taxels, of any height, each one frame long; and none again on a taxel or its neighbours within 8
-/// frames, nor within 5 x 5 taxels of another one of its frame, if they are `apart`. How many rows began in so many frames.
+/// Impulses of a hundredth of the taxels, of any height, each one frame long; and none again on a taxel or
+/// its neighbours within 8 frames, nor within 5 x 5 taxels of another one of its frame, if they are `apart`.
+/// How many rows began in so many frames.
 fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
     let mut rig = Rig::new(agree, false);
     let mut random = Random(9);

@@ -149,7 +149,8 @@ fn a_reader_in_time_gets_every_frame() {
 }
 
 proptest! {
-    /// A frame is lent as it was filled, newest first, whatever the reader does; every frame is lent or counted.
+    /// A frame is lent as it was filled, newest first, whatever the reader does; every frame is lent or
+    /// counted.
     #[test]
     fn nothing_is_overwritten_while_it_is_read(reads in proptest::collection::vec(any::<bool>(), 1..200)) {
         let mut ring = Ring::new(Micros(0));

@@ -1,4 +1,5 @@
-//! What a host is told of reactions when it comes late or reads slowly, and what its silence means to the board.
+//! What a host is told of reactions when it comes late or reads slowly, and what its silence means to the
+//! board.
 
 use crate::board::{Bench, FINGER};
 use taxel_core::format::{Micros, Q15, name};

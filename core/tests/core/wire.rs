@@ -270,7 +270,8 @@ fn a_wrong_image_is_refused_with_its_byte() {
     }
 }
 
-/// Five contacts of 30 to 50 taxels on four panels of 32 x 16, with noise of 3 counts; they move `speed` taxels a frame.
+/// Five contacts of 30 to 50 taxels on four panels of 32 x 16, with noise of 3 counts; they move `speed`
+/// taxels a frame.
 fn scene(frame: u32, speed: f64) -> Vec<u16> {
     let blobs = [
         (0, 8.0, 7.0, 4.4),
@@ -299,7 +300,8 @@ fn scene(frame: u32, speed: f64) -> Vec<u16> {
     image
 }
 
-/// Bytes of the scene alone, and of its differences (mean of 8 frames): the table of the wire's cost. Raw: 4096.
+/// Bytes of the scene alone, and of its differences (mean of 8 frames): the table of the wire's cost. Raw:
+/// 4096.
 #[test]
 fn sizes() {
     let mut table = Vec::new();

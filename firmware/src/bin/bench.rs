@@ -1,6 +1,6 @@
-//! The image that measures (`cargo xtask cycles`): the board's perception without pins and link, driven through a mailbox in
-//! memory. The harness waits until `command` is [`READY`], puts bytes or codes into the mailbox and a command behind them, and
-//! reads what the board said.
+//! The image that measures (`cargo xtask cycles`): the board's perception without pins and link, driven
+//! through a mailbox in memory. The harness waits until `command` is [`READY`], puts bytes or codes into the
+//! mailbox and a command behind them, and reads what the board said.
 #![no_std]
 #![no_main]
 #![deny(unsafe_code)]
@@ -20,7 +20,8 @@ use taxel_suite::chain::{Chain, Said, TAXELS};
 use taxel_suite::kernel::{Bench, Kernel};
 use {defmt_rtt as _, embassy_rp as _};
 
-/// What the harness and this image tell each other; the order of the fields is a part of tests/emulator/bench.mjs.
+/// What the harness and this image tell each other; the order of the fields is a part of
+/// tests/emulator/bench.mjs.
 #[repr(C)]
 struct Mailbox {
     command: AtomicU32,
@@ -66,7 +67,8 @@ impl Probe for Marks {
 
 #[entry]
 fn main() -> ! {
-    // Made where it stays: the stack has no room for a second one. The harness counts the stack below this frame.
+    // Made where it stays: the stack has no room for a second one. The harness counts the stack below this
+    // frame.
     let chain = &mut Chain::bare();
     ship(chain);
     let bench = &mut Bench::default();

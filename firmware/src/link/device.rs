@@ -1,5 +1,5 @@
-//! The board as a USB device: a serial port (CDC-ACM). Its tasks run at the priority of an interrupt, the lowest one, and
-//! interrupt nothing but perception.
+//! The board as a USB device: a serial port (CDC-ACM). Its tasks run at the priority of an interrupt, the
+//! lowest one, and interrupt nothing but perception.
 
 use super::usb::{OPENED, PACKETS, RECEIVED, SENT};
 use core::sync::atomic::Ordering;
@@ -11,8 +11,8 @@ use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, Sender,
 use embassy_usb::{Builder, Config};
 use static_cell::{ConstStaticCell, StaticCell};
 
-/// Vendor and product by which a host knows the board: from the range of <https://pid.codes> that is for tests, so the
-/// product's name counts, too. Whoever sells boards takes numbers of their own.
+/// Vendor and product by which a host knows the board: from the range of <https://pid.codes> that is for
+/// tests, so the product's name counts, too. Whoever sells boards takes numbers of their own.
 const ID: (u16, u16) = (0x1209, 0x0001);
 /// The product's name.
 const PRODUCT: &str = "taxel";

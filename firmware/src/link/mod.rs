@@ -1,5 +1,5 @@
-//! The links to the host. The board talks, and listens, over USB while a program there has opened its port and reads, else over the
-//! UART; both carry the same bytes.
+//! The links to the host. The board talks, and listens, over USB while a program there has opened its port
+//! and reads, else over the UART; both carry the same bytes.
 //!
 //! | file | what |
 //! |---|---|
@@ -60,7 +60,8 @@ impl Wire {
 impl Link for Wire {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
         self.choose();
-        // What comes over the UART meanwhile is taken from its ring, too, and heard by nobody: later it would be out of date.
+        // What comes over the UART meanwhile is taken from its ring, too, and heard by nobody: later it would
+        // be out of date.
         let count = self.uart.try_read(buffer);
         if self.over_usb { self.usb.try_read(buffer) } else { count }
     }

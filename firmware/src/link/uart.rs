@@ -1,5 +1,5 @@
-//! A UART behind two rings. Interrupts move the bytes, so nothing here ever waits, and a scan that keeps the processor for
-//! several milliseconds loses none.
+//! A UART behind two rings. Interrupts move the bytes, so nothing here ever waits, and a scan that keeps the
+//! processor for several milliseconds loses none.
 
 use core::task::Poll;
 use embassy_futures::poll_once;

@@ -1,5 +1,5 @@
-//! The port that the board is for a host on USB: two rings, which tasks of a higher priority fill and empty, so that
-//! perception does not hold up the bus.
+//! The port that the board is for a host on USB: two rings, which tasks of a higher priority fill and empty,
+//! so that perception does not hold up the bus.
 
 use super::device;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -66,7 +66,8 @@ impl Usb {
         Usb { packets: 0, moved: Instant::now() }
     }
 
-    /// Whether a program has opened the port, and reads from it: one that does not must not keep the other link silent.
+    /// Whether a program has opened the port, and reads from it: one that does not must not keep the other
+    /// link silent.
     pub fn is_read(&mut self) -> bool {
         let (open, packets) = (OPENED.get(), PACKETS.load(Ordering::Relaxed));
         let was_read = self.moved.elapsed().as_millis() < PATIENCE_MS;

@@ -1,8 +1,8 @@
-//! Where the codes end up. The chain raises an interrupt where it begins a frame: the one before is complete then, and the
-//! place of the one after is chosen, so that the chain never meets a frame that is being read.
+//! Where the codes end up. The chain raises an interrupt where it begins a frame: the one before is complete
+//! then, and the place of the one after is chosen, so that the chain never meets a frame that is being read.
 //!
-//! An interlaced scan raises it where it begins a sub-field. Its codes lie in the order of the scan then; the interrupt checks
-//! them and copies them into their places of a frame.
+//! An interlaced scan raises it where it begins a sub-field. Its codes lie in the order of the scan then; the
+//! interrupt checks them and copies them into their places of a frame.
 
 use super::{reflex, select::Select, tables};
 use crate::{adc, platform::Timer};
@@ -46,7 +46,8 @@ impl Beat {
         true
     }
 
-    /// A sub-field is complete, and with the last one a frame; whether it is, and the flag that of the one after it.
+    /// A sub-field is complete, and with the last one a frame; whether it is, and the flag that of the one
+    /// after it.
     fn field(&mut self, begun: u32, now: Micros) -> bool {
         let next = if self.field + 1 < self.fields { self.field + 1 } else { 0 };
         if begun != tables::flag_of(next) {
@@ -54,8 +55,9 @@ impl Beat {
         }
         let places = FRAMES_AT.load(Ordering::Relaxed).cast::<Frame>();
         #[allow(unsafe_code)]
-        // SAFETY: two places of a static, which was taken before the chain began. The chain stores in the last one alone, and
-        // comes back to this sub-field after all others. The ring keeps the place that is being filled from being lent.
+        // SAFETY: two places of a static, which was taken before the chain began. The chain stores in the
+        // last one alone, and comes back to this sub-field after all others. The ring keeps the place that is
+        // being filled from being lent.
         let (codes, frame) = unsafe {
             let filling = usize::from(self.ring.filling()).min(TURN_PLACES - 1);
             (&*places.wrapping_add(TURN_PLACES), &mut *places.wrapping_add(filling))
@@ -114,7 +116,8 @@ impl Frames {
         self.0 as u32 + offset as u32
     }
 
-    /// Where a code goes by the order of an interlaced scan, until its sub-field is complete: in the place that no frame needs then.
+    /// Where a code goes by the order of an interlaced scan, until its sub-field is complete: in the place
+    /// that no frame needs then.
     pub fn scanned(&self, index: usize) -> u32 {
         self.address(TURN_PLACES, index as u16)
     }
@@ -130,8 +133,8 @@ impl Frames {
         (0..PLACES).for_each(|place| codes.copy_within(from..from + crate::TAXELS, place * crate::TAXELS));
     }
 
-    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles. `fields`: its sub-fields, 0 where it
-    /// is not interlaced.
+    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles. `fields`: its
+    /// sub-fields, 0 where it is not interlaced.
     pub fn begin(&self, fields: usize) {
         while Select::take_flags() == 0 {}
         BEAT.lock(|beat| *beat.borrow_mut() = Beat::new(Timer.now(), fields));
@@ -146,8 +149,8 @@ impl Frames {
         };
     }
 
-    /// Waits for a frame that was not lent yet; of more `scans` than one, the sum. It stays as it is until this is called
-    /// again.
+    /// Waits for a frame that was not lent yet; of more `scans` than one, the sum. It stays as it is until
+    /// this is called again.
     pub async fn next(&mut self, scans: u16) -> Result<(&mut Frame, Lent), ScanError> {
         let mut lent = complete(Ring::lend).await?;
         for _ in 1..scans {
@@ -161,8 +164,8 @@ impl Frames {
             lent.duration_us = (shown.start.since(lent.start) as u32).saturating_add(shown.duration_us);
         }
         #[allow(unsafe_code)]
-        // SAFETY: the ring keeps the chain away from a lent place, and whoever holds the reference keeps the next one from
-        // being lent.
+        // SAFETY: the ring keeps the chain away from a lent place, and whoever holds the reference keeps the
+        // next one from being lent.
         let frame = unsafe { &mut *self.frame(lent) };
         Ok((frame, lent))
     }
@@ -170,8 +173,9 @@ impl Frames {
     /// Adds the codes of a frame that is shown to the one that is lent.
     fn add(&mut self, lent: Lent, shown: Lent) {
         #[allow(unsafe_code)]
-        // SAFETY: a frame that is shown lies in another place than the one that is lent, and the chain comes to it a whole
-        // frame later at the earliest; should it have come to it nevertheless, the sum is thrown away.
+        // SAFETY: a frame that is shown lies in another place than the one that is lent, and the chain comes
+        // to it a whole frame later at the earliest; should it have come to it nevertheless, the sum is
+        // thrown away.
         let (sums, codes) = unsafe { (&mut *self.frame(lent), &*self.frame(shown)) };
         sums.iter_mut().zip(codes).for_each(|(sum, code)| sum.0 = sum.0.wrapping_add(code.0));
     }

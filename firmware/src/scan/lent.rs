@@ -1,5 +1,5 @@
-//! Marks frames for the emulator: it watches one word of memory, and compares the frame that it names with what the garment
-//! showed. On a board this is a store.
+//! Marks frames for the emulator: it watches one word of memory, and compares the frame that it names with
+//! what the garment showed. On a board this is a store.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 use taxel_core::format::Code;

@@ -1,5 +1,5 @@
-//! Reading the garment on the RP2040: by DMA and PIO, at the converter's own speed and without the processor, wherever the
-//! garment's wiring allows that; else by the processor.
+//! Reading the garment on the RP2040: by DMA and PIO, at the converter's own speed and without the processor,
+//! wherever the garment's wiring allows that; else by the processor.
 //!
 //! | file | what |
 //! |---|---|
@@ -10,15 +10,17 @@
 //! | `reflex.rs` | the check of a sub-field, and the pins that it asserts |
 //! | `lent.rs` | tells the emulator which frame is read |
 //!
-//! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then the next
-//! levels go out, and while the select lines settle the converter measures its own temperature. The inputs and the
-//! thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12 ms. Lines that settle slowly are
-//! converted in vain for some rounds, as [`Rounds`](taxel_core::acquire::Rounds) says.
+//! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then
+//! the next levels go out, and while the select lines settle the converter measures its own temperature. The
+//! inputs and the thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12
+//! ms. Lines that settle slowly are converted in vain for some rounds, as
+//! [`Rounds`](taxel_core::acquire::Rounds) says.
 //!
-//! Codes of 8 bits come the same way, and are shortened when the frame is lent. To store bytes instead would not give a frame more:
-//! a conversion takes 96 clocks whatever is kept of it (RP2040 datasheet, 4.9.2). It would save 8 KB of the ring, and either
-//! cost as much to widen the 2,048 bytes of each frame as shortening the codes does (some 18,000 cycles), or everything that reads
-//! codes would have to exist twice: conditioning, tare, health, raw frames.
+//! Codes of 8 bits come the same way, and are shortened when the frame is lent. To store bytes instead would
+//! not give a frame more: a conversion takes 96 clocks whatever is kept of it (RP2040 datasheet, 4.9.2). It
+//! would save 8 KB of the ring, and either cost as much to widen the 2,048 bytes of each frame as shortening
+//! the codes does (some 18,000 cycles), or everything that reads codes would have to exist twice:
+//! conditioning, tare, health, raw frames.
 
 mod chain;
 mod frames;
@@ -110,8 +112,8 @@ impl Scanner {
         self.patience_us = longest_frame_us(circuit, plan) + SPARE_US;
     }
 
-    /// The latest frame of the chain that was not read yet. In every fourth one, at another time of each, the select lines are
-    /// looked at.
+    /// The latest frame of the chain that was not read yet. In every fourth one, at another time of each, the
+    /// select lines are looked at.
     async fn next(&mut self) -> Result<Scan<'_>, ScanError> {
         let depth = self.plan.depth;
         self.looks = self.looks.wrapping_add(1);

@@ -1,4 +1,5 @@
-//! The reflex: the interrupt at the end of a sub-field checks its codes and asserts pins; the loop tells what is watched.
+//! The reflex: the interrupt at the end of a sub-field checks its codes and asserts pins; the loop tells what
+//! is watched.
 
 use core::cell::RefCell;
 use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};

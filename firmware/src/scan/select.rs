@@ -1,5 +1,5 @@
-//! The PIO program that puts levels on the select lines: a word from the chain is put on the pins, and answered where its
-//! flag says that a stretch begins.
+//! The PIO program that puts levels on the select lines: a word from the chain is put on the pins, and
+//! answered where its flag says that a stretch begins.
 
 use embassy_rp::pio::program::{InstructionOperands, JmpCondition, OutDestination};
 use rp_pac::{IO_BANK0, PIO0, SIO, io::vals::Oeover};
@@ -10,8 +10,8 @@ const MACHINE: usize = 0;
 const FUNCTION_PIO0: u8 = 6;
 const FUNCTION_SIO: u8 = 5;
 
-/// The select lines, on the pins between the lowest and the highest select line. PIO drives a row of pins, but only those of them that are
-/// given to it: the pins between the lines keep what they do.
+/// The select lines, on the pins between the lowest and the highest select line. PIO drives a row of pins,
+/// but only those of them that are given to it: the pins between the lines keep what they do.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Select {
     lines: u32,

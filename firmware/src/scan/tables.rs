@@ -1,5 +1,6 @@
-//! What the chain reads and writes besides codes. The words are atomic because DMA reads and changes them; the chain stands
-//! still while they are filled, but for the one that says where the frame after the present one goes.
+//! What the chain reads and writes besides codes. The words are atomic because DMA reads and changes them;
+//! the chain stands still while they are filled, but for the one that says where the frame after the present
+//! one goes.
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
@@ -11,8 +12,8 @@ const SPARE: usize = 256;
 
 /// Registers that are written at the start of each stretch, by [`Targets`], and the zero that ends the list.
 pub const TARGETS: usize = 8;
-/// What is written there, in the same order: the destinations of the codes, the word after the present one, where the next
-/// values are, the flag of a new frame.
+/// What is written there, in the same order: the destinations of the codes, the word after the present one,
+/// where the next values are, the flag of a new frame.
 const VALUES: usize = TARGETS - 1;
 const WORD: usize = SWEEP_INPUTS;
 const NEXT: usize = SWEEP_INPUTS + 1;
@@ -98,8 +99,8 @@ impl Registers {
     }
 }
 
-/// What is written at the start of the stretch whose first address is `first`: where the codes of each input (GPIO number) go,
-/// the values of the stretch after it, and its flag.
+/// What is written at the start of the stretch whose first address is `first`: where the codes of each input
+/// (GPIO number) go, the values of the stretch after it, and its flag.
 fn set(
     values: &Values,
     first: usize,
@@ -140,8 +141,8 @@ pub fn fill(
     begin();
 }
 
-/// Fills the tables for sub-fields, whose words are set. `code` is where a code goes by the order of the scan. The flag of each
-/// sub-field is that of its number, of four.
+/// Fills the tables for sub-fields, whose words are set. `code` is where a code goes by the order of the
+/// scan. The flag of each sub-field is that of its number, of four.
 pub fn fill_fields(fields: &Fields, code: impl Fn(usize) -> u32, registers: Registers) {
     registers.set();
     end_words(fields.before(fields.count()));

@@ -144,7 +144,8 @@ fn parse(head: &[u8]) -> Result<NpyHeader> {
     NpyHeader::from_reader(head).context("has a header that is not one of a NumPy array")
 }
 
-/// npyz multiplies the dimensions without a check and follows brackets without a limit; no real header tries it.
+/// npyz multiplies the dimensions without a check and follows brackets without a limit; no real header tries
+/// it.
 fn is_tame(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
     let brackets = text.matches(['(', '[', '{']).count();

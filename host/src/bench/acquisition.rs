@@ -1,11 +1,12 @@
 //! `taxel bench acquisition`: frames a second against the error of a taxel.
 //!
-//! A simulated scan of the reference garment (512 addresses, four converter inputs) of a texture whose taxels signal anything
-//! between 200 and 3,800 counts, so that neighbours in time differ by up to 3,600 and no noise is cut at the ends of the scale.
-//! What is modelled: the chain that reads the garment ([`Rounds`]); the line of each input, a capacitance that the source charges
-//! from what the taxel before left on it; the converter's four wide codes, its noise and its rounding; what the scene's depth
-//! keeps. Not modelled: the processor, so that the rates are those of wiring and converter alone, and the charge that the
-//! converter's 1 pF takes from a line when the inputs change, whose sampling window no data sheet gives.
+//! A simulated scan of the reference garment (512 addresses, four converter inputs) of a texture whose taxels
+//! signal anything between 200 and 3,800 counts, so that neighbours in time differ by up to 3,600 and no
+//! noise is cut at the ends of the scale. What is modelled: the chain that reads the garment ([`Rounds`]);
+//! the line of each input, a capacitance that the source charges from what the taxel before left on it; the
+//! converter's four wide codes, its noise and its rounding; what the scene's depth keeps. Not modelled: the
+//! processor, so that the rates are those of wiring and converter alone, and the charge that the converter's
+//! 1 pF takes from a line when the inputs change, whose sampling window no data sheet gives.
 
 mod order;
 
@@ -18,9 +19,9 @@ use std::fmt::Write;
 use taxel_core::acquire::{CONVERSION_NS, Depth, Rounds};
 use taxel_core::garment::Garment;
 
-/// Capacitance of a line between multiplexer and converter, pF: the common pin of one 74HC4067 (45 by its data sheet), 25 cm
-/// of cable at 100 pF/m, a pin of the RP2040 (5) and its sampling capacitor (1), rounded up. Every further multiplexer on
-/// the same line adds its own 45 pF, whether enabled or not.
+/// Capacitance of a line between multiplexer and converter, pF: the common pin of one 74HC4067 (45 by its
+/// data sheet), 25 cm of cable at 100 pF/m, a pin of the RP2040 (5) and its sampling capacitor (1), rounded
+/// up. Every further multiplexer on the same line adds its own 45 pF, whether enabled or not.
 pub const LINE_PF: f64 = 80.0;
 /// Settling times that a garment asks for, ns.
 const SETTLING: [u32; 7] = [2_000, 4_000, 8_000, 14_000, 20_000, 34_000, 64_000];
@@ -35,8 +36,8 @@ const INPUTS: usize = 4;
 /// A delay in whole microseconds may end this much early.
 const EARLY_NS: u32 = 1_000;
 
-/// The garments that come with the program: the largest source resistance (kOhm, with [`LINE_PF`]) that their shipped settling
-/// allows.
+/// The garments that come with the program: the largest source resistance (kOhm, with [`LINE_PF`]) that their
+/// shipped settling allows.
 pub const SHIPPED: [(&str, f64); 3] = [("reference", 3.0), ("mat-64x32", 3.0), ("block-4x16", 10.0)];
 
 /// How one row is acquired.
@@ -74,14 +75,14 @@ struct Outcome {
     largest: f64,
 }
 
-/// What a full-scale step leaves of itself after that time on a line of that time constant (kOhm times pF), counts: the
-/// largest error that settling alone can make.
+/// What a full-scale step leaves of itself after that time on a line of that time constant (kOhm times pF),
+/// counts: the largest error that settling alone can make.
 pub fn residue(settle_ns: u64, tau_ns: f64) -> f64 {
     f64::from(FULL_SCALE) * (-(settle_ns as f64) / tau_ns).exp()
 }
 
-/// The settling that every board is sure to give a garment that asks for so much: the reference board's chain counts whole
-/// conversions, a loop's delay may end early; the lesser of the two.
+/// The settling that every board is sure to give a garment that asks for so much: the reference board's chain
+/// counts whole conversions, a loop's delay may end early; the lesser of the two.
 pub fn sure_ns(asked_ns: u32) -> u64 {
     let counted = (asked_ns / CONVERSION_NS).max(1) * CONVERSION_NS;
     counted.min(asked_ns.saturating_sub(EARLY_NS)).into()

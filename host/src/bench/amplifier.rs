@@ -1,14 +1,16 @@
 //! `taxel bench amplifier`: how quick the amplifier must be that keeps the multiplexers' commons still.
 //!
-//! A transimpedance amplifier holds the summing point of a panel's eight multiplexers at one voltage and turns the taxel's current
-//! into the converter's. Its feedback alone would settle with R C; the amplifier itself has to charge the summing point's
-//! capacitance through that feedback, and is the slower, the less bandwidth it has. With one pole the whole is of second order:
+//! A transimpedance amplifier holds the summing point of a panel's eight multiplexers at one voltage and
+//! turns the taxel's current into the converter's. Its feedback alone would settle with R C; the amplifier
+//! itself has to charge the summing point's capacitance through that feedback, and is the slower, the less
+//! bandwidth it has. With one pole the whole is of second order:
 //!
 //! `V(s) / I(s) = -R / (1 + s (R C + (1 + R / Rs) / w) + s^2 R (Cs + C) / w)`
 //!
-//! for a gain-bandwidth product of `w` rad/s, a taxel of `Rs`, and `Cs` from the summing point to ground. Its step response is exact
-//! here. Not modelled: the amplifier's slew rate, its second pole (with a noise gain of 1 + Cs / C = 22 it lies far above the loop's
-//! crossover), and the on-resistance of a multiplexer, by which ngspice differs by 2 % at most.
+//! for a gain-bandwidth product of `w` rad/s, a taxel of `Rs`, and `Cs` from the summing point to ground. Its
+//! step response is exact here. Not modelled: the amplifier's slew rate, its second pole (with a noise gain
+//! of 1 + Cs / C = 22 it lies far above the loop's crossover), and the on-resistance of a multiplexer, by
+//! which ngspice differs by 2 % at most.
 
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};
@@ -19,8 +21,8 @@ use std::fmt::Write;
 
 /// Feedback: 10 kOhm and 22 pF, whose time constant is 0.22 us.
 const FEEDBACK: (f64, f64) = (10e3, 22e-12);
-/// From the summing point to ground, farad: eight commons of 45 pF, 31 pF of cable and pin, and the 80 pF of the cloth's column and
-/// its cable.
+/// From the summing point to ground, farad: eight commons of 45 pF, 31 pF of cable and pin, and the 80 pF of
+/// the cloth's column and its cable.
 const INPUT_F: f64 = 471e-12;
 /// Gain-bandwidth products of the table, MHz. 1 is an LM358's, 10 an MCP6022's, 50 an OPA365's.
 const BANDWIDTHS: [f64; 10] = [1.0, 3.0, 10.0, 20.0, 30.0, 35.0, 40.0, 50.0, 70.0, 100.0];
@@ -181,8 +183,8 @@ fn chart() -> Chart {
 mod tests {
     use super::*;
 
-    /// What ngspice 39 finds for the whole circuit (a step of 0.96 V by a taxel of 3 kOhm, a multiplexer of 120 ohm between 80 and
-    /// 391 pF, an output of 50 ohm): MHz, us until half a count is left.
+    /// What ngspice 39 finds for the whole circuit (a step of 0.96 V by a taxel of 3 kOhm, a multiplexer of
+    /// 120 ohm between 80 and 391 pF, an output of 50 ohm): MHz, us until half a count is left.
     const NGSPICE: [(f64, f64); 7] =
         [(1.0, 13.75), (3.0, 9.23), (10.0, 4.30), (20.0, 2.12), (30.0, 1.75), (50.0, 0.93), (100.0, 1.49)];
 
@@ -211,7 +213,8 @@ mod tests {
         }
     }
 
-    /// 195 frames a second ask for 2 us: 35 MHz keep within them, 20 do not, and a part of 50 has a margin of 30 %.
+    /// 195 frames a second ask for 2 us: 35 MHz keep within them, 20 do not, and a part of 50 has a margin of
+    /// 30 %.
     #[test]
     fn what_195_frames_a_second_need() {
         let worst = |mhz: f64| {

@@ -52,7 +52,8 @@ pub struct Chart {
     pub x: Axis,
     /// The axis upwards.
     pub y: Axis,
-    /// Whether the points of the front carry their names: what stands before the first colon of what a viewer shows.
+    /// Whether the points of the front carry their names: what stands before the first colon of what a viewer
+    /// shows.
     pub named: bool,
     /// What is drawn.
     pub series: Vec<Series>,
@@ -73,8 +74,8 @@ impl Axis {
 }
 
 impl Chart {
-    /// The Pareto front of a series: the indices of the points that no other betters in one axis without being worse
-    /// in the other, from left to right.
+    /// The Pareto front of a series: the indices of the points that no other betters in one axis without
+    /// being worse in the other, from left to right.
     pub fn front(&self, series: &Series) -> Vec<usize> {
         let beaten = |a: &(f64, f64, String), b: &(f64, f64, String)| {
             let no_worse = !self.x.beats(a.0, b.0) && !self.y.beats(a.1, b.1);

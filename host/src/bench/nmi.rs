@@ -1,9 +1,9 @@
-//! `taxel bench nmi`: how far the normalised moment of inertia and its forms spread when the same touch is turned,
-//! scaled, shifted by parts of a taxel, or pressed harder.
+//! `taxel bench nmi`: how far the normalised moment of inertia and its forms spread when the same touch is
+//! turned, scaled, shifted by parts of a taxel, or pressed harder.
 //!
-//! Every touch is drawn exactly (the covered part of each taxel), rounded to 12-bit codes, and measured by the core's own
-//! contact and shape stages with their shipped settings. Only one thing varies at a time; the others stay at 17 degrees,
-//! scale 1, a centre that lies on no symmetry of the grid, and gain 0.5.
+//! Every touch is drawn exactly (the covered part of each taxel), rounded to 12-bit codes, and measured by
+//! the core's own contact and shape stages with their shipped settings. Only one thing varies at a time; the
+//! others stay at 17 degrees, scale 1, a centre that lies on no symmetry of the grid, and gain 0.5.
 
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};

@@ -66,7 +66,8 @@ pub struct CalibrateArgs {
     /// Print the dialogue as JSON, one object per line
     #[arg(long)]
     pub json: bool,
-    /// Simulate a garment from this seed with 10 % gain spread, 3 % hysteresis and 2 % noise, and a user who loads it
+    /// Simulate a garment from this seed with 10 % gain spread, 3 % hysteresis and 2 % noise, and a user who
+    /// loads it
     #[arg(long, value_name = "SEED", conflicts_with = "source")]
     pub simulate: Option<u64>,
 }

@@ -24,7 +24,8 @@ impl Curve {
         Ok(Curve(knots))
     }
 
-    /// Means of counts and of uN on a taxel, in rising order of force. Where noise makes the counts fall, neighbours are put together.
+    /// Means of counts and of uN on a taxel, in rising order of force. Where noise makes the counts fall,
+    /// neighbours are put together.
     pub fn through(points: &[[f64; 2]]) -> Result<Curve> {
         // Means of x and y, and how many points they are of.
         let mut groups: Vec<[f64; 3]> = Vec::new();

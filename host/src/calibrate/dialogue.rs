@@ -20,8 +20,8 @@ const FIRST: f64 = 0.25;
 /// Part of what it showed under its first weight, below which it is taken off.
 const OFF: f64 = 0.4;
 
-/// Least time from one frame to the next that is looked at, s: a small garment's frames come so fast that a weight on its way seems
-/// to rest.
+/// Least time from one frame to the next that is looked at, s: a small garment's frames come so fast that a
+/// weight on its way seems to rest.
 const APART: f64 = 0.004;
 
 /// Somebody before a board, who is asked for weights.
@@ -56,8 +56,8 @@ impl<'a> Dialogue<'a> {
         Ok(Rest::of(&frames))
     }
 
-    /// All weights (N, ascending) on each of the plates, and off again. A plate over one taxel that does not feel the first is
-    /// passed over.
+    /// All weights (N, ascending) on each of the plates, and off again. A plate over one taxel that does not
+    /// feel the first is passed over.
     pub fn readings(&mut self, plates: &[Plate], weights: &[f64], rest: &Rest) -> Result<Vec<Reading>> {
         let mut readings: Vec<Reading> = Vec::new();
         // Counts of a newton on a taxel.

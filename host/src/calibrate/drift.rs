@@ -12,7 +12,8 @@ const ILL: f64 = 0.01;
 /// Least error of a known press that counts, part of it, and times the calibration's own error.
 const PRESS: (f64, f64) = (0.05, 3.0);
 
-/// Degrees by which the board may have become warmer or colder. Cloths differ in what that does to them: a known press tells more.
+/// Degrees by which the board may have become warmer or colder. Cloths differ in what that does to them: a
+/// known press tells more.
 const WARMTH: f64 = 10.0;
 
 /// What is found on the garment now.

@@ -71,7 +71,8 @@ pub fn fit(layout: &Layout, plates: &[Plate], readings: &[Reading]) -> Result<Fi
     })
 }
 
-/// Those that show nothing under the heaviest weight of their plate, though others do, and those of a plate that shows nothing.
+/// Those that show nothing under the heaviest weight of their plate, though others do, and those of a plate
+/// that shows nothing.
 fn silent(plates: &[Plate], readings: &[Reading]) -> Vec<u16> {
     let mut found = Vec::new();
     for (index, plate) in plates.iter().enumerate() {

@@ -31,7 +31,8 @@ impl Forces {
         Some(curve.micronewtons(u32::from(counts) * PARTS) as f64 / 1e6)
     }
 
-    /// Force on the taxels of a rectangle, N, of an image by taxel number (counts); none where the panel is not calibrated.
+    /// Force on the taxels of a rectangle, N, of an image by taxel number (counts); none where the panel is
+    /// not calibrated.
     pub fn within(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
         let curve = self.curves.get(usize::from(bounds.panel))?.as_ref()?;
         let mut sum = 0;
@@ -45,8 +46,8 @@ impl Forces {
         Some(sum as f64 / 1e6)
     }
 
-    /// Force of a contact within these bounds, N: what lies beside them counts, too, because it is part of it below the contact's
-    /// threshold.
+    /// Force of a contact within these bounds, N: what lies beside them counts, too, because it is part of it
+    /// below the contact's threshold.
     pub fn contact(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
         let area = layout.areas().get(usize::from(bounds.panel))?;
         let wider = Rect {

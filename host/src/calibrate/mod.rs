@@ -1,9 +1,10 @@
 //! Calibration: from counts to newtons, by known weights on a plate.
 //!
-//! The board is told a gain for each taxel, which makes the taxels of a panel alike ([`fit()`]); the panel's [`Curve`], from counts to
-//! newtons on a taxel, stays on the host, in a [`Calibration`] file beside who made it, when, how and how well it fits. The board
-//! names the file's id in each `Hello`, so that a stream says which is in force. What a plate weighs is spread evenly over the taxels
-//! that it covers; coming and going are measured alike, and the mean of both is what counts.
+//! The board is told a gain for each taxel, which makes the taxels of a panel alike ([`fit()`]); the panel's
+//! [`Curve`], from counts to newtons on a taxel, stays on the host, in a [`Calibration`] file beside who made
+//! it, when, how and how well it fits. The board names the file's id in each `Hello`, so that a stream says
+//! which is in force. What a plate weighs is spread evenly over the taxels that it covers; coming and going
+//! are measured alike, and the mean of both is what counts.
 
 mod check;
 mod command;

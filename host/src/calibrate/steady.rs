@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 /// Frames of a steady load.
 const FRAMES: usize = 32;
-/// Standard errors that two halves of them may differ by, and the part of the load that they may differ by where that is more.
+/// Standard errors that two halves of them may differ by, and the part of the load that they may differ by
+/// where that is more.
 const STILL: (f64, f64) = (3.0, 0.004);
 /// Standard errors by which a load differs from the one before.
 const MOVED: f64 = 6.0;
@@ -28,7 +29,8 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// A load that differs from `from` (mean over the plate, counts) by more than `least` counts, and by more than noise.
+    /// A load that differs from `from` (mean over the plate, counts) by more than `least` counts, and by more
+    /// than noise.
     pub fn away_from(from: f64, least: f64) -> Steady {
         Steady { frames: VecDeque::new(), from, least }
     }

@@ -17,7 +17,8 @@ impl Client {
         &self.counts
     }
 
-    /// The bytes of the last message as they came, its 0x00 included, when [`Client::push`] has just told of it.
+    /// The bytes of the last message as they came, its 0x00 included, when [`Client::push`] has just told of
+    /// it.
     pub fn line(&self) -> &[u8] {
         &self.line
     }
@@ -32,7 +33,8 @@ impl Client {
         self.worn.as_ref().map(|worn| &worn.layout)
     }
 
-    /// The last conditioned image by taxel number, with its frame's number; none before the first that stands alone.
+    /// The last conditioned image by taxel number, with its frame's number; none before the first that stands
+    /// alone.
     pub fn image(&self) -> Option<(u32, &[u16])> {
         self.picture.image()
     }
@@ -47,7 +49,8 @@ impl Client {
         &self.contacts
     }
 
-    /// How hard a contact seems that is there or has just gone, counts per cm2; none where its growth does not tell.
+    /// How hard a contact seems that is there or has just gone, counts per cm2; none where its growth does
+    /// not tell.
     pub fn hardness(&self, contact: u32) -> Option<u32> {
         self.growths.hardness(contact, self.layout()?)
     }
@@ -57,8 +60,8 @@ impl Client {
         self.unsure.contains(&contact)
     }
 
-    /// How many frames old the form of a contact is that was told last, 255 for at least so many; none where the board was
-    /// not asked for it.
+    /// How many frames old the form of a contact is that was told last, 255 for at least so many; none where
+    /// the board was not asked for it.
     pub fn form_age(&self, contact: u32) -> Option<u8> {
         let told = self.forms.as_ref().filter(|report| report.frame == self.contacts_of);
         let age = told.and_then(|report| report.ages.iter().find(|(id, _)| *id == contact));
@@ -92,8 +95,8 @@ impl Client {
         all
     }
 
-    /// Activation of each of the concepts at the last moment at which the announced intention led: what is drawn under its
-    /// name. A board announces an intention a moment longer than the touch activates it.
+    /// Activation of each of the concepts at the last moment at which the announced intention led: what is
+    /// drawn under its name. A board announces an intention a moment longer than the touch activates it.
     pub fn activations_of_leading(&self) -> Vec<Q15> {
         let mut all = self.led.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
         all.resize(self.concepts().len(), Q15(0));
@@ -140,7 +143,8 @@ impl Client {
         self.budget.as_ref()
     }
 
-    /// The temperature of the board's converter, as told last; none: it has no thermometer, or has not told yet.
+    /// The temperature of the board's converter, as told last; none: it has no thermometer, or has not told
+    /// yet.
     pub fn celsius(&self) -> Option<Celsius> {
         self.celsius
     }

@@ -93,7 +93,8 @@ impl Client {
         Ok(self.request(&Request::SetScene(&scene_bytes(scene)?))?)
     }
 
-    /// Asks for the raw codes of every frame where none come; whether it did. Nothing is known of the board: nothing is asked.
+    /// Asks for the raw codes of every frame where none come; whether it did. Nothing is known of the board:
+    /// nothing is asked.
     pub fn request_codes(&mut self) -> Result<bool, WireError> {
         let asks = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.raw_hz == 0);
         if asks {

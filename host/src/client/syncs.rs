@@ -62,15 +62,16 @@ impl Syncs {
 
 /// Time.
 impl Client {
-    /// Tells the host's time, microseconds since whatever epoch, never back: before [`Client::take_requests`], whose bytes
-    /// are then sent at once, and after each read of bytes, before they are pushed. The client then asks a streaming board
-    /// for its time, ten times in the first second, once a second later.
+    /// Tells the host's time, microseconds since whatever epoch, never back: before
+    /// [`Client::take_requests`], whose bytes are then sent at once, and after each read of bytes, before
+    /// they are pushed. The client then asks a streaming board for its time, ten times in the first second,
+    /// once a second later.
     pub fn tell_time(&mut self, host_us: u64) {
         self.syncs.now = Some(host_us);
     }
 
-    /// The host's time of a time of the board, and how far from it the truth can be; none until the board has answered,
-    /// and where nobody tells the time.
+    /// The host's time of a time of the board, and how far from it the truth can be; none until the board has
+    /// answered, and where nobody tells the time.
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
         self.syncs.clock.host_time(board)
     }

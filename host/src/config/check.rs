@@ -15,8 +15,8 @@ const TAXELS: usize = 2048;
 /// The board that ships.
 const BOARD: BoardInfo = BoardInfo::feather("");
 
-/// Checks a garment that comes with the program or a garment's file, and a scene's file; what it is, in a sentence. Errors
-/// name file, line and key.
+/// Checks a garment that comes with the program or a garment's file, and a scene's file; what it is, in a
+/// sentence. Errors name file, line and key.
 pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
     let read = garments::read(garment)?;
     let garments::Read { name, garment, .. } = &read;

@@ -4,7 +4,8 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use taxel_core::scene::Scene;
 
-/// As TOML: the map by its name, and without what TOML cannot say (all blocks, which is a mask of 64 bits; null).
+/// As TOML: the map by its name, and without what TOML cannot say (all blocks, which is a mask of 64 bits;
+/// null).
 pub(super) fn text() -> Result<String> {
     let mut scene = serde_json::to_value(Scene::shipped())?;
     scene["intent"]["map"] = json!("tactile");

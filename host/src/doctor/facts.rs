@@ -33,7 +33,8 @@ pub struct Facts {
     pub health: Option<[Health; 2]>,
     /// Taxels that are ill.
     pub ill: usize,
-    /// How far the host's time of a frame may be off, us; none: the board does not live in real time, or has not answered.
+    /// How far the host's time of a frame may be off, us; none: the board does not live in real time, or has
+    /// not answered.
     pub clock_us: Option<u64>,
     /// The answer to a self-test: none, passed, or why not.
     pub self_test: Option<Result<(), String>>,

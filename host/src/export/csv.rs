@@ -10,7 +10,8 @@
 //! | `volts` | at the converter; empty where no raw codes of the scan were recorded (`taxel record --raw`) |
 //! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel where the pitch is unknown, `counts` where nothing says what a newton shows |
 //!
-//! A row is put together of texts that are made once: what a taxel's rows begin with, each voltage, each pressure.
+//! A row is put together of texts that are made once: what a taxel's rows begin with, each voltage, each
+//! pressure.
 
 use super::frames::{self, Frame, Frames, Worn};
 use anyhow::Result;

@@ -76,8 +76,8 @@ impl<'a> Frames<'a> {
         self.skipped.get()
     }
 
-    /// Goes through them, as `what`; their number. What is changed on the way is refused: the forms have one garment, one
-    /// map and one unit. Memory is that of one image, whatever the recording's length.
+    /// Goes through them, as `what`; their number. What is changed on the way is refused: the forms have one
+    /// garment, one map and one unit. Memory is that of one image, whatever the recording's length.
     pub fn each(&self, what: &str, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
         let mut play = Play::open(self.file)?;
         let total = play.passed()[1];
@@ -137,7 +137,8 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// The image that is put together, in memory that serves all of them. Codes come after their image, if they come.
+/// The image that is put together, in memory that serves all of them. Codes come after their image, if they
+/// come.
 #[derive(Default)]
 struct Current {
     image: Option<Frame>,

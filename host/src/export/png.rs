@@ -1,12 +1,12 @@
 //! Images: one of 16 bits for each frame, `FOLDER/THOUSAND/FRAME.png`, and `FOLDER/scale.json`.
 //!
-//! The panels stand side by side in the order of the garment, `scale.json` tells where; an image of each panel alone would
-//! take four times as many files, which is what takes the time. A folder holds the images of 1,000 scans: few programs open
-//! one of 350,000.
+//! The panels stand side by side in the order of the garment, `scale.json` tells where; an image of each
+//! panel alone would take four times as many files, which is what takes the time. A folder holds the images
+//! of 1,000 scans: few programs open one of 350,000.
 //!
-//! Grey is counts times a whole number, the same in all images of a recording: the greatest that leaves room for the
-//! greatest pressure in it, so that images are bright and nothing is rounded. `scale.json` and each image's comment tell it;
-//! with `--counts` it is 1.
+//! Grey is counts times a whole number, the same in all images of a recording: the greatest that leaves room
+//! for the greatest pressure in it, so that images are bright and nothing is rounded. `scale.json` and each
+//! image's comment tell it; with `--counts` it is 1.
 
 use super::frames::{self, Frames};
 use crate::output::Folder;
@@ -27,7 +27,8 @@ const THREADS: usize = 4;
 /// The file that tells what grey means, and where the panels are.
 const SCALE: &str = "scale.json";
 
-/// Writes the images; the number of frames. It goes through the recording twice: the scale is that of the whole.
+/// Writes the images; the number of frames. It goes through the recording twice: the scale is that of the
+/// whole.
 pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> {
     let (mut greatest, mut areas) = (0, Vec::new());
     frames.each("measuring", |frame| {

@@ -57,8 +57,8 @@ struct Unit {
 
 const COUNTS: Unit = Unit { name: "counts", per_newton: 0.0 };
 
-/// From counts to pressure: `kPa` on the square of a taxel's pitch, `N` on the taxel where the pitch is unknown, `counts` where
-/// nothing says what a newton shows.
+/// From counts to pressure: `kPa` on the square of a taxel's pitch, `N` on the taxel where the pitch is
+/// unknown, `counts` where nothing says what a newton shows.
 #[derive(Debug, Clone)]
 pub struct Units {
     panels: Vec<Unit>,

@@ -23,7 +23,8 @@ pub fn centroid(sets: &[Triangle], how: Aggregation) -> f64 {
     if area > 0.0 { moment / area } else { 0.0 }
 }
 
-/// Area and first moment under the greatest of the memberships, exactly: it is straight between the corners and crossings.
+/// Area and first moment under the greatest of the memberships, exactly: it is straight between the corners
+/// and crossings.
 fn envelope(sets: &[Triangle]) -> (f64, f64) {
     let mut points: Vec<f64> = sets.iter().flat_map(|set| [set.from, set.peak, set.to]).collect();
     points.sort_by(f64::total_cmp);

@@ -152,7 +152,8 @@ fn time(mut call: impl FnMut()) -> f64 {
     times[ROUNDS / 2]
 }
 
-/// Median microseconds and the end of a Python program; none where it does not run. `W`, `x0`, `names` and `median` are given.
+/// Median microseconds and the end of a Python program; none where it does not run. `W`, `x0`, `names` and
+/// `median` are given.
 fn python(script: &str, problem: &Problem) -> Option<(f64, Vec<f64>)> {
     let numbers: Vec<Vec<f64>> =
         problem.weights.iter().map(|row| row.iter().map(|w| w.to_f64()).collect()).collect();

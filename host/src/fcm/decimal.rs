@@ -15,8 +15,8 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// From decimal text such as `-0.25`, `1`, `2.5e-3`; none if it is no number or has more than 17 decimals or
-    /// more than 20 digits before the point.
+    /// From decimal text such as `-0.25`, `1`, `2.5e-3`; none if it is no number or has more than 17 decimals
+    /// or more than 20 digits before the point.
     pub fn parse(text: &str) -> Option<Decimal> {
         let (mantissa, exponent) = match text.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),

@@ -1,5 +1,6 @@
-//! `taxel fcm draw`: the graph of a map as SVG. Width is strength; blue and unbroken increases, vermilion and dashed decreases, so
-//! that neither colour nor dash is needed to tell; the fill of a concept is its activation, which is also written.
+//! `taxel fcm draw`: the graph of a map as SVG. Width is strength; blue and unbroken increases, vermilion and
+//! dashed decreases, so that neither colour nor dash is needed to tell; the fill of a concept is its
+//! activation, which is also written.
 
 use super::board::BoardMap;
 use super::decimal::Decimal;

@@ -1,4 +1,5 @@
-//! Inference on the host: an f64 engine, an exact one for threshold maps, and the core's own arithmetic beside them.
+//! Inference on the host: an f64 engine, an exact one for threshold maps, and the core's own arithmetic
+//! beside them.
 //!
 //! The f64 and the exact engine share no code with the core: they are what it is compared with.
 

@@ -2,8 +2,8 @@
 
 use super::map::MapFile;
 
-/// The layer of each concept: 0 for those without a cause, else one behind the farthest of its causes. Edges that close a ring
-/// are left out of account.
+/// The layer of each concept: 0 for those without a cause, else one behind the farthest of its causes. Edges
+/// that close a ring are left out of account.
 pub fn of_map(map: &MapFile) -> Vec<usize> {
     let number = |name: &str| map.find(name);
     let edges = map.edge.iter().filter(|edge| edge.weight.value() != 0.0);

@@ -15,7 +15,8 @@ use std::path::PathBuf;
 pub struct LearnArgs {
     /// TOML file, or the name of a shipped map
     pub map: String,
-    /// CSV file: a column for each input concept (activations), `label` (an intention, or none), perhaps `group`
+    /// CSV file: a column for each input concept (activations), `label` (an intention, or none), perhaps
+    /// `group`
     #[arg(long)]
     pub touches: PathBuf,
     /// File to write
@@ -97,7 +98,8 @@ pub fn changed<'a>(
     pairs.map(|(before, after)| (&*before.from, &*before.to, before.weight.value(), after.weight.value()))
 }
 
-/// `{"touches", "classes", "before", "cross", "after", "changed"}`; each of the three has `accuracy`, `loss` and `confusion`.
+/// `{"touches", "classes", "before", "cross", "after", "changed"}`; each of the three has `accuracy`, `loss`
+/// and `confusion`.
 pub fn report(file: &MapFile, touches: &Touches, learned: &Learned) -> Value {
     let judged = |j: &Judged| json!({ "accuracy": j.accuracy(), "loss": j.loss, "confusion": j.confusion });
     let edge =

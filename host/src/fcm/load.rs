@@ -14,7 +14,8 @@ use std::path::Path;
 pub const SHIPPED: [(&str, &str); 2] =
     [("tactile", include_str!("../../maps/tactile.toml")), ("shape", include_str!("../../maps/shape.toml"))];
 
-/// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place and the value.
+/// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place
+/// and the value.
 pub fn map(name_or_path: &str) -> Result<MapFile> {
     parse(&text(name_or_path)?, name_or_path)
 }

@@ -1,4 +1,5 @@
-//! Fuzzy memberships of what is measured: the forms of an input in a map file, and the ramps of the board that they become.
+//! Fuzzy memberships of what is measured: the forms of an input in a map file, and the ramps of the board
+//! that they become.
 //!
 //! | form | activation |
 //! |---|---|
@@ -7,8 +8,8 @@
 //! | `triangle = [a, b, c]` | `at[0]` outside a ..= c, `at[1]` at b |
 //! | `trapezoid = [a, b, c, d]` | `at[0]` outside a ..= d, `at[1]` in b ..= c |
 //!
-//! `at` is `[0, 1]` where it is not given; between the points are straight lines. Points are in the unit of the source. Triangle and
-//! trapezoid are two inputs of the board, whose activations add up.
+//! `at` is `[0, 1]` where it is not given; between the points are straight lines. Points are in the unit of
+//! the source. Triangle and trapezoid are two inputs of the board, whose activations add up.
 
 use super::steps::steps;
 use anyhow::{Result, bail};
@@ -84,7 +85,8 @@ impl InputFile {
         Ok(ramps)
     }
 
-    /// The readable form of the ramps of one concept, in steps of 10^-`decimals`; two that are a hill become one.
+    /// The readable form of the ramps of one concept, in steps of 10^-`decimals`; two that are a hill become
+    /// one.
     pub fn of(concept: &str, inputs: &[&Input], decimals: u8) -> Vec<InputFile> {
         let step = 10f64.powi(decimals.into());
         let decimal = |steps: i16| f64::from(steps) / step;

@@ -1,9 +1,10 @@
 //! Which inputs made an activation, and along which paths: shares that add up exactly.
 //!
-//! A concept's sum is what its causes contribute, by [`Map::why`](taxel_core::intent::Map::why). What a cause contributes is shared
-//! out to its own causes in proportion to what they contribute to its sum, and so on back to the inputs. Shares are whole
-//! units of 2^-15, rounded so that they add up to what is shared out. What no input answers for is the rest: thresholds, the
-//! activation that a concept has at rest (0.5 with the sigmoid), and what comes round in rings.
+//! A concept's sum is what its causes contribute, by [`Map::why`](taxel_core::intent::Map::why). What a cause
+//! contributes is shared out to its own causes in proportion to what they contribute to its sum, and so on
+//! back to the inputs. Shares are whole units of 2^-15, rounded so that they add up to what is shared out.
+//! What no input answers for is the rest: thresholds, the activation that a concept has at rest (0.5 with the
+//! sigmoid), and what comes round in rings.
 
 use super::board::{BoardMap, State};
 use std::collections::BTreeMap;

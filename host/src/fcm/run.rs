@@ -12,8 +12,8 @@ use taxel_core::intent::{Outcome, Rule, Transfer};
 /// Arguments of `taxel fcm MAP`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RunArgs {
-    /// JSON file with the keys names (concepts), W (row i, column j is the edge i -> j) and x0 (the first state); or a map as
-    /// people write it: a TOML file, or the name of a shipped one
+    /// JSON file with the keys names (concepts), W (row i, column j is the edge i -> j) and x0 (the first
+    /// state); or a map as people write it: a TOML file, or the name of a shipped one
     pub map: String,
     /// Activation of a concept at the start, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
@@ -21,7 +21,8 @@ pub struct RunArgs {
     /// What is summed: kosko, mkosko or rescaled [default: as in the file, else kosko]
     #[arg(long, value_parser = rule)]
     pub rule: Option<Rule>,
-    /// What the sum becomes: bivalent, trivalent, sigmoid, tanh or positive [default: as in the file, else tanh]
+    /// What the sum becomes: bivalent, trivalent, sigmoid, tanh or positive [default: as in the file, else
+    /// tanh]
     #[arg(long, value_parser = transfer)]
     pub transfer: Option<Transfer>,
     /// Steepness of sigmoid, tanh and positive [default: as in the file, else 1]

@@ -1,9 +1,11 @@
 //! Learning: a search for weights with which a map tells labelled touches apart, one weight at a time.
 //!
-//! The loss of a touch is how far its own intention falls short of a `MARGIN` ahead of the strongest other class; `none` counts
-//! as a class with the activation at which an intention may lead. A weight is moved by 0.2, then 0.1, 0.05, 0.02 and 0.01
-//! wherever that lowers the mean loss (and what it costs to leave the expert's weights), in the order of the map until nothing helps. No weight changes
-//! its sign or becomes 0, no edge is added, and those that are `fixed` stay. The arithmetic is that of the board, so the result is the same everywhere.
+//! The loss of a touch is how far its own intention falls short of a `MARGIN` ahead of the strongest other
+//! class; `none` counts as a class with the activation at which an intention may lead. A weight is moved by
+//! 0.2, then 0.1, 0.05, 0.02 and 0.01 wherever that lowers the mean loss (and what it costs to leave the
+//! expert's weights), in the order of the map until nothing helps. No weight changes its sign or becomes 0,
+//! no edge is added, and those that are `fixed` stay. The arithmetic is that of the board, so the result is
+//! the same everywhere.
 
 use super::board::BoardMap;
 use super::map::MapFile;

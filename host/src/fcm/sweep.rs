@@ -27,8 +27,8 @@ pub struct Sweep {
     pub unsettled: (usize, Option<Inputs>),
 }
 
-/// Runs a map from a grid of the activations of its entries (the finest of up to [`STARTS`] points; random ones of the same
-/// levels where even two levels are too many).
+/// Runs a map from a grid of the activations of its entries (the finest of up to [`STARTS`] points; random
+/// ones of the same levels where even two levels are too many).
 pub fn sweep(file: &MapFile) -> Result<Sweep> {
     let map = BoardMap::build(file)?;
     let entries = file.entries();

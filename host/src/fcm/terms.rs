@@ -8,9 +8,9 @@
 //! | strong | 0.5, 0.75, 1 | 0.75 |
 //! | very strong | 0.75, 1, 1 | 0.92 |
 //!
-//! A sign follows: `strong +` increases, `strong -` decreases (the triangle mirrored). The memberships of neighbours add up to 1.
-//! A term stands for the centroid of its set, in hundredths. A number is the set of a person who says just that number:
-//! a triangle of the same width around it, cut at -1 and 1.
+//! A sign follows: `strong +` increases, `strong -` decreases (the triangle mirrored). The memberships of
+//! neighbours add up to 1. A term stands for the centroid of its set, in hundredths. A number is the set of a
+//! person who says just that number: a triangle of the same width around it, cut at -1 and 1.
 
 use super::decimal::Decimal;
 
@@ -26,7 +26,8 @@ const TERMS: [(&str, [f64; 3]); 5] = [
 /// Half the base of a number's triangle, which is that of the terms.
 const HALF: f64 = 0.25;
 
-/// A fuzzy set: 0 up to `from`, 1 at `peak`, 0 from `to` on, straight lines between; where two are equal it ends steeply.
+/// A fuzzy set: 0 up to `from`, 1 at `peak`, 0 from `to` on, straight lines between; where two are equal it
+/// ends steeply.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Triangle {
     /// Left end.

@@ -1,4 +1,5 @@
-//! What a board told of a touch, to be explained: from any source, when an intention is announced or at a given time.
+//! What a board told of a touch, to be explained: from any source, when an intention is announced or at a
+//! given time.
 
 use super::decimal::Decimal;
 use super::engine::Q15_CONCEPTS;
@@ -15,8 +16,9 @@ use taxel_core::wire::IntentReport;
 /// What commands take that show a map as a board has it.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ToldArgs {
-    /// In place of a map: a board or a recording, of which the first announced intention is shown: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`,
-    /// `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// In place of a map: a board or a recording, of which the first announced intention is shown:
+    /// `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or
+    /// `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
     /// With --source: show the last state of the first S seconds, announced or not
@@ -59,7 +61,8 @@ impl Told {
     pub fn run(&self, one: i32) -> Inference<Q15_CONCEPTS> {
         let mut state = [0; Q15_CONCEPTS];
         for (slot, value) in state.iter_mut().zip(&self.report.concepts) {
-            // The board rounds what a threshold map counts in decimal steps, which are coarser than 2^-15, so this is its inverse.
+            // The board rounds what a threshold map counts in decimal steps, which are coarser than 2^-15, so
+            // this is its inverse.
             *slot = (f64::from(value.0) * f64::from(one) / 32768.0).round() as i32;
         }
         Inference { state, steps: self.report.steps, outcome: self.report.outcome }

@@ -91,7 +91,8 @@ impl Touches {
         Ok(self.classes.len() - 1)
     }
 
-    /// The part of each touch in a cross-validation by `folds`: by group where there are groups, else in turn by class.
+    /// The part of each touch in a cross-validation by `folds`: by group where there are groups, else in turn
+    /// by class.
     pub fn folds(&self, folds: usize) -> Vec<usize> {
         let mut groups: Vec<&str> = self.touches.iter().map(|touch| touch.group.as_str()).collect();
         groups.sort_unstable();

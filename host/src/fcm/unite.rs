@@ -1,4 +1,5 @@
-//! Several maps as one: concepts and edges of all of them, shared edges agreed or combined, and what they disagree on.
+//! Several maps as one: concepts and edges of all of them, shared edges agreed or combined, and what they
+//! disagree on.
 
 use super::aggregate::{Aggregation, centroid};
 use super::map::{EdgeFile, MapFile};

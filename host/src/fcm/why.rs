@@ -24,7 +24,8 @@ pub struct WhyArgs {
     /// Or a source.
     #[command(flatten)]
     pub told: ToldArgs,
-    /// Concept to explain [default: the announced or the strongest intention, else the strongest concept that has causes]
+    /// Concept to explain [default: the announced or the strongest intention, else the strongest concept that
+    /// has causes]
     #[arg(long)]
     pub of: Option<String>,
     /// What if: another value of an input, or a concept held at a value against its causes, as NAME=VALUE

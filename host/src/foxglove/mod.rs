@@ -1,9 +1,9 @@
 //! `taxel foxglove`: what a board tells, live in Foxglove and whatever else speaks its WebSocket protocol.
 //!
-//! The channels are those of a recording, with their schemas (see [`record`](crate::record)). The server only tells: nothing can be asked
-//! of the board. It listens on this machine alone, and lets in programs, pages of this machine, and of other
-//! sites those of Foxglove alone and what `--allow-origin` names. A client that reads too slowly misses
-//! messages, and is told so; it never slows the board's stream.
+//! The channels are those of a recording, with their schemas (see [`record`](crate::record)). The server only
+//! tells: nothing can be asked of the board. It listens on this machine alone, and lets in programs, pages of
+//! this machine, and of other sites those of Foxglove alone and what `--allow-origin` names. A client that
+//! reads too slowly misses messages, and is told so; it never slows the board's stream.
 
 mod hub;
 mod protocol;

@@ -84,7 +84,8 @@ fn no_such_panel(what: &str, index: usize, panel: u8, garment: &Garment) -> Stri
     }
 }
 
-/// Of a rectangle that is empty or leaves its panel: the size where it begins with the panel, else where it begins.
+/// Of a rectangle that is empty or leaves its panel: the size where it begins with the panel, else where it
+/// begins.
 fn outside(what: &str, index: usize, garment: &Garment) -> String {
     let (list, turned, [row, column, rows, columns], panel) =
         match (what, garment.blocks.get(index), garment.absent.get(index)) {

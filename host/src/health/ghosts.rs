@@ -1,9 +1,11 @@
-//! Ghosts of a passive matrix: where three corners of a rectangle are pressed, current that runs through all three of them shows
-//! at the fourth as well, with at most a third of their signal where they are pressed alike.
+//! Ghosts of a passive matrix: where three corners of a rectangle are pressed, current that runs through all
+//! three of them shows at the fourth as well, with at most a third of their signal where they are pressed
+//! alike.
 //!
-//! A contact is a candidate where three stronger ones lie at the other corners: one in its rows, one in its columns, one in
-//! the columns of the former and the rows of the latter, all within one block. It is only a candidate: four fingers may
-//! press the corners of a rectangle, one of them more lightly. Nothing is computed below four contacts.
+//! A contact is a candidate where three stronger ones lie at the other corners: one in its rows, one in its
+//! columns, one in the columns of the former and the rows of the latter, all within one block. It is only a
+//! candidate: four fingers may press the corners of a rectangle, one of them more lightly. Nothing is
+//! computed below four contacts.
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,4 +1,5 @@
-//! Lines and inputs that a self-test has found to be at fault: where they are, and what that means for the garment.
+//! Lines and inputs that a self-test has found to be at fault: where they are, and what that means for the
+//! garment.
 
 use serde_json::{Value, json};
 use taxel_core::garment::{Coding, Garment, Group};

@@ -28,7 +28,8 @@ pub struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Of a file, by what it says of itself; read to its end where `check` asks for it or it takes a moment only.
+    /// Of a file, by what it says of itself; read to its end where `check` asks for it or it takes a moment
+    /// only.
     pub fn of(file: &Path, check: bool, repaired: bool) -> Result<Found<'_>> {
         let bytes = std::fs::metadata(file).map_or(0, |known| known.len());
         let read = check || bytes <= SMALL || footer(file)?.is_none();

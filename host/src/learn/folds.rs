@@ -1,7 +1,7 @@
 //! Cross-validation: stratified k-fold assignment.
 
-/// Deals units out to `folds` folds, the classes evenly and in an order that the seed draws: the fold of each unit. Units are
-/// given by their class.
+/// Deals units out to `folds` folds, the classes evenly and in an order that the seed draws: the fold of each
+/// unit. Units are given by their class.
 pub fn stratified(classes: &[usize], folds: usize, seed: u64) -> Vec<usize> {
     let mut random = fastrand::Rng::with_seed(seed);
     let mut order: Vec<usize> = (0..classes.len()).collect();

@@ -37,7 +37,8 @@ impl Square {
         }
     }
 
-    /// The lower triangle L with L L^T = self, for a positive definite matrix, of which only the lower half is read.
+    /// The lower triangle L with L L^T = self, for a positive definite matrix, of which only the lower half
+    /// is read.
     pub fn cholesky(&self) -> Square {
         let mut lower = Square::zero(self.n);
         for i in 0..self.n {

@@ -13,7 +13,8 @@ use taxel_core::intent::Feed;
 /// A board, and what is asked of it before it is watched.
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
-    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`,
+    /// `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Garment that the board is to wear, real or simulated: a preset or a TOML file
@@ -34,16 +35,20 @@ pub struct BoardArgs {
     /// Gesture model to run on the board
     #[arg(long, value_name = "MODEL", value_enum)]
     pub gestures: Option<GestureModel>,
-    /// With --gestures: scale factor from the garment's counts to those that the model was trained on [default: 1]
+    /// With --gestures: scale factor from the garment's counts to those that the model was trained on
+    /// [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
-    /// With --gestures: announce a class as soon as the model is that sure, 0 to 0.999; the board keeps this until it restarts [default: when it has led for 250 ms]
+    /// With --gestures: announce a class as soon as the model is that sure, 0 to 0.999; the board keeps this
+    /// until it restarts [default: when it has led for 250 ms]
     #[arg(long, value_name = "SHARE", requires = "gestures")]
     pub gesture_certainty: Option<f64>,
-    /// Forms (outline, azimuth, breadth, shape) that the board looks at in a frame, in turn: 1 to 254, or all; asks for their ages too. The board keeps this until it restarts [default: 1]
+    /// Forms (outline, azimuth, breadth, shape) that the board looks at in a frame, in turn: 1 to 254, or
+    /// all; asks for their ages too. The board keeps this until it restarts [default: 1]
     #[arg(long, value_name = "N", value_parser = forms)]
     pub forms: Option<u8>,
-    /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default: never]; the value that counts then [default: 0]
+    /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default:
+    /// never]; the value that counts then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
     /// Base of shapes to send to the board: a file, or the name of a shipped base
@@ -127,7 +132,8 @@ pub struct LiveArgs {
     /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal's picture repeats it]
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal's
+    /// picture repeats it]
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Print messages as JSON, one per line

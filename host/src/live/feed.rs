@@ -4,8 +4,8 @@ use anyhow::{Context, Result, bail};
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::Feed;
 
-/// Reads `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, how old it is (0 ms if not said), from which age on it no
-/// longer counts (never if not said, or 0), and what counts then (0 if not said).
+/// Reads `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, how old it is (0 ms if not said),
+/// from which age on it no longer counts (never if not said, or 0), and what counts then (0 if not said).
 pub fn feed(text: &str) -> Result<Feed> {
     let (concept, values) =
         text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]")?;

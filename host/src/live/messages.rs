@@ -1,10 +1,10 @@
 //! Messages as JSON, one a line, each with its `type`.
 //!
-//! A line of type `frame` holds what `taxel process` prints for a frame: the contacts that are there, those that have
-//! gone (`released`), the intention; and what was lost and thinned so far. `time_us` is the board's time. Lines of a board
-//! that lives in real time (a serial port, TCP) also have `host_time_us`, the host's time of it in microseconds since 1970,
-//! and `host_time_uncertainty_us`, how far from that the truth can be, as soon as the board has answered a `Sync`; nothing
-//! else in a line depends on the host's time.
+//! A line of type `frame` holds what `taxel process` prints for a frame: the contacts that are there, those
+//! that have gone (`released`), the intention; and what was lost and thinned so far. `time_us` is the board's
+//! time. Lines of a board that lives in real time (a serial port, TCP) also have `host_time_us`, the host's
+//! time of it in microseconds since 1970, and `host_time_uncertainty_us`, how far from that the truth can be,
+//! as soon as the board has answered a `Sync`; nothing else in a line depends on the host's time.
 
 use super::Show;
 use crate::calibrate::{Calibration, Forces};
@@ -32,7 +32,8 @@ impl<W: Write> Messages<W> {
         Messages { pixels, calibration: None, out }
     }
 
-    /// The same, with the force on each panel (`force_n`, in the order of `panels`) and of each contact where the board has this calibration.
+    /// The same, with the force on each panel (`force_n`, in the order of `panels`) and of each contact where
+    /// the board has this calibration.
     pub fn calibrated(self, calibration: Option<Calibration>) -> Messages<W> {
         Messages { calibration, ..self }
     }

@@ -13,8 +13,8 @@ use taxel_core::gesture::{Certainty, GestureConfig, Gestures, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
-/// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it whatever the board
-/// is said here; the board knows its own pins and size.
+/// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it
+/// whatever the board is said here; the board knows its own pins and size.
 pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
     let read = garments::read(name_or_path)?;
     Layout::build(&read.garment, usize::from(u16::MAX), 4095)
@@ -25,7 +25,8 @@ pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
-/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene, and its map may be [named](crate::fcm::scene).
+/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene, and its map may be
+/// [named](crate::fcm::scene).
 pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let place = || path.display().to_string();
     let scene = read_scene(path)?;

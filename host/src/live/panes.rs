@@ -63,7 +63,8 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     )
 }
 
-/// The leading intention, and a bar for every concept: intentions first, then what follows from them, then the inputs.
+/// The leading intention, and a bar for every concept: intentions first, then what follows from them, then
+/// the inputs.
 pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
     if space.is_empty() {
         return;
@@ -123,7 +124,8 @@ mod tests {
     use crate::live::{LiveArgs, Show, watch};
     use crate::source::{SourceOptions, open};
 
-    /// What is drawn at each moment at which an intention is announced: its bar, and what it was as the board told it.
+    /// What is drawn at each moment at which an intention is announced: its bar, and what it was as the board
+    /// told it.
     #[derive(Default)]
     struct Bars(Vec<[String; 2]>);
 

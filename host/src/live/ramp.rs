@@ -1,5 +1,5 @@
-//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind; and as characters that
-//! grow in weight, where no colour is wanted.
+//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind; and
+//! as characters that grow in weight, where no colour is wanted.
 
 use ratatui::style::Color;
 
@@ -54,7 +54,8 @@ pub fn glyph(value: u16, top: u16) -> char {
     GLYPHS[((part(value, top) * steps as f32).ceil() as usize).min(steps)]
 }
 
-/// The part of the scale, 0 ..= 1. The scale is that of the root, so that a light touch beside a hard one is seen.
+/// The part of the scale, 0 ..= 1. The scale is that of the root, so that a light touch beside a hard one is
+/// seen.
 fn part(value: u16, top: u16) -> f32 {
     (f32::from(value) / f32::from(top.max(1))).min(1.0).sqrt()
 }

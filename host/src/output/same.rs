@@ -3,8 +3,8 @@
 use std::fs::{self, Metadata};
 use std::path::Path;
 
-/// Whether both names exist and lead to one file or folder: by another spelling (`./a`, upper and lower case where the file
-/// system does not tell them apart), a symbolic link or a hard link.
+/// Whether both names exist and lead to one file or folder: by another spelling (`./a`, upper and lower case
+/// where the file system does not tell them apart), a symbolic link or a hard link.
 ///
 /// Where a system does not number its files, hard links are not recognised.
 pub fn is_same(a: &Path, b: &Path) -> bool {

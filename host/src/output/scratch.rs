@@ -16,7 +16,8 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// In the folder in which a file of that name is going to be: there is room for the one, and so for the other.
+    /// In the folder in which a file of that name is going to be: there is room for the one, and so for the
+    /// other.
     pub fn beside(output: &Path) -> Result<Scratch> {
         let mut options = File::options();
         options.read(true).write(true).create_new(true);

@@ -24,7 +24,8 @@ pub struct RecordArgs {
     /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; a board is recorded until Ctrl-C]
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; a board is
+    /// recorded until Ctrl-C]
     #[arg(long, value_name = "S", value_parser = live::seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Also write FILE.ros2.mcap with ROS 2 messages: images, point clouds, forces, diagnostics

@@ -35,7 +35,8 @@ impl Play {
         self.wire.passed()
     }
 
-    /// The next event, with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there are no more.
+    /// The next event, with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there
+    /// are no more.
     pub fn next_event(&mut self) -> Result<Option<(MessageHeader, Event)>> {
         while let Some(message) = self.wire.next_frame()? {
             // A message of this channel is one frame of the wire: its last byte tells of it.

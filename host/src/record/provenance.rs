@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
 
-/// The file with the `Hello` with which a recording begins, a frame of the wire: without it nothing else of the board can
-/// be read, and the chunk that has it may be damaged.
+/// The file with the `Hello` with which a recording begins, a frame of the wire: without it nothing else of
+/// the board can be read, and the chunk that has it may be damaged.
 pub const HELLO: &str = "hello.taxel-wire";
 /// The file of the calibration.
 pub const CALIBRATION: &str = "calibration.toml";
@@ -27,7 +27,8 @@ pub struct Origin {
     pub calibration: Option<Calibration>,
 }
 
-/// Attaches garment, scene, geometry and the calibration that is in force, and names versions, source, calibration and scale.
+/// Attaches garment, scene, geometry and the calibration that is in force, and names versions, source,
+/// calibration and scale.
 pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns: u64) -> Result<()> {
     let garment = garments::text(&worn.garment, "the garment of a recording")?;
     writer.attach("garment.toml", "application/toml", garment.as_bytes(), ns)?;
@@ -78,8 +79,8 @@ fn host() -> String {
     known.unwrap_or_default().trim().to_string()
 }
 
-/// Panels in their order: first taxel, size, pitch, link, region. Taxel `first + row * columns + column` lies at
-/// (`column * pitch_mm[0]`, `row * pitch_mm[1]`) of its panel.
+/// Panels in their order: first taxel, size, pitch, link, region. Taxel `first + row * columns + column` lies
+/// at (`column * pitch_mm[0]`, `row * pitch_mm[1]`) of its panel.
 fn geometry(layout: &Layout) -> Value {
     let panel = |area: &taxel_core::garment::Area| {
         json!({

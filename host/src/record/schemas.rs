@@ -1,4 +1,5 @@
-//! JSON schemas of the messages, so that Foxglove and others offer the fields by name before a message has come.
+//! JSON schemas of the messages, so that Foxglove and others offer the fields by name before a message has
+//! come.
 
 use serde_json::{Map, Value, json};
 

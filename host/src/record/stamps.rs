@@ -46,8 +46,8 @@ impl Stamps {
         Stamps { time: SteadyTime::start(), heard: None, last: 0 }
     }
 
-    /// Of an event: by the clock of a board that has answered a `Sync`, else by when the first message came and the
-    /// board's own time since. An event without a time has that of the one before.
+    /// Of an event: by the clock of a board that has answered a `Sync`, else by when the first message came
+    /// and the board's own time since. An event without a time has that of the one before.
     pub fn of(&mut self, client: &Client, event: &Event) -> Stamp {
         let board_us = time_of(client, event).unwrap_or(self.last);
         self.last = board_us;

@@ -1,4 +1,5 @@
-//! What a board said once and what holds since: a file that goes on another begins with it, and so stands alone.
+//! What a board said once and what holds since: a file that goes on another begins with it, and so stands
+//! alone.
 
 use crate::client::{Client, Event};
 use taxel_core::wire::{self, Report, WireError};
@@ -39,8 +40,9 @@ impl Standing {
     }
 }
 
-/// What is to be played before `first`, the first frame of the wire that a recording holds, if the one that it began with
-/// is lost: `hello`, numbered so that `first` follows it. None: it is not lost, or one of them cannot be read.
+/// What is to be played before `first`, the first frame of the wire that a recording holds, if the one that
+/// it began with is lost: `hello`, numbered so that `first` follows it. None: it is not lost, or one of them
+/// cannot be read.
 pub fn lost(hello: &[u8], first: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = first.strip_suffix(&[0])?.to_vec();
     let (seq, report): (u32, Report<'_>) = wire::decode(wire::open(&mut bytes).ok()?).ok()?;

@@ -1,4 +1,5 @@
-//! What was counted on the line while a file was written: it is kept in the file, so that `taxel info` need not read all of it.
+//! What was counted on the line while a file was written: it is kept in the file, so that `taxel info` need
+//! not read all of it.
 
 use crate::client::Counts;
 use std::collections::BTreeMap;

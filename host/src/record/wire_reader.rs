@@ -8,7 +8,8 @@ use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
 
-/// Goes through the frames. Where the `Hello` with which the recording began is lost, the one that is attached comes first.
+/// Goes through the frames. Where the `Hello` with which the recording began is lost, the one that is
+/// attached comes first.
 #[derive(Debug)]
 pub struct WireReader {
     messages: Messages,
@@ -36,7 +37,8 @@ impl WireReader {
         self.messages.passed()
     }
 
-    /// The next frame with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there are no more.
+    /// The next frame with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there
+    /// are no more.
     pub fn next_frame(&mut self) -> Result<Option<Message<'_>>> {
         if !std::mem::replace(&mut self.begun, true) {
             return self.begin();

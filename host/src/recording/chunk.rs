@@ -46,7 +46,8 @@ impl Chunk {
         self.body.len()
     }
 
-    /// Appends the chunk and its index to `out`, which will lie at `offset` in the file. None: there is no message.
+    /// Appends the chunk and its index to `out`, which will lie at `offset` in the file. None: there is no
+    /// message.
     pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
         let Some([first, last]) = self.span.take() else { return Ok(None) };
         let mut encoder = FrameEncoder::new(Vec::new());

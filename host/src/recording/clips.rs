@@ -56,7 +56,8 @@ pub struct Clips {
 }
 
 impl Clips {
-    /// Of a file; only messages of that topic are read. Bodies of chunks are passed over, so that this takes little time.
+    /// Of a file; only messages of that topic are read. Bodies of chunks are passed over, so that this takes
+    /// little time.
     pub fn open(path: &Path, topic: &'static str) -> Result<Clips> {
         let mut clips = Clips {
             records: Records::open(path)?,

@@ -58,8 +58,8 @@ impl Damage {
         Damage { offset, end: None, ns: 0 }
     }
 
-    /// Counts it; where the file goes on behind it. None: nothing more can be read, and without an index what is left is
-    /// taken for the last record, which a kill has cut off.
+    /// Counts it; where the file goes on behind it. None: nothing more can be read, and without an index what
+    /// is left is taken for the last record, which a kill has cut off.
     pub fn pass(&self, records: &mut Records, path: &Path, skipped: &mut Skipped) -> Result<Option<u64>> {
         let places = chunk_indexes(path)?;
         let next = match self.end {

@@ -1,5 +1,5 @@
-//! The end of a file: summary, its offsets, footer. It is made in pieces, so that it takes no memory however many
-//! chunks there are.
+//! The end of a file: summary, its offsets, footer. It is made in pieces, so that it takes no memory however
+//! many chunks there are.
 
 use super::append::{HEAD, append, sized, write};
 use super::chunk::{Closed, is_known};

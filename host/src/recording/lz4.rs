@@ -1,7 +1,7 @@
 //! LZ4 frames, decoded straight into the caller's buffer: no copy, and no memory asked for.
 //!
-//! Only frames of independent blocks without a dictionary, which is how our chunks and most others are written. Their
-//! checksums (of the block, of the content) are passed over: a chunk of MCAP has its own.
+//! Only frames of independent blocks without a dictionary, which is how our chunks and most others are
+//! written. Their checksums (of the block, of the content) are passed over: a chunk of MCAP has its own.
 
 use lz4_flex::frame::{BlockSize, FrameEncoder, FrameInfo};
 use std::sync::LazyLock;
@@ -17,8 +17,8 @@ const DICTIONARY: u8 = 0b0000_0001;
 /// Of a block's length: its bytes are plain.
 const PLAIN: u32 = 1 << 31;
 
-/// Whether a frame's head is one of those with which chunks of this program begin. Others have to be checked against the
-/// head's own checksum, which [`decode`] passes over.
+/// Whether a frame's head is one of those with which chunks of this program begin. Others have to be checked
+/// against the head's own checksum, which [`decode`] passes over.
 pub fn is_ours(frame: &[u8]) -> bool {
     static HEADS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
         [BlockSize::Max64KB, BlockSize::Max256KB, BlockSize::Max4MB].into_iter().filter_map(head).collect()

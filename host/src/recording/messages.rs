@@ -1,4 +1,5 @@
-//! The messages of a recording in the order in which they were written, also of one that is damaged or has no end.
+//! The messages of a recording in the order in which they were written, also of one that is damaged or has no
+//! end.
 
 use super::attached::attached;
 use super::chunk;

@@ -1,8 +1,9 @@
 //! A recording: one [MCAP](https://mcap.dev/spec) file, which Foxglove, Rerun, Python's `mcap` and ROS 2 read.
 //!
-//! The records are those of the crate `mcap`; they are put together here, and not by its writer, for three reasons: a chunk is
-//! written whole or not at all, so that a kill or a full disk leaves nothing half in the middle; a damaged file can be read
-//! as far as it is sound; and chunks are compressed (LZ4) without a C library.
+//! The records are those of the crate `mcap`; they are put together here, and not by its writer, for three
+//! reasons: a chunk is written whole or not at all, so that a kill or a full disk leaves nothing half in the
+//! middle; a damaged file can be read as far as it is sound; and chunks are compressed (LZ4) without a C
+//! library.
 //!
 //! | file | holds |
 //! |---|---|

@@ -94,8 +94,8 @@ impl Records {
         Ok(())
     }
 
-    /// The head of the next record, which [`Records::body`] or [`Records::go_to`] must follow; none: the rest is no whole
-    /// record, and the place is as before.
+    /// The head of the next record, which [`Records::body`] or [`Records::go_to`] must follow; none: the rest
+    /// is no whole record, and the place is as before.
     pub fn next_head(&mut self) -> Result<Option<Head>> {
         let mut bytes = [0; HEAD];
         if self.length.saturating_sub(self.offset) < HEAD as u64 {

@@ -1,7 +1,8 @@
 //! A damaged recording, or one without its end, written anew: all that can be read, and an end.
 //!
-//! Chunks are copied as they are compressed, others' compressions and records that are not known here included. What is
-//! left out is what no reader could read: chunks that do not fit their checksum, and bytes that are no record.
+//! Chunks are copied as they are compressed, others' compressions and records that are not known here
+//! included. What is left out is what no reader could read: chunks that do not fit their checksum, and bytes
+//! that are no record.
 
 use super::append::{append, sized};
 use super::chunk::{Closed, Index};

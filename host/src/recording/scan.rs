@@ -67,14 +67,15 @@ pub fn scan(path: &Path) -> Result<Scan> {
 }
 
 impl Scan {
-    /// Chunks that cannot be read, and bytes; those behind what can be read of a file without its end are not counted.
+    /// Chunks that cannot be read, and bytes; those behind what can be read of a file without its end are not
+    /// counted.
     pub fn damaged(&self) -> (usize, u64) {
         let inside = self.damage.iter().take(self.damage.len() - usize::from(self.torn > 0));
         inside.fold((0, 0), |(chunks, bytes), damage| (chunks + damage.chunks, bytes + damage.length))
     }
 
-    /// Whether there are as many records of each kind as the file's end says; a record whose number stands wrong may pass
-    /// for another. What is in chunks that are not read here is not known.
+    /// Whether there are as many records of each kind as the file's end says; a record whose number stands
+    /// wrong may pass for another. What is in chunks that are not read here is not known.
     fn is_counted_by(&self, told: &Statistics) -> bool {
         let found = &self.contents;
         let messages: u64 = found.counts().values().sum();

@@ -11,8 +11,9 @@ pub trait Store: Write {
     /// Forgets what lies behind the first `length` bytes; the next ones follow there.
     fn cut(&mut self, length: u64) -> io::Result<()>;
 
-    /// Reads what was written, from `offset` on: how many bytes there were. What is written next follows what was
-    /// written last, as before. An error: it cannot be read, as what goes through a pipe or a socket cannot.
+    /// Reads what was written, from `offset` on: how many bytes there were. What is written next follows what
+    /// was written last, as before. An error: it cannot be read, as what goes through a pipe or a socket
+    /// cannot.
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
 }
 

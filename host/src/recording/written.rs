@@ -1,5 +1,5 @@
-//! The chunks of a file that is being written, found again by the heads of its records: to remember them all would
-//! take memory for every second of a recording.
+//! The chunks of a file that is being written, found again by the heads of its records: to remember them all
+//! would take memory for every second of a recording.
 
 use super::append::HEAD;
 use super::chunk::{Closed, LZ4};

@@ -19,7 +19,8 @@ pub struct ReportArgs {
     /// Recording: .mcap
     #[arg(conflicts_with = "source")]
     pub file: Option<PathBuf>,
-    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]` or `file:FILE`
+    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
+    /// `emulator[:TOUCHES]` or `file:FILE`
     #[arg(long, value_name = "SOURCE")]
     pub source: Option<SourceSpec>,
     /// Page to write (.html), `-` for standard output
@@ -28,7 +29,8 @@ pub struct ReportArgs {
     /// Replace the page.
     #[command(flatten)]
     pub force: Force,
-    /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played once]
+    /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
+    /// once]
     #[arg(long, value_name = "S", value_parser = live::seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }

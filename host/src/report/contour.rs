@@ -3,7 +3,8 @@
 /// A stretch of a line, in taxels: x0, y0, x1, y1.
 pub type Stretch = [f64; 4];
 
-/// The line at `level` through an image of `columns` columns. Around the panel lies nothing, so that lines close there.
+/// The line at `level` through an image of `columns` columns. Around the panel lies nothing, so that lines
+/// close there.
 pub fn lines(values: &[u16], columns: usize, level: f64) -> Vec<Stretch> {
     let rows = values.len().checked_div(columns).unwrap_or(0);
     let at = |row: isize, column: isize| {

@@ -50,8 +50,8 @@ fn pairs(circuit: &Circuit, input: u8) -> Vec<(usize, usize)> {
 impl Steps {
     /// What is left in quick codes of the steps in slow ones, both means by taxel.
     ///
-    /// Least squares over two causes: the step from the taxel before, and the taxel's own height above the median, so that a
-    /// press that became harder or softer between the scans is not taken for a residue.
+    /// Least squares over two causes: the step from the taxel before, and the taxel's own height above the
+    /// median, so that a press that became harder or softer between the scans is not taken for a residue.
     pub fn residue(&self, slow: &[f64], quick: &[f64]) -> Residue {
         let value = |codes: &[f64], taxel: usize| codes.get(taxel).copied().unwrap_or(0.0);
         let mut heights: Vec<f64> = self.pairs.iter().map(|(_, taxel)| value(slow, *taxel)).collect();

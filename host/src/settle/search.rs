@@ -15,7 +15,8 @@ const SLOW: (u32, u32) = (200_000, 3_200_000);
 const QUICK: u32 = 100;
 /// The bracket is closed to this ratio.
 const CLOSE: f64 = 1.03;
-/// Standard errors that must lie within the bar: of the input that is read first and decides, and of the others.
+/// Standard errors that must lie within the bar: of the input that is read first and decides, and of the
+/// others.
 const SURE: [f64; 2] = [8.0, 3.0];
 
 /// A board that can be told how long to settle.
@@ -57,8 +58,8 @@ struct Search<'a, S> {
     frames: u32,
 }
 
-/// Finds the shortest settling that leaves at most `counts` of a full-scale step. The picture must stay as it is meanwhile, and
-/// have edges. An error says what is missing.
+/// Finds the shortest settling that leaves at most `counts` of a full-scale step. The picture must stay as it
+/// is meanwhile, and have edges. An error says what is missing.
 pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Result<Settled> {
     let layout = Layout::build(garment, usize::from(u16::MAX), 4095)?;
     let circuit =
@@ -104,7 +105,8 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
     })
 }
 
-/// The longest settling that a board takes for this garment, of those that are tried: a longer frame would keep it from its watchdog.
+/// The longest settling that a board takes for this garment, of those that are tried: a longer frame would
+/// keep it from its watchdog.
 fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
     let mut slower = garment.clone();
     slower.wiring.settle_ns = 2 * SLOW.1;
@@ -117,7 +119,8 @@ fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
 }
 
 impl<S: Scanner> Search<'_, S> {
-    /// Whether slow scans leave more than a quarter of the bar; more frames are taken as long as that may be noise.
+    /// Whether slow scans leave more than a quarter of the bar; more frames are taken as long as that may be
+    /// noise.
     fn is_unsettled(&mut self) -> Result<bool> {
         loop {
             let worst = self.trial(self.slow_ns, 2 * self.slow_ns)?.worst;

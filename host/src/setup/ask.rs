@@ -54,7 +54,8 @@ pub(super) fn blocks_along(garment: &Garment, ask: &Ask) -> Vec<usize> {
     blocks.into_iter().map(|(_, index)| index).collect()
 }
 
-/// One stroke down each column of blocks of each panel: off the middle of the blocks, so that it shows which way they lie.
+/// One stroke down each column of blocks of each panel: off the middle of the blocks, so that it shows which
+/// way they lie.
 pub(super) fn strokes_down(garment: &Garment) -> Vec<Ask> {
     let mut asks = Vec::new();
     for panel in 0..garment.panels.len() {

@@ -46,8 +46,8 @@ impl Wires {
     }
 }
 
-/// The garment that the strokes show, and the least margin of all that was decided. Blocks of panels without strokes stand
-/// as in the template.
+/// The garment that the strokes show, and the least margin of all that was decided. Blocks of panels without
+/// strokes stand as in the template.
 pub(super) fn assemble(
     template: &Garment,
     bundle: &Bundle,
@@ -131,7 +131,8 @@ fn runs_crosswise(block: &Block, down: &Reading, rows: &Wires) -> bool {
     if block.rows == block.columns { down.fine != rows.lines } else { block.orientation.transposed }
 }
 
-/// Whether x runs against the wiring in a block of that width that was stroked along column `at` of it, and how clear that is.
+/// Whether x runs against the wiring in a block of that width that was stroked along column `at` of it, and
+/// how clear that is.
 fn side(felt: &Felt, across: &Wires, width: u16, at: u16) -> (bool, f64) {
     let (last, at) = (f64::from(width - 1), f64::from(at));
     if width == 1 {

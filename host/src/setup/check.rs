@@ -6,7 +6,8 @@ use super::touch::Touch;
 use crate::sim::Decoder;
 use taxel_core::garment::{Circuit, Garment, GarmentError, Layout, Pins};
 
-/// How far from where it was asked a finger may be, taxels: one for the user, one for the finger, and half a one.
+/// How far from where it was asked a finger may be, taxels: one for the user, one for the finger, and half a
+/// one.
 const OFF: f64 = 2.5;
 /// Largest distance of the taxels under one finger from their middle, taxels rms.
 const SPREAD: f64 = 2.0;
@@ -97,7 +98,8 @@ impl Places {
     }
 }
 
-/// The distance from where it was asked, on a panel that ends at `last`; no farther than is needed to tell its two sides apart.
+/// The distance from where it was asked, on a panel that ends at `last`; no farther than is needed to tell
+/// its two sides apart.
 fn near(off: f64, last: f64) -> Result<f64, String> {
     if off.abs() <= OFF.min(last / 2.0 - 0.01).max(0.5) {
         Ok(off.abs())

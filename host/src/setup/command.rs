@@ -26,7 +26,8 @@ pub struct SetupArgs {
     /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: what the board wears]
+    /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: what the
+    /// board wears]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// File to write [default: print the garment]

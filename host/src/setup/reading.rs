@@ -1,14 +1,16 @@
 //! What a stroke tells of the address lines.
 //!
-//! Two addresses that differ in one line are two taxels. If the line belongs to the direction of the stroke, the finger passes
-//! both, and the time between is that of 1, 2, 4, ... taxels: the rank of the line. If it belongs to the other direction, the
-//! finger passes one of them, or both at once. This needs no knowledge of where the finger was, nor of its speed.
+//! Two addresses that differ in one line are two taxels. If the line belongs to the direction of the stroke,
+//! the finger passes both, and the time between is that of 1, 2, 4, ... taxels: the rank of the line. If it
+//! belongs to the other direction, the finger passes one of them, or both at once. This needs no knowledge of
+//! where the finger was, nor of its speed.
 
 use super::bundle::Bundle;
 use super::touch::{Touch, Trace};
 use std::collections::BTreeMap;
 
-/// Part of the strongest block's sum below which a block was not stroked, but touched across a seam at an end of the way.
+/// Part of the strongest block's sum below which a block was not stroked, but touched across a seam at an end
+/// of the way.
 const BLOCK: f64 = 0.15;
 
 /// The lines of a stroke.
@@ -67,7 +69,8 @@ impl Reading {
         Ok(Reading { fine, traces, step, margin })
     }
 
-    /// The blocks that were stroked, `count` of them; `within` has a bit for each line that does not choose a block.
+    /// The blocks that were stroked, `count` of them; `within` has a bit for each line that does not choose a
+    /// block.
     pub fn blocks(&self, within: usize, count: usize) -> Result<Blocks, String> {
         let mut parts = BTreeMap::<usize, Vec<Trace>>::new();
         self.traces.iter().for_each(|trace| parts.entry(trace.address & !within).or_default().push(*trace));
@@ -113,8 +116,9 @@ fn pairs(traces: &[Trace], line: usize) -> impl Iterator<Item = (&Trace, &Trace)
 
 /// The lines along a block by their rank, and how far from doubt that is.
 ///
-/// They are the nearest of those that the finger has passed one after the other. Lines that choose blocks lie farther apart; the
-/// same taxel of another block may not have been touched at all, because that block lies otherwise.
+/// They are the nearest of those that the finger has passed one after the other. Lines that choose blocks lie
+/// farther apart; the same taxel of another block may not have been touched at all, because that block lies
+/// otherwise.
 fn ranked(gaps: &[Gap], fine: usize) -> Result<(Vec<usize>, f64), String> {
     let mut passed: Vec<&Gap> = gaps.iter().filter(|gap| gap.paired >= 0.5 && gap.taxels >= 0.5).collect();
     passed.sort_by(|a, b| a.taxels.total_cmp(&b.taxels));

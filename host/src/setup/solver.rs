@@ -76,8 +76,8 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// For a garment whose panels and blocks lie as in the template, and whose wires are not known. Fails where it cannot be
-    /// found by touch.
+    /// For a garment whose panels and blocks lie as in the template, and whose wires are not known. Fails
+    /// where it cannot be found by touch.
     pub fn new(template: &Garment) -> Result<Solver> {
         let bundle = Bundle::of(template)?;
         let steps = strokes_down(template).into_iter().map(Step::new).collect();

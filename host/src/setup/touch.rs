@@ -1,6 +1,7 @@
 //! One touch, as it was felt at addresses whose places are not known.
 
-/// Part of a frame's strongest signal below which an address counts as not touched: crosstalk, the rim of a finger.
+/// Part of a frame's strongest signal below which an address counts as not touched: crosstalk, the rim of a
+/// finger.
 const RIM: f32 = 0.15;
 /// Part of the strongest address's sum below which an address tells nothing of a stroke.
 const FAINT: f64 = 0.1;

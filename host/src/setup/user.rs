@@ -1,7 +1,8 @@
 //! A simulated user at a simulated bundle of wires.
 //!
-//! The finger covers two to three taxels and is up to one taxel from where it was asked; its pace is uneven by half. Each sample
-//! has 3 counts of noise, taxels differ by a third in what they feel, a dozen of them are dead or stuck.
+//! The finger covers two to three taxels and is up to one taxel from where it was asked; its pace is uneven
+//! by half. Each sample has 3 counts of noise, taxels differ by a third in what they feel, a dozen of them
+//! are dead or stuck.
 
 use super::ask::{Ask, Gesture};
 use super::bundle::Bundle;

@@ -128,8 +128,8 @@ impl Base {
         read().with_context(|| name.display().to_string())
     }
 
-    /// The shipped base that knows the most of these classes; of those that know as many, the one that is made for images of these rows
-    /// and columns.
+    /// The shipped base that knows the most of these classes; of those that know as many, the one that is
+    /// made for images of these rows and columns.
     pub fn shipped_for(classes: &[String], grid: Option<(u16, u16)>) -> Result<(&'static str, Base)> {
         let known = |base: &Base| {
             let names = base.gallery.names.iter();

@@ -5,8 +5,8 @@ use taxel_core::shape::{DIMENSIONS, Point};
 /// Rounds of Lloyd's algorithm; nothing moves any more long before.
 const ROUNDS: usize = 20;
 
-/// At most `count` centres of points, by k-means; the points themselves if there are no more. The first centre is that of
-/// all, each further one begins at the point farthest from those before.
+/// At most `count` centres of points, by k-means; the points themselves if there are no more. The first
+/// centre is that of all, each further one begins at the point farthest from those before.
 pub fn centres(points: &[Point], count: usize) -> Vec<Point> {
     if points.len() <= count {
         return points.to_vec();

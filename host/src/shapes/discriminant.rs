@@ -12,8 +12,9 @@ pub struct Discriminant {
 }
 
 impl Discriminant {
-    /// Of examples with their classes (`0 .. classes`). The scatter within classes is drawn towards a multiple of the unit matrix by
-    /// `shrinkage` (0 to 1), in measures scaled to the same spread: few examples make a poor estimate of it.
+    /// Of examples with their classes (`0 .. classes`). The scatter within classes is drawn towards a
+    /// multiple of the unit matrix by `shrinkage` (0 to 1), in measures scaled to the same spread: few
+    /// examples make a poor estimate of it.
     pub fn of(
         rows: &[Vec<f64>],
         labels: &[usize],

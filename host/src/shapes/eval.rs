@@ -18,8 +18,8 @@ pub struct EvalArgs {
     /// What to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
-    /// Base: a file, or the name of a shipped base [default: the shipped one that knows most of the classes, for this grid]; unused
-    /// with --cross
+    /// Base: a file, or the name of a shipped base [default: the shipped one that knows most of the classes,
+    /// for this grid]; unused with --cross
     #[arg(long, value_name = "BASE")]
     pub base: Option<PathBuf>,
     /// Cross-validate on the images, with this number of folds

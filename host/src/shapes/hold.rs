@@ -16,7 +16,8 @@ const CONTACTS: usize = 32;
 /// Runs of a row: enough for twice the taxels of a board.
 const RUNS: usize = 2048;
 
-/// Watches a board until enough touches were held. What a contact is like is found as a board finds it, from the same image.
+/// Watches a board until enough touches were held. What a contact is like is found as a board finds it, from
+/// the same image.
 pub struct Hold<'a> {
     space: &'a Space,
     /// How many are wanted.
@@ -74,7 +75,8 @@ impl<'a> Hold<'a> {
         open
     }
 
-    /// A touch that was held is one place: the mean over the time at which it was firm, as it looks neither while it comes nor while it goes.
+    /// A touch that was held is one place: the mean over the time at which it was firm, as it looks neither
+    /// while it comes nor while it goes.
     fn end(&mut self, open: &Open) {
         if self.held.len() >= self.wanted {
             return;

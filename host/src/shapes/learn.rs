@@ -1,4 +1,5 @@
-//! `taxel shapes learn`: one more class for a base, or more of a class, by touches of a board or by images of it.
+//! `taxel shapes learn`: one more class for a base, or more of a class, by touches of a board or by images of
+//! it.
 
 use super::base::{Base, LEFT_OUT, Source};
 use super::extend::{check_name, extend};
@@ -33,7 +34,8 @@ pub struct LearnArgs {
     /// Stop waiting after S seconds of the board's time [default: a simulated scene is played once]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// Base to add to: a file, or the name of a shipped base [default: the output file; if it does not exist, an empty base]
+    /// Base to add to: a file, or the name of a shipped base [default: the output file; if it does not exist,
+    /// an empty base]
     #[arg(long, value_name = "BASE")]
     pub base: Option<PathBuf>,
     /// Largest number of prototypes to add

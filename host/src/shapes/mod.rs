@@ -1,8 +1,9 @@
 //! `taxel shapes`: what is known by its shape.
 //!
-//! Images become descriptors ([`view`], and `descriptor` of the core); a discriminant analysis finds the directions in which the classes lie apart
-//! ([`discriminant`]); in these the examples of each class become at most 200 prototypes ([`cluster`], [`train`]), and what votes are worth
-//! is counted on folds that were left out ([`cross`], [`calibrate`]). The gallery that comes of it is in integers and runs on a board;
+//! Images become descriptors ([`view`], and `descriptor` of the core); a discriminant analysis finds the
+//! directions in which the classes lie apart ([`discriminant`]); in these the examples of each class become
+//! at most 200 prototypes ([`cluster`], [`train`]), and what votes are worth is counted on folds that were
+//! left out ([`cross`], [`calibrate`]). The gallery that comes of it is in integers and runs on a board;
 //! every figure is that of these integers.
 
 pub mod base;

@@ -32,8 +32,9 @@ pub fn run(args: PruneArgs) -> Result<()> {
     Ok(())
 }
 
-/// Hart's condensed nearest neighbours: beginning with the first prototype of each class, only those are kept that the kept ones would take for
-/// another class. One neighbour votes from then on: what is left lies where classes meet.
+/// Hart's condensed nearest neighbours: beginning with the first prototype of each class, only those are kept
+/// that the kept ones would take for another class. One neighbour votes from then on: what is left lies where
+/// classes meet.
 fn prune(gallery: &mut Known) {
     let all: Vec<Exemplar> = gallery.prototypes.to_vec();
     let mut kept = vec![false; all.len()];

@@ -38,7 +38,8 @@ pub struct RecipeArgs {
     /// Neighbours that vote
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=9))]
     pub k: u8,
-    /// How far the scatter within classes is drawn towards that of unrelated measures, 0 to 1: more for fewer images
+    /// How far the scatter within classes is drawn towards that of unrelated measures, 0 to 1: more for fewer
+    /// images
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, value_parser = share)]
     pub shrinkage: f64,
     /// Use only measures that help, chosen anew in each fold; for fewer than about 300 images

@@ -9,7 +9,8 @@ pub struct ViewArgs {
     /// Smallest value of a touched taxel, counts [default: that of the base, or 1/32 of the full scale]
     #[arg(long, value_name = "COUNTS")]
     pub threshold: Option<u16>,
-    /// Which of these taxels: all, or the connected ones with the greatest total [default: that of the base, or all]
+    /// Which of these taxels: all, or the connected ones with the greatest total [default: that of the base,
+    /// or all]
     #[arg(long, value_name = "WHICH")]
     pub touch: Option<Which>,
 }

@@ -1,4 +1,5 @@
-//! The way of a taxel's signal to its code without a scene: lines that settle, a converter with noise and uneven codes.
+//! The way of a taxel's signal to its code without a scene: lines that settle, a converter with noise and
+//! uneven codes.
 
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
 use super::script::{Converter, WiringEffects};
@@ -6,8 +7,9 @@ use super::signal::FULL_SCALE;
 use super::wiring::{Line, uneven};
 use taxel_core::acquire::{Depth, Rounds};
 
-/// How a garment of several converter inputs is read: each address is applied, waited for, and read on every input in
-/// turn, so that the first input has the least time to settle. What is converted meanwhile, and dropped, takes its time.
+/// How a garment of several converter inputs is read: each address is applied, waited for, and read on every
+/// input in turn, so that the first input has the least time to settle. What is converted meanwhile, and
+/// dropped, takes its time.
 #[derive(Debug, Clone)]
 pub struct Chain {
     /// What the wiring does.
@@ -28,8 +30,8 @@ impl Chain {
         self.rounds.address_ns() * addresses as u64
     }
 
-    /// Scans signals (counts, by address, then by input) `scans` times, one scan after the other, and hands over the codes
-    /// of each.
+    /// Scans signals (counts, by address, then by input) `scans` times, one scan after the other, and hands
+    /// over the codes of each.
     pub fn scan(&self, signals: &[f32], scans: usize, mut codes: impl FnMut(&[u16])) {
         let mut lines = vec![Line::default(); self.inputs];
         let noise = self.converter.noise_counts as f32 / UNIT_NOISE_RMS;

@@ -87,8 +87,8 @@ impl Player {
     }
 }
 
-/// `count` frames, one after the other, each of all taxels in their order: what the simulated board reads when a scan
-/// starts every `frame_period_us`, each taxel at the time of its own sample.
+/// `count` frames, one after the other, each of all taxels in their order: what the simulated board reads
+/// when a scan starts every `frame_period_us`, each taxel at the time of its own sample.
 pub fn frame_codes(
     script: &Script,
     garment: &Garment,
@@ -103,9 +103,9 @@ pub fn frame_codes(
     Ok(codes)
 }
 
-/// The wiring as the emulator's harness reads it: `lines` with pin and polarity in the order of the circuit's bits,
-/// `inputs` (GPIO numbers), `taxels` by word of asserted lines (bit 0 is the first line; the level word where no line is
-/// inverted), one entry per input, -1 where nothing is connected, and `count`.
+/// The wiring as the emulator's harness reads it: `lines` with pin and polarity in the order of the circuit's
+/// bits, `inputs` (GPIO numbers), `taxels` by word of asserted lines (bit 0 is the first line; the level word
+/// where no line is inverted), one entry per input, -1 where nothing is connected, and `count`.
 pub fn wiring_json(garment: &Garment, layout: &Layout, circuit: &Circuit) -> Result<Value> {
     let pins = circuit.lines();
     ensure!(

@@ -24,7 +24,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// From a checked touch on a panel of that pitch with taxels of that [hysteresis](super::Sensor::hysteresis).
+    /// From a checked touch on a panel of that pitch with taxels of that
+    /// [hysteresis](super::Sensor::hysteresis).
     pub fn build(touch: &Touch, pitch_mm: [f64; 2], hysteresis: f64) -> Contact {
         let ns = |seconds: f64| (seconds * 1e9).round() as u64;
         let rise = ns(touch.rise_s);

@@ -60,8 +60,8 @@ impl Decoder {
         &self.inputs
     }
 
-    /// What levels select: bit `n` of the word is the level of GPIO `n`. None while an enable is not asserted, or
-    /// where not exactly one line of a one-hot group is.
+    /// What levels select: bit `n` of the word is the level of GPIO `n`. None while an enable is not
+    /// asserted, or where not exactly one line of a one-hot group is.
     pub fn address(&self, levels: u64) -> Option<Address> {
         let wiring = &self.garment.wiring;
         let asserted =
@@ -84,7 +84,8 @@ impl Decoder {
         Some(Address { select: code(&wiring.block)?, row: code(&wiring.row)?, column: code(&wiring.column)? })
     }
 
-    /// The taxel that stands at the input of that index (see [`Decoder::inputs`]); none where nothing is connected.
+    /// The taxel that stands at the input of that index (see [`Decoder::inputs`]); none where nothing is
+    /// connected.
     #[inline]
     pub fn taxel(&self, address: Address, input: usize) -> Option<usize> {
         let select = address.select as usize;
@@ -116,8 +117,8 @@ impl Decoder {
         first + (usize::from(block.row) + y) * columns + usize::from(block.column) + x
     }
 
-    /// Every address at which some input has a taxel, in the order of a progressive scan: by select code, then row, then
-    /// column.
+    /// Every address at which some input has a taxel, in the order of a progressive scan: by select code,
+    /// then row, then column.
     pub fn addresses(&self) -> Vec<Address> {
         let mut addresses: Vec<Address> = self
             .garment

@@ -23,8 +23,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Counts at a time (s): 0 at the start, up to `way` and back. At each end the rate rises from 0 within 2 s, or half of the
-    /// time to the other end.
+    /// Counts at a time (s): 0 at the start, up to `way` and back. At each end the rate rises from 0 within 2
+    /// s, or half of the time to the other end.
     pub fn at(&self, t_s: f64) -> f64 {
         let rate = self.rate.abs();
         if rate == 0.0 {

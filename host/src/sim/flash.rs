@@ -1,4 +1,5 @@
-//! The simulated board's flash: erased by sectors to ones, written from ones to zeros, and its power can be cut at any step.
+//! The simulated board's flash: erased by sectors to ones, written from ones to zeros, and its power can be
+//! cut at any step.
 
 use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash, check_erase, check_read, check_write,

@@ -1,7 +1,7 @@
 //! How the force of a contact is spread over the taxels.
 //!
-//! A taxel feels what falls on its cell, the rectangle of one pitch around its centre. Cells tile the panel, so the
-//! shares of all taxels add up to 1 wherever the footprint lies; nothing is normalised per frame.
+//! A taxel feels what falls on its cell, the rectangle of one pitch around its centre. Cells tile the panel,
+//! so the shares of all taxels add up to 1 wherever the footprint lies; nothing is normalised per frame.
 
 use super::touch::Shape;
 use std::f64::consts::PI;
@@ -22,8 +22,8 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// A footprint of `size_mm` (length, width), its length turned by `angle_deg` from +x towards +y, on a panel of
-    /// that pitch. Sizes and pitches must be positive.
+    /// A footprint of `size_mm` (length, width), its length turned by `angle_deg` from +x towards +y, on a
+    /// panel of that pitch. Sizes and pitches must be positive.
     pub fn build(shape: Shape, size_mm: [f64; 2], angle_deg: f64, pitch_mm: [f64; 2]) -> Footprint {
         let half = [size_mm[0] / 2.0, size_mm[1] / 2.0];
         let step = [pitch_mm[0] / STEPS as f64, pitch_mm[1] / STEPS as f64];
@@ -159,7 +159,8 @@ mod tests {
     const SHAPES: [Shape; 7] =
         [Shape::Palm, Shape::Strap, Shape::Box, Shape::Finger, Shape::Ball, Shape::Forearm, Shape::Ridge];
 
-    /// Sums of share, share x, share y, share x^2, share y^2 over the taxels around a contact at (cx, cy), in mm.
+    /// Sums of share, share x, share y, share x^2, share y^2 over the taxels around a contact at (cx, cy), in
+    /// mm.
     fn sums(footprint: &Footprint, cx: f64, cy: f64) -> [f64; 5] {
         let mut sums = [0.0; 5];
         for (y, x) in (-40..=40).flat_map(|y| (-40..=40).map(move |x| (y, x))) {

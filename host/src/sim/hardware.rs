@@ -13,18 +13,20 @@ use taxel_core::selftest::PinFault;
 /// Pins that the simulated board may have: GPIO 0 to 63.
 pub const PINS: usize = 64;
 
-/// How long the steps take where the processor scans. Where a chain does, [`taxel_core::acquire::Rounds`] says it.
+/// How long the steps take where the processor scans. Where a chain does, [`taxel_core::acquire::Rounds`]
+/// says it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Timing {
     /// One conversion, ns. The input is sampled at its start.
     pub conversion_ns: u32,
-    /// The garment's settling time is spent in whole conversions (rounded down, at least one); otherwise it is waited for exactly.
+    /// The garment's settling time is spent in whole conversions (rounded down, at least one); otherwise it
+    /// is waited for exactly.
     pub in_slots: bool,
 }
 
 impl Timing {
-    /// As quick as the reference board's chain at its shipped settling: 500 kS/s, settling in slots. The reference garment
-    /// takes 512 (1 + 4) conversions = 5.12 ms: 195 frames per second.
+    /// As quick as the reference board's chain at its shipped settling: 500 kS/s, settling in slots. The
+    /// reference garment takes 512 (1 + 4) conversions = 5.12 ms: 195 frames per second.
     pub const REFERENCE: Timing = Timing { conversion_ns: 2_000, in_slots: true };
     /// A loop that waits: 512 (3 us + 4 conversions) = 5.632 ms for the reference garment.
     pub const LOOP: Timing = Timing { conversion_ns: 2_000, in_slots: false };

@@ -3,8 +3,8 @@
 /// Standard deviation of [`unit_noise`]: four uniform 16-bit numbers, `sqrt(4 / 12) 2^16`.
 pub(super) const UNIT_NOISE_RMS: f32 = 37_837.2;
 
-/// Bell-shaped noise from a hash of a taxel's key and the time: the sum of four 16-bit parts, mean 0, at most 3.5 times
-/// its standard deviation.
+/// Bell-shaped noise from a hash of a taxel's key and the time: the sum of four 16-bit parts, mean 0, at most
+/// 3.5 times its standard deviation.
 #[inline]
 pub(super) fn unit_noise(key: u64, t_ns: u64) -> f32 {
     let mix = |a: u64, b: u64| {

@@ -29,7 +29,8 @@ impl Drive {
     }
 }
 
-/// The levels of all pins. A bridge is stronger than a resistor; of two outputs that fight over one, the one to ground wins.
+/// The levels of all pins. A bridge is stronger than a resistor; of two outputs that fight over one, the one
+/// to ground wins.
 pub(super) fn levels(drive: Drive, faults: &[PinFault]) -> u64 {
     let mut levels = drive.on & drive.high | !drive.on & drive.up;
     for PinFault { pin, fault } in faults {
@@ -48,8 +49,8 @@ pub(super) fn levels(drive: Drive, faults: &[PinFault]) -> u64 {
     levels
 }
 
-/// The code of an input that a source brings to `settled`. `held`: what the converter sampled before, which an input
-/// that nothing drives keeps.
+/// The code of an input that a source brings to `settled`. `held`: what the converter sampled before, which
+/// an input that nothing drives keeps.
 pub(super) fn code(
     input: u8,
     drive: Drive,

@@ -18,8 +18,8 @@ pub struct Pressure {
     panels: Vec<Vec<Image>>,
 }
 
-/// A contact as one panel sees it: across a seam its position goes on, so the panel's taxels are looked up in the
-/// coordinates of the panel on which the contact began.
+/// A contact as one panel sees it: across a seam its position goes on, so the panel's taxels are looked up in
+/// the coordinates of the panel on which the contact began.
 #[derive(Debug, Clone)]
 struct Image {
     first_ns: u64,
@@ -83,7 +83,8 @@ impl Pressure {
         }
     }
 
-    /// Force on the taxel at column `x`, row `y` of a panel at a time as the taxel feels it, N; 0 outside the garment.
+    /// Force on the taxel at column `x`, row `y` of a panel at a time as the taxel feels it, N; 0 outside the
+    /// garment.
     #[inline]
     pub fn newtons(&self, panel: usize, x: i32, y: i32, t_ns: u64) -> f32 {
         let Some(images) = self.panels.get(panel) else { return 0.0 };

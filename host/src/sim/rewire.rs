@@ -3,8 +3,9 @@
 use fastrand::Rng;
 use taxel_core::garment::{Block, Garment, Group};
 
-/// How a garment may be wired, by chance: any address line on any pin, any of them inverted; any input on any panel; panels sewn
-/// in mirrored or turned; single blocks mirrored or turned within them; blocks of a panel in any order.
+/// How a garment may be wired, by chance: any address line on any pin, any of them inverted; any input on any
+/// panel; panels sewn in mirrored or turned; single blocks mirrored or turned within them; blocks of a panel
+/// in any order.
 pub fn rewire(garment: &Garment, rng: &mut Rng) -> Garment {
     let mut wired = garment.clone();
     let mut pins: Vec<u8> =

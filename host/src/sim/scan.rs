@@ -1,5 +1,6 @@
-//! The simulated board's scan, as the reference board's: by a chain that never waits wherever the garment's wiring allows
-//! that, else by the processor. An interlaced one is checked after each sub-field, and moves pins then.
+//! The simulated board's scan, as the reference board's: by a chain that never waits wherever the garment's
+//! wiring allows that, else by the processor. An interlaced one is checked after each sub-field, and moves
+//! pins then.
 
 use super::board::SimAdc;
 use super::hardware::{PINS, SimDelay, SimPin};
@@ -16,7 +17,8 @@ use taxel_core::selftest::{Examine, Findings};
 /// Taxels of the largest garment.
 const TAXELS: usize = 2048;
 
-/// Reads the simulated garment. A frame takes as long as [`taxel_core::acquire::frame_us`] says where a chain can read it.
+/// Reads the simulated garment. A frame takes as long as [`taxel_core::acquire::frame_us`] says where a chain
+/// can read it.
 pub struct SimScan<'l, C> {
     processor: MuxScan<'l, SimPin, SimDelay, SimAdc, C, PINS, TAXELS>,
     delay: SimDelay,
@@ -109,7 +111,8 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
     fn run(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
         let rounds = Rounds::of(self.inputs.len(), circuit.settle_ns());
         let lines = circuit.lines().iter().fold(0, |lines, pin| lines | 1 << (pin & 63));
-        // The multiples of this number are spread evenly, and so are their digits: each scan looks at the lines somewhere else.
+        // The multiples of this number are spread evenly, and so are their digits: each scan looks at the
+        // lines somewhere else.
         self.scans = self.scans.wrapping_add(1);
         let spread = self.scans.wrapping_mul(0xb529_7a4d);
         let look = ((u64::from(spread) * self.levels.len() as u64) >> 32) as usize;
@@ -312,7 +315,8 @@ mod tests {
         }
     }
 
-    /// A still scene is the same in both orders, over lines that have settled; a reflex moves its pin within the frame.
+    /// A still scene is the same in both orders, over lines that have settled; a reflex moves its pin within
+    /// the frame.
     #[test]
     fn an_interlaced_scan_reads_the_same_and_moves_a_pin_at_once() {
         let script = script(

@@ -1,7 +1,8 @@
 //! A script of touches as its author writes it: one small TOML file (docs/touches.md).
 //!
-//! Times are seconds since the board started, forces newtons; lengths end in `_mm`, or are in taxels of the panel where
-//! they carry no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first taxel.
+//! Times are seconds since the board started, forces newtons; lengths end in `_mm`, or are in taxels of the
+//! panel where they carry no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first
+//! taxel.
 
 use super::touch::Touch;
 use serde::{Deserialize, Serialize};
@@ -125,10 +126,11 @@ pub struct Stuck {
 pub struct WiringEffects {
     /// Resistance that charges a converter input's line, kOhm.
     pub source_kohm: f64,
-    /// Capacitance of that line, pF. The voltage settles with the product since the last change of a select line.
+    /// Capacitance of that line, pF. The voltage settles with the product since the last change of a select
+    /// line.
     pub line_pf: f64,
-    /// Part of the signal of every taxel on the same wired row or column of the block that is added to a taxel's own:
-    /// what their common lines couple.
+    /// Part of the signal of every taxel on the same wired row or column of the block that is added to a
+    /// taxel's own: what their common lines couple.
     pub crosstalk: f64,
     /// The blocks are passive matrices: three pressed corners of a rectangle show at the fourth as well.
     pub passive: bool,
@@ -152,12 +154,14 @@ impl WiringEffects {
 pub struct Sensor {
     /// Standard deviation of the gain from taxel to taxel, part of 1.
     pub gain_spread: f64,
-    /// How much more a taxel signals of a force that goes than of the same while it comes, part of it; half of that more, half less
-    /// than the truth far below the peak, and nothing at the peak.
+    /// How much more a taxel signals of a force that goes than of the same while it comes, part of it; half
+    /// of that more, half less than the truth far below the peak, and nothing at the peak.
     pub hysteresis: f64,
-    /// Noise by the signal, part of it rms, beside that of the garment at rest: how the cloth lies changes all 20 ms.
+    /// Noise by the signal, part of it rms, beside that of the garment at rest: how the cloth lies changes
+    /// all 20 ms.
     pub noise: f64,
-    /// Force on a taxel at which it signals half of what it would if it were straight, N: a divider with a fixed resistor; 0: straight.
+    /// Force on a taxel at which it signals half of what it would if it were straight, N: a divider with a
+    /// fixed resistor; 0: straight.
     pub half_n: f64,
 }
 

@@ -10,8 +10,8 @@ use anyhow::{Result, ensure};
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
 
-/// Signal of one newton on one taxel, counts; linear until the code is full. The force limits of the intention map are
-/// in the same scale: 30 N in all are 30,000 counts in all.
+/// Signal of one newton on one taxel, counts; linear until the code is full. The force limits of the
+/// intention map are in the same scale: 30 N in all are 30,000 counts in all.
 pub const COUNTS_PER_NEWTON: f32 = 1000.0;
 
 /// Highest code of the 12-bit converter.
@@ -22,8 +22,8 @@ const CLOTH_NS: u64 = 20_000_000;
 
 /// A garment with everything that happens to it: the codes of a scene.
 ///
-/// With ideal wiring [`World::code`] is a pure function of taxel and time, noise included: a taxel's noise is a hash of
-/// the seed, its number and the time.
+/// With ideal wiring [`World::code`] is a pure function of taxel and time, noise included: a taxel's noise is
+/// a hash of the seed, its number and the time.
 #[derive(Debug, Clone)]
 pub struct World {
     taxels: Vec<Taxel>,

@@ -1,5 +1,6 @@
-//! The sneak paths of a passive matrix: where its cloth alone joins rows and columns, current also gets from the row that is read
-//! to the column that is read through three other taxels: along the row, over to another row, and along the column.
+//! The sneak paths of a passive matrix: where its cloth alone joins rows and columns, current also gets from
+//! the row that is read to the column that is read through three other taxels: along the row, over to another
+//! row, and along the column.
 
 use super::decode::Decoder;
 use taxel_core::garment::Garment;
@@ -33,8 +34,9 @@ impl Sneak {
         Sneak { blocks, places }
     }
 
-    /// What reaches a taxel along all such paths, where every taxel conducts in proportion to its force: over each other row, the
-    /// ways to that row side by side, and the taxel from there on behind them. Paths over several rows are left out.
+    /// What reaches a taxel along all such paths, where every taxel conducts in proportion to its force: over
+    /// each other row, the ways to that row side by side, and the taxel from there on behind them. Paths over
+    /// several rows are left out.
     pub fn newtons(&self, taxel: usize, own: impl Fn(usize) -> f32) -> f32 {
         let place = self.places.get(taxel).copied().flatten();
         let Some((matrix, row, column)) =

@@ -32,8 +32,8 @@ pub struct Touch {
     /// Time from the peak to zero (half a cosine), s.
     #[serde(default = "edge_s")]
     pub fall_s: f64,
-    /// Parts of `force_n` that are reached one after the other, each in `rise_s` and held for `hold_s`: weights that are put on and
-    /// taken off again.
+    /// Parts of `force_n` that are reached one after the other, each in `rise_s` and held for `hold_s`:
+    /// weights that are put on and taken off again.
     #[serde(default = "whole")]
     pub levels: Vec<f64>,
     /// Velocity of the centre, `[vx, vy]` in taxels per second.

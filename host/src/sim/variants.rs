@@ -7,9 +7,10 @@ use super::touch::Touch;
 use fastrand::Rng;
 use taxel_core::garment::{Area, Layout};
 
-/// A variant: each touch somewhere on its panel such that it stays on it, all panels exchanged by the same number of
-/// steps, all forces times one number and all durations times another, both uniform in 0.5 ..= 1.5. The seed also
-/// becomes the seed of the variant's noise. A script whose garment cannot be loaded keeps its places.
+/// A variant: each touch somewhere on its panel such that it stays on it, all panels exchanged by the same
+/// number of steps, all forces times one number and all durations times another, both uniform in 0.5 ..= 1.5.
+/// The seed also becomes the seed of the variant's noise. A script whose garment cannot be loaded keeps its
+/// places.
 pub fn vary(script: &Script, seed: u64) -> Script {
     let mut rng = Rng::with_seed(seed);
     let factor = |rng: &mut Rng| 0.5 + rng.f64();
@@ -39,7 +40,8 @@ pub fn scale_force(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The same scene `factor` times as fast, from its first onset on (above 0): durations and times shrink, speeds grow.
+/// The same scene `factor` times as fast, from its first onset on (above 0): durations and times shrink,
+/// speeds grow.
 pub fn scale_rate(script: &Script, factor: f64) -> Script {
     let mut scaled = script.clone();
     let starts = script.touches.iter().map(|t| t.start_s).chain(script.joints.iter().map(|j| j.start_s));
@@ -64,8 +66,8 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The script on another garment. Touches on a panel that the garment lacks go to its largest panel: to the same place in
-/// parts of the panel's width and height, as large and as fast in mm as before.
+/// The script on another garment. Touches on a panel that the garment lacks go to its largest panel: to the
+/// same place in parts of the panel's width and height, as large and as fast in mm as before.
 pub fn refit(script: &Script, layout: &Layout) -> Script {
     let mut fitted = script.clone();
     let (Some(old), Some(to)) = (layout_of(script), largest(layout)) else { return fitted };
@@ -110,8 +112,8 @@ fn layout_of(script: &Script) -> Option<Layout> {
     Layout::build(&script.load_garment().ok()?, usize::from(u16::MAX), super::FULL_SCALE).ok()
 }
 
-/// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room that footprint and way leave, per axis. Where they
-/// leave none, it is centred.
+/// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room that footprint and way leave, per axis.
+/// Where they leave none, it is centred.
 fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
     let pitch = pitch_mm(area);
     let reach = reach_mm(touch.shape, touch.size().map(|s| s / 2.0), touch.angle_deg);

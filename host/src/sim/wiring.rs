@@ -1,5 +1,5 @@
-//! What wiring and converter do to a signal: settling of the lines, sneak paths of a passive matrix, a converter whose
-//! codes are not equally wide.
+//! What wiring and converter do to a signal: settling of the lines, sneak paths of a passive matrix, a
+//! converter whose codes are not equally wide.
 
 use super::decode::Decoder;
 use taxel_core::garment::Garment;

@@ -11,11 +11,11 @@ use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Vendor and product that a board says it is on USB, and its name: the numbers are for tests (<https://pid.codes>), so others
-/// may have them, too.
+/// Vendor and product that a board says it is on USB, and its name: the numbers are for tests
+/// (<https://pid.codes>), so others may have them, too.
 const BOARD: (u16, u16, &str) = (0x1209, 0x0001, "taxel");
-/// Vendors of probes that pass on a board's UART: Raspberry Pi, Adafruit. Bridges that sit in front of anything (FTDI, CP210x,
-/// CH34x) are not opened, because opening them restarts some boards.
+/// Vendors of probes that pass on a board's UART: Raspberry Pi, Adafruit. Bridges that sit in front of
+/// anything (FTDI, CP210x, CH34x) are not opened, because opening them restarts some boards.
 const PROBES: [u16; 2] = [0x2e8a, 0x239a];
 /// How long a port is listened to, without a byte being sent.
 const LISTEN: Duration = Duration::from_millis(1500);
@@ -198,7 +198,8 @@ fn label(port: &SerialPortInfo) -> String {
     }
 }
 
-/// The port, with what was heard, if a board speaks there: `Hello`, or whatever it still streams to somebody before.
+/// The port, with what was heard, if a board speaks there: `Hello`, or whatever it still streams to somebody
+/// before.
 fn listen(mut serial: Serial) -> Option<Serial> {
     let begun = Instant::now();
     let (mut client, mut heard, mut buffer) = (Client::new(), Vec::new(), [0; 1024]);

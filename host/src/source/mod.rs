@@ -1,5 +1,5 @@
-//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the emulator, a file, a
-//! recording.
+//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the
+//! emulator, a file, a recording.
 
 mod auto;
 mod emulator;

@@ -1,5 +1,5 @@
-//! Two byte queues between the host and a board in another thread. The board waits for a slow reader, so that in a
-//! simulation nothing is thinned because of it.
+//! Two byte queues between the host and a board in another thread. The board waits for a slow reader, so that
+//! in a simulation nothing is thinned because of it.
 
 use crate::shared::Shared;
 use std::collections::VecDeque;

@@ -1,4 +1,5 @@
-//! A recording, played: the bytes that the board sent, when it sent them, faster, slower, or as fast as they can be read.
+//! A recording, played: the bytes that the board sent, when it sent them, faster, slower, or as fast as they
+//! can be read.
 
 use super::{Port, Source, SourceOptions};
 use crate::progress::{Progress, Unit};

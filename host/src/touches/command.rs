@@ -20,7 +20,8 @@ pub struct Files {
     /// Frames of all recordings, one after the other
     #[arg(long, value_name = "F.npz")]
     pub frames: PathBuf,
-    /// A line for each recording (columns gesture and participant) or for each frame (columns recording and label)
+    /// A line for each recording (columns gesture and participant) or for each frame (columns recording and
+    /// label)
     #[arg(long, value_name = "L.csv")]
     pub labels: Option<PathBuf>,
 }

@@ -119,7 +119,8 @@ impl Found {
         predictions
     }
 
-    /// The median time from which touches of a class that are recognised at their end are taken for it without a break.
+    /// The median time from which touches of a class that are recognised at their end are taken for it
+    /// without a break.
     fn onset(&self, class: usize, times: &Times) -> Option<f64> {
         let right = self.touches.iter().filter(|(was, applied)| (*was, applied.last.class) == (class, class));
         let since = right.map(|(_, applied)| {
@@ -140,8 +141,8 @@ pub fn as_it_is(model: &Model<'_>, data: &Data, times: &Times) -> Result<Report>
     Ok(found.report(data, times))
 }
 
-/// Trains on all groups but one and applies to that one, for each; beside it nearest neighbours and a cognitive map, which
-/// know the same features.
+/// Trains on all groups but one and applies to that one, for each; beside it nearest neighbours and a
+/// cognitive map, which know the same features.
 pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 2, "there is one group only: nothing can be kept apart");

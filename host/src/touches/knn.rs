@@ -6,7 +6,8 @@ use taxel_core::gesture::{FEATURES, Features};
 /// Neighbours that vote.
 const VOTERS: usize = 5;
 
-/// The class of each of the `asked` by its nearest `examples`, in standardised features; of equal votes that of the nearest.
+/// The class of each of the `asked` by its nearest `examples`, in standardised features; of equal votes that
+/// of the nearest.
 pub fn nearest(examples: &[(&Features, usize)], classes: usize, asked: &[&Features]) -> Vec<usize> {
     let (_, deviation) = standard(examples);
     let distance = |a: &Features, b: &Features| -> f64 {

@@ -1,7 +1,8 @@
 //! A fuzzy cognitive map of features and classes: what a model is compared with.
 //!
-//! Each of the features that tell the classes apart best is a concept fed with its membership in "much", each class a
-//! concept that they all feed; one step of the map activates the classes. The weights, in [-1, 1], are learnt by descent.
+//! Each of the features that tell the classes apart best is a concept fed with its membership in "much", each
+//! class a concept that they all feed; one step of the map activates the classes. The weights, in [-1, 1],
+//! are learnt by descent.
 
 use super::ridge::standard;
 use taxel_core::gesture::{FEATURES, Features};

@@ -1,4 +1,5 @@
-//! Learning from recorded touches: examples, a model that fits the board, what it is compared with, and the report.
+//! Learning from recorded touches: examples, a model that fits the board, what it is compared with, and the
+//! report.
 
 mod apply;
 mod calibration;

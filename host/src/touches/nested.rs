@@ -9,8 +9,8 @@ use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
-/// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn, trains with
-/// them on all the others, and applies to the group.
+/// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn,
+/// trains with them on all the others, and applies to the group.
 pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());

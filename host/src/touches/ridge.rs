@@ -1,4 +1,5 @@
-//! Linear classes by least squares: for each class the plane that is nearest to +1 on its examples and to -1 on the others.
+//! Linear classes by least squares: for each class the plane that is nearest to +1 on its examples and to -1
+//! on the others.
 
 use crate::learn::linear::{Square, back, forward};
 use taxel_core::gesture::{FEATURES, Features, LIMIT};
@@ -20,8 +21,9 @@ pub struct Ridge {
 }
 
 impl Ridge {
-    /// Fits examples with their classes, 0 .. `classes`. `penalty` draws the weights towards 0, per window of an example.
-    /// With `balance` 1 every class counts alike however many examples it has, with 0 every example.
+    /// Fits examples with their classes, 0 .. `classes`. `penalty` draws the weights towards 0, per window of
+    /// an example. With `balance` 1 every class counts alike however many examples it has, with 0 every
+    /// example.
     pub fn fit(examples: &[(&Features, usize)], classes: usize, penalty: f64, balance: f64) -> Ridge {
         let (middle, deviation) = standard(examples);
         let mut counts = vec![0usize; classes];

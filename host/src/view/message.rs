@@ -1,7 +1,7 @@
 //! What is said between the program and a page, over one WebSocket at `/socket`.
 //!
-//! Text messages to a page are JSON objects with a `type`. Those that `taxel live --json` also prints are the same: `hello`,
-//! `health`, `health_map`, `budget`. A page has besides:
+//! Text messages to a page are JSON objects with a `type`. Those that `taxel live --json` also prints are the
+//! same: `hello`, `health`, `health_map`, `budget`. A page has besides:
 //!
 //! | type | holds |
 //! |---|---|
@@ -25,13 +25,13 @@
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
 //! | 2 n | the greatest pressure of each since the last image that was sent |
 //!
-//! The line of an image of a recording also has `at_us`, its time since the recording began, and `seeks` as above; an image that
-//! was there before the page came has `past`.
+//! The line of an image of a recording also has `at_us`, its time since the recording began, and `seeks` as
+//! above; an image that was there before the page came has `past`.
 //!
-//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`. Where it shows a recording, it says `{"play": bool}`,
-//! `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range": [from, to]}` (s, or null), and all pages
-//! follow. Everything else is ignored, and so are numbers that are not finite, a speed of 0 or less, a step of 0; a time
-//! beyond the recording is taken for its end.
+//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`. Where it shows a recording, it says
+//! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`,
+//! `{"range": [from, to]}` (s, or null), and all pages follow. Everything else is ignored, and so are numbers
+//! that are not finite, a speed of 0 or less, a step of 0; a time beyond the recording is taken for its end.
 
 use super::mailbox::Shot;
 use super::recorded::Order;
@@ -90,8 +90,8 @@ fn map(map: &taxel_core::intent::MapConfig) -> Value {
     json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
 }
 
-/// The line of an image. The activations are those of the last moment at which the announced intention led: a board announces
-/// it a moment longer than the touch activates it, and a page shows both as one.
+/// The line of an image. The activations are those of the last moment at which the announced intention led: a
+/// board announces it a moment longer than the touch activates it, and a page shows both as one.
 pub fn frame(client: &Client, event: &Event) -> Value {
     let mut line = message(client, event);
     line["intent"] = json::intent(client.leading(), client.concepts(), &client.activations_of_leading());

@@ -1,8 +1,9 @@
 //! `taxel view`: what a board tells, live in the browser, or a recording of it (see `recorded`).
 //!
-//! One program serves one page with all that it needs, on this machine alone, and tells each page over a WebSocket what
-//! comes; see [`message`] for what is said. Three rules keep the board's stream free of its watchers: a page has one
-//! [`Mailbox`] that never grows, the newest image replaces the one before it, and whoever writes to a page is a thread of its own.
+//! One program serves one page with all that it needs, on this machine alone, and tells each page over a
+//! WebSocket what comes; see [`message`] for what is said. Three rules keep the board's stream free of its
+//! watchers: a page has one [`Mailbox`] that never grows, the newest image replaces the one before it, and
+//! whoever writes to a page is a thread of its own.
 
 mod assets;
 mod browser;

@@ -1,4 +1,5 @@
-//! The half minute before a page came: its images, so that a page that is loaded again can step back through them, too.
+//! The half minute before a page came: its images, so that a page that is loaded again can step back through
+//! them, too.
 
 use super::mailbox::{Mailbox, Parcel, Shot};
 use super::message;

@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};
 
-/// How long bytes are kept, us of the board. Where it starts anew, its clock does, and time goes on from where it was.
+/// How long bytes are kept, us of the board. Where it starts anew, its clock does, and time goes on from
+/// where it was.
 const KEPT: u64 = 30_000_000;
 /// How many of them at most, whatever the board says of its time.
 const BYTES: usize = 64 << 20;

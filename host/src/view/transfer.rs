@@ -1,4 +1,5 @@
-//! A recording that is sent while it is written: HTTP's chunked coding, so that a browser knows whether all of it has come.
+//! A recording that is sent while it is written: HTTP's chunked coding, so that a browser knows whether all
+//! of it has come.
 
 use crate::recording::Store;
 use std::io::{self, Write};

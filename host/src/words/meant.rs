@@ -9,7 +9,8 @@ pub fn meant<'a>(said: &str, known: impl IntoIterator<Item = &'a str>) -> Option
     (edits <= (wrong.len().max(name.len()) / 3).max(1)).then_some(name)
 }
 
-/// A sentence about a name that is not known: `there is no scene "pta": did you mean "pat"? Known are pat, lash`.
+/// A sentence about a name that is not known:
+/// `there is no scene "pta": did you mean "pat"? Known are pat, lash`.
 pub fn unknown<'a>(what: &str, said: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     let all = known.join(", ");

@@ -18,8 +18,8 @@ pub(super) fn line(text: &str, at: usize) -> usize {
     1 + text.bytes().take(at).filter(|byte| *byte == b'\n').count()
 }
 
-/// The line, from 1, on which the value stands to which the steps lead, or the last of them that is there; none where the text
-/// is no TOML.
+/// The line, from 1, on which the value stands to which the steps lead, or the last of them that is there;
+/// none where the text is no TOML.
 pub fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
     let table = DeTable::parse(text).ok()?;
     let mut start = 0;
@@ -38,7 +38,8 @@ pub fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
     Some(line(text, start))
 }
 
-/// The innermost key whose value holds these bytes; where the text is no TOML, the key before them on their line.
+/// The innermost key whose value holds these bytes; where the text is no TOML, the key before them on their
+/// line.
 pub(super) fn key_at(text: &str, span: &Range<usize>) -> Option<String> {
     let Ok(table) = DeTable::parse(text) else {
         let begin = text.get(..span.start)?.rfind('\n').map_or(0, |at| at + 1);

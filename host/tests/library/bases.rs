@@ -1,4 +1,5 @@
-//! Bases of shapes as files: whatever is in them, they are read or refused with one sentence, and what is read recognises.
+//! Bases of shapes as files: whatever is in them, they are read or refused with one sentence, and what is
+//! read recognises.
 
 use proptest::prelude::*;
 use taxel::learn::confusion::Confusion;

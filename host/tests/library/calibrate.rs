@@ -1,4 +1,5 @@
-//! Calibrating simulated garments whose taxels differ, lag and are noisy: forces of other touches, and when it no longer holds.
+//! Calibrating simulated garments whose taxels differ, lag and are noisy: forces of other touches, and when
+//! it no longer holds.
 
 use anyhow::Result;
 use fastrand::Rng;
@@ -68,7 +69,8 @@ fn measuring() -> Scene {
     scene
 }
 
-/// Forces that stand still, the felt ones in the mean of 0.26 s: `[true, felt]`, N; and what the board says of its calibration.
+/// Forces that stand still, the felt ones in the mean of 0.26 s: `[true, felt]`, N; and what the board says
+/// of its calibration.
 fn felt(calibration: &Calibration, sensor: &Sensor, seed: u64) -> (Vec<[f64; 2]>, String) {
     let (script, forces) = touches(sensor, seed);
     let mut source = source::simulated(script, &SourceOptions::default()).unwrap();
@@ -201,7 +203,8 @@ fn a_plate_over_blocks_or_over_taxels_gives_the_same_gains() {
             100.0 * spread,
             100.0 * parts.fit.error
         );
-        // Taxels that differ by 10 %, and two measurements of each, whose noise of 2 % has hardly changed within a reading.
+        // Taxels that differ by 10 %, and two measurements of each, whose noise of 2 % has hardly changed
+        // within a reading.
         assert!(spread < 0.025, "{over:?}: {spread}");
     }
     std::fs::remove_file(&file).unwrap();

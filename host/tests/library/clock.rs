@@ -1,9 +1,9 @@
 //! The host's time of a board's frames over an hour, against a simulated truth that the client does not see.
 //!
-//! The board's clock runs 50 ppm fast, and wanders by 5 ppm with a period of ten minutes, as with the warmth of a room
-//! (0.052 ppm/s at most). The way to the board takes 0.1 to 5 ms: the board reads its link between two stages of a frame.
-//! The way back takes 0.8 ms at least, 0.3 ms more on average; in bursts, ten seconds of each half minute, 20 ms more on
-//! average, as behind images on a busy link. One answer in twenty is lost.
+//! The board's clock runs 50 ppm fast, and wanders by 5 ppm with a period of ten minutes, as with the warmth
+//! of a room (0.052 ppm/s at most). The way to the board takes 0.1 to 5 ms: the board reads its link between
+//! two stages of a frame. The way back takes 0.8 ms at least, 0.3 ms more on average; in bursts, ten seconds
+//! of each half minute, 20 ms more on average, as behind images on a busy link. One answer in twenty is lost.
 
 use fastrand::Rng;
 use std::collections::VecDeque;

@@ -1,4 +1,5 @@
-//! Faults of lines and inputs, and what the simulated board says of them: a part of the targets that test health.
+//! Faults of lines and inputs, and what the simulated board says of them: a part of the targets that test
+//! health.
 
 use taxel::sim::{PINS, Script, SimBoard};
 use taxel_core::acquire::MuxScan;

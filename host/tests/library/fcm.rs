@@ -1,5 +1,5 @@
-//! Fuzzy cognitive maps against exact trajectories of published and made maps (tests/reference/fcm_*.json: 50 digits,
-//! fractions for thresholds), for the f64 engine, the exact one and the core's integers.
+//! Fuzzy cognitive maps against exact trajectories of published and made maps (tests/reference/fcm_*.json: 50
+//! digits, fractions for thresholds), for the f64 engine, the exact one and the core's integers.
 
 use serde_json::Value;
 use taxel::fcm::decimal::Decimal;
@@ -156,7 +156,8 @@ fn the_core_follows_the_first_states() {
     assert!(worst[0] < 2.1e-4 && worst[1] < 4e-4, "{worst:?}");
 }
 
-/// A step's rounding is carried on until the map settles: on the way the core is further off than where it ends.
+/// A step's rounding is carried on until the map settles: on the way the core is further off than where it
+/// ends.
 #[test]
 fn the_core_follows_the_whole_trajectory() {
     let mut worst = [(0.0, String::new()), (0.0, String::new())];
@@ -177,8 +178,8 @@ fn the_core_follows_the_whole_trajectory() {
     assert!(worst[0].0 < 8e-4 && worst[1].0 < 2.5e-4, "{worst:?}");
 }
 
-/// A map that approaches its limit ever more slowly comes to rest in the core as soon as its steps are below half of 2^-15: `Fixed`
-/// says that the state reproduces itself, not that it is near the limit.
+/// A map that approaches its limit ever more slowly comes to rest in the core as soon as its steps are below
+/// half of 2^-15: `Fixed` says that the state reproduces itself, not that it is near the limit.
 #[test]
 fn a_creeping_map_rests_before_its_limit() {
     let mut told = Vec::new();
@@ -262,8 +263,8 @@ fn decimal_ties_are_exactly_zero() {
     }
 }
 
-/// The source's rule as printed, C_j = 1 if C E_j > 0 else 0, has no memory: without a cycle among the edges the inputs
-/// go out at the first step, what they caused at the second, and so on.
+/// The source's rule as printed, C_j = 1 if C E_j > 0 else 0, has no memory: without a cycle among the edges
+/// the inputs go out at the first step, what they caused at the second, and so on.
 #[test]
 fn the_published_rule_puts_out_every_map_without_cycles() {
     let d = |text: &str| Decimal::parse(text).unwrap();

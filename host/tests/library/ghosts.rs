@@ -1,5 +1,5 @@
-//! Ghosts of a passive matrix, whose currents are solved for here: three pressed corners make a fourth, and only that is taken for
-//! a ghost.
+//! Ghosts of a passive matrix, whose currents are solved for here: three pressed corners make a fourth, and
+//! only that is taken for a ghost.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use taxel::health::{HealthArgs, Told, candidates, look};
@@ -18,8 +18,8 @@ const COLUMNS: usize = 16;
 const REST: f64 = 1e-4;
 const PRESSED: f64 = 1.0;
 
-/// Codes of a matrix of conductances between its rows and columns. To read a taxel its row is at 1 and its column at 0;
-/// everything else floats.
+/// Codes of a matrix of conductances between its rows and columns. To read a taxel its row is at 1 and its
+/// column at 0; everything else floats.
 fn codes(conductance: &[[f64; COLUMNS]; ROWS]) -> Vec<Code> {
     let read = |row: usize, column: usize| {
         let (mut rows, mut columns) = ([0.5; ROWS], [0.5; COLUMNS]);
@@ -106,8 +106,9 @@ fn what_makes_no_rectangle_is_no_candidate() {
     }
 }
 
-/// What `taxel health` says of pens on a simulated board whose wiring is passive or not. They press the corners of a rectangle on
-/// the first and the last row, each within its row: on four rows, wider ones run into each other, and make two contacts.
+/// What `taxel health` says of pens on a simulated board whose wiring is passive or not. They press the
+/// corners of a rectangle on the first and the last row, each within its row: on four rows, wider ones run
+/// into each other, and make two contacts.
 fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<bool>) -> Told {
     static FILES: AtomicU32 = AtomicU32::new(0);
     let pen = |(row, column): &(f64, f64)| {

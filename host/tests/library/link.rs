@@ -1,5 +1,6 @@
-//! The link under every kind of fault: what is delivered is what was sent, what is lost is counted exactly, and what no fault has touched
-//! arrives. `cargo xtask campaign --only link` sends ten million messages through each.
+//! The link under every kind of fault: what is delivered is what was sent, what is lost is counted exactly,
+//! and what no fault has touched arrives. `cargo xtask campaign --only link` sends ten million messages
+//! through each.
 
 use fastrand::Rng;
 use taxel::client::{Client, Event};
@@ -98,7 +99,8 @@ impl Link {
         Link { fault, client, random, seq: 0, outcome: Outcome::default(), last: None }
     }
 
-    /// Sends a batch; the first and the last of its messages are spared, so that all losses lie between two that arrive.
+    /// Sends a batch; the first and the last of its messages are spared, so that all losses lie between two
+    /// that arrive.
     fn batch(&mut self, spared: bool) {
         let first = self.seq;
         let (mut wire, mut ends) = (Vec::new(), Vec::new());

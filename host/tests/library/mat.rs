@@ -4,7 +4,8 @@ use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::{Garment, Layout};
 
-/// A script in which a box of 5 N, all of whose counts are above the floor, lies on the mat for so many seconds.
+/// A script in which a box of 5 N, all of whose counts are above the floor, lies on the mat for so many
+/// seconds.
 pub fn box_for(hold_s: u32) -> String {
     format!(
         r#"

@@ -24,7 +24,8 @@ const VARIANTS: u64 = 500;
 /// The right answer in at least so many of them.
 const RIGHT: usize = 490;
 
-/// What the garment made of a script: every intention that led, in order, and the map's reason for the last one.
+/// What the garment made of a script: every intention that led, in order, and the map's reason for the last
+/// one.
 struct Course {
     led: Vec<Leading>,
     reason: String,
@@ -125,7 +126,8 @@ fn controls() {
     assert!(!led(5, Leading::Attack), "quick pats are no blows");
 }
 
-/// A slap of 30 N and 60 ms, and 300 ms after it a palm of 3 N that strokes for 3 s; breadth and speed are noisy.
+/// A slap of 30 N and 60 ms, and 300 ms after it a palm of 3 N that strokes for 3 s; breadth and speed are
+/// noisy.
 #[test]
 fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
     let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).expect("the shipped map is whole");
@@ -164,7 +166,8 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         latest = [latest[0].max(slap - 100), latest[1].max(stroke - 460)];
     }
     println!("attack at most {} ms after its onset, kindness {} ms", latest[0], latest[1]);
-    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke takes some time to be one.
+    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke takes some time to be
+    // one.
     assert!(latest[0] <= 40 && latest[1] <= 700, "{latest:?}");
 }
 

@@ -1,5 +1,5 @@
-//! The portable scan: the exact order of pins, delays and conversions on mocked hardware, and its codes on the simulated
-//! board.
+//! The portable scan: the exact order of pins, delays and conversions on mocked hardware, and its codes on
+//! the simulated board.
 
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType, OutputPin};
@@ -146,8 +146,8 @@ fn set(level: bool) -> PinTransaction {
 
 #[test]
 fn one_block_is_scanned_in_exactly_this_order() {
-    // Rows on GP7 and GP8, columns on GP9 to GP12. Every line is driven once at the start, later only at a change:
-    // column bit k changes every 2^k addresses, row bit k every 16 * 2^k.
+    // Rows on GP7 and GP8, columns on GP9 to GP12. Every line is driven once at the start, later only at a
+    // change: column bit k changes every 2^k addresses, row bit k every 16 * 2^k.
     let mut expected = vec![];
     for address in 0..64u32 {
         for bit in [4, 5, 0, 1, 2, 3] {
@@ -201,8 +201,8 @@ fn a_second_scan_drives_only_what_changed() {
     assert_eq!(events.iter().filter(|e| matches!(e, Event::Set(..))).count(), 6 + 3);
 }
 
-/// Two blocks of 2 x 3 on two inputs: one-hot rows on inverted lines GP12 and GP13, a column multiplexer on GP3 and GP4
-/// whose high bit is inverted, one enable of each polarity.
+/// Two blocks of 2 x 3 on two inputs: one-hot rows on inverted lines GP12 and GP13, a column multiplexer on
+/// GP3 and GP4 whose high bit is inverted, one enable of each polarity.
 fn mixed() -> Garment {
     let mut garment = binary_block();
     let wiring = &mut garment.wiring;
@@ -366,7 +366,8 @@ fn wired(effects: impl FnOnce(&mut Script)) -> Vec<u16> {
 #[test]
 fn a_slow_line_smears_along_the_scan() {
     let ideal = wired(|_| {});
-    // 10 kOhm and 100 pF are 1 us: after 2 us of settling 13.5 % of the difference to the taxel before are left.
+    // 10 kOhm and 100 pF are 1 us: after 2 us of settling 13.5 % of the difference to the taxel before are
+    // left.
     let slow = wired(|s| {
         s.wiring.source_kohm = 10.0;
         s.wiring.line_pf = 100.0;
@@ -380,7 +381,8 @@ fn a_slow_line_smears_along_the_scan() {
     let mut worst = 0f64;
     for taxel in 1..512 {
         let (before, here) = (f64::from(ideal[taxel - 1]), f64::from(ideal[taxel]));
-        // The line goes on settling while the other inputs are read, so what is left stems from the taxel before.
+        // The line goes on settling while the other inputs are read, so what is left stems from the taxel
+        // before.
         let expected = here + (before - here) * (-2f64).exp();
         worst = worst.max((f64::from(slow[taxel]) - expected).abs());
     }

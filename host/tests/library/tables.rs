@@ -1,4 +1,5 @@
-//! The tables and charts in docs/bench are what the program prints. Refreshed with TAXEL_BLESS=1 before this test.
+//! The tables and charts in docs/bench are what the program prints. Refreshed with TAXEL_BLESS=1 before this
+//! test.
 
 use std::path::Path;
 use taxel::bench::{Report, acquisition, amplifier, nmi};

@@ -1,4 +1,5 @@
-//! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and whether it fits.
+//! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and
+//! whether it fits.
 
 use proptest::prelude::*;
 use taxel::touches::{Head, Provenance, Ridge, Trained, export};

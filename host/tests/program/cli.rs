@@ -1,4 +1,5 @@
-//! The program from outside: its answers on the reference images, and one sentence and an exit status for bad input.
+//! The program from outside: its answers on the reference images, and one sentence and an exit status for bad
+//! input.
 
 use crate::reference;
 use crate::start::taxel;
@@ -370,7 +371,8 @@ fn settling_is_found_and_written() {
     let said = run(&["settle", "--source", weights, "--json", "--force", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
-    // 800 ns and 4 of 4,095 counts: 5,545 ns, three conversions; a second round of the four inputs takes less time than a slower pace.
+    // 800 ns and 4 of 4,095 counts: 5,545 ns, three conversions; a second round of the four inputs takes less
+    // time than a slower pace.
     assert_eq!(settled["in_slots_ns"], 12_000);
     assert_eq!(settled["measured"], serde_json::json!([26, 27, 28, 29]));
     let garment = taxel::sim::garment(&output).unwrap();

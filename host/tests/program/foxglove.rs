@@ -1,4 +1,5 @@
-//! The live server for Foxglove: what a client that subscribes is told of a simulated pat, and one that does not read.
+//! The live server for Foxglove: what a client that subscribes is told of a simulated pat, and one that does
+//! not read.
 
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};

@@ -1,4 +1,5 @@
-//! `taxel live` through the library: a simulated board, the wire, the client, and all three ways to show what comes.
+//! `taxel live` through the library: a simulated board, the wire, the client, and all three ways to show what
+//! comes.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -391,7 +392,8 @@ fn gestures_are_told_where_they_are_asked_for() {
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }
 
-/// Teaches a board a base, and compares what it says of a contact that is alone with what the base says of its image.
+/// Teaches a board a base, and compares what it says of a contact that is alone with what the base says of
+/// its image.
 struct Teacher {
     base: Base,
     taught: bool,

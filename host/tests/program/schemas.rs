@@ -7,8 +7,8 @@ use taxel_core::garment::Garment;
 use taxel_core::react::ReactionConfig;
 use taxel_core::scene::Scene;
 
-/// The first thing in which a value is not as a schema says, with its place; none: it is valid. Panics at a key of the schema
-/// that is not known here, so that none is passed over.
+/// The first thing in which a value is not as a schema says, with its place; none: it is valid. Panics at a
+/// key of the schema that is not known here, so that none is passed over.
 fn wrong(value: &Value, schema: &Value) -> Option<String> {
     check(value, schema, schema, "")
 }

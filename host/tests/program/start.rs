@@ -10,8 +10,8 @@ pub fn taxel() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_taxel"))
 }
 
-/// The example `intentions`. Cargo builds it for a whole test run, not for one target: it is built here where it is missing or
-/// older than its sources.
+/// The example `intentions`. Cargo builds it for a whole test run, not for one target: it is built here where
+/// it is missing or older than its sources.
 pub fn intentions() -> PathBuf {
     let folder = taxel().parent().unwrap();
     let example = folder.join("examples/intentions").with_extension(std::env::consts::EXE_EXTENSION);

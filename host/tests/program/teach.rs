@@ -1,5 +1,5 @@
-//! A user teaches shapes, from outside: by touches, `taxel shapes learn` on a simulated board, then `taxel live` with the base;
-//! and by labelled images, `taxel shapes train`.
+//! A user teaches shapes, from outside: by touches, `taxel shapes learn` on a simulated board, then
+//! `taxel live` with the base; and by labelled images, `taxel shapes train`.
 
 use crate::drawn::{CLASSES, Rng, Touch};
 use crate::start::taxel;
@@ -29,7 +29,8 @@ fn done(folder: &Path, args: &[&str]) -> (String, String) {
     (out, err)
 }
 
-/// A scene in which something is held against back and chest, elsewhere, turned and harder each time. Places follow `draw`.
+/// A scene in which something is held against back and chest, elsewhere, turned and harder each time. Places
+/// follow `draw`.
 fn scene(folder: &Path, name: &str, (shape, size_mm): (&str, [u32; 2]), draw: u32) {
     let touch = |n: u32| {
         let step = |of: u32| f64::from((n * 7 + draw * 5) % of) / f64::from(of);

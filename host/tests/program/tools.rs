@@ -112,7 +112,8 @@ fn a_simulated_garment_is_calibrated_and_checked() {
     );
 }
 
-/// A simulated board behind TCP, until whoever connects is gone: the garments and the scenes that it was told to take.
+/// A simulated board behind TCP, until whoever connects is gone: the garments and the scenes that it was told
+/// to take.
 fn serve(listener: &TcpListener) -> [Vec<Vec<u8>>; 2] {
     let options = SourceOptions { realtime: true, ..RawBoard::options() };
     let mut board = source::open(&"sim:idle".parse().unwrap(), &options).unwrap();

@@ -1,4 +1,5 @@
-//! `taxel view` from outside: what is served to whom, and what a page is told while a simulated board is watched.
+//! `taxel view` from outside: what is served to whom, and what a page is told while a simulated board is
+//! watched.
 
 use serde_json::Value;
 use std::collections::BTreeMap;

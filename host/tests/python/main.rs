@@ -1,5 +1,5 @@
-//! What Python makes of the program's files and lines: recordings of every simulated scene, what a kill leaves, the examples.
-//! `cargo xtask test` gives the interpreter that has the readers (`TAXEL_PYTHON`).
+//! What Python makes of the program's files and lines: recordings of every simulated scene, what a kill
+//! leaves, the examples. `cargo xtask test` gives the interpreter that has the readers (`TAXEL_PYTHON`).
 
 mod examples;
 mod killed;

@@ -73,7 +73,8 @@ fn folder(name: &str, full_scale: u16) {
     assert!(frames > 0 && contacts > 0, "{name} holds touches");
 }
 
-/// Conditions frames of a recording, at most 100 of them, with and without leaving out what is quiet: the first is the baseline.
+/// Conditions frames of a recording, at most 100 of them, with and without leaving out what is quiet: the
+/// first is the baseline.
 fn condition(frames: &Frames, filter: Filter, what: &str) {
     let top = frames.values.iter().copied().max().unwrap_or(1).max(1);
     let layout = Layout::build(&Garment::recorded(frames.rows, frames.columns), TAXELS, top).expect(what);

@@ -1,5 +1,5 @@
-//! Recordings through the pipeline, and what is learned from them. `cargo xtask test --recorded` runs these; they read the
-//! folders that TAXEL_DATA lists.
+//! Recordings through the pipeline, and what is learned from them. `cargo xtask test --recorded` runs these;
+//! they read the folders that TAXEL_DATA lists.
 
 mod data;
 #[path = "../../../core/tests/core/dense.rs"]

@@ -138,7 +138,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 }
 
-/// The confidence of the first that waits, then that gesture itself: whoever reads it knows by then how sure it is.
+/// The confidence of the first that waits, then that gesture itself: whoever reads it knows by then how sure
+/// it is.
 fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
     let Some((report, confidence)) = waiting.front_mut() else { return true };
     let GestureReport { frame, time, touch, .. } = *report;

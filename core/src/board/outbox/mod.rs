@@ -198,7 +198,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
-    /// Another garment: nothing of the old one, and `Hello` tells of the new one, then what a self-test finds in it.
+    /// Another garment: nothing of the old one, and `Hello` tells of the new one, then what a self-test finds
+    /// in it.
     pub fn renew(&mut self) {
         self.hello = Some(Micros(0));
         self.examined |= self.streaming;

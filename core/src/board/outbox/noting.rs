@@ -11,8 +11,8 @@ use crate::wire::*;
 use heapless::Vec;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    /// Takes what was perceived in a frame. Of one that is `late` the image is left out, unless one waits for the link: it is dear, and the
-    /// next one comes soon.
+    /// Takes what was perceived in a frame. Of one that is `late` the image is left out, unless one waits for
+    /// the link: it is dear, and the next one comes soon.
     pub fn note(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, late: bool, health: &mut Health) {
         if !self.streaming {
             return;
@@ -63,8 +63,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost += u32::from(self.reactions.push_back(report).is_err());
     }
 
-    /// Forgets the oldest report of a reaction that a later one, or `next`, follows: how each stands now is told in any case. Whether
-    /// there is one.
+    /// Forgets the oldest report of a reaction that a later one, or `next`, follows: how each stands now is
+    /// told in any case. Whether there is one.
     #[cold]
     fn forget_reaction(&mut self, next: &Reaction) -> bool {
         let name =

@@ -143,8 +143,8 @@ fn eccentricity_follows_from_the_anisotropy() {
 const PITCHES: [[u32; 2]; 6] =
     [[10_000, 10_000], [12_000, 10_000], [2_000, 2_000], [2_000, 8_000], [30_000, 7_500], [29_900, 30_000]];
 
-/// `w^2 = 12 variance across + pixel^2`, in 0.1 mm, and whether the direction is clear: where the anisotropy is below 2^-13 it
-/// is lost among the bits that are cut, if there is one at all.
+/// `w^2 = 12 variance across + pixel^2`, in 0.1 mm, and whether the direction is clear: where the anisotropy
+/// is below 2^-13 it is lost among the bits that are cut, if there is one at all.
 fn exact_breadth(plain: &Plain, [px, py]: [i128; 2]) -> (Real, bool) {
     let [a, b, c] = plain.central();
     let central = [a * px * px, b * py * py, c * px * py];

@@ -38,13 +38,15 @@ fn filled(columns: RangeInclusive<u32>, rows: RangeInclusive<u32>, value: u16) -
 const LAST: (u32, u32) = (COLUMNS as u32 - 1, ROWS as u32 - 1);
 const FULL: [u16; 3] = [1, 4095, u16::MAX];
 
-/// Every rectangle of even pressure in the far corner, squares and lines among them, at 1 count, 12 and 16 bits.
+/// Every rectangle of even pressure in the far corner, squares and lines among them, at 1 count, 12 and 16
+/// bits.
 pub fn rectangles() -> impl Iterator<Item = Taxels> {
     let sizes = (1..=LAST.0 + 1).flat_map(|w| (1..=LAST.1 + 1).map(move |h| (w, h)));
     sizes.flat_map(|(w, h)| FULL.map(|value| filled(LAST.0 + 1 - w..=LAST.0, LAST.1 + 1 - h..=LAST.1, value)))
 }
 
-/// Every square of even pressure in the far corner with one taxel that is a count less: almost without direction.
+/// Every square of even pressure in the far corner with one taxel that is a count less: almost without
+/// direction.
 pub fn almost_isotropic() -> impl Iterator<Item = Taxels> {
     let squares = (2..=32u32).flat_map(|side| FULL.into_iter().skip(1).map(move |value| (side, value)));
     squares.flat_map(|(side, value)| {
@@ -125,7 +127,8 @@ pub fn strips() -> impl Iterator<Item = Taxels> {
     })
 }
 
-/// Crosses that are isotropic on a cloth of 12 x 10 mm, or all but: 144 times the one arm against 100 times the other.
+/// Crosses that are isotropic on a cloth of 12 x 10 mm, or all but: 144 times the one arm against 100 times
+/// the other.
 pub fn crosses() -> impl Iterator<Item = Taxels> {
     let sizes = (1..=15u32).flat_map(|arm| (1..=455u32).step_by(7).map(move |k| (arm, k)));
     sizes.flat_map(|(arm, k)| {

@@ -9,7 +9,8 @@ use taxel_core::intent::{
     CONCEPTS, Edge, Inference, Input, Map, MapConfig, Outcome, Rule, Source, Touch, Transfer, tactile,
 };
 
-/// A map of `n` concepts, of which as many as there may be edges for are driven by all, with weights in steps of 10^-decimals.
+/// A map of `n` concepts, of which as many as there may be edges for are driven by all, with weights in steps
+/// of 10^-decimals.
 fn random(n: u8, decimals: u8, rule: Rule, transfer: Transfer, noise: &mut Noise) -> MapConfig {
     let mut config = MapConfig { name: name("any"), decimals, rule, transfer, ..MapConfig::default() };
     let step = 10i64.pow(decimals.into());

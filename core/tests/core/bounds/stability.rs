@@ -1,4 +1,5 @@
-//! What becomes of the same touches in the arithmetic that is usual for them: raw moments in f32, and in Q16.16.
+//! What becomes of the same touches in the arithmetic that is usual for them: raw moments in f32, and in
+//! Q16.16.
 
 use crate::bounds::images::{self, Noise, Taxels, moments};
 use crate::plain::Plain;
@@ -53,7 +54,8 @@ fn single(taxels: &Taxels) -> Central {
     Central { xx, yy, xy }
 }
 
-/// E[x^2] - E[x]^2 in Q16.16, as a fixed-point library makes it, with 4096 counts for 1; none where a sum does not fit.
+/// E[x^2] - E[x]^2 in Q16.16, as a fixed-point library makes it, with 4096 counts for 1; none where a sum
+/// does not fit.
 fn fixed(taxels: &Taxels) -> Option<Central> {
     let mut sums = [0i32; 6];
     for (x, y, f) in taxels {
@@ -187,7 +189,8 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
     assert!(full[1].overflows == full[1].touches && small[1].azimuth > 5.0, "{:?}", small[1]);
 }
 
-/// A square has no direction: f32 gives it one, and the ninth saturated taxel of the last row is more than Q16.16 can hold.
+/// A square has no direction: f32 gives it one, and the ninth saturated taxel of the last row is more than
+/// Q16.16 can hold.
 #[test]
 fn an_isotropic_square_and_the_ninth_taxel() {
     let by_anisotropy =

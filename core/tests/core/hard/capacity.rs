@@ -27,7 +27,8 @@ fn checkerboard_of_dots() {
     assert_eq!((contact.area, contact.total), (1024, 1_024_000));
 }
 
-/// With room for all of them, the 512 dots are 512 contacts, each itself, and in the next frame each is the same again.
+/// With room for all of them, the 512 dots are 512 contacts, each itself, and in the next frame each is the
+/// same again.
 #[test]
 fn every_label_of_a_checkerboard() {
     let layout = Layout::build(&Garment::mat(), 2048, u16::MAX).unwrap();

@@ -52,8 +52,8 @@ fn flood(rig: &Rig, low: u16) -> Vec<Sums> {
     found
 }
 
-/// Random images of a garment of few rows at a time, and so few contacts: how many were compared, and how many of them had a contact
-/// across a seam.
+/// Random images of a garment of few rows at a time, and so few contacts: how many were compared, and how
+/// many of them had a contact across a seam.
 fn compare(garment: &Garment, rounds: usize) -> (u32, u32) {
     let mut rig = Rig::new(garment);
     let mut state = 9u32;

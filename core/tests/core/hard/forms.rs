@@ -137,7 +137,8 @@ fn draw_spiral(rig: &mut Rig) -> u16 {
     area
 }
 
-/// Squares of every side and discs of every radius that the mat holds, anywhere: no direction, to the last step.
+/// Squares of every side and discs of every radius that the mat holds, anywhere: no direction, to the last
+/// step.
 #[test]
 fn discs_and_squares_have_no_direction() {
     let mut rig = Rig::mat();
@@ -162,7 +163,8 @@ fn discs_and_squares_have_no_direction() {
     }
 }
 
-/// What is a square in taxels is none in millimetres: the azimuth is that of the taxels, the breadth that of the cloth.
+/// What is a square in taxels is none in millimetres: the azimuth is that of the taxels, the breadth that of
+/// the cloth.
 #[test]
 fn unequal_pitch() {
     let mut garment = Garment::mat();

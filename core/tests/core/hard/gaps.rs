@@ -65,7 +65,8 @@ fn a_dead_taxel_is_a_gap_that_the_filter_bridges() {
     let mut want = slope();
     want[dead] = 0;
     assert!(is_of(&contact(Filter::Off, None, &[dead], &slope()), &want));
-    // Conservative: the least of its eight neighbours. What is less than all its own neighbours is raised, what is more is lowered.
+    // Conservative: the least of its eight neighbours. What is less than all its own neighbours is raised,
+    // what is more is lowered.
     let clamped = |values: &[u16]| -> Vec<u16> {
         let at = |x: i32, y: i32| (0..16).contains(&x).then(|| values[(y * 16 + x) as usize]);
         let around = |x: i32, y: i32| {

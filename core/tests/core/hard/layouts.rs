@@ -8,7 +8,8 @@ fn build(rows: u16, columns: u16, full_scale: u16) -> Result<Layout, GarmentErro
     Layout::build(&Garment::recorded(rows, columns), usize::from(u16::MAX), full_scale)
 }
 
-/// `J m` of the saturated panel. `m J` is the sum of `f_i f_j d_ij^2` over all pairs: no other touch has a greater one.
+/// `J m` of the saturated panel. `m J` is the sum of `f_i f_j d_ij^2` over all pairs: no other touch has a
+/// greater one.
 fn most(rows: u16, columns: u16, full_scale: u16) -> i128 {
     let (n, w, h) = (i128::from(rows) * i128::from(columns), i128::from(columns), i128::from(rows));
     (i128::from(full_scale) * n).pow(2) * (w * w + h * h - 2) / 12

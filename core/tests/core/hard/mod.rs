@@ -1,4 +1,5 @@
-//! Contacts that are hard to get right, each with its exact answer: nothing, everything, spirals, seams, more than fit.
+//! Contacts that are hard to get right, each with its exact answer: nothing, everything, spirals, seams, more
+//! than fit.
 
 mod capacity;
 mod flood;

@@ -5,7 +5,8 @@ use taxel_core::garment::{Edge, Garment, Seam, Side};
 
 #[test]
 fn across_the_seam_it_is_one() {
-    // The chest's right side is sewn to the back's left side. A bar of 8 x 2 slides over, half a column at a time.
+    // The chest's right side is sewn to the back's left side. A bar of 8 x 2 slides over, half a column at a
+    // time.
     let mut rig = Rig::new(&Garment::reference());
     let mut way = Vec::new();
     for step in 0..=24 {

@@ -51,7 +51,8 @@ fn low_and_high() {
     }
 }
 
-/// A contact goes on down to the low threshold, but only where it was: one taxel away it is another, and begins nothing.
+/// A contact goes on down to the low threshold, but only where it was: one taxel away it is another, and
+/// begins nothing.
 #[test]
 fn a_faint_touch_goes_on_within_one_taxel() {
     for (shift, goes_on) in [(0, true), (1, true), (2, false)] {

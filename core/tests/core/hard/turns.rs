@@ -31,7 +31,8 @@ fn a_form_is_as_old_as_there_are_contacts_at_most() {
         for (seen, looked) in seen.iter_mut().zip(&frame.looked) {
             *seen |= *looked;
         }
-        // What was looked at is as it is, the rest as it was; pressure, area and place are always those of the frame.
+        // What was looked at is as it is, the rest as it was; pressure, area and place are always those of
+        // the frame.
         for ((contact, seen), left) in frame.present.iter().zip(seen).zip([0, 12, 24]) {
             assert_eq!(degrees(contact), if seen { 90 } else { 0 }, "{round}");
             assert_eq!((contact.area, contact.total, contact.x.0), (4, 1600, left << 16), "{round}");

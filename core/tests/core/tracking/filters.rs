@@ -1,4 +1,5 @@
-//! Thin fingers on one coarse block of 4 x 16: which filter keeps them, from the code of a taxel to the contact.
+//! Thin fingers on one coarse block of 4 x 16: which filter keeps them, from the code of a taxel to the
+//! contact.
 
 use crate::tracking::rig::FRAME_US;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
@@ -6,8 +7,8 @@ use taxel_core::contact::{Contact, ContactConfig, ContactState};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 
-/// A finger of `rows` x `columns` taxels slides along the block from its second column to the last but one, a column
-/// in four frames: what is told of it in each frame.
+/// A finger of `rows` x `columns` taxels slides along the block from its second column to the last but one, a
+/// column in four frames: what is told of it in each frame.
 fn slide(filter: Filter, rows: usize, columns: usize) -> Vec<Option<Contact>> {
     let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
     let config = ConditionConfig { filter, track_baseline: false, ..ConditionConfig::default() };

@@ -60,7 +60,8 @@ fn of_two_equals_that_merge_one_goes_on() {
 
 #[test]
 fn one_that_covers_another_goes_on_as_it() {
-    // A palm lands on a resting finger, in one frame and with its middle far away: the touch there has not ended.
+    // A palm lands on a resting finger, in one frame and with its middle far away: the touch there has not
+    // ended.
     let mut rig = Rig::mat();
     show(&mut rig, &[([10, 11], [2, 3], 900)]);
     let frame = show(&mut rig, &[([8, 40], [2, 20], 900)]);

@@ -80,7 +80,8 @@ impl Rig {
     }
 }
 
-/// The share of a taxel's cell at (x, y) that a shape covers, and how much it presses there: the mean over 8 x 8 places.
+/// The share of a taxel's cell at (x, y) that a shape covers, and how much it presses there: the mean over 8
+/// x 8 places.
 pub fn felt(x: f64, y: f64, pressure: impl Fn(f64, f64) -> f64) -> f64 {
     let places = (0..8).flat_map(|i| (0..8).map(move |j| (f64::from(i), f64::from(j))));
     places.map(|(i, j)| pressure(x + (i - 3.5) / 8.0, y + (j - 3.5) / 8.0)).sum::<f64>() / 64.0

@@ -26,7 +26,8 @@ fn above_noise() -> ContactConfig {
     ContactConfig { low: 330, high: 660, ..ContactConfig::default() }
 }
 
-/// Held for 60 frames, then moving: frames from the first that differs until the slip is told; none of the held ones is one.
+/// Held for 60 frames, then moving: frames from the first that differs until the slip is told; none of the
+/// held ones is one.
 fn onset(config: ContactConfig, noise: f64, speed: f64, degrees: f64, pressure: Pressure) -> Option<usize> {
     let mut rig = Rig::new(&Garment::mat(), config);
     let mut random = Noise(11);

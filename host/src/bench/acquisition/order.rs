@@ -1,7 +1,8 @@
 //! What the order of the addresses does to settling: the same touch, scanned row by row and interlaced.
 //!
-//! Row by row a line settles from one neighbour to the next, whose signals differ little under a broad touch; interlaced it settles
-//! from a taxel far away, so that what is left is a part of the whole signal. A step of full scale, the bound of both, is the same.
+//! Row by row a line settles from one neighbour to the next, whose signals differ little under a broad touch;
+//! interlaced it settles from a taxel far away, so that what is left is a part of the whole signal. A step of
+//! full scale, the bound of both, is the same.
 
 use super::{LINE_PF, texture};
 use crate::sim::{Chain, Converter, WiringEffects};

@@ -1,4 +1,5 @@
-//! A case: a garment, a scene's settings, and the codes of its frames; the same for the emulated board and this machine.
+//! A case: a garment, a scene's settings, and the codes of its frames; the same for the emulated board and
+//! this machine.
 
 use crate::arrays;
 use crate::client::Client;

@@ -1,4 +1,5 @@
-//! How far contacts are from the truth: the exact moments of the discs that press, computed from their definition.
+//! How far contacts are from the truth: the exact moments of the discs that press, computed from their
+//! definition.
 
 use serde_json::{Value, json};
 use taxel_core::body::Placed;
@@ -70,7 +71,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Compares the contacts of a frame with its discs; a disc without a contact on its panel counts as a taxel off.
+    /// Compares the contacts of a frame with its discs; a disc without a contact on its panel counts as a
+    /// taxel off.
     pub fn compare(&mut self, pattern: Pattern, frame: u32, contacts: &[Placed]) {
         for disc in pattern.discs(frame) {
             let exact = Exact::of(disc);

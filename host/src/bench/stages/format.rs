@@ -1,4 +1,5 @@
-//! Kernels beside the chain: reading alone, the plain chain, and formats of numbers, with their errors against f64.
+//! Kernels beside the chain: reading alone, the plain chain, and formats of numbers, with their errors
+//! against f64.
 
 use super::case::Step;
 use super::error::Error;
@@ -192,7 +193,8 @@ mod tests {
     #[test]
     fn each_format_is_as_far_off_as_the_table_says() {
         let bounds = [
-            // Half a step of 2^-16 along each axis; half a step of 2^-24 of an NMI from 0.008; the core's bound.
+            // Half a step of 2^-16 along each axis; half a step of 2^-24 of an NMI from 0.008; the core's
+            // bound.
             (Measure::Exact, [1.1e-5, 4e-6, 1.3e-6]),
             (Measure::Q15, [4.5e-3, 2.1e-3, 4.5e-3]),
             (Measure::SumsMicromath, [7e-7, 0.062, 1.5e-3]),

@@ -1,5 +1,5 @@
-//! `taxel bench stages`: each stage and each variant, its cost on this machine beside its error. The emulated board runs the
-//! same steps (`cargo xtask cycles`).
+//! `taxel bench stages`: each stage and each variant, its cost on this machine beside its error. The emulated
+//! board runs the same steps (`cargo xtask cycles`).
 
 pub mod case;
 pub mod error;

@@ -182,8 +182,8 @@ impl Table {
     }
 }
 
-/// What Parquet wants to know of each of `count` values in lists: how many lists around it are there (all of them), and how many go on
-/// from the value before.
+/// What Parquet wants to know of each of `count` values in lists: how many lists around it are there (all of
+/// them), and how many go on from the value before.
 fn levels(shape: &[usize], count: usize) -> [Vec<i16>; 2] {
     let sizes: Vec<usize> = (0..shape.len()).map(|list| shape[list..].iter().product()).collect();
     let goes_on = |index: usize| {

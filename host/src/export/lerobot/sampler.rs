@@ -34,7 +34,8 @@ impl Sampler {
         self.leaps
     }
 
-    /// The rows whose time has passed at `now_us`, or comes just then where `last`: what was before it stands in them.
+    /// The rows whose time has passed at `now_us`, or comes just then where `last`: what was before it stands
+    /// in them.
     pub fn passed(&mut self, now_us: u64, last: bool) -> std::ops::Range<u64> {
         let [before, began] = *self.times.get_or_insert([now_us; 2]);
         let leaps = now_us.checked_sub(before).is_none_or(|passed| passed > LONGEST_US);

@@ -1,5 +1,6 @@
-//! Common Data Representation, little-endian, as ROS 2 writes messages: each number aligned to its own size, counted from
-//! behind the head of four bytes; sequences and strings with their length (u32) before them, strings with a 0 at the end.
+//! Common Data Representation, little-endian, as ROS 2 writes messages: each number aligned to its own size,
+//! counted from behind the head of four bytes; sequences and strings with their length (u32) before them,
+//! strings with a 0 at the end.
 
 /// A message being written.
 #[derive(Debug, Clone)]

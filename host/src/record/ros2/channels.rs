@@ -9,8 +9,8 @@ use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 
-/// A file with these messages alone: readers of ROS bags refuse a file in which there are others. Its channels are made when
-/// their first message comes.
+/// A file with these messages alone: readers of ROS bags refuse a file in which there are others. Its
+/// channels are made when their first message comes.
 #[derive(Debug)]
 pub struct Ros2<S: Store> {
     /// What is written to.

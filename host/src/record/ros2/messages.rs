@@ -31,8 +31,8 @@ fn frame(area: &Area) -> String {
     format!("tactile/{}", names::topic(&area.name))
 }
 
-/// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie on a link, so
-/// those of one link lie side by side along x.
+/// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie
+/// on a link, so those of one link lie side by side along x.
 pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
     let mut taken: BTreeMap<&str, f64> = BTreeMap::new();
     let mut cdr = Cdr::default().u32(areas.len() as u32);
@@ -61,7 +61,8 @@ pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
         .finish()
 }
 
-/// `sensor_msgs/msg/PointCloud2`: a point a taxel, x and y in metres from the panel's first, and its pressure in counts.
+/// `sensor_msgs/msg/PointCloud2`: a point a taxel, x and y in metres from the panel's first, and its pressure
+/// in counts.
 pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let [x_um, y_um] = area.pitch_um.map(|um| um as f32);
     let columns = usize::from(area.columns).max(1);
@@ -86,7 +87,8 @@ pub fn wrench(host_us: u64, area: &Area, newtons: f64) -> Vec<u8> {
     cdr.finish()
 }
 
-/// `diagnostic_msgs/msg/DiagnosticArray`: the counters of a board; a warning where something was lost or failed.
+/// `diagnostic_msgs/msg/DiagnosticArray`: the counters of a board; a warning where something was lost or
+/// failed.
 pub fn diagnostics(host_us: u64, board: &str, health: &Health, ill: usize) -> Vec<u8> {
     let bad = health.failed + health.overruns + health.lost > 0 || ill > 0;
     let said = if bad { "scans, messages or taxels are missing" } else { "all is well" };

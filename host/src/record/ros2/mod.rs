@@ -1,4 +1,5 @@
-//! ROS 2's own messages of what a board tells, in a file beside the recording (`NAME.ros2.mcap`), so that `ros2 bag play` and RViz know them without a node of ours.
+//! ROS 2's own messages of what a board tells, in a file beside the recording (`NAME.ros2.mcap`), so that
+//! `ros2 bag play` and RViz know them without a node of ours.
 //!
 //! | topic | message | what |
 //! |---|---|---|

@@ -1,7 +1,7 @@
 //! The records of a file that may be damaged: after a kill, a power cut, or on a disk that loses bits.
 //!
-//! The records are read one after the other. Where none can be read, the next one that can is searched for: at the places
-//! that the file's summary names, else byte by byte. What lies between is damage.
+//! The records are read one after the other. Where none can be read, the next one that can is searched for:
+//! at the places that the file's summary names, else byte by byte. What lies between is damage.
 //!
 //! | file | holds |
 //! |---|---|

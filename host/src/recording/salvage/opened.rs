@@ -28,8 +28,8 @@ pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
     fields::<ChunkHeader>(op::CHUNK, body)
 }
 
-/// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right. None: it
-/// does not fit. Its plain bytes are then in `plain`, memory that serves all chunks.
+/// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right.
+/// None: it does not fit. Its plain bytes are then in `plain`, memory that serves all chunks.
 pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
     let (told, used) = header(body)?;
     let data = body.get(used..)?;

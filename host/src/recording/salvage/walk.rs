@@ -164,8 +164,8 @@ impl Walk {
         })
     }
 
-    /// A chunk. Where its record's length is wrong, that of its fields may be right; and where the record's number is
-    /// wrong, the place is that of a chunk if the summary says so.
+    /// A chunk. Where its record's length is wrong, that of its fields may be right; and where the record's
+    /// number is wrong, the place is that of a chunk if the summary says so.
     fn chunk(&mut self, at: u64, head: Head) -> io::Result<Option<Piece>> {
         if head.op != op::CHUNK && !self.marks.chunks.contains(&at) {
             return Ok(None);
@@ -228,8 +228,8 @@ impl Walk {
     }
 }
 
-/// What a record is whose number was that of another, and is now that of a message or of none that is known: its fields
-/// fill it to the last byte, which those of a message do not by chance.
+/// What a record is whose number was that of another, and is now that of a message or of none that is known:
+/// its fields fill it to the last byte, which those of a message do not by chance.
 fn disguised(number: u8, body: &[u8]) -> Option<(u8, Kind)> {
     if number != op::MESSAGE && number <= op::DATA_END {
         return None;

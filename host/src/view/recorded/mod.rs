@@ -1,9 +1,10 @@
 //! A recording in the page: played, gone through image by image, and cut.
 //!
-//! The player lives in the program, not in a page: all pages show the same moment, and one that comes late is told it whole.
-//! A page asks by [`Order`]s. Two threads read the file. The player decodes from the image that stands alone before the
-//! moment that is asked for. The survey goes once through everything but the images, for the timeline and for
-//! what held when each chunk began, so that the player need not read what came before.
+//! The player lives in the program, not in a page: all pages show the same moment, and one that comes late is
+//! told it whole. A page asks by [`Order`]s. Two threads read the file. The player decodes from the image
+//! that stands alone before the moment that is asked for. The survey goes once through everything but the
+//! images, for the timeline and for what held when each chunk began, so that the player need not read what
+//! came before.
 //!
 //! | file | holds |
 //! |---|---|

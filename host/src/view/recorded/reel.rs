@@ -45,7 +45,8 @@ pub struct Reel {
     next: Cursor,
     /// The last image that was played.
     shown: Option<Cursor>,
-    /// What glowed when an image was gone to, counts by taxel: what was felt before it, less the longer ago it was.
+    /// What glowed when an image was gone to, counts by taxel: what was felt before it, less the longer ago
+    /// it was.
     glow: Vec<u16>,
 }
 
@@ -96,7 +97,8 @@ impl Reel {
         event
     }
 
-    /// Shows the last image up to a time, else the first: its time and what it was told by. None: there is no image.
+    /// Shows the last image up to a time, else the first: its time and what it was told by. None: there is no
+    /// image.
     pub fn seek(&mut self, to: u64) -> Option<(u64, Event)> {
         let image = self.image_at(to).or_else(|| self.image_after(Cursor { chunk: 0, index: 0 }))?;
         self.show(image)
@@ -181,7 +183,8 @@ impl Reel {
         standing
     }
 
-    /// What held when a chunk began which the survey has not come to: what was told last of each topic, as the file's index says.
+    /// What held when a chunk began which the survey has not come to: what was told last of each topic, as
+    /// the file's index says.
     fn gathered(&mut self, end: usize) -> Standing {
         let last = |topic| self.clips.with_topic(topic, end).next();
         let mut chunks: BTreeSet<usize> = LASTING.into_iter().filter_map(last).collect();

@@ -1,4 +1,5 @@
-//! What a board said and what holds until it says otherwise: who starts in the middle of a recording is told this first.
+//! What a board said and what holds until it says otherwise: who starts in the middle of a recording is told
+//! this first.
 
 use crate::client::{Worn, leads};
 use std::collections::BTreeMap;

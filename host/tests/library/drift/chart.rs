@@ -21,7 +21,8 @@ fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64)
     }
 }
 
-/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and what is unsure is told.
+/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and what
+/// is unsure is told.
 fn chart(garment: &Garment, force_n: f64) {
     println!("drift, counts/s  a palm of {force_n} N on {} rises in {RISES:?} s", garment.name);
     for rate in RATES {

@@ -76,7 +76,8 @@ fn a_patch_at_five_counts_per_second_is_unsure_and_means_nothing() {
     }
 }
 
-/// How much of the pressure of a quick touch a slow one shows when it is all there, on a garment that drifts by so much.
+/// How much of the pressure of a quick touch a slow one shows when it is all there, on a garment that drifts
+/// by so much.
 fn kept(garment: &Garment, hz: f64, (shape, force_n, rise_s): (&str, f64, f64), rate: f64) -> f64 {
     let at_rest = Trial::new(garment.clone(), hz);
     let quick = feel(&at_rest.clone().touched(shape, force_n, 2.0, 0.3, 6.0), 7.0).pressure(4.0, 7.0);

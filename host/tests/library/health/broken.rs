@@ -1,4 +1,5 @@
-//! Lines and inputs that break while the board runs: it finds them by itself, and tells of them as it does at the start.
+//! Lines and inputs that break while the board runs: it finds them by itself, and tells of them as it does at
+//! the start.
 
 use super::scripts::varied;
 use super::worn::{FRAME_S, TAXELS};
@@ -177,7 +178,8 @@ fn a_second_fault_is_told_beside_the_first() {
     assert_eq!(host.self_tests.len(), 2);
 }
 
-/// What presses the whole garment to full scale looks like inputs at the supply: it costs a frame, and says nothing.
+/// What presses the whole garment to full scale looks like inputs at the supply: it costs a frame, and says
+/// nothing.
 #[test]
 fn pressure_everywhere_is_no_fault() {
     let garment = Garment::reference();

@@ -27,8 +27,8 @@ fn fifty(script: &mut Script, ways: &[TaxelHealth], seed: u64) -> BTreeMap<usize
 /// Frames in which a fault is to be found, the first in which it shows included.
 const SOON: u32 = 100;
 
-/// Fifty taxels break, and 101 frames later all are pressed, which shows the dead ones. Each is found as what it is, and no
-/// other; how many of them not within 100 frames.
+/// Fifty taxels break, and 101 frames later all are pressed, which shows the dead ones. Each is found as what
+/// it is, and no other; how many of them not within 100 frames.
 fn found(depth: Depth, ways: &[TaxelHealth], seed: u64) -> usize {
     const BROKEN: u32 = TARE as u32 + 4;
     const PRESSED: u32 = BROKEN + 101;
@@ -79,7 +79,8 @@ fn lines_that_break_or_short_are_told_apart() {
     assert_eq!(classes, [(100, Open), (700, Shorted), (1500, Open), (2047, Shorted)]);
 }
 
-/// A needle fills one taxel alone, as a short circuit does: its taxel counts as shorted while it presses, and is given back.
+/// A needle fills one taxel alone, as a short circuit does: its taxel counts as shorted while it presses, and
+/// is given back.
 #[test]
 fn a_needle_costs_no_taxel() {
     let text = "duration_s = 3\n[[touch]]\npanel = \"chest\"\nshape = \"finger\"\nsize_mm = 4\nat = [8, 15]\nforce_n = 8\n\

@@ -24,7 +24,8 @@ fn noise_of_what_is_pressed_is_no_fault_of_the_taxels() {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// At rest, pressed a little, and on the way: where a code of the converter is nine codes wide, its noise may not show.
+/// At rest, pressed a little, and on the way: where a code of the converter is nine codes wide, its noise may
+/// not show.
 #[test]
 fn wide_codes_are_not_stuck() {
     for base_code in [512.0, 1530.0] {

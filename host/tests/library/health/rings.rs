@@ -1,4 +1,5 @@
-//! What presses around a taxel and not on it is no fault of that taxel; where it is the taxel's, it is told soon.
+//! What presses around a taxel and not on it is no fault of that taxel; where it is the taxel's, it is told
+//! soon.
 
 use super::worn::{TARE, Worn};
 use taxel_core::format::Code;

@@ -40,7 +40,8 @@ impl Worn {
         Worn { garment, board, said: BTreeSet::new() }
     }
 
-    /// Plays so many frames of a script after a tare; the frame in which each ill taxel was found, and its class.
+    /// Plays so many frames of a script after a tare; the frame in which each ill taxel was found, and its
+    /// class.
     pub fn play(&mut self, script: &Script, frames: u32) -> BTreeMap<usize, (u32, TaxelHealth)> {
         self.play_shaken(script, frames, 0.0)
     }
@@ -87,7 +88,8 @@ impl Worn {
         self.board.step(Micros(0), Input::Received(frame), &mut ());
     }
 
-    /// Shows it so many frames of codes, some time after what it was shown before; the frame in which each ill taxel was found.
+    /// Shows it so many frames of codes, some time after what it was shown before; the frame in which each
+    /// ill taxel was found.
     pub fn show(
         &mut self,
         frames: u32,

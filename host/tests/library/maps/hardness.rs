@@ -31,7 +31,8 @@ fn scene() -> Scene {
     scene
 }
 
-/// What is said at the greatest force of something that is pressed on a panel; `patch` is its size in mm at a force in N.
+/// What is said at the greatest force of something that is pressed on a panel; `patch` is its size in mm at a
+/// force in N.
 fn pressed(shape: Shape, patch: impl Fn(f64) -> [f64; 2]) -> (u32, String, Vec<f64>) {
     let mut replay = Replay::new(&Garment::recorded(SIDE, SIDE), &scene(), 4095).unwrap();
     let mut last = serde_json::Value::Null;

@@ -85,14 +85,16 @@ impl Bench {
     }
 }
 
-/// The inputs of the shipped map, which are causes of 57 others in many ways, three of them the intentions; 64 in all.
+/// The inputs of the shipped map, which are causes of 57 others in many ways, three of them the intentions;
+/// 64 in all.
 fn large(edges: usize, rule: Rule, transfer: Transfer) -> MapConfig {
     let mut map = MapConfig { rule, transfer, lambda: 700, ..tactile() };
     map.concepts.truncate(7);
     map.inputs.retain(|input| input.concept < 4);
     map.concepts.extend((7..CONCEPTS).map(|at| name(&format!("c{at}"))));
     let effects = CONCEPTS - 4;
-    // Each concept but the inputs has a cause among these before any has a second, which is any other: causes go round.
+    // Each concept but the inputs has a cause among these before any has a second, which is any other: causes
+    // go round.
     let edge = |k: usize| {
         let (round, effect) = (k / effects, k % effects);
         let from = if round == 0 { k % 4 } else { 4 + (effect + 7 * round) % effects };

@@ -7,7 +7,8 @@ use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
 use taxel::fcm::unite::{Shared, unite};
 
-/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept that is named in `inputs`.
+/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept that is named in
+/// `inputs`.
 fn of(name: &str, concepts: &[&str], edges: &[(&str, &str, &str)], inputs: &[&str]) -> MapFile {
     let mut text = format!("name = \"{name}\"\n");
     concepts.iter().for_each(|concept| text += &format!("[[concept]]\nname = \"{concept}\"\n"));

@@ -1,5 +1,5 @@
-//! The same touch on random garments and at random rates: the same contacts, words and intentions as on the reference garment at 195
-//! frames/s. `TAXEL_CAMPAIGN=1`: 1,000 of them instead of 100.
+//! The same touch on random garments and at random rates: the same contacts, words and intentions as on the
+//! reference garment at 195 frames/s. `TAXEL_CAMPAIGN=1`: 1,000 of them instead of 100.
 
 use crate::meaning::family::Act;
 use crate::meaning::judge::play;
@@ -80,7 +80,8 @@ impl Heard {
         risen.map_or(0.0, |(t, _)| t - self.onset())
     }
 
-    /// Whether a word for what was measured may as well be the next one: the measure is within 15 % of the limit between them.
+    /// Whether a word for what was measured may as well be the next one: the measure is within 15 % of the
+    /// limit between them.
     fn near(measure: f64, limits: &[f64]) -> bool {
         limits.iter().any(|limit| (measure / limit - 1.0).abs() < 0.15)
     }
@@ -141,11 +142,12 @@ struct Tally {
     agreed: usize,
 }
 
-/// Touches that are no touch, or that lie elsewhere on another garment: arms and fingers as far apart as its panels are wide.
+/// Touches that are no touch, or that lie elsewhere on another garment: arms and fingers as far apart as its
+/// panels are wide.
 const ELSEWHERE: [&str; 5] = ["drift", "breath", "drops", "hug", "stroke by fingers"];
 
-/// What is compared, and of how many in a hundred it has to agree. A touch that comes slowly begins when a taxel has 40 counts, which
-/// smaller taxels have later.
+/// What is compared, and of how many in a hundred it has to agree. A touch that comes slowly begins when a
+/// taxel has 40 counts, which smaller taxels have later.
 const COMPARED: [(&str, usize); 5] =
     [("onset", 80), ("duration", 92), ("force", 99), ("words", 95), ("intention", 90)];
 

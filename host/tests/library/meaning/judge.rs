@@ -1,4 +1,5 @@
-//! The judge: every touch through the pipeline with the shipped scene, and a table by family of what was said to it.
+//! The judge: every touch through the pipeline with the shipped scene, and a table by family of what was said
+//! to it.
 
 use crate::meaning::family::{Act, Family, Told, Wish};
 use crate::meaning::{scripted, strangers};

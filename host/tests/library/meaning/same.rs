@@ -1,4 +1,5 @@
-//! The same touch in millimetres, newtons and seconds means the same on any garment, seen at any rate that resolves it.
+//! The same touch in millimetres, newtons and seconds means the same on any garment, seen at any rate that
+//! resolves it.
 
 use crate::meaning::family::Act;
 use crate::meaning::judge::hear;

@@ -1,7 +1,8 @@
 //! Twenty families by the author of the map: the simulator's own scripts, with its footprints and half-cosines.
 //!
-//! Forces are newtons, lengths mm, times seconds. Places, sizes and tempo are by chance; every second touch is on the mat, and the
-//! spread of gains, the hysteresis and the noise of the taxels differ from touch to touch.
+//! Forces are newtons, lengths mm, times seconds. Places, sizes and tempo are by chance; every second touch
+//! is on the mat, and the spread of gains, the hysteresis and the noise of the taxels differ from touch to
+//! touch.
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;

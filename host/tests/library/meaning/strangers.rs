@@ -1,9 +1,9 @@
-//! Twenty families in another hand: patches of pressure that fall off as powers, forces of logistic edges, gamma pulses and waves,
-//! on another garment. It shares no code with the simulator's scripts. It was written before the map was, whose weights
-//! were then chosen with it in sight.
+//! Twenty families in another hand: patches of pressure that fall off as powers, forces of logistic edges,
+//! gamma pulses and waves, on another garment. It shares no code with the simulator's scripts. It was written
+//! before the map was, whose weights were then chosen with it in sight.
 //!
-//! A taxel here is one sample of the pressure at four points; it saturates, creeps and hums by its own laws. The garments are the
-//! reference garment and a sheet of 27 columns with a pitch of 9 x 11 mm.
+//! A taxel here is one sample of the pressure at four points; it saturates, creeps and hums by its own laws.
+//! The garments are the reference garment and a sheet of 27 columns with a pitch of 9 x 11 mm.
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;

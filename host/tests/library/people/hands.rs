@@ -1,4 +1,5 @@
-//! A second family of touches, of other courses and footprints. The shipped map's weights were chosen with both in sight.
+//! A second family of touches, of other courses and footprints. The shipped map's weights were chosen with
+//! both in sight.
 //!
 //! | kind | where | newtons | how |
 //! |---|---|--:|---|

@@ -1,4 +1,5 @@
-//! Where a touch presses: a hand's palm and fingers, a fist's knuckles, a strap that bends, as domes of pressure.
+//! Where a touch presses: a hand's palm and fingers, a fist's knuckles, a strap that bends, as domes of
+//! pressure.
 
 use fastrand::Rng;
 

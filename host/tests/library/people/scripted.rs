@@ -1,4 +1,5 @@
-//! The family of touches that the map was tuned on: the simulator's own scripts, half-cosines and plain footprints.
+//! The family of touches that the map was tuned on: the simulator's own scripts, half-cosines and plain
+//! footprints.
 
 use crate::people::kind::{Act, Kind, Session};
 use fastrand::Rng;

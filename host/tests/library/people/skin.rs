@@ -1,4 +1,5 @@
-//! A garment with a mind of its own: taxels of unequal gain and rest, noise with memory, slow drift, crosstalk of neighbours.
+//! A garment with a mind of its own: taxels of unequal gain and rest, noise with memory, slow drift,
+//! crosstalk of neighbours.
 
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};

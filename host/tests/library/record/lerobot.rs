@@ -1,4 +1,5 @@
-//! A data set for LeRobot, as far as it can be told without Parquet's readers: those are Python's, see `tests/python`.
+//! A data set for LeRobot, as far as it can be told without Parquet's readers: those are Python's, see
+//! `tests/python`.
 
 use super::stage::{file, plan, record};
 use serde_json::Value;

@@ -12,7 +12,8 @@ fn the_figures_of_the_source_are_drawn() {
     for panel in ["chest", "back", "left arm", "right arm"] {
         assert_eq!(count(&format!("class=\"title\">{panel}</text>")), 2, "2-D and 3-D of {panel}");
     }
-    // Ten things lie there: each has a centre and a peak in 2-D, a peak with its value in 3-D, a row of the table.
+    // Ten things lie there: each has a centre and a peak in 2-D, a peak with its value in 3-D, a row of the
+    // table.
     for mark in ["class=\"centre\"", "class=\"peak\"", "class=\"value\"", "<tr><td>#"] {
         assert_eq!(count(mark), 10, "{mark}");
     }

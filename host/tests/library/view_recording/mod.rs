@@ -1,4 +1,5 @@
-//! A recording in the page of `taxel view`: every moment of it is that of the board, from wherever it is gone to.
+//! A recording in the page of `taxel view`: every moment of it is that of the board, from wherever it is gone
+//! to.
 
 mod moments;
 mod pages;

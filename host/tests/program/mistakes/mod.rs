@@ -1,5 +1,5 @@
-//! One mistake under each key of the files of garments and scenes: each is refused with file, line and key. The keys are those
-//! of the schemas, so that a key without a mistake fails the test.
+//! One mistake under each key of the files of garments and scenes: each is refused with file, line and key.
+//! The keys are those of the schemas, so that a key without a mistake fails the test.
 
 mod garment;
 mod keys;
@@ -9,8 +9,8 @@ mod touches;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A mistake: the key of the schema, what stands in the file, what stands there instead, and what the error says behind the
-/// file's name and the line of the mistake.
+/// A mistake: the key of the schema, what stands in the file, what stands there instead, and what the error
+/// says behind the file's name and the line of the mistake.
 type Mistake = (&'static str, &'static str, &'static str, &'static str);
 
 /// A file with that text, in a folder of its own below the build folder: tests run side by side.

@@ -63,7 +63,8 @@ fn a_bit_of_a_file_without_its_end_costs_one_chunk_at_most() {
     let before = read(&whole);
     let chunks = chunks(&whole);
     let end = chunks[2].end;
-    // What is told of channels once, before the chunks, has no checksum and no copy: times and data are compared.
+    // What is told of channels once, before the chunks, has no checksum and no copy: times and data are
+    // compared.
     let bare =
         |told: &[Told]| told.iter().map(|(_, time, data)| (String::new(), *time, data.clone())).collect();
     let before: Vec<Told> = bare(&before);

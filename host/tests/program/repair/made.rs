@@ -63,8 +63,8 @@ pub fn repaired(bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The messages that are read, and by whose summary they are found: nothing may be wrong, for the crate `mcap` (which is
-/// built without LZ4 here and does not look into chunks) as for us.
+/// The messages that are read, and by whose summary they are found: nothing may be wrong, for the crate
+/// `mcap` (which is built without LZ4 here and does not look into chunks) as for us.
 pub fn read(bytes: &[u8]) -> Vec<Told> {
     let summary = mcap::Summary::read(bytes).unwrap().expect("a summary");
     for record in mcap::read::LinearReader::new(bytes).unwrap() {

@@ -5,7 +5,8 @@ use std::fmt;
 use std::time::Duration;
 use taxel_core::wire::{self, Report};
 
-/// What was under way when a link broke, or a board restarted: the last of a connection that is reset is not read.
+/// What was under way when a link broke, or a board restarted: the last of a connection that is reset is not
+/// read.
 const UNDER_WAY: Duration = Duration::from_millis(500);
 
 /// What is missing of the frames and contacts that were sent.

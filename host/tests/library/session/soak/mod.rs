@@ -1,7 +1,8 @@
-//! A long run: boards that are touched, break and come back, while they are recorded, watched and set anew. No program's memory
-//! grows, and nothing is lost that no fault explains.
+//! A long run: boards that are touched, break and come back, while they are recorded, watched and set anew.
+//! No program's memory grows, and nothing is lost that no fault explains.
 //!
-//! `cargo xtask soak --minutes N` runs it long; `TAXEL_SOAK_MINUTES` says how long, a quarter where nobody says.
+//! `cargo xtask soak --minutes N` runs it long; `TAXEL_SOAK_MINUTES` says how long, a quarter where nobody
+//! says.
 
 mod loss;
 mod memory;
