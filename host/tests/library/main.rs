@@ -23,6 +23,7 @@ mod settle;
 mod setup;
 mod shape_of;
 mod shapes;
+mod sink;
 mod tables;
 mod touch;
 mod view_recording;

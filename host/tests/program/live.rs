@@ -1,38 +1,17 @@
 //! `taxel live` through the library: a simulated board, the wire, the client, and all three ways to show what
 //! comes.
 
+use crate::sink::Sink;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::{Terminal, backend::TestBackend};
 use serde_json::Value;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::live::{GestureModel, Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
 use taxel::shapes::{base::Base, teach::teach};
 use taxel::source::{self, Source, SourceOptions};
 use taxel_core::shape::{Patch, descriptor};
-
-/// Writes into a list that the test keeps.
-#[derive(Default, Clone)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl std::io::Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Sink {
-    fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
 
 fn args(source: &str, frames: Option<u64>) -> LiveArgs {
     LiveArgs { frames, json: true, ..LiveArgs::of(source.parse().unwrap()) }

@@ -18,6 +18,8 @@ mod recordings;
 mod reference;
 mod repair;
 mod schemas;
+#[path = "../library/sink.rs"]
+mod sink;
 mod start;
 mod status;
 mod steps;

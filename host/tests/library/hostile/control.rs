@@ -1,6 +1,7 @@
 //! A board whose words hold what a terminal obeys.
 
-use super::stage::{Sink, events, frame, hello};
+use super::stage::{events, frame, hello};
+use crate::sink::Sink;
 use taxel::client::Client;
 use taxel::live::{Lines, Messages, Show};
 use taxel::source::{self, SourceOptions};

@@ -1,6 +1,7 @@
 //! A `Hello` that says what no garment and no scene can be.
 
-use super::stage::{Sink, events, hello, hello_of};
+use super::stage::{events, hello, hello_of};
+use crate::sink::Sink;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use std::sync::Arc;

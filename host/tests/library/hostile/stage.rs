@@ -1,6 +1,5 @@
 //! Messages of a board that says whatever a test wants.
 
-use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
@@ -39,25 +38,4 @@ pub fn hello(seq: u32, garment: &Garment, scene: &Scene, firmware: &str) -> Vec<
 /// What a client makes of bytes.
 pub fn events(client: &mut Client, bytes: &[u8]) -> Vec<Event> {
     bytes.iter().filter_map(|byte| client.push(*byte)).collect()
-}
-
-/// Writes into a list that the test keeps.
-#[derive(Default, Clone)]
-pub struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl std::io::Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Sink {
-    pub fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
 }

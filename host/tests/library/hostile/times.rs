@@ -1,6 +1,7 @@
 //! A board whose clock leaps to any time of 64 bits and back.
 
-use super::stage::{Sink, frame, hello, hello_of};
+use super::stage::{frame, hello, hello_of};
+use crate::sink::Sink;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::client::Client;
