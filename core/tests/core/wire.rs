@@ -98,6 +98,9 @@ fn each_error_has_its_cause() {
     assert_eq!(bad(good[..end].to_vec()).as_deref(), Ok(&b"\x03abc"[..]));
     assert_eq!(bad(vec![]), Err(WireError::TooShort));
     assert_eq!(bad(vec![1; 5]), Err(WireError::TooShort), "an empty message with its CRC, 0");
+    for length in 0..=5 {
+        assert_eq!(bad(vec![9; length]), Err(WireError::TooShort), "{length} bytes, whatever they are");
+    }
     assert_eq!(bad(good[..end - 1].to_vec()), Err(WireError::Cobs));
     assert_eq!(bad(good.clone()), Err(WireError::Cobs), "with its 0x00");
     let mut wrong = good[..end].to_vec();
@@ -267,6 +270,19 @@ fn a_wrong_image_is_refused_with_its_byte() {
     assert_eq!(decoded(&[], Some(&[0; 3]), 4), Err(base.into()));
     for base in [3, 5] {
         assert_eq!(encode_image(&[0; 4], Some(&vec![0; base]), &mut [0; 9]), None);
+    }
+}
+
+/// Quiet taxels are looked at in blocks, in which two values must not cancel each other.
+#[test]
+fn two_taxels_that_are_alike_are_told_wherever_they_lie() {
+    for (first, second) in (0..24).flat_map(|first| (first + 1..24).map(move |second| (first, second))) {
+        let mut values = [0u16; 24];
+        (values[first], values[second]) = (0x0a5f, 0x0a5f);
+        assert_eq!(decoded(&coded(&values, None), None, 24).unwrap(), values);
+        for base in [[0; 24], [0x0a5f; 24]] {
+            assert_eq!(decoded(&coded(&values, Some(&base)), Some(&base), 24).unwrap(), values);
+        }
     }
 }
 
