@@ -60,8 +60,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         let (points, taken, images) = (&self.points, &mut self.taken, &mut self.expected);
         let mut look = |contact: &Contact, taken: &[bool]| {
             let area = layout.areas().get(usize::from(contact.panel));
-            let gate =
-                (u32::from(config.gate) * 16 * area.map_or(0, |area| u32::from(area.taxels_per_cm))) >> 8;
+            let gate = area.map_or(0, |area| area.taxels(16 * u32::from(config.gate)));
             let (at, reach) = expected(contact, seconds, gate as i32);
             at.list_images(layout, images);
             nearest(images, points, &crowds, reach, taken)

@@ -8,7 +8,7 @@ use super::record::Contact;
 use super::slip::{SLIP_STEPS, Slip};
 use crate::condition::Image;
 use crate::format::{Fixed16, Inverse, Micros, signed_wide};
-use crate::garment::{Layout, Transform};
+use crate::garment::{Area, Layout, Transform};
 
 /// What is remembered of a contact.
 #[derive(Debug, Clone)]
@@ -71,25 +71,19 @@ impl Trail {
         // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders
         // with it.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
-        contact.slip = config.slip_speed != NO_SLIP
-            && self.slips(contact, sliding, config, pace, area.map_or(0, |area| area.taxels_per_cm));
+        let slides = |area| config.slip_speed != NO_SLIP && self.slips(contact, sliding, area, scenery);
+        contact.slip = area.is_some_and(slides);
     }
 
     /// A slip begins with its steps, and lasts as long as the contact is fast.
-    fn slips(
-        &mut self,
-        contact: &Contact,
-        step: Way,
-        config: &ContactConfig,
-        pace: &Pace,
-        taxels_per_cm: u16,
-    ) -> bool {
-        let taxels = |cm: u32| (cm * u32::from(taxels_per_cm)) >> 8;
+    fn slips(&mut self, contact: &Contact, step: Way, area: &Area, scenery: &Scenery) -> bool {
         let is_fast = || {
+            let least = u64::from(area.taxels(scenery.config.slip_speed.into())).pow(2);
             let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> 12).pow(2);
-            square(contact.vx) + square(contact.vy) >= u64::from(taxels(config.slip_speed.into())).pow(2)
+            square(contact.vx) + square(contact.vy) >= least
         };
-        self.slip.begins(step, taxels(pace.limit.min(LONGEST_WAY))) || (contact.slip && is_fast())
+        let limit = area.taxels(scenery.pace.limit.min(LONGEST_WAY));
+        self.slip.begins(step, limit) || (contact.slip && is_fast())
     }
 }
 

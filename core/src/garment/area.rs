@@ -28,6 +28,13 @@ pub struct Area {
     pub taxels_per_cm: u16,
 }
 
+impl Area {
+    /// A length on this panel in taxels that is told in cm, both in the same fractions; below 2^17 of them.
+    pub const fn taxels(&self, cm: u32) -> u32 {
+        (cm * self.taxels_per_cm as u32) >> 8
+    }
+}
+
 /// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
 pub const ASSUMED_PITCH_UM: u32 = 10_000;
 
