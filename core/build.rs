@@ -1,11 +1,11 @@
-//! Generates the look-up tables of the core. Floats live here, on the machine that builds, and not on the
+//! Generates the look-up tables of the core. Floats are used here, on the build machine, and not on the
 //! board.
 
 use std::fmt::Write as _;
 use std::{env, fs, path::Path};
 
-/// tanh over [0, 8]: 512 steps of 1/64 and the last point. The other half follows from oddness, and the
-/// logistic function from tanh: sigmoid(u) = (1 + tanh(u / 2)) / 2, over [-16, 16].
+/// Intervals of the table of tanh over [0, 8], 1/64 wide; the table has one point more. Negative arguments
+/// follow from oddness, the logistic function over [-16, 16] from sigmoid(u) = (1 + tanh(u / 2)) / 2.
 const STEPS: u32 = 512;
 
 fn main() {
@@ -14,10 +14,10 @@ fn main() {
     fs::write(Path::new(&out).join("tanh.rs"), tanh_table()).expect("OUT_DIR can be written");
 }
 
-/// The source of an array literal: tanh(k / 64) in Q23.
+/// Returns the source of an array literal: tanh(k / 64) in Q23.
 ///
-/// A chord of a curve lies on its inner side, by at most h^2 f'' / 8. Each point is moved outwards by half of
-/// that, so that the error of linear interpolation is halved and has both signs. f'' = -2 tanh (1 - tanh^2).
+/// A chord lies on the inner side of its curve, at most h^2 f'' / 8 away. Each point is moved outwards by
+/// half of that: the error of linear interpolation is halved and has both signs. f'' = -2 tanh (1 - tanh^2).
 fn tanh_table() -> String {
     let mut text = String::from("[\n");
     for k in 0..=STEPS {

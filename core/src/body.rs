@@ -1,4 +1,4 @@
-//! Where on the robot a contact is: the region of the body that its panel covers.
+//! Place of a contact on the robot: the region of the body that its panel covers.
 
 use crate::contact::{Contact, tenths};
 use crate::format::wide;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct Placed {
     /// The contact.
     pub contact: Contact,
-    /// What shape it has.
+    /// Its shape.
     pub shape: Shape,
     /// Index into [`Layout::regions`].
     pub region: u8,
@@ -23,16 +23,16 @@ impl Placed {
         Placed { region: region(layout, &contact), contact, shape }
     }
 
-    /// Places another contact, or the same one in a later frame; the shape stays.
+    /// Replaces the contact and its region, for another contact or a later frame; the shape stays.
     pub(crate) fn follow(&mut self, layout: &Layout, contact: &Contact) {
         self.contact = contact.clone();
         self.region = region(layout, contact);
     }
 
-    /// Speed over the surface in 0.1 mm/s; at 10 mm pitch where the panel gives none, with the pitch cut to
-    /// 0.1 mm. Each axis is held below 2^15 taxels/s and rounded down, and the larger part counts with half
-    /// of the smaller: at most 11.81 % above the true speed, and 2 steps off. At most 98,304,000, at the
-    /// largest pitch.
+    /// Speed over the surface, 0.1 mm/s. The pitch is truncated to 0.1 mm; it is 10 mm for panels that give
+    /// none. Each axis is limited to below 2^15 taxels/s and rounded down. The larger axis plus half of the
+    /// smaller: at most 11.81 % above the true speed, and 2 steps off. At most 98,304,000, at the largest
+    /// pitch.
     pub fn speed(&self, layout: &Layout) -> u32 {
         let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
         // 31 and 13 bits.

@@ -1,5 +1,5 @@
-//! Posture: how the robot's joints stand, as the host tells it. Later stages compensate the garment's own
-//! folding by it.
+//! Posture: angles of the robot's joints, sent by the host. While a joint moves, the garment may fold against
+//! itself.
 //!
 //! | | |
 //! |---|---|
@@ -25,30 +25,30 @@ pub struct JointAngle {
     pub centidegrees: i16,
 }
 
-/// How the joints stand. Joints that are not named keep their last angle.
+/// Angles of joints. Joints that are left out keep their last angle.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Posture {
-    /// The joints that are told.
+    /// Joints and their angles.
     pub joints: Vec<JointAngle, JOINTS>,
 }
 
-/// What is known of the posture.
+/// The posture as last reported.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct FoldState {
     angles: [Option<i16>; JOINTS],
     told: Option<Micros>,
-    /// Time of the last message by which a joint had moved.
+    /// Time of the last message in which a joint had moved.
     moved: Option<Micros>,
 }
 
-/// A joint moves if it is told to be that far from where it was told to be, hundredths of a degree.
+/// Least change of an angle between two messages that counts as a move, hundredths of a degree.
 const MOVES: u16 = 20;
-/// It moves on for so long after the message that said so, us.
+/// Time for which a joint counts as moving after such a message, us.
 const MOVES_FOR_US: u64 = 300_000;
 
 impl FoldState {
-    /// Takes a message that arrived at `now`, for a scene with `joints`. Nothing of a refused message is taken.
+    /// Takes a message that arrived at `now`, for a scene with `joints`. A refused message changes nothing.
     pub fn accept(&mut self, posture: &Posture, joints: &[Name], now: Micros) -> Result<(), Invalid> {
         let known = joints.len().min(JOINTS);
         for told in &posture.joints {
@@ -71,12 +71,12 @@ impl FoldState {
         Ok(())
     }
 
-    /// Angle of a joint in hundredths of a degree; none until it is told.
+    /// Angle of a joint in hundredths of a degree; none until it is reported.
     pub fn angle(&self, joint: usize) -> Option<i16> {
         self.angles.get(joint).copied().flatten()
     }
 
-    /// Whether a joint moves at `now`: the garment folds against itself, and that is nobody's touch.
+    /// True if a joint moves at `now`: the garment may fold against itself, which is no touch.
     pub fn moves(&self, now: Micros) -> bool {
         self.moved.is_some_and(|moved| now.since(moved) < MOVES_FOR_US)
     }

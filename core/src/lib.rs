@@ -1,13 +1,17 @@
 //! `taxel-core`: everything between the converter's codes and the meaning of a touch.
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
-//! [`reflex`] (check of a sub-field), [`selftest`] (of lines and inputs), [`health`] (of every taxel),
-//! [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments, moments,
-//! tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`unsure`]
-//! (what may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reflexes), [`scene`]
-//! (all their settings), [`pipeline`] (their composition), [`boot`] (what resets leave), [`wire`] (messages,
-//! frames), [`board`] (a function of what happened) and [`mod@run`] (the loop around it).
-//! [`format`](mod@format) is the table of number formats.
+//! [`reflex`] (check of raw codes within a frame), [`selftest`] (select lines, converter inputs), [`health`]
+//! (faulty taxels), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
+//! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot),
+//! [`unsure`] (contacts that may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`]
+//! (reactions), [`scene`] (settings of all stages), [`pipeline`] (composition of the stages), [`boot`]
+//! (causes of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
+//! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
+//!
+//! `// M0+: out of line` explains an `#[inline(never)]`: on the Cortex-M0+ only eight registers are cheap to
+//! reach. A hot loop is therefore a function of its own, out of line, so that it gets all of them. The choice
+//! follows the cycles of the emulated image.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,4 +1,4 @@
-//! The only loop, shared by firmware, host and tests.
+//! The board's loop, shared by firmware, host and tests.
 
 mod reader;
 
@@ -12,30 +12,32 @@ use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 use reader::Reader;
 
-/// A byte link that never waits: rings behind it are pumped by others.
+/// A byte link that never waits. Interrupts or threads move the bytes between the rings behind it and the
+/// wire.
 pub trait Link {
-    /// Takes received bytes, at most as many as `buffer` holds; how many.
+    /// Copies received bytes into `buffer`; returns their number.
     fn try_read(&mut self, buffer: &mut [u8]) -> usize;
-    /// Gives bytes to send; how many were taken.
+    /// Queues bytes to send; returns how many were accepted.
     fn try_write(&mut self, bytes: &[u8]) -> usize;
 }
 
-/// What a board is besides its pins, its converter and its link.
-#[allow(async_fn_in_trait)] // one board, one executor: nobody needs the future to be Send
+/// Services of a board other than its pins, its converter and its link.
+#[allow(async_fn_in_trait)] // one board, one executor: the future need not be Send
 pub trait Platform: Clock + Probe {
-    /// The loop has come round: feed the watchdog. `false` ends the loop, which only a host wants.
+    /// Called once per round of the loop: feeds the watchdog. `false` ends the loop, which only a host does.
     fn alive(&mut self) -> bool;
-    /// Stores the settings, or says why not.
+    /// Stores the settings; the error says why they were not stored.
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str>;
-    /// Puts the stored settings aside from the next start on, or takes them up again (`undo`); or says why not.
+    /// Makes the stored settings have no effect from the next start on, or restores them (`undo`). The error
+    /// says why this failed.
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str>;
-    /// Starts the board anew. A host may end its loop instead.
+    /// Restarts the board. A host may end its loop instead.
     fn restart(&mut self);
-    /// Nothing to do until `until`, but bytes may come or go: waits a millisecond at most.
+    /// Waits until `until`, 1 ms at most, because bytes may arrive or leave meanwhile.
     async fn idle(&mut self, until: Micros);
 }
 
-/// Runs a board for as long as its platform is alive. Lines and inputs are examined first.
+/// Runs a board for as long as its platform is alive. Starts with a self-test of lines and inputs.
 pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     acquire: &mut (impl Acquire + Examine),
     link: &mut impl Link,
@@ -49,9 +51,9 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         acquire.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel));
         let now = platform.now();
         let job = board.step(now, Input::Tick, platform);
-        // What a reaction moves goes before what tells of it.
+        // A reaction's pin moves before its message is sent.
         if let Some(Job::Drive(pin, level)) = job {
-            // The pin was checked with the scene; a line that fails shows in the next scan.
+            // The pin was checked with the scene. A line that fails is found by the next scan.
             let _ = acquire.drive(pin, level);
             continue;
         }
@@ -105,7 +107,7 @@ fn examine<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     board.step(now, Input::Examined(result), platform);
 }
 
-/// Gives as many bytes as the link takes.
+/// Sends pending bytes until none is left or the link accepts no more.
 fn send<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     link: &mut impl Link,
     platform: &mut impl Platform,
@@ -123,7 +125,7 @@ fn send<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     }
 }
 
-/// Polls a future until it is ready: for hosts, whose scans are ready at once.
+/// Polls a future until it is ready. For hosts, whose scans are ready at once.
 pub fn block_on<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
     let mut context = Context::from_waker(Waker::noop());

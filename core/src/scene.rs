@@ -1,4 +1,4 @@
-//! The scene: what one deployment needs, as one small checked value.
+//! The scene: settings of one deployment, as one small checked value.
 
 use crate::acquire::{Depth, Plan};
 use crate::condition::{ConditionConfig, Filter};
@@ -14,32 +14,32 @@ use crate::symbol::SymbolConfig;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// How friendly it is to touch a region.
+/// How friendly a touch of a region is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friendliness {
-    /// The region of the body.
+    /// Region of the body.
     pub region: Name,
-    /// -100 ..= 100 percent.
+    /// Percent, -100 ..= 100.
     pub percent: i8,
 }
 
-/// Regions that the scene that ships speaks of: any scene may, whether or not the garment covers them.
+/// Regions of the shipped scene. Any scene may name them, even if the garment does not cover them.
 const USUAL_REGIONS: [(&str, i8); 4] = [("chest", 20), ("back", 60), ("left arm", 40), ("right arm", 40)];
 
-/// What is streamed, and at most how often (0: never; 65535: with every scan).
+/// What is streamed, and at which rate at most (0: never; 65535: with every scan).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StreamConfig {
     /// Conditioned images per second.
     pub frames_hz: u16,
-    /// Contact updates per second; onsets and releases are told in any case.
+    /// Contact lists per second; onsets and releases are always sent.
     pub contacts_hz: u16,
-    /// Symbols are told.
+    /// True if symbols are sent.
     pub symbols: bool,
-    /// Intentions are told.
+    /// True if intentions are sent.
     pub intent: bool,
-    /// Raw codes per second.
+    /// Frames of raw codes per second.
     pub raw_hz: u16,
     /// Longest time between two key frames, ms, 1 ..= 1000.
     pub key_ms: u16,
@@ -59,7 +59,7 @@ impl Default for StreamConfig {
 }
 
 impl StreamConfig {
-    /// Checks what does not depend on a board.
+    /// Checks the limits that hold on every board.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
         match self.key_ms {
             1..=1000 => Ok(()),
@@ -68,31 +68,31 @@ impl StreamConfig {
     }
 }
 
-/// What one deployment needs. Authored as a file, sent as one message, echoed in `Hello`.
+/// Settings of one deployment. Written as a file, sent as one message, returned in `Hello`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Scene {
-    /// What people call it.
+    /// Name for people.
     pub name: Name,
-    /// What is scanned.
+    /// Panels and blocks to scan, and how.
     pub plan: Plan,
-    /// Scans per second at most; 0: as many as the board can.
+    /// Most scans per second; 0: as many as the board can do.
     pub rate_hz: u16,
     /// Baseline, calibration, filter.
     pub condition: ConditionConfig,
-    /// Contacts and how they are followed.
+    /// Contacts and their tracking.
     pub contact: ContactConfig,
     /// Shapes; none: not recognised.
     pub shape: Option<ShapeConfig>,
-    /// Limits between words.
+    /// Thresholds of the words.
     pub symbol: SymbolConfig,
-    /// The map and how it decides; none: no intention.
+    /// Fuzzy cognitive map and its decision; none: no intention.
     pub intent: Option<IntentConfig>,
-    /// How friendly it is to touch a region; 0 where none is given.
+    /// Friendliness of touches by region; 0 for regions not listed.
     pub friendliness: Vec<Friendliness, PANELS>,
-    /// Joints whose angles the host tells.
+    /// Joints whose angles the host sends.
     pub joints: Vec<Name, JOINTS>,
-    /// What the garment does by itself.
+    /// Reactions that the board runs by itself.
     pub react: Vec<ReactionConfig, REACTIONS>,
     /// What is streamed.
     pub stream: StreamConfig,
@@ -105,7 +105,7 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Nothing but what every scene has, with the usual settings.
+    /// A scene with the defaults of every stage and no optional stage.
     pub fn empty() -> Scene {
         Scene {
             name: Name::new(),
@@ -123,7 +123,7 @@ impl Scene {
         }
     }
 
-    /// The scene that ships: everything on, limits for 12 bit and 1000 counts per newton.
+    /// The shipped scene: every stage on, limits for 12 bits and 1000 counts per newton.
     pub fn shipped() -> Scene {
         let reaction = |text, cause, level, hysteresis, pin| ReactionConfig {
             name: name(text),
@@ -138,7 +138,7 @@ impl Scene {
             name: name("shipped"),
             plan: Plan::default(),
             rate_hz: 0,
-            // Four and a half standard deviations of a noise of 3 counts; a pat gives 110 counts per taxel.
+            // 4.5 standard deviations of a noise of 3 counts; a pat gives 110 counts per taxel.
             condition: ConditionConfig { floor: 14, filter: Filter::Persistent, track_baseline: true },
             contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
             shape: Some(ShapeConfig::default()),
@@ -159,7 +159,7 @@ impl Scene {
         }
     }
 
-    /// The same with an interlaced scan, in which the reactions to pressure begin by reflex.
+    /// Sets an interlaced scan, and makes every reaction to pressure a reflex.
     pub fn interlaced(mut self, agree: Agree) -> Scene {
         self.plan.depth = Depth::Interlaced;
         for row in self.react.iter_mut().filter(|row| row.cause == Cause::Pressure) {
@@ -168,7 +168,7 @@ impl Scene {
         self
     }
 
-    /// Checks the names of joints, and of regions of the garment that the scene is for.
+    /// Checks the names of joints, and those of regions against the garment's layout.
     pub fn check_names(&self, layout: &Layout) -> Result<(), InvalidRow> {
         let refuse = |list, index, parameter, must| {
             Err(InvalidRow { list, index, invalid: Invalid { parameter, must } })
@@ -193,13 +193,14 @@ impl Scene {
         Ok(())
     }
 
-    /// The same for codes with a Gaussian noise of that many counts (standard deviation): noise alone begins
-    /// no contact for hours, and a touch of 2x2 taxels is found from five standard deviations on, 990 times
-    /// in 1,000 in its first frame.
+    /// Adapts the scene to Gaussian noise of that many counts (standard deviation): noise alone starts no
+    /// contact for hours, and a touch of 2x2 taxels is found from five standard deviations on, 990 times in
+    /// 1,000 in its first frame.
     ///
-    /// No taxel alone tells that touch from noise, but the mean of 2x2 has half the noise: where
-    /// [`Filter::Square`] leaves 3.25 standard deviations of a taxel, 6.5 of the mean were reached, which in
-    /// 2,048 taxels noise does in one of 12 million frames; and the touch is 3.5 of them above that.
+    /// One taxel cannot tell that touch from noise, but the mean of 2x2 taxels has half the noise.
+    /// [`Filter::Square`] passes 3.25 standard deviations of a taxel only if the mean of a square reaches 6.5
+    /// of its own, which noise does in one of 12 million frames of 2,048 taxels. The touch is 3.5 of them
+    /// above that.
     pub fn against_noise(mut self, deviation: u16) -> Scene {
         let times = |factor: u16| deviation.saturating_mul(factor).max(1);
         self.condition.filter = Filter::Square;

@@ -1,17 +1,18 @@
-//! The addresses of a plan: what every scan goes through, whatever its order.
+//! The addresses of a plan, which every scan reads, whatever its order.
 
 use super::Plan;
 use super::sweep::{SWEEP_INPUTS, Unfit};
 use crate::garment::{Circuit, Site};
 use heapless::Vec;
 
-/// Taxels that are read at one address, by the position of their input among the plan's.
+/// Numbers of the taxels read at one address, by the position of their input among the plan's.
 pub type Read = [Option<u16>; SWEEP_INPUTS];
 
 /// GPIO numbers of the converter inputs of a plan, ascending.
 pub(super) type Inputs = Vec<u8, SWEEP_INPUTS>;
 
-/// The inputs that a converter reads in turn, if it can.
+/// Returns the inputs that one converter reads in turn. Error if a line is past GPIO 31 or there are too
+/// many.
 pub(super) fn inputs(circuit: &Circuit, plan: &Plan) -> Result<Inputs, Unfit> {
     if let Some(pin) = circuit.lines().iter().find(|pin| **pin >= 32) {
         return Err(Unfit::Line(*pin));
@@ -19,24 +20,24 @@ pub(super) fn inputs(circuit: &Circuit, plan: &Plan) -> Result<Inputs, Unfit> {
     let read = circuit.sites().iter().filter(|s| plan.reads(s.panel, s.block));
     let mask = read.fold(0u64, |mask, site| mask | 1 << (site.input & 63));
     let mut inputs = Inputs::new();
-    // Without a sort of the library's, which can panic.
+    // Without the library's sort, which can panic.
     for input in (0..64).filter(|input| mask >> input & 1 == 1) {
         inputs.push(input).map_err(|_| Unfit::Inputs)?;
     }
     Ok(inputs)
 }
 
-/// One address.
+/// One combination of select code, row and column.
 pub(super) struct Address<'a> {
     circuit: &'a Circuit,
     plan: &'a Plan,
-    /// The blocks that share its select code.
+    /// Blocks that share its select code.
     sites: &'a [Site],
-    /// The first of them that is read.
+    /// First of these blocks that the plan reads.
     lead: &'a Site,
     row: u8,
     column: u8,
-    /// Its place in its line: 0 where a line of the lead's taxels begins.
+    /// Position within its line; 0 where a line of the lead's taxels begins.
     pub point: u8,
 }
 
@@ -50,12 +51,12 @@ impl Address<'_> {
         })
     }
 
-    /// Row and column of its panel where the lead is read.
+    /// Row and column of the lead's taxel in its panel.
     pub fn place(&self) -> (i32, i32) {
         self.lead.place(self.row, self.column)
     }
 
-    /// What these inputs read.
+    /// Returns the taxels that these inputs read here.
     pub fn taxels(&self, inputs: &Inputs) -> Read {
         let mut here = [None; SWEEP_INPUTS];
         let there = |site: &&Site| {
@@ -71,8 +72,8 @@ impl Address<'_> {
     }
 }
 
-/// Goes through all addresses, by select code. Their order within one is that of the taxels of its first
-/// block, so that as many taxels as possible follow each other.
+/// Visits all addresses, by select code. Within one code they follow the taxel numbers of its first block, so
+/// that runs of consecutive taxels are as long as possible.
 pub(super) fn each<'a>(
     circuit: &'a Circuit,
     plan: &'a Plan,

@@ -1,28 +1,28 @@
-//! How long a board may stay away from its loop: the longest that a frame and a self-test of the lines can
-//! take.
+//! Bounds of the time that one round of the board's loop takes: its longest parts are a frame and a self-test
+//! of the lines.
 
 use super::rounds::{frame_us, read_by};
 use super::{Plan, SWEEP_ADDRESSES};
 use crate::garment::Circuit;
 use core::fmt;
 
-/// The board restarts when its loop has not come round for this long, ms.
+/// Time without a round of the loop after which the board restarts, ms.
 pub const WATCHDOG_MS: u32 = 1000;
 
-/// A frame, or a self-test of the lines, may take this long, ms: half of the watchdog's time. What else the
-/// loop does in one round (a frame perceived, messages encoded) takes less than a tenth of it.
+/// Longest accepted frame or self-test of the lines, ms: half of the watchdog's time. The rest of a round (a
+/// frame perceived, messages encoded) takes less than a tenth of it.
 pub const LONGEST_MS: u32 = WATCHDOG_MS / 2;
 
-/// A conversion that the processor asks for and stores, ns at most.
+/// Longest conversion that the processor starts and stores, ns.
 const ASKED_NS: u64 = 4_000;
-/// The processor's change of the select lines, ns at most.
+/// Longest change of the select lines by the processor, ns.
 const CHANGE_NS: u64 = 10_000;
-/// A line or an input in the self-test: two waits of 0.1 ms, and the looks at all lines, ns at most.
+/// Longest test of one line or input, ns: two waits of 0.1 ms, and reading the levels of all lines.
 const EXAMINED_NS: u64 = 300_000;
 
-/// The longest that one frame of a plan can take, us: by DMA, or by the processor, whatever takes longer.
-/// More addresses than the tables of the DMA have room for are read by the processor; so are, for other
-/// reasons ([`super::Unfit`]), some of the others.
+/// Longest time of one frame of a plan, us: by DMA or by the processor, whichever is longer. The processor
+/// reads plans with more addresses than the DMA's tables hold, and plans that are [`super::Unfit`] for other
+/// reasons.
 pub fn longest_frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     let (addresses, inputs) = read_by(circuit, plan);
     let conversions = inputs as u64 * u64::from(plan.depth.scans());
@@ -31,8 +31,8 @@ pub fn longest_frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     if addresses > SWEEP_ADDRESSES as u64 { processor } else { processor.max(frame_us(circuit, plan)) }
 }
 
-/// The longest that a self-test of the circuit can take, us: all lines and inputs, and four corners of each
-/// block, twice.
+/// Longest time of a self-test of the circuit, us: all lines and inputs, and four corners of each block,
+/// twice.
 pub fn longest_self_test_us(circuit: &Circuit) -> u64 {
     let corners = 8 * circuit.selects().count() as u64;
     let pins = (circuit.lines().len() + read_by(circuit, &Plan::default()).1) as u64;
@@ -40,16 +40,16 @@ pub fn longest_self_test_us(circuit: &Circuit) -> u64 {
     (pins * EXAMINED_NS + corners * corner_ns).div_ceil(1000)
 }
 
-/// What would keep a board from its watchdog.
+/// Error of a garment or plan with which the loop would not feed the watchdog in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooLong {
     /// "a frame" or "a self-test"
     pub what: &'static str,
-    /// How long it can take, ms.
+    /// Longest time of it, ms.
     pub ms: u64,
     /// The garment's `wiring.settle_ns`.
     pub settle_ns: u32,
-    /// Scans of a frame, as the scene's `plan.depth` asks.
+    /// Scans per frame, from the scene's `plan.depth`.
     pub scans: u16,
 }
 
@@ -66,8 +66,8 @@ impl fmt::Display for TooLong {
 
 impl core::error::Error for TooLong {}
 
-/// Whether the board's loop comes round in time with this wiring and this plan.
-#[inline(never)] // it needs stack only meanwhile
+/// Error if a frame or a self-test can take longer than [`LONGEST_MS`] with this wiring and plan.
+#[inline(never)] // own frame: its stack is free again on return
 pub fn check_duration(circuit: &Circuit, plan: &Plan) -> Result<(), TooLong> {
     let settle_ns = circuit.settle_ns();
     let frame = ("a frame", longest_frame_us(circuit, plan), plan.depth.scans());
@@ -100,10 +100,10 @@ mod tests {
         let longest =
             |settle_ns, plan: &Plan| longest_frame_us(&circuit(Garment::reference(), settle_ns), plan);
         let plan = Plan::default();
-        // 512 addresses of four inputs: 5.12 ms by DMA, and by the processor at most this.
+        // 512 addresses of four inputs: 5.12 ms by DMA, by the processor at most this.
         assert_eq!(longest(3_000, &plan), 512 * (3 + 10 + 4 * 4));
         assert_eq!(longest(100_000, &Plan { panels: 0, ..plan }), 0);
-        // A mean of eight settles once an address by the processor, eight times by DMA.
+        // A mean of eight settles once per address by the processor, eight times by DMA.
         let mean = Plan { depth: Depth::MeanOf8, ..plan };
         let slow = circuit(Garment::reference(), 100_000);
         assert_eq!(longest(100_000, &mean), frame_us(&slow, &mean));

@@ -1,9 +1,9 @@
-//! The board's output pins, and what a self-test needs of pins and converter inputs.
+//! The board's output pins, and the traits of pins and converters that a self-test needs.
 
 use super::Adc;
 use embedded_hal::digital::{OutputPin, PinState};
 
-/// The weak resistor of a pin.
+/// The weak pull resistor of a pin.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Pull {
     /// none
@@ -15,27 +15,27 @@ pub enum Pull {
     Down,
 }
 
-/// An output that can be let go of and looked at.
+/// An output pin that can be released and read.
 pub trait Pad: OutputPin {
-    /// Drives the pin no longer, but pulls it.
+    /// Stops driving the pin, and pulls it.
     fn release(&mut self, pull: Pull) -> Result<(), Self::Error>;
-    /// The level at the pin itself, driven or not.
+    /// Level at the pin itself, driven or not.
     fn level(&mut self) -> Result<bool, Self::Error>;
 }
 
 /// A converter whose inputs can be pulled.
 pub trait PulledAdc: Adc {
-    /// Pulls the input on GPIO `input` until it is told otherwise.
+    /// Sets the pull of the input on GPIO `input`.
     fn pull(&mut self, input: u8, pull: Pull) -> Result<(), Self::Error>;
 }
 
-/// The board's free output pins, found by GPIO number, because garments name their pins at run time.
+/// The board's free output pins, looked up by GPIO number, because garments name their pins at run time.
 pub struct Lines<P, const PINS: usize> {
     pub(super) pins: heapless::Vec<(u8, P), PINS>,
 }
 
 impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
-    /// From pairs of GPIO number and pin; pairs beyond the capacity are left out.
+    /// Takes pairs of GPIO number and pin; pairs beyond the capacity are left out.
     pub fn new(pins: impl IntoIterator<Item = (u8, P)>) -> Self {
         Lines { pins: pins.into_iter().take(PINS).collect() }
     }
@@ -45,7 +45,7 @@ impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
         self.pins.iter().fold(0, |mask, (number, _)| mask | 1u64.checked_shl(u32::from(*number)).unwrap_or(0))
     }
 
-    /// Drives a pin; none if there is no pin of that number.
+    /// Drives a pin; none if no pin has that number.
     pub fn drive(&mut self, number: u8, level: bool) -> Option<Result<(), P::Error>> {
         Some(self.pin(number)?.set_state(PinState::from(level)))
     }
@@ -56,12 +56,12 @@ impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
 }
 
 impl<P: Pad, const PINS: usize> Lines<P, PINS> {
-    /// Lets go of a pin and pulls it; none if there is no pin of that number.
+    /// Stops driving a pin and pulls it; none if no pin has that number.
     pub fn release(&mut self, number: u8, pull: Pull) -> Option<Result<(), P::Error>> {
         Some(self.pin(number)?.release(pull))
     }
 
-    /// The level at a pin; none if there is no pin of that number.
+    /// Level at a pin; none if no pin has that number.
     pub fn level(&mut self, number: u8) -> Option<Result<bool, P::Error>> {
         Some(self.pin(number)?.level())
     }

@@ -1,8 +1,7 @@
-//! Reading the garment: a scan plan goes in, a frame of raw codes by taxel number comes out.
+//! Reading the garment: from a scan plan to a frame of raw codes by taxel number.
 //!
-//! [`Acquire`] is what the board's loop calls. [`MuxScan`] is its portable implementation over embedded-hal
-//! pins; a board with DMA brings its own, whose tables are made of a [`Sweep`] and whose frames lie in a
-//! [`Ring`].
+//! The board's loop calls [`Acquire`]. [`MuxScan`] implements it for embedded-hal pins. A board with DMA has
+//! its own implementation, with tables made from a [`Sweep`] and frames in a [`Ring`].
 
 mod addresses;
 mod duration;
@@ -34,51 +33,51 @@ use core::fmt;
 /// One finished scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scan<'a> {
-    /// Raw codes by taxel number; taxels that the plan leaves out keep their last code.
+    /// Raw codes by taxel number; taxels outside the plan keep their last code.
     pub codes: &'a [Code],
-    /// When and how it was read.
+    /// Time and conditions of the scan.
     pub report: ScanReport,
 }
 
-/// When and how a frame was read.
+/// Time and conditions of a scan.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ScanReport {
     /// Start of the scan.
     pub start: Micros,
     /// Time from the first address to the last sample, microseconds.
     pub duration_us: u32,
-    /// Frames that the converter produced and nobody fetched in time, since the last report.
+    /// Complete frames since the last report that were overwritten before they were read.
     pub overruns: u32,
-    /// How warm the converter is; none: it has no thermometer.
+    /// Temperature of the converter; none without a thermometer.
     pub temperature: Option<Celsius>,
 }
 
-/// Why a scan failed. The frame is dropped; nothing else is.
+/// Why a scan failed. Only its frame is dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScanError {
-    /// A line could not be driven, or not be looked at.
+    /// A pin with this GPIO number could not be driven or read.
     Output(u8),
     /// A select line could not be driven.
     Line {
         /// GPIO number
         pin: u8,
-        /// number of the taxel that was to be selected
+        /// number of the taxel being selected
         taxel: u16,
     },
-    /// The converter did not deliver.
+    /// The converter delivered no sample.
     Converter {
         /// GPIO number of the input
         input: u8,
-        /// number of the taxel that was being read
+        /// number of the taxel being read
         taxel: u16,
     },
-    /// The converter, which runs by itself, reported a failed conversion.
+    /// A free-running converter reported a failed conversion.
     Conversion,
-    /// The converter, which runs by itself, has made no frame in time: the scan begins anew.
+    /// A free-running converter made no frame in time; the scan restarts.
     Stalled,
-    /// Samples were lost, so that those after them belong to other taxels: the scan begins anew.
+    /// Samples were lost, so that later ones belong to other taxels; the scan restarts.
     OutOfStep,
-    /// The garment has no pin of that number on this board.
+    /// The board has no output pin of this number.
     NoPin(u8),
 }
 
@@ -102,26 +101,25 @@ impl fmt::Display for ScanError {
 
 impl core::error::Error for ScanError {}
 
-/// What reads a garment.
-#[allow(async_fn_in_trait)] // one board, one executor: nobody needs the future to be Send
+/// Reader of a garment.
+#[allow(async_fn_in_trait)] // one board, one executor: the future need not be Send
 pub trait Acquire {
     /// Reads the blocks of `plan` once.
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError>;
 
-    /// Puts a pin that is no select line to a level.
+    /// Sets the level of a pin that is no select line.
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError>;
 
-    /// Stops what reads the garment by itself, until the next scan: something else needs the processor, the
-    /// lines or the memory, or the circuit changes, which it does at no other time. Has no effect on what
-    /// only works when it is asked to.
+    /// Stops a free-running scan until the next [`Acquire::scan`]: something else needs the processor, the
+    /// lines or the memory, or the circuit changes, which it does at no other time. No effect on readers that
+    /// do not run freely.
     fn rest(&mut self) {}
 
-    /// What is to be watched in each sub-field from now on; none: nothing, for now. As
-    /// [`Reflex::watch`](crate::reflex::Reflex::watch) says. Nothing is watched by what reads whole frames
-    /// only.
+    /// Sets what is checked in each sub-field from now on; none pauses the check. See
+    /// [`Reflex::watch`](crate::reflex::Reflex::watch). No effect on readers of whole frames.
     fn watch(&mut self, _reflexes: Option<&Reflexes>, _active: u8, _limit: impl Fn(u16) -> Option<u16>) {}
 
-    /// The next reflex that has begun and was not told yet.
+    /// Returns the next reflex that has begun and was not returned yet.
     fn reflex(&mut self) -> Option<Early> {
         None
     }

@@ -1,4 +1,4 @@
-//! Progressive scan through multiplexers, over any HAL.
+//! Progressive scan through multiplexers, on any HAL.
 
 use super::{Acquire, Depth, Lines, Pad, Plan, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
@@ -8,7 +8,7 @@ use embedded_hal::digital::{OutputPin, PinState};
 
 /// A converter with numbered inputs (embedded-hal 1.0 has no trait for one).
 pub trait Adc {
-    /// What can go wrong.
+    /// Error of a conversion.
     type Error;
     /// One 12-bit sample, 0 ..= 4095, of the input on GPIO `input`.
     fn read(&mut self, input: u8) -> Result<u16, Self::Error>;
@@ -26,8 +26,8 @@ pub trait Clock {
     /// Time since the board started.
     fn now(&self) -> Micros;
 
-    /// A step of something that may take long is done: a row was scanned, a line was examined. A board feeds
-    /// its watchdog, which what stands still therefore does not.
+    /// Called after each step of a long operation (a row scanned, a line examined). A board feeds its
+    /// watchdog here, so that only an operation that hangs restarts it.
     fn progressed(&self) {}
 }
 
@@ -41,18 +41,18 @@ impl<C: Clock> Clock for &C {
     }
 }
 
-/// Selects every address in turn, waits for the line to settle, and reads every converter input that has a
-/// block there: by select code, then row, then column. Only lines whose level changes are driven.
+/// Selects every address, waits for the line to settle, and reads every converter input that has a block
+/// there: by select code, then row, then column. Drives only lines whose level changes.
 ///
-/// Cost per address: the changed lines, the settling time of the garment, as many conversions per input as
-/// samples are averaged.
+/// Cost per address: driving the changed lines, the garment's settling time, and per input as many
+/// conversions as samples are averaged.
 pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
     lines: &'l mut Lines<P, PINS>,
     delay: D,
     adc: A,
     clock: C,
     codes: [Code; TAXELS],
-    /// Where each bit of the circuit's word is in `lines`, and the levels driven last.
+    /// By bit of the circuit's word: index into `lines`, and GPIO number. Then the levels driven last.
     slots: heapless::Vec<u8, 32>,
     wired: heapless::Vec<u8, 32>,
     driven: Option<u32>,
@@ -66,7 +66,7 @@ where
     A: Adc,
     C: Clock,
 {
-    /// Over a board's pins, delay, converter and clock.
+    /// Takes the board's pins, delay, converter and clock.
     pub fn new(lines: &'l mut Lines<P, PINS>, delay: D, adc: A, clock: C) -> Self {
         MuxScan {
             lines,
@@ -81,14 +81,13 @@ where
         }
     }
 
-    /// Lines, delay, converter and clock, for something else than a scan: what the lines show afterwards is not
-    /// known.
+    /// Lends lines, delay, converter and clock for other uses than a scan. The next scan drives all lines.
     pub fn parts(&mut self) -> (&mut Lines<P, PINS>, &mut D, &mut A, &C) {
         self.driven = None;
         (self.lines, &mut self.delay, &mut self.adc, &self.clock)
     }
 
-    /// Finds the pins of another garment's lines.
+    /// Looks up the pins of the circuit's lines if these have changed.
     fn rewire(&mut self, circuit: &Circuit) -> Result<(), ScanError> {
         if self.wired.as_slice() == circuit.lines() && !self.slots.is_empty() {
             return Ok(());
@@ -105,10 +104,10 @@ where
         Ok(())
     }
 
-    /// Drives the lines whose levels differ from those of `word`; the number of a pin that fails.
+    /// Drives the lines whose levels differ from those of `word`. The error is the number of a failed pin.
     fn apply(&mut self, word: u32) -> Result<(), u8> {
-        // With nothing known of the levels, at the start or after a failure: all lines, of which there are
-        // fewer.
+        // Levels are unknown at the start and after a failure: all bits differ. There are fewer lines, so the
+        // loop ends at the first bit without one.
         let mut changed = self.driven.take().map_or(u32::MAX, |driven| driven ^ word);
         while changed != 0 {
             let bit = changed.trailing_zeros();
@@ -121,14 +120,14 @@ where
         Ok(())
     }
 
-    /// All addresses. Not inlined: it needs stack only meanwhile.
+    /// Reads all addresses. Own frame: its stack is free again on return.
     #[inline(never)]
     fn sweep(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
         let columns = column_changes(circuit);
         circuit.selects().try_for_each(|sites| self.scan_select(circuit, plan, &columns, sites))
     }
 
-    /// All addresses of the blocks that share one select code.
+    /// Reads all addresses of the blocks that share one select code.
     fn scan_select(
         &mut self,
         circuit: &Circuit,
@@ -155,7 +154,7 @@ where
         Ok(())
     }
 
-    /// Reads every block that has a taxel at the present address.
+    /// Reads every block that has a taxel at the present column.
     fn read(&mut self, cursors: &mut Cursors, column: u8, depth: Depth) -> Result<(), ScanError> {
         for cursor in cursors.iter_mut().filter(|c| column < c.columns_here) {
             let Cursor { input, taxel, .. } = *cursor;
@@ -179,13 +178,13 @@ where
     A: Adc,
     C: Clock,
 {
-    /// Selects a taxel of any block, another one each time, once the lines are known.
+    /// Selects a taxel of some block, another one each time. No effect before the lines are known.
     pub(crate) fn pose_next(&mut self, circuit: &Circuit) {
         if self.wired.as_slice() != circuit.lines() {
             return;
         }
         self.posed = self.posed.wrapping_add(1);
-        // Multiples of the golden ratio are spread evenly, and so are their digits.
+        // Multiples of the golden ratio are spread evenly, and so are their bytes.
         let [_, block, row, column] = self.posed.wrapping_mul(0x9e37_79b9).to_le_bytes();
         let sites = circuit.sites();
         let index = usize::from(block).checked_rem(sites.len()).unwrap_or(0);
@@ -195,11 +194,11 @@ where
             row.checked_rem(site.rows).unwrap_or(0),
             column.checked_rem(site.columns).unwrap_or(0),
         );
-        // A line that fails shows in the next scan.
+        // A line that fails is found by the next scan.
         let _ = self.apply(word);
     }
 
-    /// Whether a line is not at the level to which it was driven last; what was not driven is not looked at.
+    /// True if a line is not at the level it was last driven to. Lines of unknown level are not read.
     pub(crate) fn shows_another(&mut self) -> bool {
         let Some(driven) = self.driven else { return false };
         self.slots.iter().enumerate().any(|(bit, slot)| {
@@ -210,7 +209,7 @@ where
     }
 }
 
-/// By column, how its word differs from that of column 0 under the same select code and row.
+/// By column: difference (xor) of its word from that of column 0 at the same select code and row.
 type Columns = heapless::Vec<u32, { u8::MAX as usize }>;
 
 fn column_changes(circuit: &Circuit) -> Columns {
@@ -221,23 +220,23 @@ fn column_changes(circuit: &Circuit) -> Columns {
     changes
 }
 
-/// A select line failed: names the first taxel that it was to select.
+/// A select line failed: returns the error, with the first taxel that was being selected.
 #[cold]
 fn lost(pin: u8, cursors: &Cursors, column: u8) -> ScanError {
     let first = cursors.iter().find(|c| column < c.columns_here);
     ScanError::Line { pin, taxel: first.map_or(0, |c| c.taxel) as u16 }
 }
 
-/// The blocks under one select code that the plan reads.
+/// Cursors of the blocks under one select code that the plan reads.
 type Cursors = heapless::Vec<Cursor, BLOCKS>;
 
-/// Where a block's next sample goes. What a frame's 2,048 samples need is found once per block, and stepped
-/// from there: the select lines are slow enough.
+/// Position of a block's next sample. Set up once per block and stepped from taxel to taxel, so that a sample
+/// costs no division or multiplication beside the slow select lines.
 struct Cursor {
     input: u8,
     rows: u8,
     columns: u8,
-    /// Columns of the present row; none past the block's last row.
+    /// Columns of the present row; 0 past the block's last row.
     columns_here: u8,
     taxel: i32,
     next_row: i32,

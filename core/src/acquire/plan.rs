@@ -1,9 +1,9 @@
-//! The scan plan: what of the garment one frame reads, and how finely.
+//! The scan plan: panels and blocks that one frame reads, and their resolution.
 
 use serde::{Deserialize, Serialize};
 
-/// How a taxel is read: the bits that are kept, or the scans of which the mean is taken, so that frames come
-/// as much more rarely; and in which order.
+/// Resolution and order of a scan: bits kept, or number of scans averaged, which divides the frame rate by as
+/// much.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Depth {
     /// The upper 8 bits of the converter's 12 (the source's 256 grey levels); codes still span 0 ..= 4095.
@@ -13,7 +13,7 @@ pub enum Depth {
     #[default]
     #[serde(rename = "12")]
     Twelve,
-    /// The mean of two scans of 12 bits, rounded to a whole code, as the next two.
+    /// The mean of two scans of 12 bits, rounded to a whole code; so are those of four and eight.
     #[serde(rename = "mean of 2")]
     MeanOf2,
     /// The mean of four scans.
@@ -22,14 +22,14 @@ pub enum Depth {
     /// The mean of eight scans.
     #[serde(rename = "mean of 8")]
     MeanOf8,
-    /// All 12 bits, in the order of [`Fields`](super::Fields): every part of the garment is met in each part
-    /// of a frame, which is what a reflex within a frame needs.
+    /// All 12 bits, in the order of [`Fields`](super::Fields): every part of the garment is sampled in each
+    /// sub-field of a frame, which a reflex within a frame needs.
     #[serde(rename = "12 interlaced")]
     Interlaced,
 }
 
 impl Depth {
-    /// Distance of a code from the next one.
+    /// Distance between adjacent codes.
     pub const fn step(self) -> u16 {
         match self {
             Depth::Eight => 16,
@@ -37,10 +37,10 @@ impl Depth {
         }
     }
 
-    /// The 12-bit code as kept.
+    /// Reduces a 12-bit code to the bits kept.
     pub const fn keep(self, code: u16) -> u16 {
         match self {
-            // The upper bits are repeated below, so that full scale stays full scale.
+            // The upper bits are repeated below: full scale stays full scale.
             Depth::Eight => (code & 0xff0) | (code >> 8 & 0xf),
             Depth::Twelve | Depth::MeanOf2 | Depth::MeanOf4 | Depth::MeanOf8 | Depth::Interlaced => code,
         }
@@ -56,18 +56,18 @@ impl Depth {
         }
     }
 
-    /// Scans of a frame.
+    /// Scans per frame.
     pub const fn scans(self) -> u16 {
         1 << self.doublings()
     }
 
-    /// The code for the sum of as many 12-bit codes as [`Depth::scans`] says; a half is rounded up.
+    /// Mean of [`Depth::scans`] 12-bit codes with this sum; halves are rounded up.
     pub const fn mean(self, sum: u16) -> u16 {
         self.keep((sum + self.scans() / 2) >> self.doublings())
     }
 }
 
-/// What one frame reads.
+/// Panels and blocks that one frame reads, and the resolution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plan {
@@ -75,7 +75,7 @@ pub struct Plan {
     pub panels: u8,
     /// Blocks to read, bit `i` for block `i` of the garment.
     pub blocks: u64,
-    /// Bits kept of each sample.
+    /// Resolution and order.
     pub depth: Depth,
 }
 
@@ -86,12 +86,12 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// Whether a block of a panel is to be read.
+    /// True if the plan reads a block of a panel.
     pub const fn reads(&self, panel: u8, block: u8) -> bool {
         self.reads_panel(panel) && self.blocks >> block & 1 == 1
     }
 
-    /// Whether blocks of a panel may be read.
+    /// True if the plan may read blocks of a panel.
     pub const fn reads_panel(&self, panel: u8) -> bool {
         self.panels as u32 >> panel & 1 == 1
     }

@@ -1,29 +1,29 @@
-//! Places for frames that a converter fills one after the other while one of them is being read.
+//! Buffers that a converter fills one after the other while one of them is being read.
 
 use crate::format::Micros;
 
-/// Places of a ring: one that is read, one that is complete, one that is being filled, and one that comes
-/// next, which has to be known before the converter gets there.
+/// Places of a ring: one being read, one complete, one being filled, and the one after that, which must be
+/// known before the converter gets there.
 pub const PLACES: usize = 4;
 
-/// Places that [`Ring::turn`] goes round in.
+/// Places that [`Ring::turn`] uses.
 pub const TURN_PLACES: usize = PLACES - 1;
 
-/// A complete frame that nobody overwrites until the next one is lent.
+/// A complete frame, safe from being overwritten until the next one is lent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lent {
-    /// Where it is.
+    /// Index of its buffer.
     pub place: u8,
-    /// When its first address was selected.
+    /// Time at which its first address was selected.
     pub start: Micros,
-    /// Time from then to the first address of the frame after it, microseconds.
+    /// Time from `start` to the first address of the next frame, microseconds.
     pub duration_us: u32,
-    /// Frames before it, since the one that was lent last, that were overwritten unseen.
+    /// Number of frames since the previous loan that were overwritten unread.
     pub missed: u32,
 }
 
-/// Which frame is where. Whoever calls [`Ring::complete`] may interrupt whoever calls [`Ring::lend`] at any
-/// time, but not in the midst of it.
+/// Assignment of frames to places. The caller of [`Ring::complete`] may interrupt the caller of
+/// [`Ring::lend`], but not during that call.
 #[derive(Debug, Clone)]
 pub struct Ring {
     filling: u8,
@@ -34,39 +34,40 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// The converter begins with place 0, at `now`, and goes on with [`Ring::next`].
+    /// The converter fills place 0 from `now` on, then [`Ring::next`].
     pub const fn new(now: Micros) -> Ring {
         Ring { filling: 0, next: 1, started: now, lent: None, fresh: None }
     }
 
-    /// The place that the converter fills after the present one.
+    /// Place that the converter fills after the present one.
     pub const fn next(&self) -> u8 {
         self.next
     }
 
-    /// The place that is being filled.
+    /// Place being filled.
     pub const fn filling(&self) -> u8 {
         self.filling
     }
 
-    /// The place that was lent last.
+    /// Place lent last.
     pub const fn lent(&self) -> Option<u8> {
         self.lent
     }
 
-    /// The converter has gone on, at `now`: what comes after that is in [`Ring::next`].
+    /// Records that the present frame is complete at `now` and the converter fills [`Ring::next`].
     pub fn complete(&mut self, now: Micros) {
         let duration_us = now.since(self.started).min(u64::from(u32::MAX)) as u32;
         let missed = self.fresh.map_or(0, |unseen| unseen.missed.saturating_add(1));
         let done = Lent { place: self.filling, start: self.started, duration_us, missed };
         (self.fresh, self.filling, self.started) = (Some(done), self.next, now);
         let taken = [Some(done.place), Some(self.filling), self.lent];
-        // Three of four places at most are taken.
+        // At most three of four places are taken.
         self.next = (0..PLACES as u8).find(|place| !taken.contains(&Some(*place))).unwrap_or(0);
     }
 
-    /// A frame is complete, at `now`, of those that are put into their places as they come, by whoever calls
-    /// this: the place of the next one. It need not be known before, so [`TURN_PLACES`] are enough.
+    /// Records that the present frame is complete at `now`; returns the place of the next one. For a caller
+    /// that puts codes into their places itself: the next place need not be known earlier, so [`TURN_PLACES`]
+    /// are enough.
     pub fn turn(&mut self, now: Micros) -> u8 {
         let done = self.filling;
         self.complete(now);
@@ -75,20 +76,20 @@ impl Ring {
         self.filling
     }
 
-    /// Lends the latest complete frame, once, and takes back the one before.
+    /// Lends the latest complete frame, once, and takes back the previous one.
     pub fn lend(&mut self) -> Option<Lent> {
         let lent = self.fresh.take()?;
         self.lent = Some(lent.place);
         Some(lent)
     }
 
-    /// The latest complete frame, once, beside the one that is lent, which stays so: to be read at once, and
-    /// good if [`Ring::is_whole`] afterwards.
+    /// Returns the latest complete frame, once, without taking back the lent one. It may be overwritten: read
+    /// it at once, and use the result only if [`Ring::is_whole`] afterwards.
     pub fn show(&mut self) -> Option<Lent> {
         self.fresh.take()
     }
 
-    /// Whether the converter has not come to a place that was shown.
+    /// True if the converter has not reached the place of a shown frame.
     pub fn is_whole(&self, shown: Lent) -> bool {
         self.filling != shown.place
     }
@@ -98,7 +99,7 @@ impl Ring {
 mod tests {
     use super::*;
 
-    /// A sum of frames: the first is lent, the others are shown beside it.
+    /// Frames that are summed: the first is lent, the others are shown beside it.
     #[test]
     fn what_is_summed_up_stays_while_others_are_shown() {
         let mut ring = Ring::new(Micros(0));
@@ -112,7 +113,7 @@ mod tests {
             assert_eq!((shown.start, shown.missed), (Micros(5_000 * (frame - 1)), 0));
             assert!(ring.is_whole(shown));
         }
-        // Whoever looks at a frame for longer than the next two take may find the converter there.
+        // A frame that is read for longer than the next two take may be overwritten.
         ring.complete(Micros(2_000_000));
         let shown = ring.show().unwrap();
         ring.complete(Micros(2_005_000));

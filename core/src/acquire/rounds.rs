@@ -1,11 +1,11 @@
-//! How long a frame takes by a converter that never waits: the one model that the firmware's chain is set up
-//! by, that the simulated board runs by, and that tells the rate of a garment before it is worn.
+//! Time of a frame with a converter that runs freely. One model for three users: the firmware sets up its DMA
+//! chain by it, the simulated board runs by it, and the host predicts a garment's frame rate.
 //!
 //! The converter (RP2040 datasheet, 4.9) converts the inputs of the plan and its thermometer in turn and
-//! never stops. The select lines change when the last input has been converted, and the first input that
-//! counts afterwards is converted one thermometer later: 2 us. A line that needs longer is converted in vain
-//! for some rounds, all of whose codes are dropped; what is still missing then, less than a round, is made up
-//! by a slower pace of all conversions.
+//! never stops. The select lines change when the last input has been converted. The first input that counts
+//! afterwards is converted one thermometer later, after 2 us. If a line needs longer, some rounds of
+//! conversions are dropped; the rest of the time, less than a round, is gained by a slower pace of all
+//! conversions.
 //!
 //! | inputs | `settle_ns` | rounds | pace | settled for | address |
 //! |---|---|---|---|---|---|
@@ -17,36 +17,36 @@
 use super::Plan;
 use crate::garment::Circuit;
 
-/// Clocks of a conversion, of 48 MHz: 2 us.
+/// Clocks of a conversion at 48 MHz: 2 us.
 pub const CONVERSION_CLOCKS: u32 = 96;
-/// A conversion, ns.
+/// Time of a conversion, ns.
 pub const CONVERSION_NS: u32 = ns(CONVERSION_CLOCKS as u64) as u32;
 
-/// How often, and at which pace, the inputs are converted under one address.
+/// Number of rounds in which the inputs are converted at one address, and their pace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rounds {
-    /// Conversions of a round: the inputs and the thermometer.
+    /// Conversions per round: the inputs and the thermometer.
     conversions: u32,
-    /// Rounds under one address, of which the last counts: 1 and more.
+    /// Rounds per address, of which the last counts: at least 1.
     pub rounds: u32,
-    /// Clocks from the start of a conversion to the start of the next one: 96 to 336.
+    /// Clocks from the start of a conversion to the start of the next: 96 to 336.
     pub period_clocks: u32,
 }
 
 impl Rounds {
-    /// For so many inputs (of more than 255 for 255) and a garment's settling time, of which whole
-    /// conversions count, one at least.
+    /// Returns the rounds for a number of inputs (at most 255 count) and a garment's settling time, of which
+    /// whole conversions count, at least one.
     pub const fn of(inputs: usize, settle_ns: u32) -> Rounds {
         let conversions = if inputs < 255 { inputs as u32 + 1 } else { 256 };
         let slots = settle_ns / CONVERSION_NS;
         let slots = if slots == 0 { 1 } else { slots };
-        // A round of the converter's own pace more, or a slower pace: whatever is sooner done.
+        // One more round at the converter's own pace, or a slower pace: the faster of the two.
         let slower = Rounds::paced(conversions, (slots - 1) / conversions + 1, slots);
         let longer = Rounds::paced(conversions, slower.rounds + 1, slots);
         if longer.address_clocks() <= slower.address_clocks() { longer } else { slower }
     }
 
-    /// The quickest pace at which so many rounds give time for that many conversions.
+    /// Returns the fastest pace at which `rounds` rounds give time for `slots` conversions.
     const fn paced(conversions: u32, rounds: u32, slots: u32) -> Rounds {
         let until = (slots as u64 + 1) * CONVERSION_CLOCKS as u64;
         let starts = conversions as u64 * rounds.saturating_sub(1) as u64 + 2;
@@ -55,24 +55,24 @@ impl Rounds {
         Rounds { conversions, rounds, period_clocks }
     }
 
-    /// Samples of an address that are dropped before the thermometer's and the inputs' that count.
+    /// Samples of an address that are dropped before the thermometer and the inputs that count.
     pub const fn dropped(&self) -> u32 {
         self.conversions.saturating_mul(self.rounds - 1)
     }
 
-    /// From the change of the select lines to the sample of the first input that counts, ns. It begins with
-    /// the end of the last input's conversion.
+    /// Time from the change of the select lines, at the end of the last input's conversion, to the sample of
+    /// the first input that counts, ns.
     pub const fn settling_ns(&self) -> u64 {
         let starts = self.dropped() as u64 + 2;
         ns(starts * self.period_clocks as u64 - CONVERSION_CLOCKS as u64)
     }
 
-    /// From one sample to the next, ns.
+    /// Time between samples, ns.
     pub const fn period_ns(&self) -> u64 {
         ns(self.period_clocks as u64)
     }
 
-    /// From one address to the next, ns.
+    /// Time between addresses, ns.
     pub const fn address_ns(&self) -> u64 {
         ns(self.address_clocks())
     }
@@ -82,17 +82,17 @@ impl Rounds {
     }
 }
 
-/// Clocks of 48 MHz in ns, rounded down.
+/// Converts clocks of 48 MHz to ns, rounded down.
 const fn ns(clocks: u64) -> u64 {
     clocks * 125 / 6
 }
 
-/// Time of a frame of this plan, us: from the start of one to the start of the next, where the converter
-/// reads the garment by itself. A mean of several scans takes as many. A plan that reads nothing takes none.
+/// Time from the start of one frame of a plan to the next, us, with a free-running converter. A mean of
+/// several scans takes as many times as long. A plan that reads nothing takes 0.
 ///
-/// A garment whose wiring the chain cannot follow (see [`super::Unfit`]) is read by the processor, which
-/// waits for the exact settling time, takes 2.2 us for a sample, and 5 us to drive the lines of an address:
-/// 8.6 ms for the reference garment with a mirrored panel (emulated) where this says 5.12.
+/// The processor reads a garment whose wiring the DMA chain cannot follow (see [`super::Unfit`]). It waits
+/// for the exact settling time, takes 2.2 us for a sample, and 5 us to drive the lines of an address: 8.6 ms
+/// for the reference garment with a mirrored panel (emulated), where this function returns 5.12.
 pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     let (addresses, inputs) = read_by(circuit, plan);
     let rounds = Rounds::of(inputs, circuit.settle_ns());
@@ -100,7 +100,7 @@ pub fn frame_us(circuit: &Circuit, plan: &Plan) -> u64 {
     ns(clocks) / 1000
 }
 
-/// Addresses of a frame, and inputs that are converted at each.
+/// Returns the number of addresses of a frame, and of inputs converted at each.
 pub(super) fn read_by(circuit: &Circuit, plan: &Plan) -> (u64, usize) {
     let mut inputs = 0u64;
     let mut addresses = 0u64;
@@ -133,8 +133,8 @@ mod tests {
         assert_eq!(CONVERSION_NS, 2_000);
     }
 
-    /// Every settling is given, none takes longer than by a slower pace alone (but for the rounding to whole
-    /// clocks), and what it costs above the least is bounded.
+    /// Every settling time is reached, none takes longer than by a slower pace alone (except for the rounding
+    /// to whole clocks), and the excess over the least time is bounded.
     #[test]
     fn every_settling_is_given_at_a_bounded_price() {
         for inputs in 1..=4 {
@@ -146,7 +146,7 @@ mod tests {
                 assert!((CONVERSION_CLOCKS..=336).contains(&rounds.period_clocks));
                 let paced = Rounds::paced(inputs as u32 + 1, 1, slots as u32);
                 assert!(rounds.address_clocks() <= paced.address_clocks() * 97 / 96);
-                // Three sevenths at most (four inputs that ask for 6 us), and from ten conversions on a tenth.
+                // At most three sevenths (four inputs that need 6 us); a tenth from ten conversions on.
                 let over = rounds.address_ns() as f64 / least(slots) as f64 - 1.0;
                 let most = if slots < 10 { 0.43 } else { 0.1 };
                 assert!(over <= most, "{inputs} inputs, {settle_ns} ns: {over}");

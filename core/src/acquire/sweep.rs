@@ -1,5 +1,5 @@
-//! What a converter that never waits reads: the select lines' levels in the order of the scan, and where the
-//! codes of each input go. A board whose DMA reads the garment turns this into its tables.
+//! The scan of a free-running converter: levels of the select lines by address, and the taxels that each
+//! input reads. A board whose DMA reads the garment makes its tables from this.
 
 use super::Plan;
 use super::addresses::{self, Inputs, Read};
@@ -10,19 +10,19 @@ use heapless::Vec;
 /// Most converter inputs of a sweep.
 pub const SWEEP_INPUTS: usize = 4;
 
-/// Addresses for which the reference board has room: as many as 2,048 taxels take on four inputs.
+/// Most addresses of a sweep on the reference board: as many as 2,048 taxels take on four inputs.
 pub const SWEEP_ADDRESSES: usize = 512;
-/// Stretches for which it has room: one for each row of 16 blocks.
+/// Most stretches of a sweep on the reference board: one for each row of 16 blocks.
 pub const SWEEP_STRETCHES: usize = 64;
 
-/// Addresses that follow each other, and so do, at every input, the numbers of the taxels read there.
+/// Consecutive addresses at which every input reads consecutive taxels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stretch {
     /// Index of its first address in [`Sweep::levels`].
     pub first: u16,
-    /// Taxels at that address, by the position of their input in [`Sweep::inputs`]; none where an input reads
-    /// nothing in the whole stretch, which then lies within one row or column of a block (256 addresses at
-    /// most).
+    /// Taxels at that address, by the position of their input in [`Sweep::inputs`]. None for an input that
+    /// reads nothing in the whole stretch, which then lies within one row or column of a block (256 addresses
+    /// at most).
     pub taxels: Read,
 }
 
@@ -31,15 +31,15 @@ pub struct Stretch {
 pub enum Unfit {
     /// The plan reads fewer than two addresses.
     Small,
-    /// It reads more than [`SWEEP_INPUTS`] inputs.
+    /// The plan reads more than [`SWEEP_INPUTS`] inputs.
     Inputs,
     /// A select line is on a pin past GPIO 31.
     Line(u8),
-    /// It reads more addresses than there is room for.
+    /// The plan reads more addresses than there is room for.
     Addresses(usize),
-    /// The taxels jump more often than there is room for.
+    /// Taxel numbers are not consecutive more often than there is room for.
     Stretches(usize),
-    /// A frame is as short as a part of it should be: nothing is gained by interlacing it.
+    /// The whole frame is shorter than two sub-fields may be: interlacing it gains nothing.
     Short,
 }
 
@@ -58,8 +58,7 @@ impl fmt::Display for Unfit {
 
 impl core::error::Error for Unfit {}
 
-/// The sweep of a plan: up to ADDRESSES addresses in up to STRETCHES stretches, of which there are at least
-/// two.
+/// The sweep of a plan: up to ADDRESSES addresses in 2 to STRETCHES stretches.
 #[derive(Debug)]
 pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
     inputs: Inputs,
@@ -68,12 +67,12 @@ pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
 }
 
 impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES> {
-    /// Reads nothing.
+    /// A sweep that reads nothing.
     pub const fn new() -> Self {
         Sweep { inputs: Vec::new(), levels: Vec::new(), stretches: Vec::new() }
     }
 
-    /// Works out the sweep of a plan. After an error nothing of it is to be used.
+    /// Computes the sweep of a plan. After an error the sweep is incomplete and must not be used.
     pub fn fill(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), Unfit> {
         self.inputs.clear();
         self.levels.clear();
@@ -102,7 +101,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
         self.levels.push(levels).map_err(|_| Unfit::Addresses(ADDRESSES))
     }
 
-    /// Makes two stretches of a single one.
+    /// Splits a single stretch in two.
     fn split(&mut self) -> Result<(), Unfit> {
         let half = (self.levels.len() / 2) as u16;
         if half == 0 {
@@ -125,7 +124,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
         &self.levels
     }
 
-    /// Where the codes go.
+    /// Stretches, in the order of the scan.
     pub fn stretches(&self) -> &[Stretch] {
         &self.stretches
     }

@@ -1,22 +1,22 @@
-//! Bytes of the link on their way to the board. What the board does not take yet waits here, and behind it in
+//! Hands received bytes to the board. Bytes that the board does not accept yet wait here, those after them in
 //! the link's ring.
 
 use super::{Link, Platform};
 use crate::board::{Board, Input};
 
-/// Bytes that are taken from the link at a time.
+/// Most bytes read from the link at a time.
 const PIECE: usize = 64;
-/// Pieces and messages that are taken in one round of the loop, so that a host that sends without end keeps
-/// nothing from being scanned: more than the longest request, and more than any host has to say in a frame.
+/// Most pieces and messages handed over per round of the loop, so that a host that sends without pause does
+/// not stop the scan. Enough for the longest request, and for more than any host has to send in a frame.
 const PIECES: u8 = 64;
 const MESSAGES: u8 = 32;
-/// Ends each message.
+/// Last byte of each message.
 const END: u8 = 0;
 
-/// Hands bytes over, message by message.
+/// Splits received bytes at message ends and hands them to the board.
 pub(super) struct Reader {
     bytes: [u8; PIECE],
-    /// Those that the board has not taken yet.
+    /// `bytes[from..to]` have not been handed over yet.
     from: usize,
     to: usize,
 }
@@ -26,7 +26,8 @@ impl Reader {
         Reader { bytes: [0; PIECE], from: 0, to: 0 }
     }
 
-    /// Takes the bytes that have come, as far as the board takes them and the bounds of a round go.
+    /// Hands received bytes to the board until none is left, the board accepts no message, or the round's
+    /// limits are reached.
     pub fn receive<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &mut self,
         link: &mut impl Link,
@@ -61,7 +62,7 @@ impl Reader {
         self.bytes.get(self.from..self.to).unwrap_or(&[])
     }
 
-    /// The end of a message alone, else all up to the next one.
+    /// The end byte of a message alone, or else all bytes before the next one.
     fn piece(&self) -> &[u8] {
         let rest = self.rest();
         let length = rest.iter().position(|byte| *byte == END).unwrap_or(rest.len());
