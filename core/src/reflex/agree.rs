@@ -1,28 +1,27 @@
-//! Who has to agree before a reflex begins.
+//! How many taxels must agree before a reflex begins.
 
 use super::watched::Spot;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Taxels beyond the limit that a reflex needs.
+/// Number of taxels beyond the limit that a reflex needs.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agree {
-    /// One: soonest, and every impulse on a taxel is a reflex.
+    /// One: fastest, but every impulse on a taxel is a reflex.
     One,
-    /// Two of one panel within the time of a frame: of the same frame at most two rows and two columns apart,
-    /// else neighbours.
+    /// Two of one panel within the time of a frame. In the same frame they are at most two rows and two
+    /// columns apart, in different frames neighbours.
     ///
-    /// An impulse that hits one taxel in one frame, and neither it nor its eight neighbours again in the
-    /// next, never does that where no two of a frame are so near each other.
+    /// Impulses that hit a taxel in one frame, and neither it nor its eight neighbours in the next, never
+    /// cause this if no two of a frame are that near each other.
     #[default]
     Two,
 }
 
-/// Taxels that are remembered: in 2,048 with impulses on a hundredth of them, as many as a frame and a half
-/// has.
+/// Capacity of [`Recent`]: as many taxels as a frame and a half has with impulses on a hundredth of 2,048.
 const SEEN: usize = 32;
-/// Greatest distance in rows and in columns of two taxels that agree, in one frame and across two.
+/// Largest distance in rows and in columns of two taxels that agree, in one frame and across two.
 const NEAR: u16 = 2;
 const NEXT: u16 = 1;
 
@@ -31,11 +30,11 @@ const NEXT: u16 = 1;
 struct Seen {
     taxel: u16,
     spot: Spot,
-    /// Number of the sub-field.
+    /// Number of the sub-field, counted over all frames.
     field: u32,
 }
 
-/// The taxels that were beyond their limits within the last frame's time.
+/// Taxels that were beyond their limits within the time of a frame.
 #[derive(Debug, Clone)]
 pub(super) struct Recent {
     seen: Vec<Seen, SEEN>,
@@ -45,23 +44,23 @@ pub(super) struct Recent {
 }
 
 impl Recent {
-    /// None.
+    /// No taxels.
     pub const fn new() -> Recent {
         Recent { seen: Vec::new(), oldest: 0, field: 0 }
     }
 
-    /// Forgets all.
+    /// Forgets all taxels.
     pub fn clear(&mut self) {
         self.seen.clear();
         self.oldest = 0;
     }
 
-    /// Another sub-field begins.
+    /// Begins the next sub-field.
     pub fn turn(&mut self) {
         self.field = self.field.wrapping_add(1);
     }
 
-    /// A taxel that agrees with this one, which is remembered. `within`: the present sub-field's place in its
+    /// Stores a taxel; returns one that agrees with it. `within`: index of the present sub-field in its
     /// frame, of `count`.
     pub fn agree(&mut self, taxel: u16, spot: Spot, within: usize, count: usize) -> Option<u16> {
         let near = |seen: &&Seen| {

@@ -1,4 +1,4 @@
-//! The check of a sub-field.
+//! The check of a sub-field's codes.
 
 use super::agree::{Agree, Recent};
 use super::watched::{ROWS, Reflexes};
@@ -6,58 +6,58 @@ use crate::acquire::{Fields, Read};
 use crate::format::{Code, Micros};
 use heapless::{Deque, Vec};
 
-/// Codes that the loop takes at a time: as the compiler unrolls it.
+/// Codes per iteration of the loop, which the compiler unrolls.
 const CHUNK: usize = 4;
-/// Taxels of a sub-field and an input that are judged: the first that are beyond their limits.
+/// Most taxels judged per sub-field and input: the first that are beyond their limits.
 const JUDGED: usize = 8;
-/// Limits that are set anew with each frame, once all were; and until then.
+/// Limits updated per frame: once all have been set, and before.
 const RENEWED: usize = 16;
 const FILLED: usize = 64;
-/// Where the code of an input goes that reads nothing: beyond every frame.
+/// Index of the code of an input that reads nothing: beyond every frame.
 const NOWHERE: u16 = u16::MAX;
 
-/// A taxel in the order of the scan.
+/// A taxel, in the order of the scan.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     taxel: u16,
-    /// The last code that is quiet; where pressure lowers the code, inverted.
+    /// Last inactive code; inverted if pressure lowers the code.
     limit: u16,
 }
 
-/// A reflex that began.
+/// A reflex that has begun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Early {
-    /// Its place in the scene's table of reactions.
+    /// Index into the scene's table of reactions.
     pub index: u8,
-    /// When the sub-field had been read.
+    /// Time at which the sub-field had been read.
     pub time: Micros,
-    /// Number of the taxel that decided.
+    /// Number of the taxel that triggered it.
     pub taxel: u16,
     /// Its code.
     pub code: Code,
-    /// The other one, where two have to agree.
+    /// Number of the taxel that agreed, if two must.
     pub other: Option<u16>,
 }
 
-/// What is remembered from sub-field to sub-field.
+/// State of the check from sub-field to sub-field.
 #[derive(Debug, Clone)]
 pub struct Reflex<const TAXELS: usize> {
     entries: [Entry; TAXELS],
     fields: Fields,
     falling: bool,
     reflexes: Reflexes,
-    /// Entry whose limit is set anew next.
+    /// Entry whose limit is updated next.
     next: u16,
-    /// All limits hold.
+    /// True once all limits are set.
     armed: bool,
-    /// Rows that have begun and are not at rest again, a bit each.
+    /// Mask of the rows that have begun and are not at rest again.
     begun: u8,
     untold: Deque<Early, ROWS>,
     recent: Recent,
 }
 
 impl<const TAXELS: usize> Reflex<TAXELS> {
-    /// Of no scan. All bytes are 0.
+    /// No scan is checked. All bytes are 0.
     pub const fn new() -> Self {
         Reflex {
             entries: [Entry { taxel: 0, limit: 0 }; TAXELS],
@@ -72,15 +72,15 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         }
     }
 
-    /// Another order of the scan, whose taxels are told by [`Reflex::order`]. Nothing is watched until all
-    /// limits are set.
+    /// Sets the sub-fields of another scan; [`Reflex::order`] then sets their taxels. Nothing is watched
+    /// until all limits are set.
     pub fn begin(&mut self, fields: Fields, falling: bool) {
         (self.fields, self.falling) = (fields, falling);
         self.entries.fill(Entry { taxel: NOWHERE, limit: u16::MAX });
         self.disarm();
     }
 
-    /// Which taxels the inputs read at an address of a sub-field.
+    /// Sets the taxels that the inputs read at an address of a sub-field.
     pub fn order(&mut self, field: usize, address: usize, taxels: Read) {
         let (inputs, addresses) = (self.fields.inputs().len(), self.fields.addresses(field));
         let first = self.fields.span(field).start + address;
@@ -90,9 +90,9 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         }
     }
 
-    /// What is to be watched from now on; none: nothing, for now. `active`: the rows whose reactions last, a
-    /// bit each. `limit`: the last code of a taxel that is quiet; none where it is not watched. To be called
-    /// with each frame: the limits follow the baseline by and by.
+    /// Sets what is checked from now on; no `reflexes`: nothing is. `active`: mask of the rows whose
+    /// reactions last. `limit`: last inactive code of a taxel, none for taxels that are not watched. Call it
+    /// once per frame: each call updates some of the limits, which thus follow the baseline.
     pub fn watch(&mut self, reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Option<u16>) {
         let Some(reflexes) = reflexes else { return self.disarm() };
         if self.reflexes != *reflexes {
@@ -101,7 +101,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
             self.untold.clear();
             self.disarm();
         }
-        // What has no pin is at rest as soon as its reaction has ended; the others when the pin is.
+        // A row without a pin is at rest when its reaction has ended, one with a pin when the pin is.
         let pinned = self.reflexes.rows().iter().filter(|row| row.output.is_some());
         let untold = self.untold.iter().fold(0, |mask, early| mask | 1 << (early.index & 7));
         self.begun &= active | untold | pinned.fold(0, |mask, row| mask | row.bit());
@@ -126,8 +126,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         self.recent.clear();
     }
 
-    /// Takes the codes of a sub-field, those of one input after those of the other, and puts them into their
-    /// places of `frame`, by taxel number. A mask of the rows that begin, whose pins are to be asserted.
+    /// Stores the codes of a sub-field, those of one input after those of the previous, in `frame` by taxel
+    /// number. Returns a mask of the rows that begin, whose pins are to be asserted.
     pub fn check(&mut self, field: usize, codes: &[Code], frame: &mut [Code], now: Micros) -> u8 {
         self.recent.turn();
         let addresses = self.fields.addresses(field).max(1);
@@ -148,7 +148,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         self.begun & !before
     }
 
-    /// A taxel is beyond its limit.
+    /// Begins the reflex of a taxel beyond its limit if enough taxels agree.
     #[inline(never)] // M0+: out of line
     fn judge(&mut self, field: usize, taxel: u16, code: Code, now: Micros) {
         let Some(row) = self.reflexes.row_of(taxel).copied() else { return };
@@ -156,25 +156,25 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         let other = self.recent.agree(taxel, spot, field, self.fields.count());
         if row.agree == Agree::One || other.is_some() {
             self.begun |= row.bit();
-            // There is room for every row, and a row begins again only when it was told.
+            // There is room for every row, and a row begins again only after it was reported.
             let _ = self.untold.push_back(Early { index: row.index, time: now, taxel, code, other });
         }
     }
 
-    /// The pins of some rows and the level at which they are asserted.
+    /// Pins of the rows in `mask`, and the level at which each is asserted.
     pub fn pins(&self, mask: u8) -> impl Iterator<Item = (u8, bool)> + '_ {
         let rows = self.reflexes.rows().iter().filter(move |row| mask & row.bit() != 0);
         rows.filter_map(|row| row.output).map(|line| (line.pin, !line.inverted))
     }
 
-    /// Somebody else has put a pin to a level: a row that is at rest by that may begin again.
+    /// Records that a pin was driven by others. Rows that are at rest at this level may begin again.
     pub fn driven(&mut self, pin: u8, level: bool) {
         let at_rest = |line: crate::garment::Line| line.pin == pin && line.inverted == level;
         let rows = self.reflexes.rows().iter().filter(|row| row.output.is_some_and(at_rest));
         self.begun &= !rows.fold(0, |mask, row| mask | row.bit());
     }
 
-    /// The next reflex that was not told yet.
+    /// Returns the next reflex that was not returned yet.
     pub fn told(&mut self) -> Option<Early> {
         self.untold.pop_front()
     }
@@ -191,10 +191,10 @@ impl<const TAXELS: usize> Default for Reflex<TAXELS> {
     }
 }
 
-/// Taxels beyond their limits, and their codes.
+/// Numbers and codes of the taxels beyond their limits.
 type Loud = Vec<(u16, Code), JUDGED>;
 
-/// Puts codes into their places, and finds those beyond their limits.
+/// Stores codes in `frame`, and collects those beyond their limits in `loud`.
 #[inline(never)] // M0+: out of line
 fn place_and_find<const FALLING: bool>(
     codes: &[Code],
@@ -217,7 +217,7 @@ fn place_and_find<const FALLING: bool>(
     rest.iter().zip(entry_rest).for_each(|(code, entry)| take(code, entry));
 }
 
-/// Puts a code into its place, if it has one.
+/// Stores a code in `frame` if the entry has a taxel.
 #[inline(always)]
 fn put(code: Code, entry: Entry, frame: &mut [Code]) {
     if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
@@ -225,9 +225,9 @@ fn put(code: Code, entry: Entry, frame: &mut [Code]) {
     }
 }
 
-/// A taxel is beyond its limit; those past the last are not judged.
+/// Adds a taxel beyond its limit; those past the last place are not judged.
 #[cold]
-#[inline(never)] // M0+: out of line, so that the loop keeps its registers
+#[inline(never)] // M0+: out of line
 fn find(loud: &mut Loud, taxel: u16, code: Code) {
     let _ = loud.push((taxel, code));
 }

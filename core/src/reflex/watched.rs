@@ -1,45 +1,45 @@
-//! What is watched, and what it moves: the rows of the scene's reactions that are reflexes.
+//! The reactions that are reflexes: what they watch and which pins they drive.
 
 use super::agree::Agree;
 use crate::garment::{Layout, Line, PANELS};
 use heapless::Vec;
 
-/// Most rows.
+/// Most reflexes of a scene.
 pub const ROWS: usize = 8;
 
 /// A reaction that begins by reflex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Row {
-    /// Its place in the scene's table of reactions.
+    /// Index into the scene's table of reactions.
     pub index: u8,
-    /// Who has to agree.
+    /// Number of taxels that must agree.
     pub agree: Agree,
-    /// Pressure of a taxel from which on it counts, counts.
+    /// Least pressure of a taxel that counts, counts.
     pub level: u16,
-    /// A pin that is asserted at once.
+    /// Pin that is asserted at once.
     pub output: Option<Line>,
-    /// The region that is watched; none: all of them.
+    /// Region that is watched; none: all of them.
     pub region: Option<u8>,
 }
 
 impl Row {
-    /// The bit of the row in a mask.
+    /// Bit of the row in a mask.
     pub(super) const fn bit(&self) -> u8 {
         1 << (self.index & 7)
     }
 }
 
-/// A panel, and who watches it.
+/// A panel, and the row that watches it.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct Panel {
     base: u16,
     rows: u16,
     columns: u16,
-    /// Place among the rows.
+    /// Index among the rows.
     row: Option<u8>,
 }
 
-/// Where a taxel is.
+/// Position of a taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Spot {
     pub panel: u8,
@@ -48,7 +48,7 @@ pub(super) struct Spot {
 }
 
 impl Spot {
-    /// Whether another is at most so many rows and columns away.
+    /// True if another taxel of the panel is at most `reach` rows and columns away.
     pub fn is_near(self, other: Spot, reach: u16) -> bool {
         self.panel == other.panel
             && self.row.abs_diff(other.row) <= reach
@@ -56,7 +56,7 @@ impl Spot {
     }
 }
 
-/// All reflexes of a scene, on a garment. A panel is watched by one of them at most.
+/// All reflexes of a scene on a garment. At most one of them watches a panel.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Reflexes {
     rows: Vec<Row, ROWS>,
@@ -64,12 +64,12 @@ pub struct Reflexes {
 }
 
 impl Reflexes {
-    /// None.
+    /// No panels and no rows.
     pub const fn none() -> Reflexes {
         Reflexes { rows: Vec::new(), panels: Vec::new() }
     }
 
-    /// For a garment.
+    /// The panels of a garment, without rows.
     pub fn of(layout: &Layout) -> Reflexes {
         let mut reflexes = Reflexes::none();
         for area in layout.areas() {
@@ -79,7 +79,7 @@ impl Reflexes {
         reflexes
     }
 
-    /// Adds a row. `false`: another one watches a panel of its region.
+    /// Adds a row. Returns `false` if there is no room, or another row watches a panel of its region.
     pub fn add(&mut self, row: Row, layout: &Layout) -> bool {
         let place = self.rows.len() as u8;
         let there = self.rows.push(row).is_ok();
@@ -88,23 +88,23 @@ impl Reflexes {
         there && watched.all(|(_, panel)| panel.row.replace(place).is_none())
     }
 
-    /// There are none.
+    /// True if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// The rows.
+    /// All rows.
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// Who watches a taxel.
+    /// Row that watches a taxel.
     pub fn row_of(&self, taxel: u16) -> Option<&Row> {
         let (panel, _) = self.find(taxel)?;
         self.rows.get(usize::from(self.panels.get(usize::from(panel))?.row?))
     }
 
-    /// Where a taxel is.
+    /// Position of a taxel.
     pub(super) fn spot(&self, taxel: u16) -> Option<Spot> {
         let (panel, local) = self.find(taxel)?;
         let columns = self.panels.get(usize::from(panel))?.columns;
@@ -112,7 +112,7 @@ impl Reflexes {
         Some(Spot { panel, row, column: local - row * columns })
     }
 
-    /// Its panel, and its number in that.
+    /// Returns the index of the taxel's panel, and its number within the panel.
     fn find(&self, taxel: u16) -> Option<(u8, u16)> {
         (0..).zip(&self.panels).find_map(|(index, panel)| {
             let local = taxel.checked_sub(panel.base)?;

@@ -1,27 +1,27 @@
-//! What a self-test has found.
+//! Results of a self-test.
 
 use core::fmt;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Most faults that are told; a garment with more has others to be mended first.
+/// Most faults reported; a garment with more has these to be mended first.
 pub const FAULTS: usize = 12;
 
-/// What is wrong with a line or an input.
+/// Fault of a line or an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
-    /// a line that is high, whatever drives it
+    /// a line that stays high at whatever level it is driven
     StuckHigh,
-    /// a line that is low, whatever drives it
+    /// a line that stays low at whatever level it is driven
     StuckLow,
-    /// a line that is connected to another one: its GPIO number
+    /// a line connected to another one, of this GPIO number
     Bridged(u8),
-    /// an input to which nothing is connected
+    /// an input that is not connected
     Open,
-    /// an input that is connected to ground
+    /// an input shorted to ground
     Grounded,
-    /// an input that is connected to the supply
+    /// an input shorted to the supply
     Supplied,
 }
 
@@ -38,24 +38,24 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A pin that is not well.
+/// A faulty pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PinFault {
     /// GPIO number.
     pub pin: u8,
-    /// What is wrong.
+    /// Its fault.
     pub fault: Fault,
 }
 
-/// What was examined and found.
+/// What was examined, and the faults found.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Findings {
     /// Select lines that were examined.
     pub lines: u8,
     /// Converter inputs that were examined.
     pub inputs: u8,
-    /// Lines in the order of the wiring, then inputs. Of two lines that are bridged the first one is named;
-    /// at most [`FAULTS`], those beyond are left out.
+    /// Faults of lines in the order of the wiring, then of inputs. Of two bridged lines the first is named.
+    /// Those beyond [`FAULTS`] are left out.
     pub faults: Vec<PinFault, FAULTS>,
 }
 

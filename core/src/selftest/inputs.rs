@@ -1,4 +1,4 @@
-//! The converter inputs: each is pulled both ways and read at the corners of its blocks.
+//! Self-test of the converter inputs: each is pulled both ways and read at the corners of its blocks.
 
 use super::lines::PULLED_NS;
 use super::{Fault, Findings};
@@ -12,12 +12,13 @@ use heapless::Vec;
 const INPUTS: usize = 8;
 /// Largest code of a converter.
 const FULL: u16 = 4095;
-/// So near to an end of the range an input is connected to that end: offset and noise of the converter.
+/// Largest distance from an end of the range at which an input counts as shorted to that end: offset and
+/// noise of the converter.
 const RAIL: u16 = 32;
-/// So near to it an input has followed its resistor there.
+/// Largest distance from an end at which an input has followed its pull resistor there.
 const FOLLOWED: u16 = FULL / 8;
 
-/// An input, and what it showed.
+/// An input and its codes under each pull.
 struct Input {
     pin: u8,
     up: Extremes,

@@ -1,4 +1,4 @@
-//! The select lines: each is driven alone, and all are looked at.
+//! Self-test of the select lines: each is driven alone, and the levels of all are read.
 
 use super::{Fault, Findings};
 use crate::acquire::{Clock, Lines, Pad, Pull, ScanError};
@@ -6,18 +6,18 @@ use crate::garment::{CIRCUIT_LINES, Circuit};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
 
-/// Until a line of 400 pF has followed a resistor of 80 kOhm to within 5 %.
+/// Time in which a line of 400 pF follows a resistor of 80 kOhm to within 5 %.
 pub(super) const PULLED_NS: u32 = 100_000;
 
-/// What all lines show while one of them is driven, as words of the circuit.
+/// Levels of all lines while one of them is driven, as words of the circuit.
 struct Shown {
-    /// To the supply, and all others are pulled down.
+    /// Driven high, all others pulled down.
     high: u32,
-    /// To ground, and all others are pulled up.
+    /// Driven low, all others pulled up.
     low: u32,
 }
 
-/// Examines the lines. Afterwards none is driven, nor pulled.
+/// Examines the lines. Afterwards none is driven or pulled.
 pub(super) fn examine<P: Pad, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
@@ -81,7 +81,7 @@ fn judge(circuit: &Circuit, shown: &[Shown], findings: &mut Findings) {
         } else if is_high(own.low, line) {
             findings.add(*pin, Fault::StuckHigh);
         }
-        // Each pair once. A diode between them lets only one of them follow the other.
+        // Each pair once. A diode between the lines lets only one of them follow the other.
         let later = circuit.lines().iter().zip(shown).enumerate().skip(line + 1);
         for (other, (other_pin, driven)) in later {
             let follows = is_high(own.high, other) && !is_high(own.low, other);

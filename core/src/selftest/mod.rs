@@ -1,23 +1,24 @@
-//! The self-test of the select lines and the converter inputs, by the pins' own weak resistors.
+//! Self-test of the select lines and the converter inputs, with the pins' own pull resistors.
 //!
-//! | fault | what shows it |
+//! | fault | symptom |
 //! |---|---|
-//! | line stuck high, stuck low | driven alone, it does not show the level that it is driven to |
-//! | line bridged | while another line is driven, it follows that one to both levels, pulled against it |
-//! | input open | it follows its own resistor, whatever is selected |
-//! | input at ground, at the supply | it stays there against its resistor, whatever is selected |
+//! | line stuck high, stuck low | driven alone, it is not at the level to which it is driven |
+//! | line bridged | while another line is driven, it follows that one to both levels against its pull |
+//! | input open | it follows its pull, whatever is selected |
+//! | input at ground, at the supply | it stays there against its pull, whatever is selected |
 //!
-//! A line is tried with all others released and pulled, 0.1 ms for each level; an input at the corners of
-//! each of its blocks, pulled up and pulled down. The reference garment takes 2.6 ms (simulated): one frame
-//! is not scanned.
+//! A line is tested with all others released and pulled, 0.1 ms for each level; an input at the corners of
+//! each of its blocks, pulled up and pulled down. The reference garment takes 2.6 ms (simulated), so one
+//! frame is not scanned.
 //!
-//! While the board runs, the levels of the lines are looked at, and so are the codes of the inputs: what
-//! speaks against one of them makes the board examine them all again ([`Examine::is_misled`],
-//! `board/doubt.rs`, `health/inputs.rs`).
+//! While the board runs, the levels of the lines and the codes of the inputs are monitored. Evidence against
+//! one of them makes the board examine them all again ([`Examine::is_misled`], `board/doubt.rs`,
+//! `health/inputs.rs`).
 //!
-//! What cannot be told: a line that is broken between the board and the multiplexers shows nothing at its
-//! pin; a source of less than 0.4 kOhm that rests at ground all over looks like an input at ground. What
-//! reacts to the select lines sees levels that nobody asked for; outputs of reactions are not touched.
+//! Limits: a line that is broken between the board and the multiplexers shows nothing at its pin. A source of
+//! less than 0.4 kOhm that rests at ground all over looks like an input at ground. The test drives the select
+//! lines to levels that no scan uses, which anything else connected to them sees. Outputs of reactions are
+//! not touched.
 
 mod findings;
 mod inputs;
@@ -29,16 +30,16 @@ use crate::acquire::{Clock, MuxScan, Pad, PulledAdc, ScanError};
 use crate::garment::Circuit;
 use embedded_hal::delay::DelayNs;
 
-/// What can examine its own lines and inputs. It does not scan meanwhile.
+/// Self-test of a scanner's lines and inputs. No scan runs meanwhile.
 pub trait Examine {
-    /// Examines all lines and inputs of a circuit; an error says what failed before the end.
+    /// Examines all lines and inputs of a circuit. The error says what stopped it.
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError>;
 
-    /// Between two scans: drives the select lines to some address, another one each time, at which
-    /// [`Examine::is_misled`] looks at them. What looks at them while it scans need not.
+    /// Called between two scans: drives the select lines to some address, another one each time, at which
+    /// [`Examine::is_misled`] reads them. Not needed by scanners that read them during the scan.
     fn pose(&mut self, _circuit: &Circuit) {}
 
-    /// Whether a select line showed another level than it was driven to, since this was asked last.
+    /// True if a select line was not at the level it was driven to, since the last call.
     fn is_misled(&mut self) -> bool;
 }
 
@@ -63,7 +64,7 @@ where
     A: PulledAdc,
     C: Clock,
 {
-    // Not inlined: what it keeps is on the stack only meanwhile.
+    // Own frame: its stack is free again on return.
     #[inline(never)]
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
         let (lines, delay, adc, clock) = self.parts();
