@@ -1,43 +1,43 @@
-//! How the board itself is: what reactions to that are told, and what no longer holds when the host is silent.
+//! The board's own state: its values for reactions, and the expiry of fed concepts when the host is silent.
 
 use super::Board;
 use crate::format::Micros;
 use crate::react::{Cause, Reaction, Reactions};
 use crate::wire::ReactionReport;
 
-/// A host that has said nothing for so long is taken to be gone: what it feeds holds no more.
+/// Silence after which the host counts as gone, so that concepts it has fed expire.
 const SILENCE_US: u64 = 3_000_000;
 
-/// When the board last saw and heard something.
+/// Times of the last frame and the last message.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Senses {
-    /// When a frame was perceived last; none: not since the start, another garment, or the last interruption.
+    /// Time of the last perceived frame; none since the start, a change of garment, or an interruption.
     seen: Option<Micros>,
-    /// When a host said something last, or the board started.
+    /// Time of the last message from a host, or of the start.
     heard: Micros,
-    /// Frames that were perceived.
+    /// Number of perceived frames.
     frames: u32,
 }
 
 impl Senses {
-    /// Nothing is perceived until further notice.
+    /// Forgets the last frame: nothing is perceived for now.
     pub fn blind(&mut self) {
         self.seen = None;
     }
 
-    /// Whether that was said, and no frame was perceived since.
+    /// True if no frame was perceived since [`Senses::blind`].
     pub fn are_blind(&self) -> bool {
         self.seen.is_none()
     }
 
-    /// A host has said something.
+    /// Records a message from a host.
     pub fn hear(&mut self, now: Micros) {
         self.heard = now;
     }
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// A frame was perceived: its pins show it. While a tare runs, none is.
+    /// Records a perceived frame and shows it on its pins. During a tare no frame counts as perceived.
     pub(super) fn saw(&mut self, now: Micros) {
         if self.state.condition.baseline().is_none() {
             return self.senses.blind();
@@ -47,14 +47,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.show_frames();
     }
 
-    /// The pins that show it stand where so many frames have put them.
+    /// Sets the pins that show perceived frames to their levels for the present count.
     pub(super) fn show_frames(&mut self) {
         for (pin, level) in self.setup.pipeline.reactions().watching(self.senses.frames) {
             self.outputs.set(pin, level);
         }
     }
 
-    /// Looks at the board itself.
+    /// Updates what depends on the board's own state.
     pub(super) fn look_after(&mut self, now: Micros) {
         if now.since(self.senses.heard) >= SILENCE_US {
             self.state.fed.let_go();
@@ -74,11 +74,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Cause::Blind => self.senses.seen.map_or(i32::MAX, |seen| ms(now, seen)),
                 Cause::Ill => self.ill_in(region),
                 Cause::Silent => ms(now, self.senses.heard),
-                // The others are judged by frames, or not at all.
+                // All other causes are judged by frames, or not at all.
                 _ => continue,
             };
             if let Some(change) = reactions.judge(self.state.react_mut(), index, value, now) {
-                // As many places as rows.
+                // There is room for all rows.
                 let _ = changes.push(change);
             }
         }
@@ -89,7 +89,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// The pin of a row stands where its rows want it.
+    /// Sets the pin of a row to the level that all rows of that pin require.
     pub(super) fn stand(&mut self, index: u8) {
         let Board { setup, state, outputs, .. } = self;
         if let Some((pin, level)) = Reactions::pin(setup.pipeline.reactions(), state.react(), index) {
@@ -113,7 +113,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 }
 
-/// Time since then, ms, as far as the number goes.
+/// Time since `then`, ms; saturates.
 fn ms(now: Micros, then: Micros) -> i32 {
     i32::try_from(now.millis_since(then)).unwrap_or(i32::MAX)
 }

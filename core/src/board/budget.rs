@@ -1,44 +1,44 @@
-//! Where the time from one scan to the next goes. The board has no clock of its own: what it does between two
-//! calls is charged by the times of the calls.
+//! Use of the time from scan to scan. The board has no clock of its own: work between two calls is charged by
+//! the times of the calls.
 
 use super::pace::Pace;
 use crate::format::Micros;
 use crate::wire::{Budget, Health};
 
-/// Reports per second until the host asks for others.
+/// Reports per second until the host asks for another rate.
 const RATE_HZ: u16 = 1;
 
-/// What the board is at, or was when it was called last.
+/// The board's activity since its last call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Doing {
-    /// A scan's codes become a percept.
+    /// Turns the codes of a scan into a percept.
     Process,
-    /// A message is encoded and handed to the link.
+    /// Encodes a message and hands it to the link.
     Encode,
-    /// All else, the wait for the next scan above all.
+    /// Anything else, mostly waiting for the next scan.
     Else,
 }
 
-/// Keeps account of time.
+/// Account of the time of each frame.
 pub(super) struct Ledger {
     pace: Pace,
     doing: Doing,
     since: Micros,
-    /// Since when a message has been waiting for room on the link.
+    /// Time since which a message has been waiting for room on the link.
     waiting: Option<Micros>,
-    /// The frame under way.
+    /// Frame being processed.
     frame: Frame,
-    /// The dearest of the frames since the last report, and how many they are.
+    /// Largest times of the frames since the last report, and their number.
     dearest: Frame,
     frames: u16,
-    /// Frames in a row that began late.
+    /// Number of consecutive frames that began late.
     late: u8,
 }
 
-/// Of so many frames in a row that begin late one has its image nevertheless.
+/// One of this many consecutive late frames gets its image all the same.
 const SPARED: u8 = 16;
 
-/// What a frame took, us.
+/// Times of a frame, us.
 #[derive(Debug, Default, Clone, Copy)]
 struct Frame {
     number: u32,
@@ -50,7 +50,7 @@ struct Frame {
 }
 
 impl Ledger {
-    /// Nothing has been done yet.
+    /// An account without any frame.
     pub fn new() -> Ledger {
         let none = Frame::default();
         Ledger {
@@ -65,19 +65,19 @@ impl Ledger {
         }
     }
 
-    /// Reports so many times a second; 0: never, `u16::MAX`: for each frame.
+    /// Sets the number of reports per second; 0: never, `u16::MAX`: for each frame.
     pub fn report(&mut self, hz: u16) {
         self.pace = Pace::new(hz);
         self.frames = 0;
     }
 
-    /// When the last scan ended.
+    /// End of the last scan.
     pub fn scanned(&self) -> Micros {
         Micros(self.frame.time.0.saturating_add(self.frame.scan.into()))
     }
 
-    /// From `now` on the board is at something else. `rest`: of the message under way the link has not taken
-    /// all.
+    /// Charges the time until `now` to the present activity, and begins another. `rest`: the link has not
+    /// taken all of the message in transmission.
     pub fn turn(&mut self, now: Micros, doing: Doing, rest: bool) {
         let passed = us(now, self.since);
         match self.doing {
@@ -96,12 +96,12 @@ impl Ledger {
         }
     }
 
-    /// There is nothing to be encoded: what comes now is something else.
+    /// Ends encoding: there was no message, and the time from here on is not charged.
     pub fn rest(&mut self) {
         self.doing = Doing::Else;
     }
 
-    /// Another frame begins to be processed: the one before is complete.
+    /// Begins the account of another frame and closes the previous one.
     pub fn begin(&mut self, now: Micros, number: u32, time: Micros, scan_us: u32) {
         if let Some(since) = &mut self.waiting {
             self.frame.send = self.frame.send.saturating_add(us(now, *since));
@@ -116,20 +116,20 @@ impl Ledger {
             send: send.max(most.send),
             ..self.frame
         };
-        // Before the first frame there was none.
+        // The first call has no previous frame.
         self.frames = self.frames.saturating_add(u16::from(self.frame.number != 0));
         self.frame = Frame { number, time, scan: scan_us, ..Frame::default() };
         let late = us(now, self.scanned()) > scan_us / 2;
         self.late = if late { self.late.wrapping_add(1) } else { 0 };
     }
 
-    /// The frame under way began to be processed more than half a scan after its own had ended: with any more
-    /// delay scans will be lost.
+    /// True if processing of the present frame began more than half a scan after its scan had ended: with any
+    /// more delay scans will be lost.
     pub fn is_late(&self) -> bool {
         !self.late.is_multiple_of(SPARED)
     }
 
-    /// The frames since the last report, if it is time for one.
+    /// Returns the report on the frames since the last one, if it is due.
     pub fn due(&mut self, now: Micros, health: &Health) -> Option<Budget> {
         if self.frames == 0 || !self.pace.due(now) {
             return None;
@@ -148,7 +148,7 @@ impl Ledger {
         })
     }
 
-    /// How long the last frame was processed.
+    /// Processing time of the last frame, us.
     pub fn process_us(&self) -> u32 {
         self.frame.process
     }

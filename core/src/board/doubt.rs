@@ -1,45 +1,44 @@
-//! What speaks against a line or an input while the board runs is followed by a self-test: a line that breaks
-//! in use is told as one that was broken at the start. What the test takes is counted as scans that are lost.
+//! Evidence against a line or an input while the board runs starts a self-test, so that a line that breaks in
+//! use is reported like one broken at the start. The time of the test is counted as lost scans.
 
 use crate::format::Micros;
 
-/// After a test that said nothing new the next one waits at least so long, and twice as long each time: what
-/// presses all of a garment may look like a fault, and a fault that is known already speaks again in every
-/// frame.
+/// Least pause after a test without news, doubled each time: a press on the whole garment may look like a
+/// fault, and a known fault is evidence in every frame.
 const PAUSE_US: u64 = 10_000_000;
-/// Times that it is doubled: 10 min.
+/// Most doublings of the pause, to 10 min.
 const DOUBLINGS: u8 = 6;
 
-/// Whether lines and inputs are to be examined without anybody having asked.
+/// State of self-tests that nobody has requested.
 #[derive(Debug)]
 pub(super) struct Doubt {
     raised: bool,
-    /// The test under way is for this.
+    /// The test in progress was started by evidence.
     followed: bool,
-    /// Until then nothing is followed.
+    /// Evidence before this time is ignored.
     until: Micros,
     doublings: u8,
 }
 
 impl Doubt {
-    /// Nothing speaks against anything.
+    /// No evidence.
     pub const fn new() -> Doubt {
         Doubt { raised: false, followed: false, until: Micros(0), doublings: 0 }
     }
 
-    /// Something speaks against a line or an input.
+    /// Records evidence against a line or an input.
     pub fn raise(&mut self, now: Micros) {
         self.raised |= now >= self.until;
     }
 
-    /// Whether a test is to be made now.
+    /// True if a test is to be started now.
     pub fn follow(&mut self) -> bool {
         self.followed |= self.raised;
         core::mem::take(&mut self.raised)
     }
 
-    /// A test has ended. `is_new`: it said something else than the one before; `ill`: there are faults.
-    /// Whether it was for this.
+    /// Takes the end of a test. `is_new`: its findings differ from those before; `ill`: there are faults.
+    /// Returns true if the test was started by evidence.
     pub fn settle(&mut self, now: Micros, is_new: bool, ill: bool) -> bool {
         self.raised = false;
         let followed = core::mem::take(&mut self.followed);

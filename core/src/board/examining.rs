@@ -1,4 +1,4 @@
-//! The self-test: of lines and inputs by whoever has them, of the taxels by judging them anew.
+//! The self-test: results of the test of lines and inputs, and a retest of all taxels.
 
 use super::refusal::Refusal;
 use super::{Board, Work, request};
@@ -8,8 +8,8 @@ use crate::selftest::Findings;
 use crate::wire::SelfTestReport;
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// Lines and inputs were examined: at the start, because the garment was changed, because it was asked
-    /// for, or because something spoke against one of them.
+    /// Takes the result of a test of lines and inputs, made at the start, after a change of garment, on
+    /// request, or because of evidence against one of them.
     #[inline(never)]
     pub(super) fn examined(&mut self, now: Micros, result: Result<Findings, ScanError>) {
         self.rewired = false;
@@ -26,8 +26,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             }
             return;
         }
-        // Nobody asked for the one at the start, nor for that of a changed garment: it is told with what else
-        // is new.
+        // The tests at the start and after a change of garment were not requested: their result goes out with
+        // the other news of it.
         let Some(us) = self.saving.ended(now) else { return };
         self.not_scanned(us);
         if refusal.is_none() {
@@ -37,7 +37,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.answer(request::number_of(Work::SelfTest), refusal);
     }
 
-    /// Keeps what was found; whether the faults are others than those known before.
+    /// Stores the findings. Returns true if the faults differ from those known before.
     fn found(&mut self, time: Micros, findings: Findings) -> bool {
         let known = self.examined.as_ref().map_or(&[][..], |report| report.findings.faults.as_slice());
         let is_new = known != findings.faults.as_slice();

@@ -1,22 +1,22 @@
-//! Another scene or garment while reactions last: what goes on keeps its pin, every other end is told.
+//! Change of scene or garment while reactions last: those that continue keep their pin, all others are
+//! reported as ended.
 
 use super::Board;
 use crate::format::Micros;
 use crate::react::{REACTIONS, Reaction, ReactionConfig};
 use crate::wire::ReactionReport;
 
-/// When the value of each row last reached its level, for those that last.
+/// By row: time at which its value last reached its level, if the reaction lasts.
 pub(super) type Lasting = [Option<Micros>; REACTIONS];
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// The reactions that last.
+    /// Reactions that last.
     pub(super) fn lasting(&self) -> Lasting {
         *self.state.react().since()
     }
 
-    /// Carries reactions of another table over to that of the scene in force: rows of the same name and pin go
-    /// on. Its levels decide with the next frame, and until then their pins stay as they are. All others have
-    /// ended.
+    /// Carries lasting reactions of the previous table over to the scene in force. Rows of the same name and
+    /// pin continue: their pins stay, and from the next frame on the new levels decide. All others end.
     #[inline(never)] // M0+: out of line
     pub(super) fn carry(&mut self, lasting: &Lasting, before: &[ReactionConfig], now: Micros) {
         for (index, (row, since)) in (0..).zip(before.iter().zip(lasting)) {
@@ -33,7 +33,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// What touched the garment is over: it is another one. What the board sees in itself goes on.
+    /// Another garment: ends the reactions to touch. Reactions to the board's own state continue.
     #[inline(never)] // M0+: out of line
     pub(super) fn end_all(&mut self, lasting: &Lasting, now: Micros) {
         for (index, since) in lasting.iter().enumerate() {
@@ -47,7 +47,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// A host that comes late is told which reactions last, each at the level where it began.
+    /// Reports the reactions that last to a newly connected host, each with the level at which it began.
     pub(super) fn tell_lasting(&mut self, now: Micros) {
         for (index, (row, since)) in (0..).zip(self.setup.scene.react.iter().zip(self.lasting())) {
             if since.is_some() {

@@ -1,23 +1,23 @@
-//! What is fixed by a board.
+//! Fixed properties of a board.
 
 use crate::garment::Pins;
 
-/// What is fixed by the board itself.
+/// Fixed properties of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BoardInfo {
     /// Name and version of the firmware.
     pub firmware: &'static str,
-    /// Pins that it brings out.
+    /// Pins that the board brings out.
     pub pins: Pins,
-    /// Largest code of its converter.
+    /// Largest code of the converter.
     pub full_scale: u16,
-    /// What its link carries, bytes a second.
+    /// Throughput of the link, bytes per second.
     pub link_bytes_per_s: u32,
 }
 
 impl BoardInfo {
-    /// The board that ships, with its garment's codes of 12 bits and its link at 921,600 Bd; the firmware and
-    /// a host that checks files for it know it from here.
+    /// The shipped board, with 12-bit codes and a link at 921,600 Bd. Defined here for the firmware and for a
+    /// host that checks files for it.
     pub const fn feather(firmware: &'static str) -> BoardInfo {
         BoardInfo { firmware, pins: Pins::FEATHER, full_scale: 4095, link_bytes_per_s: 92_160 }
     }

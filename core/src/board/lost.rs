@@ -1,11 +1,11 @@
-//! Frames that are lost: while something else than a scan goes on, and where a scan fails.
+//! Counts lost frames: during work other than scanning, and when scans fail.
 
 use super::Board;
 use crate::acquire::ScanError;
 use crate::format::Micros;
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// A scan has failed.
+    /// Counts and logs a failed scan.
     #[cold]
     pub(super) fn stumbled(&mut self, error: ScanError) {
         self.scan_ended();
@@ -14,8 +14,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.log(format_args!("scan: {error}"));
     }
 
-    /// The first scan after some that failed, or after an interruption, began then: what was lost beside
-    /// those is counted, to the nearest scan.
+    /// Called when the first scan after failures or an interruption began at `start`: counts the frames lost
+    /// beside the failed ones, to the nearest scan.
     #[cold]
     pub(super) fn go_on(&mut self, start: Micros) {
         let failed = u64::from(core::mem::take(&mut self.stumbles)) * u64::from(self.health.scan_us);
@@ -24,7 +24,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.not_scanned((start.since(self.ledger.scanned()) + half).saturating_sub(failed));
     }
 
-    /// Nothing was scanned for so long: counts as many scans as there would have been.
+    /// Counts as overruns the scans that fit into `us` without a scan.
     pub(super) fn not_scanned(&mut self, us: u64) {
         if self.setup.scene.rate_hz == 0 {
             let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;

@@ -1,6 +1,6 @@
-//! The board as a function that never waits: [`Board::step`] takes what happened, [`Board::pending`] gives
-//! what to send next, [`Board::sent`] consumes it. Policy (what is thinned, what goes first) is here, where a
-//! unit test reaches it.
+//! The board as a function that never waits: [`Board::step`] takes an input, [`Board::pending`] returns the
+//! bytes to send next, [`Board::sent`] consumes them. Policy (thinning, priorities) is here, where a unit
+//! test reaches it.
 
 mod alarms;
 mod budget;
@@ -50,50 +50,50 @@ use rebuilds::Rebuilds;
 use refusal::Refusal;
 use saving::Saving;
 
-/// What happened.
+/// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
 pub enum Input<'a> {
-    /// Bytes came from the host, in any split.
+    /// Bytes from the host, split anywhere.
     Received(&'a [u8]),
     /// A scan finished, or failed.
     Scanned(Result<Scan<'a>, ScanError>),
-    /// The settings were stored, or why not.
+    /// Result of [`Job::Save`].
     Saved(Result<Saved, &'static str>),
-    /// The stored settings were put aside, or taken up again, or why not.
+    /// Result of [`Job::ResetSettings`].
     SettingsReset(Result<Saved, &'static str>),
-    /// Lines and inputs were examined, or why not; at the start and after each [`Job::Examine`].
+    /// Result of a test of lines and inputs: at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
-    /// A select line showed another level than it was driven to.
+    /// A select line was not at the level to which it was driven.
     Misled,
-    /// A reaction began by reflex, within the frame that is being scanned or was scanned last.
+    /// A reaction began by reflex, within the frame being scanned or scanned last.
     Reflex(Early),
-    /// Nothing in particular: what is there to do?
+    /// Asks for the next job.
     Tick,
 }
 
-/// What the board asks of its surroundings.
+/// Job that the board gives to its loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Job {
     /// Scan; answered by [`Input::Scanned`].
     Scan(Plan),
-    /// Put a pin to a level.
+    /// Set the level of a pin.
     Drive(u8, bool),
     /// Store [`Board::settings`]; answered by [`Input::Saved`].
     Save,
-    /// Put the stored settings aside, from the next start on, or take them up again; answered by
+    /// Make the stored settings have no effect from the next start on, or restore them; answered by
     /// [`Input::SettingsReset`].
     ResetSettings {
-        /// Take them up again.
+        /// Restore them.
         undo: bool,
     },
-    /// Start anew, as when the power comes.
+    /// Restart, as after power-on.
     Restart,
-    /// Stop what reads the garment by itself, and examine lines and inputs: the circuit has changed, somebody
-    /// asks for it, or something speaks against one of them. Answered by [`Input::Examined`].
+    /// Stop a free-running scan, and examine lines and inputs: the circuit has changed, the host asks for it,
+    /// or there is evidence against one of them. Answered by [`Input::Examined`].
     Examine,
 }
 
-/// Work beyond scanning, which waits for its turn.
+/// Work other than scanning, done between two scans.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Work {
     SelfTest,
@@ -101,14 +101,14 @@ enum Work {
     Reset { undo: bool },
 }
 
-/// Everything the board knows, for garments of up to TAXELS taxels with up to RUNS runs of touched taxels in
-/// a row, and PARTS parts of contacts, as [`ContactState`](crate::contact::ContactState) says.
+/// The whole state of the board, for garments of up to TAXELS taxels; RUNS and PARTS as in
+/// [`ContactState`](crate::contact::ContactState).
 pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     info: BoardInfo,
-    /// How the board came to start; none: nobody has said.
+    /// How the board started; none until [`Board::booted`].
     boot: Option<Boot>,
     setup: Setup,
-    /// The stages remember what they should of a garment that was just put on.
+    /// True once the stages were reset for the first garment.
     begun: bool,
     state: PipelineState<TAXELS, RUNS, PARTS>,
     inbox: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
@@ -116,34 +116,34 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     outputs: Outputs,
     senses: Senses,
     works: Deque<Work, 4>,
-    /// No scan has ended since one of them began.
+    /// True from the start of a [`Work`] to the end of the next scan.
     worked: bool,
     saving: Saving,
     rebuilds: Rebuilds,
-    /// The last self-test of the lines and inputs of the garment that is worn.
+    /// The last self-test of the present garment's lines and inputs.
     examined: Option<SelfTestReport>,
     doubt: Doubt,
     scans: Pace,
     scanning: bool,
-    /// Scans that have failed since one went well.
+    /// Number of scans that have failed since the last good one.
     stumbles: u16,
-    /// The scan was interrupted since: nobody has counted yet what was lost.
+    /// True after an interruption of the scan whose lost frames are not counted yet.
     interrupted: bool,
-    /// The circuit has changed since the last scan.
+    /// True if the circuit has changed since the last scan.
     rewired: bool,
     health: Health,
     ledger: Ledger,
     frame: u32,
     taring: bool,
-    /// The garment has a baseline of its own.
+    /// True if the garment has a baseline of its own, by tare or restored.
     tared: bool,
     monitor: Monitor,
-    /// The calibration that the gains belong to.
+    /// Calibration from which the gains come.
     certificate: Option<Certificate>,
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// A board that wears `garment` and is used for `scene`.
+    /// A board with a garment and a scene.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
         let mut board = Board::bare(info);
         board.dress(garment)?;
@@ -151,9 +151,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(board)
     }
 
-    /// A board without a garment, which is made where the caller keeps it, part by part; what its stages
-    /// remember is put to rest there when it begins: the stack of a microcontroller has no room for the
-    /// whole.
+    /// A board without a garment, built in place, because a microcontroller's stack has no room for the
+    /// whole. Its stages are reset on the first [`Board::step`].
     #[inline(never)]
     pub fn bare(info: BoardInfo) -> Self {
         Board {
@@ -187,12 +186,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Puts the first garment on a board that has not begun yet.
+    /// Sets the first garment, before the first [`Board::step`].
     pub fn dress(&mut self, mut garment: Garment) -> Result<(), SetupError> {
         self.setup.change_garment(&self.info, &mut garment, TAXELS)
     }
 
-    /// Gives a board that has not begun yet its first scene.
+    /// Sets the first scene, before the first [`Board::step`].
     pub fn employ(&mut self, mut scene: Scene) -> Result<(), SetupError> {
         self.setup.change_scene(&self.info, &mut scene)?;
         self.scans = Pace::new(self.setup.scan_rate());
@@ -201,19 +200,19 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(())
     }
 
-    /// The host is told after each `Hello` how the board came to start.
+    /// Sets how the board started, which is sent after each `Hello`.
     pub fn booted(&mut self, boot: Boot) {
         self.boot = Some(boot);
     }
 
-    /// Nothing is remembered of any frame.
+    /// Resets the state of all stages.
     fn reset(&mut self) {
         let Setup { layout, circuit, .. } = &self.setup;
         self.state.reset(layout, circuit.falling(), self.info.full_scale);
         self.monitor.reset();
     }
 
-    /// The garment has changed: nothing that was known of the old one holds.
+    /// The garment has changed: resets everything known of the old one.
     fn worn(&mut self) {
         self.reset();
         self.senses.blind();
@@ -228,7 +227,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.used();
     }
 
-    /// The scene has changed.
+    /// The scene has changed: resets what its stages have found.
     fn used(&mut self) {
         self.state.forget();
         self.monitor.again();
@@ -239,7 +238,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.show_frames();
     }
 
-    /// Puts to rest what the stages remember, once.
+    /// Resets the state of all stages, once.
     fn begin(&mut self) {
         if !self.begun {
             self.begun = true;
@@ -247,7 +246,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Takes what happened at `now`. Only [`Input::Tick`] is answered with a job. Total.
+    /// Takes any input, at `now`. Only [`Input::Tick`] returns a job.
     pub fn step(&mut self, now: Micros, input: Input<'_>, probe: &mut impl Probe) -> Option<Job> {
         self.begin();
         let doing = if matches!(input, Input::Scanned(Ok(_))) { Doing::Process } else { Doing::Else };
@@ -292,20 +291,20 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Some(Job::Scan(self.setup.scene.plan))
     }
 
-    /// Whether the board takes the byte that ends the message under way: two changes of garment or scene have a
-    /// scan between them. What comes before, and every other message, it takes at any time. A change that is
-    /// given nevertheless is made.
+    /// True if the board accepts the byte that ends the message being received. Two changes of garment or
+    /// scene need a scan between them; all other bytes are accepted at any time. A change that is passed on
+    /// too early is made all the same.
     pub fn takes_message(&mut self, now: Micros) -> bool {
         !self.inbox.first().is_some_and(request::rebuilds) || self.rebuilds.are_due(now)
     }
 
-    /// A scan has ended, well or not.
+    /// A scan has ended, successfully or not.
     fn scan_ended(&mut self) {
         (self.scanning, self.worked) = (false, false);
         self.rebuilds.scanned();
     }
 
-    /// Time of the next scan, if it is not due yet: until then there is nothing to do but to move bytes.
+    /// Time of the next scan. Until then only bytes need moving.
     pub fn wake(&self) -> Micros {
         self.scans.next()
     }
@@ -319,7 +318,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.ledger.begin(now, self.frame, scan.report.start, scan.report.duration_us);
         self.outbox.spend(|| self.ledger.due(now, &self.health));
         self.health.scans = self.health.scans.wrapping_add(1);
-        // A scene that wants fewer frames than the converter makes leaves the others on purpose.
+        // A scene that wants fewer frames than the converter makes skips the others on purpose.
         if self.setup.scene.rate_hz == 0 {
             self.health.overruns = self.health.overruns.wrapping_add(scan.report.overruns);
         }
@@ -334,7 +333,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 self.outputs.set(pin, level);
             }
         }
-        // Where the converter waits for nobody.
+        // Only a scene without a rate limit keeps pace with the converter.
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.note(self.frame, time, &percept, late, &mut self.health);
         if self.taring && percept.tare == Tare::Done {
@@ -347,7 +346,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         probe.begin(Stage::Idle);
     }
 
-    /// What is to be sent next: the rest of the frame under way, else the most urgent message, encoded now.
+    /// Bytes to send next: the rest of the message in transmission, else the most urgent message, encoded
+    /// now.
     pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
@@ -365,22 +365,22 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         outbox.rest()
     }
 
-    /// The first `count` of the pending bytes have been taken by the link.
+    /// Records that the link has taken the first `count` of the pending bytes.
     pub fn sent(&mut self, count: usize) {
         self.outbox.sent(count);
     }
 
-    /// The wiring of the garment.
+    /// Wiring of the garment.
     pub fn circuit(&self) -> &Circuit {
         &self.setup.circuit
     }
 
-    /// Garment, scene and what was built of them.
+    /// Garment and scene, and the stages built from them.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// What the stages remember.
+    /// State of the stages.
     pub fn state(&self) -> &PipelineState<TAXELS, RUNS, PARTS> {
         &self.state
     }
@@ -391,8 +391,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 }
 
-/// A sentence of the board, cut where it gets too long.
+/// A message text of the board, truncated to this length.
 type Sentence = String<112>;
 
-/// Codes to be sent raw, kept until the link has room.
+/// Raw codes to be sent, kept until the link has room.
 type Codes<const TAXELS: usize> = Vec<Code, TAXELS>;

@@ -1,19 +1,19 @@
-//! The pins that reactions assert: where each is to stand, and whether it was told so.
+//! The output pins of reactions: levels that are still to be driven.
 
 use crate::react::Reactions;
 
-/// Levels to be driven. There is one for each pin, the newest: however many change before the next tick, none
-/// is lost.
+/// Levels to be driven: the newest for each pin, so that none is lost however many change before the next
+/// tick.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Outputs {
-    /// Bit `i`: GPIO `i` is to be driven.
+    /// Bit `i`: GPIO `i` has to be driven.
     due: u64,
-    /// Its level.
+    /// Bit `i`: level of GPIO `i`.
     high: u64,
 }
 
 impl Outputs {
-    /// The outputs of all reactions where they are when nothing happens.
+    /// The outputs of all reactions at their levels of rest.
     pub fn at_rest(reactions: &Reactions) -> Outputs {
         let mut outputs = Outputs::default();
         for line in reactions.outputs() {
@@ -22,20 +22,20 @@ impl Outputs {
         outputs
     }
 
-    /// A pin is to be driven; below 64, as the setup has checked.
+    /// Sets the level of a pin below 64, which the setup has checked.
     pub fn set(&mut self, pin: u8, level: bool) {
         let bit = 1u64.checked_shl(pin.into()).unwrap_or(0);
         self.due |= bit;
         self.high = if level { self.high | bit } else { self.high & !bit };
     }
 
-    /// Takes over all that `later` is to drive.
+    /// Merges `later` into this; its levels prevail.
     pub fn follow(&mut self, later: Outputs) {
         self.due |= later.due;
         self.high = (self.high & !later.due) | (later.high & later.due);
     }
 
-    /// The next pin to drive, and its level.
+    /// Returns the next pin to drive, and its level.
     pub fn next(&mut self) -> Option<(u8, bool)> {
         let rest = self.due.checked_sub(1)?;
         let bit = self.due & !rest;

@@ -1,18 +1,18 @@
-//! How often something is due.
+//! Rates: when something is due.
 
 use crate::format::Micros;
 use crate::scene::StreamConfig;
 
-/// A rate, and when it is due next.
+/// A rate, and the time of its next event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Pace {
-    /// None: never.
+    /// Time between events; none: never due.
     period_us: Option<u64>,
     next: Micros,
 }
 
 impl Pace {
-    /// `hz` times a second; 0: never, `u16::MAX`: always.
+    /// A rate of `hz` per second; 0: never, `u16::MAX`: always.
     pub fn new(hz: u16) -> Pace {
         let period_us = match hz {
             0 => None,
@@ -22,7 +22,8 @@ impl Pace {
         Pace { period_us, next: Micros(0) }
     }
 
-    /// Whether it is due; if so the next time is a period later, or after now where that has passed, too.
+    /// True if due at `now`. The next time is then a period later, or a period after `now` if that has
+    /// passed.
     pub fn due(&mut self, now: Micros) -> bool {
         let Some(period) = self.period_us else { return false };
         if now < self.next {
@@ -33,13 +34,13 @@ impl Pace {
         true
     }
 
-    /// When it is due next.
+    /// Time of the next event.
     pub fn next(&self) -> Micros {
         self.next
     }
 }
 
-/// What is streamed, and how often.
+/// Rates and switches of the stream.
 pub(super) struct Rates {
     pub contacts: Pace,
     pub frames: Pace,
@@ -51,7 +52,7 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// As a scene asks, with `raw_hz` raw codes a second at least.
+    /// The rates of a scene, with at least `raw_hz` frames of raw codes per second.
     pub fn of(stream: &StreamConfig, raw_hz: u16) -> Rates {
         Rates {
             contacts: Pace::new(stream.contacts_hz),

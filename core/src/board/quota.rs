@@ -1,32 +1,32 @@
-//! How often something may be done: so many times in a row, and again after a time for each.
+//! A quota: a number of uses in a row, each granted again after a time.
 
 use crate::format::Micros;
 
-/// What is left of `MOST` times, each of which is granted again after `REFILL_US`.
+/// `MOST` uses, each of which is granted again after `REFILL_US`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quota<const MOST: u8, const REFILL_US: u64> {
     left: u8,
-    /// Since when fewer than all are left.
+    /// Time since which fewer than `MOST` are left, or of the last refill.
     since: Micros,
 }
 
 impl<const MOST: u8, const REFILL_US: u64> Quota<MOST, REFILL_US> {
-    /// All are left.
+    /// A full quota.
     pub const fn new() -> Self {
         Quota { left: MOST, since: Micros(0) }
     }
 
-    /// No more than `left` are left, since the board started.
+    /// Limits the remaining uses to `left`, counted from the start of the board.
     pub fn resume(&mut self, left: u8) {
         self.left = self.left.min(left);
     }
 
-    /// How many were left when that was asked last.
+    /// Number of uses left at the last query.
     pub const fn known(&self) -> u8 {
         self.left
     }
 
-    /// How many are left.
+    /// Number of uses left.
     pub fn left(&mut self, now: Micros) -> u8 {
         while self.left < MOST && now.since(self.since) >= REFILL_US {
             self.left += 1;
@@ -35,12 +35,12 @@ impl<const MOST: u8, const REFILL_US: u64> Quota<MOST, REFILL_US> {
         self.left
     }
 
-    /// Until when none is granted, us from now; 0 where one is left.
+    /// Time until a use is granted, us; 0 if one is left.
     pub fn wait_us(&mut self, now: Micros) -> u64 {
         if self.left(now) > 0 { 0 } else { REFILL_US.saturating_sub(now.since(self.since)) }
     }
 
-    /// It was done.
+    /// Records a use.
     pub fn spend(&mut self, now: Micros) {
         if self.left == MOST {
             self.since = now;

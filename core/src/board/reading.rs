@@ -1,5 +1,5 @@
-//! Reads a scene where it will be kept, field by field: what derived code reads goes through a copy at every
-//! level, and the stack of a microcontroller has no room for several maps of 64 concepts.
+//! Reads a scene in place, field by field. Derived code makes a copy at every level, and a microcontroller's
+//! stack has no room for several maps of 64 concepts.
 
 use super::refusal::Refusal;
 use crate::intent::{IntentConfig, MapConfig};
@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use heapless::Vec;
 use serde::Deserialize;
 
-/// What is left of the bytes of a message.
+/// Unread bytes of a message.
 struct Bytes<'a>(&'a [u8]);
 
 impl<'a> Bytes<'a> {
@@ -40,15 +40,15 @@ impl<'a> Bytes<'a> {
             return Err(format_args!("scene: {found} {field}, and there is room for {N}").into());
         }
         for _ in 0..found {
-            // There is room.
+            // There is room for `found` of them.
             let _ = to.push(self.next(field)?);
         }
         Ok(())
     }
 }
 
-/// Reads a scene as it travels, in the order in which it declares its fields. What is refused leaves a part
-/// of it.
+/// Decodes a scene from postcard, in the order of its fields. After an error `to` holds the fields read so
+/// far.
 #[inline(never)]
 pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     let from = &mut Bytes(bytes);
@@ -107,7 +107,7 @@ mod tests {
     use crate::intent::{Edge, Input, Source, Threshold};
     use std::string::{String, ToString};
 
-    /// A map that fills every list.
+    /// A scene whose map fills every list.
     fn full() -> Scene {
         let mut scene = Scene::shipped();
         let map = &mut scene.intent.as_mut().unwrap().map;
@@ -129,7 +129,7 @@ mod tests {
     fn it_reads_what_a_scene_is_written_as() {
         let mut to = Scene::empty();
         let mut bytes = [0; 4096];
-        // In one place, one after the other: nothing of the last one stays.
+        // All into one scene: nothing of the previous one may remain.
         for wanted in [Scene::shipped(), full(), Scene::empty(), Scene::scaled(255), full()] {
             scene(postcard::to_slice(&wanted, &mut bytes).unwrap(), &mut to).unwrap();
             assert_eq!(to, wanted);
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_map_too_big_is_refused_with_its_size_and_what_fits() {
-        // Where the lists begin is found by what stands before them.
+        // The bytes before a list locate it.
         let mut bytes = [0; 4096];
         let length = postcard::to_slice(&Scene::shipped(), &mut bytes).unwrap().len();
         let concepts = bytes.windows(8).position(|it| it == b"\x07tactile").unwrap() + 8;

@@ -1,14 +1,14 @@
-//! When garment or scene may change: the stages are built anew then, and nothing is scanned meanwhile.
+//! Rate limit for changes of garment or scene: each rebuilds the stages, and nothing is scanned meanwhile.
 
 use super::quota::Quota;
 use crate::format::Micros;
 
-/// Lets a change through, and the next one when a scan has ended and the quota allows it: four in a row, ten a
+/// Allows a change if a scan has ended since the last one, and the quota allows it: four in a row, ten a
 /// second.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rebuilds {
     quota: Quota<4, 100_000>,
-    /// No scan has ended since the last change.
+    /// True if no scan has ended since the last change.
     waits: bool,
 }
 
@@ -17,18 +17,18 @@ impl Rebuilds {
         Rebuilds { quota: Quota::new(), waits: false }
     }
 
-    /// Whether a change may come now.
+    /// True if a change is allowed now.
     pub fn are_due(&mut self, now: Micros) -> bool {
         !self.waits && self.quota.left(now) > 0
     }
 
-    /// One has come.
+    /// Records a change.
     pub fn spend(&mut self, now: Micros) {
         self.quota.spend(now);
         self.waits = true;
     }
 
-    /// A scan has ended, well or not.
+    /// Records the end of a scan, successful or not.
     pub fn scanned(&mut self) {
         self.waits = false;
     }
@@ -43,7 +43,7 @@ mod tests {
         let mut rebuilds = Rebuilds::new();
         let mut changes = heapless::Vec::<u64, 64>::new();
         for us in (0..2_000_000).step_by(1_000) {
-            // A scan each 5 ms.
+            // A scan every 5 ms.
             if us % 5_000 == 0 {
                 rebuilds.scanned();
             }
@@ -54,7 +54,7 @@ mod tests {
         }
         assert_eq!(changes[..6], [0, 5_000, 10_000, 15_000, 100_000, 200_000]);
         assert_eq!(changes.len(), 4 + 19);
-        // Without a scan none is let through, however much time passes.
+        // Without a scan no change is allowed, however much time passes.
         rebuilds.spend(Micros(2_000_000));
         assert!(!rebuilds.are_due(Micros(90_000_000)));
         rebuilds.scanned();

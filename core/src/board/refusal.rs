@@ -1,14 +1,14 @@
-//! Why a request is refused.
+//! Reasons for which requests are refused.
 
 use super::Sentence;
 use core::fmt::{self, Write};
 
-/// Why something is refused, as a sentence.
+/// Reason of a refusal, as a sentence.
 #[derive(Debug, Clone)]
 pub(super) struct Refusal(pub(super) Sentence);
 
 impl Refusal {
-    /// The sentence of an error.
+    /// The message of an error.
     pub fn of(error: impl fmt::Display) -> Refusal {
         format_args!("{error}").into()
     }
@@ -22,7 +22,7 @@ impl Refusal {
 impl From<fmt::Arguments<'_>> for Refusal {
     fn from(text: fmt::Arguments<'_>) -> Refusal {
         let mut sentence = Sentence::new();
-        // What is too long is cut at the piece that does not fit.
+        // A text that is too long is cut before the first piece that does not fit.
         let _ = sentence.write_fmt(text);
         Refusal(sentence)
     }

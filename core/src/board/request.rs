@@ -1,4 +1,4 @@
-//! What the host asks for.
+//! Requests of the host.
 
 use super::outputs::Outputs;
 use super::refusal::Refusal;
@@ -15,17 +15,17 @@ use crate::wire::{Request, SHAPES_ADDED, WireError, decode};
 use heapless::Vec;
 use serde::Deserialize;
 
-/// Number of `Tare`, whose answer comes when it is done.
+/// Number of `Tare`, which is answered when it is done.
 pub(super) const TARE: u8 = 2;
-/// Number of a request that could not be read.
+/// Number that stands in the answer to an unreadable request.
 const UNREADABLE: u8 = 255;
 
-/// Whether a request of this number changes garment or scene.
+/// True if a request of this number changes garment or scene.
 pub(super) fn rebuilds(number: u8) -> bool {
     number == Request::SetGarment(&[]).number() || number == Request::SetScene(&[]).number()
 }
 
-/// Number of the request that asked for this work.
+/// Number of the request for this work.
 pub(super) fn number_of(work: Work) -> u8 {
     match work {
         Work::SelfTest => Request::SelfTest.number(),
@@ -34,7 +34,7 @@ pub(super) fn number_of(work: Work) -> u8 {
     }
 }
 
-/// Reads something large, which the host calls `what`. Not inlined: it needs stack only meanwhile.
+/// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
 #[inline(never)]
 pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
     decode(bytes).map_err(|error| match error {
@@ -46,7 +46,7 @@ pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Resul
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     pub(super) fn receive(&mut self, now: Micros, bytes: &[u8]) {
         for byte in bytes {
-            // The receiver is taken apart from the rest of the board while its message is read.
+            // The message is copied out of the inbox, which is part of the board that it changes.
             let Board { inbox, outbox, health, .. } = self;
             let Some(frame) = inbox.push(*byte) else { continue };
             let mut message = [0; crate::wire::LONGEST_REQUEST];
@@ -81,7 +81,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 refused => refused,
             },
             Request::Start => {
-                // From here on the same codes are answered with the same reports, whatever was seen before.
+                // From here on the same codes give the same reports, whatever came before.
                 self.monitor.again();
                 self.outbox.start();
                 self.tell_lasting(now);
@@ -139,10 +139,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.answer(number, result.err());
     }
 
-    // Not inlined, nor the next: each needs stack of its own, and most requests need neither.
+    // Own frames, here and below: each needs much stack, and most requests need none of it.
     #[inline(never)]
     fn set_garment(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
-        // Where it was read: the stack has no room for a second one.
+        // Used in place: the stack has no room for a second garment.
         let mut read = read::<Garment>("garment", bytes);
         let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
         let lasting = self.lasting();
@@ -164,10 +164,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let lasting = self.lasting();
         let before = Outputs::at_rest(self.setup.pipeline.reactions());
         self.setup.change_scene(&self.info, &mut scene).map_err(Refusal::of)?;
-        // What the new scene does not drive must not stay where the old one left it.
+        // A pin that the new scene does not drive must not keep the level of the old one.
         self.outputs.follow(before);
         self.used();
-        // The one that was there is in its place.
+        // `scene` now holds the previous scene.
         self.carry(&lasting, &scene.react, now);
         Ok(())
     }
@@ -200,7 +200,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.teach(|taught| taught.add(&prototypes))
     }
 
-    /// Changes the gallery, and says so where one was in force or is now.
+    /// Changes the gallery; forgets the recognised shapes if one was in force before or is now.
     fn teach(
         &mut self,
         change: impl FnOnce(&mut Taught<CONTACTS>) -> Result<(), Invalid>,
@@ -213,7 +213,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         done.map_err(Refusal::of)
     }
 
-    /// What was found by the base before has no name in this one.
+    /// Forgets the recognised shapes: classes of the previous base have no name in this one.
     fn shapes_changed(&mut self) {
         self.state.recognise_shapes_anew();
         self.outbox.shapes_changed();
@@ -223,7 +223,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if !(1..=4096).contains(&frames) {
             return Err(Refusal::of("frames must be 1 to 4096"));
         }
-        // Without a baseline, whatever the garment shows at rest looks like a touch.
+        // Without a baseline the garment at rest looks like a touch, so only a tared one is checked.
         if self.tared && self.state.is_touched() {
             return Err(Refusal::of("something touches the garment"));
         }
@@ -246,7 +246,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(())
     }
 
-    /// The gains are those of a calibration.
+    /// Sets the calibration from which the gains come.
     pub(super) fn certify(&mut self, certificate: Certificate) -> Result<(), Refusal> {
         certificate.check().map_err(Refusal::of)?;
         if usize::from(certificate.taxels) != self.setup.layout.taxels() {

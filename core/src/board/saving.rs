@@ -1,5 +1,4 @@
-//! When settings may be stored: the flash wears out, and nothing is scanned meanwhile; nor while lines are
-//! examined.
+//! Work that stops the scan: storing settings, which is limited because the flash wears out, and self-tests.
 
 use super::quota::Quota;
 use super::refusal::Refusal;
@@ -8,35 +7,35 @@ use crate::boot::Aside;
 use crate::format::Micros;
 use crate::wire::Level;
 
-/// Twelve saves may follow each other, and each is granted again after five minutes: twelve an hour. At some
-/// ten sectors for the greatest garment a flash of 100,000 erasures lasts a year of them, day and night.
+/// Twelve saves in a row, each granted again after five minutes: twelve an hour. With some ten sectors for
+/// the largest garment, a flash of 100,000 erasures lasts a year of them, day and night.
 type Allowance = Quota<12, 300_000_000>;
-/// From the announcement to the save: the link has carried away what it was given.
+/// Time between the announcement and the save, in which the link sends what is pending.
 const NOTICE_US: u64 = 50_000;
-/// A save waits so long for what touches the garment to leave it.
+/// Longest time that a save waits for a touch to end.
 const PATIENCE_US: u64 = 2_000_000;
-/// To erase a sector of the flash and to write it again, ms: as its maker gives it for most; the worst takes
-/// ten times as long.
+/// Time to erase and rewrite a sector of the flash, ms: the maker's typical value; the maximum is ten times
+/// as long.
 const SECTOR_MS: u32 = 50;
-/// Its bytes.
+/// Size of a sector, bytes.
 const SECTOR: usize = 4096;
-/// A sector for garment, scene and index, and one that is cleared for the next save.
+/// Further sectors: one for garment, scene and index, and one cleared for the next save.
 const OTHERS: usize = 2;
 
-/// How many saves are left, and whether one was announced.
+/// State of the saves: the allowance, and the steps of the present one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saving {
     allowance: Allowance,
     announced: Option<Micros>,
-    /// Since when a save waits for what touches the garment.
+    /// Time since which a save waits for a touch to end.
     waits: Option<Micros>,
-    /// Since when nothing is scanned.
+    /// Time since which nothing is scanned.
     stopped: Option<Micros>,
-    /// When the board starts again.
+    /// Time at which the board restarts.
     restart: Option<Micros>,
 }
 
-/// What the board does next about a save.
+/// Next step of a save.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
     Announce,
@@ -45,9 +44,9 @@ pub(super) enum Next {
     Save,
 }
 
-/// About how long the board is deaf while it stores the settings of so many taxels, ms.
+/// Approximate time without scans while the settings of so many taxels are stored, ms.
 fn deaf_ms(taxels: usize) -> u32 {
-    // A gain and a code at rest, two bytes each.
+    // A gain and a baseline code, two bytes each.
     let sectors = (4 * taxels).div_ceil(SECTOR) + OTHERS;
     sectors as u32 * SECTOR_MS
 }
@@ -57,17 +56,17 @@ impl Saving {
         Saving { allowance: Allowance::new(), announced: None, waits: None, stopped: None, restart: None }
     }
 
-    /// Before a reset so many saves were left.
+    /// Limits the allowance to the saves that were left before a reset.
     pub fn resume(&mut self, left: u8) {
         self.allowance.resume(left);
     }
 
-    /// Saves that are left after one.
+    /// Number of saves left after the next one.
     pub fn left_after(&self) -> u8 {
         self.allowance.known().saturating_sub(1)
     }
 
-    /// Whether the flash may be written now; else after how many minutes.
+    /// Error if the flash must not be written yet: minutes to wait.
     pub fn allowed(&mut self, now: Micros) -> Result<(), u64> {
         match self.allowance.wait_us(now) {
             0 => Ok(()),
@@ -75,7 +74,7 @@ impl Saving {
         }
     }
 
-    /// A save was asked for; `busy`: something touches the garment.
+    /// Next step of a requested save; `busy`: something touches the garment.
     pub fn next(&mut self, now: Micros, busy: bool) -> Next {
         if busy {
             self.announced = None;
@@ -92,34 +91,34 @@ impl Saving {
         }
     }
 
-    /// It is made, or refused: the next one is announced anew.
+    /// Ends a save, made or refused: the next one is announced again.
     pub fn taken(&mut self) {
         (self.announced, self.waits) = (None, None);
     }
 
-    /// The flash was written.
+    /// Records a write of the flash.
     pub fn spend(&mut self, now: Micros) {
         self.allowance.spend(now);
     }
 
-    /// Something else than a scan begins.
+    /// Records that scanning stops for other work.
     pub fn stop(&mut self, now: Micros) {
         self.stopped = Some(now);
     }
 
-    /// It has ended; for how long nothing was scanned. None: nothing had begun.
+    /// Records the end of that work. Returns the time without scans, us; none if no work had begun.
     pub fn ended(&mut self, now: Micros) -> Option<u64> {
         self.stopped.take().map(|stopped| now.since(stopped))
     }
 
-    /// Whether it is time to start again.
+    /// True if the board is to restart now.
     fn restarts(&self, now: Micros) -> bool {
         self.restart.is_some_and(|at| at <= now)
     }
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// The next work beyond scanning, if it is time for it: one between two scans.
+    /// Returns the next work other than scanning, if it is due: one between two scans.
     pub(super) fn next_work(&mut self, now: Micros) -> Option<Job> {
         if self.saving.restarts(now) {
             return Some(Job::Restart);
@@ -132,7 +131,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             return None;
         }
         if work != Work::SelfTest && !self.senses.are_blind() {
-            // First what reacts to that: the flash takes longer than most can wait.
+            // Reactions to blindness come first: the flash takes longer than most can wait.
             self.senses.blind();
             self.look_after(now);
             if let Some((pin, level)) = self.outputs.next() {
@@ -150,7 +149,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         })
     }
 
-    /// Whether the save that is asked for is made now: nothing touches the garment, and it was announced.
+    /// True if the requested save is made now: nothing touches the garment, and the save was announced.
     fn may_save(&mut self, now: Micros) -> bool {
         let ms = deaf_ms(self.setup.layout.taxels());
         match self.saving.next(now, self.is_busy()) {
@@ -172,8 +171,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         false
     }
 
-    /// Whether something touches the garment, or a reaction to a touch lasts. Without a tare nobody can
-    /// tell.
+    /// True if something touches the garment, or a reaction to a touch lasts. Without a tare this is unknown,
+    /// and `false`.
     fn is_busy(&self) -> bool {
         if !self.tared {
             return false;
@@ -183,7 +182,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         reacts || self.state.is_touched()
     }
 
-    /// The settings are to be stored, if the flash can take it.
+    /// Checks a request to store the settings: error during a tare, or if the flash allows no write.
     pub(super) fn save(&mut self, now: Micros) -> Result<(), Refusal> {
         if self.taring {
             return Err(Refusal::of("a tare is under way"));
@@ -195,25 +194,25 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         })
     }
 
-    /// A save has ended.
+    /// Takes the result of a save.
     pub(super) fn saved(&mut self, now: Micros, result: Result<Saved, &'static str>) {
         let us = self.saving.ended(now).unwrap_or(0);
         self.not_scanned(us);
-        // After a failure, too, something may have been written.
+        // A failed save may have written something, too.
         if result != Ok(Saved::Unchanged) {
             self.saving.spend(now);
         }
         if result.is_ok()
             && let Some(boot) = &mut self.boot
         {
-            // What is stored now is in force.
+            // The settings stored now are those in force.
             boot.aside = Aside::No;
         }
         self.outbox.answer(request::number_of(Work::Save), result.err().map(Refusal::of));
     }
 
-    /// The stored settings were put aside, or taken up again; what that means shows when the board starts,
-    /// which it does as soon as the answer has gone.
+    /// Takes the result of resetting the stored settings, or of undoing that. On success the board restarts
+    /// once the answer is sent, and then uses them or not.
     #[inline(never)]
     pub(super) fn settings_reset(&mut self, now: Micros, result: Result<Saved, &'static str>) {
         let us = self.saving.ended(now).unwrap_or(0);
@@ -225,7 +224,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.answer(number, result.err().map(Refusal::of));
     }
 
-    /// Before a reset so many saves were left: it grants no more.
+    /// Limits the saves to those that were left before a reset.
     pub fn resume_saving(&mut self, left: u8) {
         self.saving.resume(left);
     }

@@ -1,4 +1,4 @@
-//! What survives a restart.
+//! Settings that survive a restart.
 
 use super::refusal::Refusal;
 use super::setup::Setup;
@@ -25,14 +25,14 @@ pub enum Part {
     Scene = 1,
     /// Gains by taxel number, Q4.12, two bytes each, little-endian.
     Gain = 2,
-    /// Codes at rest by taxel number, two bytes each, little-endian; only where there is a tare.
+    /// Baseline codes by taxel number, two bytes each, little-endian; absent without a tare.
     Baseline = 3,
-    /// The [`Certificate`] of the gains, postcard; only where there is one.
+    /// The [`Certificate`] of the gains, postcard; absent without one.
     Calibration = 4,
 }
 
 impl Part {
-    /// All of them.
+    /// All parts.
     pub const ALL: [Part; 5] = [Part::Garment, Part::Scene, Part::Gain, Part::Baseline, Part::Calibration];
 }
 
@@ -48,20 +48,20 @@ impl fmt::Display for Part {
     }
 }
 
-/// How a save ended well.
+/// Result of a successful save.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Saved {
     /// The flash was written.
     Written,
-    /// It holds just that already, and was left alone.
+    /// The flash held these settings already and was not written.
     Unchanged,
 }
 
-/// A part that has more than [`PART_BYTES`] bytes.
+/// Error: a part has more than [`PART_BYTES`] bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooLong;
 
-/// What survives a restart.
+/// Settings that survive a restart.
 #[derive(Debug, Clone, Copy)]
 pub struct Settings<'a> {
     /// The garment.
@@ -70,18 +70,18 @@ pub struct Settings<'a> {
     pub scene: &'a Scene,
     /// Gains by taxel number, Q4.12.
     pub gain: &'a [u16],
-    /// Taxels that are ill, with their gains in place of those.
+    /// Faulty taxels; their gains replace those of `gain`.
     pub ill: &'a [IllTaxel],
-    /// Codes at rest by taxel number; none without a tare.
+    /// Baseline codes by taxel number; none without a tare.
     pub baseline: Option<&'a [u16]>,
-    /// The calibration that the gains belong to.
+    /// Calibration from which the gains come.
     pub calibration: Option<&'a Certificate>,
-    /// Saves that the flash can take soon after this one: a reset grants no more.
+    /// Saves that the flash allows soon after this one; a reset grants no more.
     pub saves: u8,
 }
 
 impl Settings<'_> {
-    /// The bytes of a part, written into `buffer`; none where there is no such part.
+    /// Writes the bytes of a part into `buffer`; returns none if there is no such part.
     pub fn write<'b>(&self, part: Part, buffer: &'b mut [u8]) -> Result<Option<&'b [u8]>, TooLong> {
         match part {
             Part::Garment => text(self.garment, buffer).map(Some),
@@ -102,7 +102,7 @@ fn text<'b, T: Serialize>(value: &T, buffer: &'b mut [u8]) -> Result<&'b [u8], T
     buffer.get(..bytes).ok_or(TooLong)
 }
 
-/// Values by taxel number, some of them `other`.
+/// Writes values by taxel number, replaced by `other` where it returns one.
 fn numbers<'b>(
     values: &[u16],
     other: impl Fn(usize) -> Option<u16>,
@@ -116,7 +116,7 @@ fn numbers<'b>(
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// What is to survive a restart.
+    /// Settings to store.
     pub fn settings(&self) -> Settings<'_> {
         let Setup { garment, scene, layout, .. } = &self.setup;
         let condition = &self.state.condition;
@@ -133,8 +133,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Takes a part of stored settings. What does not fit is left out, and the host is told why.
-    #[inline(never)] // it needs stack only meanwhile
+    /// Takes a part of stored settings. A part that does not fit is ignored, and the host is told why.
+    #[inline(never)] // own frame: its stack is free again on return
     pub fn restore(&mut self, part: Part, bytes: &[u8]) {
         self.begin();
         let done = match part {
@@ -153,12 +153,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// The board tells the host that what was stored is of no use.
+    /// Tells the host why the stored settings were not used.
     pub fn forgot(&mut self, why: impl fmt::Display) {
         self.outbox.log(format_args!("stored settings: {why}; this is what ships"));
     }
 
-    /// With a scene that any garment fits; the stored one follows.
+    /// Sets a stored garment, with a scene that fits any garment; the stored scene follows.
     #[inline(never)]
     fn restore_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let mut read = request::read::<Garment>("garment", bytes);
@@ -180,7 +180,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         done
     }
 
-    /// Takes the scene that ships, where the garment leaves its pins free.
+    /// Sets the shipped scene, if the garment leaves its pins free.
     #[inline(never)]
     fn ship_scene(&mut self) {
         let _ = self.setup.change_scene(&self.info, &mut Scene::shipped());

@@ -1,4 +1,4 @@
-//! Garment, scene, and what is built of them; changed as a whole or not at all.
+//! Garment, scene, and the stages built from them; changed as a whole or not at all.
 
 use super::info::BoardInfo;
 use crate::acquire::{Depth, Fields, TooLong, Unfit, check_duration, longest_frame_us, longest_self_test_us};
@@ -9,31 +9,31 @@ use crate::react::{Cause, ReactionConfig};
 use crate::scene::Scene;
 use core::fmt;
 
-/// A checked garment and scene; at first neither.
+/// A checked garment and scene. [`Setup::empty`] has neither.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// The garment as it was sent.
     pub garment: Garment,
     /// The scene as it was sent.
     pub scene: Scene,
-    /// Its geometry.
+    /// The garment's geometry.
     pub layout: Layout,
-    /// Its wiring.
+    /// The garment's wiring.
     pub circuit: Circuit,
     /// The scene's stages.
     pub pipeline: Pipeline,
 }
 
-/// Why a garment or scene is refused.
+/// Error of a garment or scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SetupError {
-    /// The garment is wrong.
+    /// The garment is invalid.
     Garment(GarmentError),
-    /// The scene is wrong.
+    /// The scene is invalid.
     Scene(SceneError),
-    /// The garment with this scene keeps the board from its watchdog.
+    /// The garment with this scene takes longer than the watchdog allows.
     Slow(TooLong),
-    /// The scene wants the garment interlaced, which it cannot be.
+    /// The scene asks for an interlaced scan, which the garment does not allow.
     Interlaced(Unfit),
 }
 
@@ -74,7 +74,7 @@ impl From<SceneError> for SetupError {
     }
 }
 
-/// Bytes of one contact in a `Contacts` message, at most.
+/// Most bytes of one contact in a `Contacts` message.
 const CONTACT_BYTES: u32 = 90;
 /// Contacts of a typical scene, for which the rate of updates is checked against the link.
 const TYPICAL_CONTACTS: u32 = 5;
@@ -91,7 +91,7 @@ impl Setup {
         }
     }
 
-    /// Checks everything for a board that holds `capacity` taxels.
+    /// Checks and builds a setup for a board that holds `capacity` taxels.
     pub fn build(
         info: &BoardInfo,
         mut garment: Garment,
@@ -104,9 +104,9 @@ impl Setup {
         Ok(setup)
     }
 
-    /// Takes another garment for the same scene, and leaves the one that was there in its place; nothing
-    /// changes if it is refused. What is new is built beside what is there, one part after the other: the
-    /// stack of a microcontroller has no room for two setups.
+    /// Replaces the garment and leaves the previous one in `garment`; an error changes nothing. The new parts
+    /// are built beside the old ones, one after the other: a microcontroller's stack has no room for two
+    /// setups.
     #[inline(never)]
     pub fn change_garment(
         &mut self,
@@ -114,7 +114,7 @@ impl Setup {
         garment: &mut Garment,
         capacity: usize,
     ) -> Result<(), SetupError> {
-        // A gain may take a conditioned value past the converter's range.
+        // A gain may raise a conditioned value above the converter's range.
         let layout = Layout::build(garment, capacity, u16::MAX)?;
         let circuit = Circuit::build(garment, &layout, info.pins)?;
         check(info, &self.scene, &circuit)?;
@@ -126,8 +126,8 @@ impl Setup {
         Ok(())
     }
 
-    /// Takes another scene for the same garment, and leaves the one that was there in its place: the stack
-    /// has no room for a third one. Nothing changes if it is refused. What is no part of a scene stays.
+    /// Replaces the scene and leaves the previous one in `scene`, because the stack has no room for a third;
+    /// an error changes nothing. Settings outside the scene stay.
     #[inline(never)]
     pub fn change_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Result<(), SetupError> {
         check(info, scene, &self.circuit)?;
@@ -136,7 +136,7 @@ impl Setup {
         scene.check_names(&self.layout).map_err(SceneError::Row)?;
         let done = self.pipeline.fill(scene, &self.layout);
         if done.is_err() {
-            // It is the scene that was there: nothing is wrong with it.
+            // The previous scene was valid.
             let _ = self.pipeline.fill(&self.scene, &self.layout);
         } else {
             core::mem::swap(&mut self.scene, scene);
@@ -144,8 +144,8 @@ impl Setup {
         done.map_err(SetupError::Scene)
     }
 
-    /// Takes another stream, if the scene differs in nothing else: what is perceived and driven goes on as it
-    /// was. None: it does.
+    /// Replaces the stream if the scene differs in nothing else, so that perception and outputs continue.
+    /// Returns none if it differs in more.
     #[inline(never)]
     pub fn change_stream(&mut self, info: &BoardInfo, scene: &mut Scene) -> Option<Result<(), SetupError>> {
         let wanted = core::mem::replace(&mut scene.stream, self.scene.stream);
@@ -159,13 +159,13 @@ impl Setup {
         })
     }
 
-    /// Scans per second, as [`Pace`](super::pace::Pace) wants it: a scene's 0 is "as many as possible".
+    /// Scans per second for [`Pace`](super::pace::Pace); a scene's 0 means "as many as possible".
     pub(super) fn scan_rate(&self) -> u16 {
         if self.scene.rate_hz == 0 { u16::MAX } else { self.scene.rate_hz }
     }
 }
 
-/// Whether the board and the wiring of the garment leave the scene what it needs.
+/// Checks the scene against the board's link and pins and the garment's wiring.
 #[inline(never)]
 fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), SceneError> {
     let rate = u32::from(scene.stream.contacts_hz);
@@ -210,7 +210,7 @@ fn check(info: &BoardInfo, scene: &Scene, circuit: &Circuit) -> Result<(), Scene
     Ok(())
 }
 
-/// The longest that the garment is not looked at where all is well, us.
+/// Longest time between two perceived frames in normal operation, us.
 fn longest_pause_us(circuit: &Circuit, scene: &Scene) -> u64 {
     let period = 1_000_000u64.checked_div(scene.rate_hz.into()).unwrap_or(0);
     2 * longest_frame_us(circuit, &scene.plan).max(period) + longest_self_test_us(circuit)

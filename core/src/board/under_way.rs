@@ -1,4 +1,4 @@
-//! The message under way to the host.
+//! The message in transmission to the host.
 
 use crate::wire::*;
 use core::ops::Range;
@@ -6,11 +6,11 @@ use serde::Serialize;
 
 /// Most data of a message: an image of any 2,048 taxels.
 const DATA: usize = image_bound(2048, 16);
-/// Longest head of a message with data: numbers, time, sum, the length of the data.
+/// Longest head of a message with data: numbers, time, sum, length of the data.
 const HEAD: usize = 41;
 /// Longest message. A full list of contacts is shorter.
 const MESSAGE: usize = HEAD + DATA;
-/// Where the data are written: before them is room for the head, and for what makes a frame of all.
+/// Offset of the data: before them is room for the head and for the start of the frame.
 const START: usize = lead(MESSAGE) + HEAD;
 /// Longest frame.
 const FRAME: usize = frame_bound(MESSAGE);
@@ -24,44 +24,45 @@ pub(super) struct UnderWay {
 }
 
 impl UnderWay {
-    /// One 0x00 first: whatever a booting board or an opening line put on the wire ends there.
+    /// Begins with one 0x00, which ends whatever a booting board or an opening line put on the wire.
     pub const fn new() -> Self {
         UnderWay { seq: 0, wire: [0; FRAME], from: 0, to: 1 }
     }
 
-    /// What is left of the message.
+    /// Bytes of the message that were not sent yet.
     pub fn rest(&self) -> &[u8] {
         self.wire.get(self.from..self.to).unwrap_or(&[])
     }
 
-    /// The first `count` bytes have been taken.
+    /// Records that `count` more bytes were sent.
     pub fn sent(&mut self, count: usize) {
         self.from = self.from.saturating_add(count).min(self.to);
     }
 
-    /// Encodes a report of this number; `seq` counts only what was encoded. `false`: it does not fit.
+    /// Encodes a report of this number; `seq` counts encoded messages only. Returns `false` if it does not
+    /// fit.
     pub fn put<T: Serialize>(&mut self, number: u32, report: &T) -> bool {
         let frame = frame(&(self.seq, number, report), &mut self.wire).ok();
         self.begin(frame)
     }
 
-    /// Where the data of a `Frame` or `Raw` are written first.
+    /// Buffer for the data of a `Frame` or `Raw`.
     pub fn scratch(&mut self) -> &mut [u8] {
         self.wire.get_mut(START..START + DATA).unwrap_or(&mut [])
     }
 
-    /// As [`UnderWay::put`]; the data, which come last, are the first `length` bytes of the scratch: what
-    /// goes before them is written before them.
+    /// Encodes a report like [`UnderWay::put`]. Its data, the last field, are the first `length` bytes of the
+    /// scratch buffer; its other fields are written before them.
     pub fn put_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> bool {
         let start = self.put_head(number, without, length);
         let frame = start.and_then(|start| close(&mut self.wire, start..START + length));
         self.begin(frame)
     }
 
-    /// Writes what stands before data of this length; where that begins.
+    /// Writes the fields before data of this length; returns their offset.
     fn put_head<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> Option<usize> {
         let mut head = [0; HEAD];
-        // Without data a report ends with their length, 0.
+        // A report without data ends with their length, 0.
         let start = write(&(self.seq, number, without), &mut head).ok()?.checked_sub(1)?;
         let end = start + write(&(length as u32), head.get_mut(start..)?).ok()?;
         let first = START.checked_sub(end)?;

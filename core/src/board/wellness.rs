@@ -1,11 +1,11 @@
-//! Taxels that are ill are silenced, bridged by the filter from their neighbours, and told of.
+//! Faulty taxels: silenced, bridged by the filter from their neighbours, and reported.
 
 use super::Board;
 use crate::format::{Code, Micros};
 use crate::health::{Codes, Found, IllTaxel, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// Watches the codes of a frame, in which something touches the garment or not.
+    /// Updates the health of the taxels from the codes of a frame; `touched`: it has a contact.
     pub(super) fn watch(&mut self, now: Micros, codes: &[Code], touched: bool) {
         let super::Setup { layout, circuit, scene, .. } = &self.setup;
         let condition = &mut self.state.condition;
@@ -30,7 +30,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Sets the gain of a taxel, now or when it is well again.
+    /// Sets the gain of a taxel; a faulty one gets it when its fault is cleared.
     pub(super) fn put_gain(&mut self, taxel: usize, gain: u16) {
         match self.monitor.ill_mut(taxel) {
             Some(ill) => ill.gain = gain,
@@ -40,7 +40,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Gives every taxel another chance: it has the gain of its good days, until it is found to be ill again.
+    /// Clears all faults: restores the gains saved before the taxels were silenced, and watches them anew.
     pub(super) fn recover(&mut self) {
         for ill in self.monitor.ill() {
             self.state.condition.set_gain(usize::from(ill.taxel), ill.gain);
@@ -49,7 +49,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.map_changed();
     }
 
-    /// The class of a taxel.
+    /// Health of a taxel.
     pub fn health_of(&self, taxel: usize) -> TaxelHealth {
         self.monitor.health(taxel)
     }

@@ -1,4 +1,4 @@
-//! The most urgent message, encoded.
+//! Encodes the most urgent message.
 
 use super::super::under_way::UnderWay;
 use super::super::{BoardInfo, Setup};
@@ -16,7 +16,7 @@ use heapless::{String, Vec};
 use serde::Serialize;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    /// Encodes the most urgent message, if there is one. Its buffers are on the stack only meanwhile.
+    /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
         let About { info, boot, setup, monitor, examined, certificate, unsure, taught } = about;
@@ -39,7 +39,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some(report) = self.reactions.pop_front() {
             under_way.put(Report::REACTION, &report)
         } else if core::mem::take(&mut self.shapes) {
-            // Before the contacts, whose classes are numbers of these names.
+            // Before the contacts, whose classes are indices of these names.
             put_shapes(under_way, taught)
         } else if core::mem::take(&mut self.ages_wait) {
             put_forms(under_way, &self.contacts, &self.ages)
@@ -52,7 +52,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             self.symbols_wait = false;
             under_way.put(Report::SYMBOLS, &self.symbols)
         } else if let Some(report) = self.changes.front().or(self.intent.as_ref()) {
-            // Told where it lies: it may have 64 concepts.
+            // Encoded in place: it may have 64 concepts.
             let fits = under_way.put(Report::INTENT, report);
             if self.changes.pop_front().is_none() {
                 self.intent = None;
@@ -81,7 +81,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost = health.lost.wrapping_add(u32::from(!fits));
     }
 
-    /// A part of the map of health, as much as fits a message.
+    /// Encodes as much of the health map as fits a message.
     #[inline(never)]
     fn put_map(&mut self, time: Micros, first: u16, taxels: usize, monitor: &Monitor) -> bool {
         let mut map = HealthMap { time, first, end: taxels as u16, taxels: Vec::new() };
@@ -100,7 +100,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.under_way.put(Report::HEALTH_MAP, &map)
     }
 
-    /// `false`: it does not fit. An image whose code has no room is thinned.
+    /// Returns `false` if the message does not fit. An image without room for its code is thinned.
     fn put_image(
         &mut self,
         frame: u32,
@@ -138,8 +138,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 }
 
-/// The confidence of the first that waits, then that gesture itself: whoever reads it knows by then how sure
-/// it is.
+/// Encodes the confidence of the first waiting gesture, then that gesture, so that a reader has the
+/// confidence first.
 fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
     let Some((report, confidence)) = waiting.front_mut() else { return true };
     let GestureReport { frame, time, touch, .. } = *report;
@@ -154,7 +154,7 @@ fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
 fn put_forms(under_way: &mut UnderWay, list: &ContactList, ages: &[u8]) -> bool {
     let mut report = FormsReport { frame: list.frame, time: list.time, ages: Vec::new() };
     for (placed, age) in list.contacts.iter().zip(ages).filter(|(_, age)| **age > 0) {
-        // As many places as in the list.
+        // There are as many places as in the list.
         let _ = report.ages.push((placed.contact.id, *age));
     }
     under_way.put(Report::FORMS, &report)
@@ -163,13 +163,13 @@ fn put_forms(under_way: &mut UnderWay, list: &ContactList, ages: &[u8]) -> bool 
 fn put_unsure(under_way: &mut UnderWay, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {
     let mut contacts = Vec::new();
     for id in unsure.ids() {
-        // As many places as contacts.
+        // There are as many places as contacts.
         let _ = contacts.push(id);
     }
     under_way.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
 }
 
-/// As a [`ShapesReport`].
+/// Encodes a [`ShapesReport`].
 fn put_shapes(under_way: &mut UnderWay, taught: &Taught<CONTACTS>) -> bool {
     match taught.gallery() {
         Some(gallery) => under_way.put(Report::SHAPES, &(gallery.prototypes.len() as u16, &gallery.names)),
@@ -200,7 +200,7 @@ fn put_hello(
     under_way.put(Report::HELLO, &hello)
 }
 
-/// postcard of a value; nothing where it does not fit.
+/// Writes a value as postcard; returns no bytes if it does not fit.
 fn written<'a, T: Serialize>(value: &T, buffer: &'a mut [u8]) -> &'a [u8] {
     let bytes = write(value, buffer).unwrap_or(0);
     buffer.get(..bytes).unwrap_or(&[])

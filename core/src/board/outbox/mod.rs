@@ -1,4 +1,4 @@
-//! What waits to be sent, in the order of its urgency; encoded only when the link has room.
+//! Queues of messages by urgency; a message is encoded only when the link has room.
 
 mod encoding;
 mod noting;
@@ -21,11 +21,11 @@ use crate::wire::*;
 use core::fmt;
 use heapless::{Deque, Vec};
 
-/// What the board is, wears and knows of it.
+/// Parts of the board that messages describe.
 #[derive(Clone, Copy)]
 pub(super) struct About<'a> {
     pub info: &'a BoardInfo,
-    /// How it came to start.
+    /// How the board started.
     pub boot: Option<Boot>,
     pub setup: &'a Setup,
     pub monitor: &'a Monitor,
@@ -35,19 +35,19 @@ pub(super) struct About<'a> {
     pub certificate: Option<&'a Certificate>,
     /// Contacts that may be drift.
     pub unsure: &'a UnsureState<CONTACTS>,
-    /// What it was taught.
+    /// Taught shapes.
     pub taught: &'a Taught<CONTACTS>,
 }
 
-/// Gestures that wait, each with its confidence until that is told.
+/// Gestures to send, each with its confidence until that has been sent.
 type Gestures = Deque<(GestureReport, Option<Q15>), 4>;
 
-/// What waits to be sent.
+/// Messages to send.
 pub(super) struct Outbox<const TAXELS: usize> {
     under_way: UnderWay,
     streaming: bool,
     hello: Option<Micros>,
-    /// A `Hello` has gone; how the board came to start is told next.
+    /// True after a `Hello`: how the board started is sent next.
     greeted: bool,
     synced: Deque<(u32, Micros), 4>,
     answers: Deque<(u8, Option<Refusal>), 8>,
@@ -61,32 +61,32 @@ pub(super) struct Outbox<const TAXELS: usize> {
     symbols_wait: bool,
     contacts: ContactList,
     contacts_wait: bool,
-    /// How old the forms of `contacts` are, one by one; of those that have gone, 0.
+    /// Ages of the forms of `contacts`, in the same order; 0 for those no longer present.
     ages: Vec<u8, LISTED>,
-    /// That is asked for, and one of them is older than its frame.
+    /// True if ages are requested and one of them is above 0.
     ages_wait: bool,
     tell_ages: bool,
-    /// It is to be told which contacts are unsure.
+    /// True if the list of unsure contacts is to be sent.
     unsure: bool,
     health: Option<Micros>,
     budget: Option<Budget>,
     temperature: Option<Temperature>,
-    /// When the next temperature is due.
+    /// Rate of temperature reports.
     warm: Pace,
-    /// It is to be told what the board was taught.
+    /// True if the taught shapes are to be sent.
     shapes: bool,
-    /// First taxel of the next part of the map of health.
+    /// First taxel of the next part of the health map.
     map: Option<u16>,
     examined: bool,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
     codes: Codes<TAXELS>,
-    /// Raw codes a second that were asked for beside the scene.
+    /// Frames of raw codes per second that were requested beside the scene.
     raw_hz: u16,
     rates: Rates,
 }
 
-/// The image that waits, and the one that was sent last.
+/// The image to send, and the one sent last.
 struct Waiting<const TAXELS: usize> {
     due: Option<(u32, Micros)>,
     base: Option<u32>,
@@ -95,7 +95,7 @@ struct Waiting<const TAXELS: usize> {
 }
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    /// Nothing waits yet.
+    /// Nothing to send yet.
     #[inline(never)]
     pub fn new(stream: &StreamConfig) -> Self {
         Outbox {
@@ -134,18 +134,18 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// What is streamed from now on, and how often.
+    /// Sets the rates of the stream.
     pub fn pace(&mut self, stream: &StreamConfig) {
         self.rates = Rates::of(stream, self.raw_hz);
     }
 
-    /// So many raw codes a second are asked for beside what the scene streams.
+    /// Sets the raw codes requested per second beside the scene's stream.
     pub fn send_raw(&mut self, hz: u16, stream: &StreamConfig) {
         self.raw_hz = hz;
         self.pace(stream);
     }
 
-    /// `Start`: `Hello`, then everything, beginning with a key frame.
+    /// On `Start`: sends `Hello`, then everything, beginning with a key frame.
     pub fn start(&mut self) {
         self.streaming = true;
         self.hello = Some(Micros(0));
@@ -154,43 +154,44 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.forget_image();
     }
 
-    /// The self-test is to be told.
+    /// Queues the result of the self-test.
     pub fn examined(&mut self) {
         self.examined = true;
     }
 
-    /// `Hello` is to be told anew.
+    /// Queues another `Hello`.
     pub fn introduce(&mut self) {
         self.hello = Some(Micros(0));
     }
 
-    /// It is to be told which contacts are unsure.
+    /// Queues the list of unsure contacts.
     pub fn tell_unsure(&mut self) {
         self.unsure = true;
     }
 
-    /// Whether it is to be told from now on how old forms are.
+    /// Sets whether ages of forms are sent.
     pub fn tell_ages(&mut self, ages: bool) {
         self.tell_ages = ages;
     }
 
-    /// What the board was taught is to be told.
+    /// Queues the taught shapes.
     pub fn tell_shapes(&mut self) {
         self.shapes = true;
     }
 
-    /// Another base of shapes: it is to be told, and what waits was recognised by the one before.
+    /// The base of shapes has changed: queues it, and clears the classes of waiting contacts, which are those
+    /// of the previous base.
     pub fn shapes_changed(&mut self) {
         self.shapes = true;
         self.contacts.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
     }
 
-    /// The map of health is to be told.
+    /// Queues the health map.
     pub fn map_changed(&mut self) {
         self.map = Some(0);
     }
 
-    /// `Stop`: nothing of a frame that is not under way.
+    /// On `Stop`: drops all queued data of frames; a message in transmission is completed.
     pub fn stop(&mut self) {
         self.streaming = false;
         self.hello = None;
@@ -198,8 +199,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
-    /// Another garment: nothing of the old one, and `Hello` tells of the new one, then what a self-test finds
-    /// in it.
+    /// The garment has changed: drops all data of the old one, and queues `Hello` and the next self-test.
     pub fn renew(&mut self) {
         self.hello = Some(Micros(0));
         self.examined |= self.streaming;
@@ -208,7 +208,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
-    /// What was felt; not the reactions: nobody else tells that they ended.
+    /// Drops what was perceived. Reactions stay, because nothing else would report their end.
     fn drop_waiting(&mut self) {
         self.reflexes.clear();
         self.gestures.clear();
@@ -219,23 +219,23 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         (self.symbols_wait, self.contacts_wait, self.ages_wait, self.unsure) = (false, false, false, false);
     }
 
-    /// Another map: what the old one made of a touch would be read as the new one's concepts.
+    /// Drops intentions: those of a previous map would be read as concepts of the present one.
     pub fn forget_meaning(&mut self) {
         self.changes.clear();
         self.intent = None;
     }
 
-    /// The next image stands alone.
+    /// Makes the next image a key frame.
     pub fn forget_image(&mut self) {
         self.image.base = None;
     }
 
     pub fn answer(&mut self, request: u8, refusal: Option<Refusal>) {
-        // A host that asks eight times without reading gets no ninth answer.
+        // A host that sends eight requests without reading gets no ninth answer.
         let _ = self.answers.push_back((request, refusal));
     }
 
-    /// Something does not work.
+    /// Queues a log message of an error.
     pub fn log(&mut self, text: fmt::Arguments<'_>) {
         self.tell(Level::Error, text);
     }
@@ -248,14 +248,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let _ = self.synced.push_back((token, now));
     }
 
-    /// Once a second: `Hello` until `Start`, then `Health`.
+    /// Queues once a second: `Hello` until `Start`, then `Health`.
     pub fn tick(&mut self, now: Micros) {
         const SECOND: u64 = 1_000_000;
         let next = if self.streaming { &mut self.health } else { &mut self.hello };
         next.get_or_insert(Micros(now.0.saturating_add(SECOND)));
     }
 
-    /// Takes a report of the time, unless one waits.
+    /// Takes a time report, unless one is waiting.
     pub fn spend(&mut self, budget: impl FnOnce() -> Option<Budget>) {
         if self.streaming && self.budget.is_none() {
             self.budget = budget();
@@ -270,7 +270,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// Keeps the codes of a frame that is to be sent raw.
+    /// Stores the codes of a frame that is to be sent raw.
     pub fn raw(&mut self, codes: &[Code], taxels: usize) {
         if self.raw.is_some() {
             self.codes.clear();
@@ -278,7 +278,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// Encodes what is to be sent next, unless something is under way.
+    /// Encodes the next message, unless one is in transmission.
     pub fn prepare(
         &mut self,
         now: Micros,
@@ -294,12 +294,12 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// What the link has not taken of the message under way.
+    /// Bytes of the message in transmission that the link has not taken.
     pub fn rest(&self) -> &[u8] {
         self.under_way.rest()
     }
 
-    /// Whether there is any of it.
+    /// True if a message is in transmission.
     pub fn has_rest(&self) -> bool {
         !self.rest().is_empty()
     }

@@ -1,4 +1,4 @@
-//! What of a frame is to be told.
+//! Selects what of a frame is sent.
 
 use super::Outbox;
 use crate::contact::Phase;
@@ -11,8 +11,8 @@ use crate::wire::*;
 use heapless::Vec;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
-    /// Takes what was perceived in a frame. Of one that is `late` the image is left out, unless one waits for
-    /// the link: it is dear, and the next one comes soon.
+    /// Queues what was perceived in a frame. If the frame is `late`, its image, which is costly, is left out,
+    /// unless one is already waiting for the link.
     pub fn note(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, late: bool, health: &mut Health) {
         if !self.streaming {
             return;
@@ -40,7 +40,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.note_contacts(frame, time, percept, health);
         self.unsure |= percept.unsure.has_changed();
         self.note_symbols(frame, time, percept, health);
-        // What waits is encoded from the newest image and codes, so it bears their number.
+        // A waiting image is encoded from the newest image and codes, so it gets their number.
         let due = self.rates.frames.due(time);
         let waits = self.image.due.is_some();
         health.thinned_frames += u32::from(due && (waits || late));
@@ -52,7 +52,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// Takes a reaction that began or ended without a frame that shows its cause.
+    /// Queues a reaction that began or ended without a frame that shows its cause.
     pub fn reaction(&mut self, report: ReactionReport, health: &mut Health) {
         if !self.streaming {
             return;
@@ -63,8 +63,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost += u32::from(self.reactions.push_back(report).is_err());
     }
 
-    /// Forgets the oldest report of a reaction that a later one, or `next`, follows: how each stands now is
-    /// told in any case. Whether there is one.
+    /// Drops the oldest report of a reaction for which a later one, or `next`, is queued, so that the present
+    /// state of each is always sent. Returns true if there was one.
     #[cold]
     fn forget_reaction(&mut self, next: &Reaction) -> bool {
         let name =
@@ -80,7 +80,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         true
     }
 
-    /// Takes a reflex, and the reaction that began by it, unless the frame has shown its cause meanwhile.
+    /// Queues a reflex, and the reaction it began, unless a frame has shown its cause meanwhile.
     pub fn reflex(&mut self, report: ReflexReport, reaction: Option<Reaction>, health: &mut Health) {
         if !self.streaming {
             return;
@@ -101,7 +101,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost += u32::from(self.gestures.push_back((report, confidence)).is_err());
     }
 
-    /// The newest state of each contact; onsets and releases stay until they are told.
+    /// Queues the newest state of each contact; onsets and releases stay until they are sent.
     fn note_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let list = &mut self.contacts.contacts;
         let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
@@ -137,7 +137,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             self.ages.clear();
             let _ = self.ages.resize(gone, 0);
             for age in percept.form_ages {
-                // Those without a place here have none in the list.
+                // Contacts without a place here have none in the list.
                 let _ = self.ages.push(*age);
             }
         }
@@ -158,7 +158,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         list.regions.clear();
         for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {
-            // As many as there are.
+            // There are as many places as regions.
             let _ = list.regions.push(*region);
         }
         (list.frame, list.time) = (frame, time);
