@@ -1,16 +1,16 @@
-//! What is counted from start to start.
+//! State kept from start to start.
 
 use super::kept::{Ending, Kept};
 use super::{Aside, Boot, BootCause, Remains, Reset};
 use crate::format::Micros;
 
-/// Resets by watchdog or panic after which the board begins with what ships.
+/// Resets by watchdog or panic after which the board starts with the shipped settings.
 pub const RESETS: u8 = 3;
 
-/// A board that lives for so long was not reset by what it was told to keep: the count begins anew.
+/// Time after which a reset is not blamed on the stored settings, so that the count begins again, us.
 pub const LIFE_US: u64 = 60_000_000;
 
-/// This life of the board, and what the next one is to know of it.
+/// The present run of the board, and the state kept for the next start.
 #[derive(Debug)]
 pub struct Boots<R> {
     remains: R,
@@ -20,7 +20,7 @@ pub struct Boots<R> {
 }
 
 impl<R: Remains> Boots<R> {
-    /// The board starts. `grounded`: a pin says that it is to begin with what ships.
+    /// Records the start of the board. `grounded`: a pin asks for the shipped settings.
     pub fn begin(remains: R, grounded: bool) -> Boots<R> {
         let reset = remains.reset();
         let by_watchdog = matches!(reset, Reset::Watchdog | Reset::Program);
@@ -31,7 +31,7 @@ impl<R: Remains> Boots<R> {
             (_, Some(Ending::Panic)) => BootCause::Panic,
             (Reset::Watchdog, Some(_)) => BootCause::Watchdog,
             (Reset::Program, Some(Ending::Request)) => BootCause::Request,
-            // The boot loader ends by the watchdog, too, and has kept nothing of ours.
+            // The boot loader ends by the watchdog, too, and leaves no word of ours.
             _ => BootCause::Other,
         };
         let mut kept = Kept { ending: Ending::Running, ..before.unwrap_or_default() };
@@ -39,7 +39,7 @@ impl<R: Remains> Boots<R> {
             BootCause::Watchdog | BootCause::Panic => kept.resets.saturating_add(1),
             _ => 0,
         };
-        // Whoever asks for a restart has said what is to be done with the settings.
+        // A request for a restart has already decided about the settings.
         kept.aside = cause != BootCause::Request && (kept.aside || kept.resets >= RESETS);
         let aside = match (grounded, kept.aside) {
             (true, _) => Aside::Pin,
@@ -56,22 +56,22 @@ impl<R: Remains> Boots<R> {
         self.remains.keep(self.kept.word());
     }
 
-    /// How the board came to start.
+    /// How the board started.
     pub fn boot(&self) -> Boot {
         self.boot
     }
 
-    /// The flash says that the stored settings stay aside, as a host has asked.
+    /// Records that the flash keeps the stored settings out of use, as a host has requested.
     pub fn put_aside(&mut self) {
         self.boot.aside = Aside::Request;
     }
 
-    /// Saves that were left in the life before; none: the power was gone.
+    /// Saves that were left before the reset; none after a power-up.
     pub fn saves(&self) -> Option<u8> {
         self.kept.saves
     }
 
-    /// The loop has come round.
+    /// Called once per round of the loop.
     pub fn alive(&mut self, now: Micros) {
         if !self.lived && now.0 >= LIFE_US {
             self.lived = true;
@@ -80,19 +80,19 @@ impl<R: Remains> Boots<R> {
         }
     }
 
-    /// So many saves are left, should the board be reset now.
+    /// Stores the number of saves left, for a reset.
     pub fn spend(&mut self, saves: u8) {
         self.kept.saves = Some(saves);
         self.keep();
     }
 
-    /// Settings were stored, for the next start to use.
+    /// Records that settings were stored, which the next start uses.
     pub fn saved(&mut self) {
         self.kept.aside = false;
         self.keep();
     }
 
-    /// A host has asked for the reset that follows.
+    /// Records that the next reset is requested by a host.
     pub fn asked(&mut self) {
         self.kept.ending = Ending::Request;
         self.keep();
@@ -108,7 +108,7 @@ mod tests {
     use std::cell::Cell;
     use std::vec::Vec;
 
-    /// A board whose resets are played.
+    /// A board with simulated resets.
     struct Played(Cell<u32>);
 
     impl Remains for (&Played, Reset) {
@@ -135,7 +135,7 @@ mod tests {
         let told: Vec<Boot> = (0..4).map(|_| start(Reset::Watchdog).boot()).collect();
         let of = |resets, aside| Boot { cause: BootCause::Watchdog, resets, aside };
         assert_eq!(told, [of(1, Aside::No), of(2, Aside::No), of(3, Aside::Resets), of(4, Aside::Resets)]);
-        // A life of a minute with what ships says nothing of what is stored.
+        // A minute with the shipped settings is no evidence about the stored ones.
         start(Reset::Watchdog).alive(MINUTE);
         assert_eq!(start(Reset::Watchdog).boot(), of(1, Aside::Resets));
         assert_eq!(start(Reset::Power).boot(), Boot::default());
@@ -153,7 +153,7 @@ mod tests {
             assert_eq!((boots.boot().resets, boots.boot().aside), (2, Aside::No));
             boots.alive(Micros(LIFE_US - 1));
             boots.alive(MINUTE);
-            // It counts once: what comes later in that life changes nothing.
+            // Only the first minute counts: later rounds of that run change nothing.
             boots.alive(Micros(2 * LIFE_US));
         }
         start(Reset::Watchdog).alive(Micros(LIFE_US - 1));
@@ -167,7 +167,7 @@ mod tests {
         start(Reset::Power);
         let panic = || {
             board.0.set(panicked(board.0.get()));
-            // The watchdog may bite while the panic is being logged.
+            // The watchdog may fire while the panic is being logged.
             [Reset::Program, Reset::Watchdog]
         };
         assert_eq!(start(panic()[0]), Boot { cause: BootCause::Panic, resets: 1, aside: Aside::No });
@@ -211,7 +211,7 @@ mod tests {
         beaten();
         assert_eq!(start(Reset::Watchdog, false).boot().aside, Aside::Resets);
         start(Reset::Watchdog, false).saved();
-        // The count stays: should the new settings be no better, the next reset says so.
+        // The count stays: if the new settings are no better, the next reset acts on it.
         assert_eq!(start(Reset::Watchdog, false).boot().aside, Aside::Resets);
         beaten();
         let mut boots = start(Reset::Watchdog, false);

@@ -1,45 +1,45 @@
 //! The word that survives a reset.
 
-/// Upper half of a word that is ours; what stands there after a power-up is not.
+/// Upper half of a word written by this module; a word after power-up has another.
 const MAGIC: u32 = 0x7ac5;
-/// Saves that are left where that is not known.
+/// Value of `saves` if their number is unknown.
 const UNKNOWN: u8 = 15;
 
-/// How a life of the board ended, if it did not simply stop.
+/// How a run of the board ended, if it was noted.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// It has not ended yet, or nobody could say.
+    /// It has not ended yet, or its end was not noted.
     #[default]
     Running = 0,
     /// It panicked.
     Panic = 1,
-    /// A host asked for it.
+    /// A host requested a restart.
     Request = 2,
 }
 
-/// What is known from the life before.
+/// State from the run before the reset.
 ///
 /// | bits | field |
 /// |---|---|
 /// | 31..16 | [`MAGIC`] |
 /// | 15..14 | `ending` |
 /// | 13 | `aside` |
-/// | 11..8 | `saves`, 15 where it is not known |
+/// | 11..8 | `saves`, 15 if unknown |
 /// | 7..0 | `resets` |
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kept {
-    /// How the life ended.
+    /// How the run ended.
     pub ending: Ending,
-    /// The stored settings stay aside until the power goes, or something is saved.
+    /// The stored settings stay out of use until power-off, or until settings are saved.
     pub aside: bool,
     /// Saves that were left.
     pub saves: Option<u8>,
-    /// Resets by watchdog or panic, none of them a minute after the one before.
+    /// Resets by watchdog or panic, each less than a minute after the one before.
     pub resets: u8,
 }
 
 impl Kept {
-    /// What a word says; none if it is not ours.
+    /// Decodes a word; none if it was not written by this module.
     pub fn read(word: u32) -> Option<Kept> {
         if word >> 16 != MAGIC {
             return None;
@@ -55,7 +55,7 @@ impl Kept {
         Some(Kept { ending, aside: word >> 13 & 1 == 1, saves, resets: word as u8 })
     }
 
-    /// The word that says it.
+    /// Encodes the state.
     pub fn word(self) -> u32 {
         let saves = self.saves.map_or(UNKNOWN, |saves| saves.min(UNKNOWN - 1));
         let flags = (self.ending as u32) << 14 | u32::from(self.aside) << 13;
@@ -63,7 +63,7 @@ impl Kept {
     }
 }
 
-/// The word to keep in place of `word` by a board that panics.
+/// Returns the word that a panicking board keeps instead of `word`.
 pub fn panicked(word: u32) -> u32 {
     Kept { ending: Ending::Panic, ..Kept::read(word).unwrap_or_default() }.word()
 }
@@ -78,7 +78,7 @@ mod tests {
         for low in 0..=u32::from(u16::MAX) {
             let Some(kept) = Kept::read(MAGIC << 16 | low) else { continue };
             ours += 1;
-            // Bit 12 says nothing.
+            // Bit 12 is unused.
             assert_eq!(kept.word(), MAGIC << 16 | low & !(1 << 12));
         }
         assert_eq!(ours, 3 << 14);

@@ -1,12 +1,12 @@
-//! How a board comes to start: what reset it, how often in a row, and whether it may use the settings that are
-//! stored.
+//! How a board starts: cause of the reset, number of resets in a row, and whether the stored settings are
+//! used.
 //!
-//! A board that resets by itself [`RESETS`] times without a minute of life between begins with what ships, so
-//! that a host reaches it: what it was told to keep may be the reason. The stored settings stay where they are.
+//! A board that resets by itself [`RESETS`] times without a minute between starts with the shipped settings,
+//! so that a host can reach it: the stored settings may be the cause. They are not erased.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `boots.rs` | what is counted from start to start |
+//! | `boots.rs` | state kept from start to start |
 //! | `kept.rs` | the word in which it survives a reset |
 
 mod boots;
@@ -17,28 +17,28 @@ pub use kept::panicked;
 
 use serde::{Deserialize, Serialize};
 
-/// What reset the board, as its hardware tells.
+/// Cause of a reset, as the hardware reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reset {
-    /// The power came, or came back.
+    /// Power-up.
     Power,
     /// The reset pin.
     Pin,
     /// The watchdog was not fed.
     Watchdog,
-    /// The program asked the watchdog for it.
+    /// The program used the watchdog to restart.
     Program,
-    /// Something else: a debugger, say.
+    /// Another cause, such as a debugger.
     Other,
 }
 
-/// What a reset leaves as it is: a word, which is lost with the power, and the cause.
+/// What survives a reset: a word, which is lost with the power, and the cause of the reset.
 pub trait Remains {
-    /// What reset the board.
+    /// Cause of the reset.
     fn reset(&self) -> Reset;
-    /// The word that was kept; anything after a power-up.
+    /// The word that was kept; arbitrary after power-up.
     fn word(&self) -> u32;
-    /// Keeps a word.
+    /// Stores a word.
     fn keep(&mut self, word: u32);
 }
 
@@ -46,7 +46,7 @@ pub trait Remains {
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BootCause {
-    /// The power came, or came back.
+    /// Power-up.
     #[default]
     Power,
     /// The reset pin.
@@ -55,34 +55,34 @@ pub enum BootCause {
     Watchdog,
     /// The program panicked.
     Panic,
-    /// A host asked for it.
+    /// A host requested it.
     Request,
-    /// Something else: a debugger, or the boot loader after flashing.
+    /// Another cause, such as a debugger, or the boot loader after flashing.
     Other,
 }
 
-/// Why the settings that are stored are not in force. Variants are only appended.
+/// Why the stored settings are not in use. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Aside {
-    /// They are, if there are any.
+    /// They are in use, if there are any.
     #[default]
     No,
     /// The board has reset itself too often.
     Resets,
     /// A pin was grounded at the start.
     Pin,
-    /// A host asked for it.
+    /// A host requested it.
     Request,
 }
 
-/// How the board came to start.
+/// How the board started.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Boot {
-    /// Why.
+    /// Cause of the start.
     pub cause: BootCause,
-    /// Resets by watchdog or panic up to this one, none of them a minute after the one before.
+    /// Resets by watchdog or panic up to this one, each less than a minute after the one before.
     pub resets: u8,
-    /// Why the stored settings are not in force.
+    /// Why the stored settings are not in use.
     pub aside: Aside,
 }

@@ -1,6 +1,6 @@
-//! Lowest and highest of some codes.
+//! Lowest and highest of a set of codes.
 
-/// The lowest and the highest of some codes.
+/// Lowest and highest of a set of codes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extremes {
     pub low: u16,
@@ -8,15 +8,15 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
-    /// Of none: any code is lower, and higher.
+    /// Extremes of no code: any code is lower, and higher.
     pub const NONE: Extremes = Extremes { low: u16::MAX, high: 0 };
 
-    /// Takes in another.
+    /// Adds a code.
     pub fn take(&mut self, code: u16) {
         (self.low, self.high) = (self.low.min(code), self.high.max(code));
     }
 
-    /// How far apart they are; 0 of none.
+    /// Distance of the two; 0 of no code.
     pub const fn width(&self) -> u16 {
         self.high.saturating_sub(self.low)
     }

@@ -1,13 +1,13 @@
-//! What is wrong with a setting.
+//! Errors of settings.
 
 use core::fmt;
 
-/// Why a configuration is refused: the parameter by its name in the file, and what it must be.
+/// Error of a configuration: the parameter, and what it must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Invalid {
     /// Name of the parameter as the author writes it, with its section: `contact.low`.
     pub parameter: &'static str,
-    /// What it must be, as the end of a sentence: "must be at least 1".
+    /// Condition that it must meet, as the end of a sentence: "must be at least 1".
     pub must: &'static str,
 }
 
@@ -19,14 +19,14 @@ impl fmt::Display for Invalid {
 
 impl core::error::Error for Invalid {}
 
-/// Why a row of a list is refused.
+/// Error of a row of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InvalidRow {
     /// Name of the list as the author writes it: `react`.
     pub list: &'static str,
     /// Index of the row, from 0.
     pub index: usize,
-    /// The parameter within the row, and what it must be; without a name it is the row itself.
+    /// Parameter within the row; an empty name stands for the row itself.
     pub invalid: Invalid,
 }
 

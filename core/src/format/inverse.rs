@@ -1,13 +1,13 @@
-//! Division without a divider: the Cortex-M0+ has none, and 64 bits by software take 750 cycles.
+//! Division by multiplication: the Cortex-M0+ has no divider, and 64 bits by software take 750 cycles.
 
 use super::product::wide;
 use super::shift::left;
 
-/// Whether the machine divides 64 bits, and multiplies them into 128.
+/// True if the machine divides 64 bits, and multiplies them into 128.
 const WIDE: bool = usize::BITS >= 64;
 
-/// The inverse of a divisor, by Newton's iteration; worth its price (about 100 cycles) from the first
-/// quotient on.
+/// Inverse of a divisor, by Newton's iteration. Its cost (about 100 cycles) pays off from the first quotient
+/// on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inverse {
     /// The divisor, shifted so that bit 31 is set; 0 for no divisor.
@@ -17,27 +17,27 @@ pub struct Inverse {
     inverse: usize,
 }
 
-/// Of a divisor with so many zeros above its highest bit seven fit a word.
+/// Leading zeros with which seven divisors fit a word.
 const SPARE: u32 = 3;
 
-/// `2^63 / normal` for a `normal` with bit 31 set, or one less; all of them have been tried.
+/// `2^63 / normal` for a `normal` with bit 31 set, or one less; tested for all of them.
 const fn inverse_of(normal: u32) -> u32 {
     let (t, low) = (normal >> 16, normal & 0xffff);
-    // 48/17 - 32/17 t is at most 1/17 off; two rounds in 16 bits leave 2^-14, with x in Q15.
+    // The line 48/17 - 32/17 t is at most 1/17 off; two rounds in 16 bits leave 2^-14, with x in Q15.
     let mut x = 92_521 - ((t * 61_681) >> 16);
     x = (x * ((t * x).wrapping_neg() >> 16)) >> 15;
     x = (x * ((t * x).wrapping_neg() >> 16)) >> 15;
     let x = if x > 0xffff { 0xffff } else { x };
-    // Another one leaves 2^-26, with 14 bits of what is missing.
+    // A third round leaves 2^-26, with 14 bits of the remainder.
     let rest = (1u32 << 31).wrapping_sub(t * x + ((low * x) >> 16)) as i32;
     let near = (x << 16).saturating_add_signed((x as i32 * (rest >> 4)) >> 11);
-    // And one from the exact rest, rounded down.
+    // A fourth uses the exact remainder, rounded down.
     let rest = (1u64 << 63).wrapping_sub(wide(normal, near)) as i64;
     near.saturating_add_signed(((rest >> 24) as i32 * (near >> 16) as i32) >> 23)
 }
 
 impl Inverse {
-    /// Of a divisor; 0 makes every quotient `u32::MAX`.
+    /// Inverse of a divisor; 0 makes every quotient `u32::MAX`.
     pub const fn of(divisor: u32) -> Inverse {
         if divisor == 0 {
             return Inverse { normal: 0, shift: 0, inverse: 0 };
@@ -53,12 +53,12 @@ impl Inverse {
         Inverse { shift, ..Inverse::of_normal(divisor << shift) }
     }
 
-    /// Of the divisor shifted so that bit 31 is set.
+    /// Inverse of the divisor shifted so that bit 31 is set.
     pub(super) const fn unshifted(&self) -> Inverse {
         if WIDE { Inverse::of(self.normal) } else { Inverse { shift: 0, ..*self } }
     }
 
-    /// Of a divisor with bit 31 set.
+    /// Inverse of a divisor with bit 31 set.
     pub(super) const fn of_normal(normal: u32) -> Inverse {
         if WIDE {
             Inverse::of(normal)
@@ -68,7 +68,7 @@ impl Inverse {
     }
 
     /// `value / divisor`, exactly and rounded down; `u32::MAX` if it is more.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for this
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
     pub const fn quotient(&self, value: u64) -> u32 {
         let divisor = self.normal >> self.shift;
         if (value >> 32) as u32 >= divisor {
@@ -77,8 +77,8 @@ impl Inverse {
         if WIDE { self.wide_quotient(value) } else { self.narrow_quotient(value) }
     }
 
-    /// The same of a value for which it is below 2^32, with an inverse of 64 bits: at most 1 too small, it
-    /// takes less than 1 away.
+    /// Quotient of a value for which it is below 2^32, with an inverse of 64 bits. The first estimate is at
+    /// most 1 too small, as its error is below 1.
     const fn wide_quotient(&self, value: u64) -> u32 {
         let divisor = (self.normal >> self.shift) as u64;
         let quotient = ((value as u128 * self.inverse as u128) >> 64) as u64;
@@ -86,7 +86,7 @@ impl Inverse {
         (quotient + (rest >= divisor) as u64) as u32
     }
 
-    /// The same with an inverse of 32 bits.
+    /// Quotient of such a value with an inverse of 32 bits.
     #[inline(always)]
     const fn narrow_quotient(&self, value: u64) -> u32 {
         let divisor = self.normal >> self.shift;
@@ -97,8 +97,8 @@ impl Inverse {
         // The quotient is below 2^32: the shifted value does not lose bits.
         let top = high << self.shift | low >> (32 - self.shift);
         let quotient = (wide(top, self.inverse as u32) >> 31) as u32;
-        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for what is cut. So
-        // the rest is below 7 divisors and fits a word: what is above that need not be known.
+        // Too small by less than 7: 4 for the inverse, 2 for the low half of the value, 1 for truncation. The
+        // rest is below 7 divisors and fits a word, so its upper word is not computed.
         let rest = low.wrapping_sub(quotient.wrapping_mul(divisor));
         if rest < divisor {
             quotient
@@ -109,8 +109,8 @@ impl Inverse {
         }
     }
 
-    /// As [`Inverse::quotient`] of a value for which it is below 2^32, by any divisor and from any number of
-    /// units too small.
+    /// Quotient of a value for which it is below 2^32, by any divisor; corrects an estimate that is too small
+    /// by any number of units.
     #[cold]
     const fn large_quotient(&self, value: u64) -> u32 {
         let value = left(value, self.shift);
@@ -127,10 +127,10 @@ impl Inverse {
     pub const fn nearest(&self, value: i64) -> i32 {
         let divisor = self.normal >> self.shift;
         let half = divisor >> 1;
-        // Of a negative one floor((half - size) / d) = -ceil((size - half) / d).
+        // For negative values: floor((half - size) / d) = -ceil((size - half) / d).
         let more = if value >= 0 { half } else { divisor.saturating_sub(1) - half };
         let quotient = self.quotient(value.unsigned_abs() + more as u64);
-        // -1 of a negative one, which reaches a unit further.
+        // -1 for negative values, whose range reaches a unit further.
         let sign = (value >> 63) as i32;
         let limit = (i32::MAX as u32).wrapping_sub(sign as u32);
         let size = if quotient < limit { quotient } else { limit };

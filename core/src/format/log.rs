@@ -1,18 +1,18 @@
-//! The logarithm of a number that has range rather than precision.
+//! Logarithm of a [`Scaled`].
 
 use super::Scaled;
 use super::product::wide;
 
 impl Scaled {
-    /// Logarithm to base 2 in 1/1024, rounded to the nearest (0.501 steps off at most); `i16::MIN`, far below
-    /// what the core's values have, for zero.
+    /// Logarithm to base 2 in 1/1024, rounded to the nearest (at most 0.501 steps off). Zero gives
+    /// `i16::MIN`, far below that of any value of the core.
     pub const fn log2(self) -> i32 {
         let (mut mantissa, exponent) = (self.mantissa(), self.exponent());
         if mantissa == 0 {
             return i16::MIN as i32;
         }
         let mut log = exponent as i32 + 31;
-        // With the mantissa in [1, 2): its square is at least 2 where the next bit of the logarithm is 1.
+        // With the mantissa in [1, 2): the next bit of the logarithm is 1 if its square is at least 2.
         let mut bit = 0;
         while bit < 11 {
             let square = wide(mantissa, mantissa);

@@ -12,8 +12,8 @@
 //! | temperature | [`Celsius`] | degree | -327.68 ..= 327.67 | 0.01 degrees |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
-//! Largest errors of what the core tells are in `docs/bounds.md`, each with the test that asserts it. No
-//! function of this folder can fail: each says what it gives outside the range that it is for.
+//! The largest errors of the core's results are in `docs/bounds.md`, each with the test that asserts it. No
+//! function of this folder can fail: each doc gives the result outside the function's range.
 //!
 //! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests
 //! and set-up code; no function of the per-frame path calls them.
@@ -41,7 +41,7 @@ use serde::{Deserialize, Serialize};
 /// A short UTF-8 name: of a panel, a link, a region, a concept, a reaction.
 pub type Name = heapless::String<16>;
 
-/// Makes a [`Name`], cutting at the last whole character that fits into 16 bytes.
+/// Makes a [`Name`], truncated after the last whole character that fits into 16 bytes.
 pub fn name(text: &str) -> Name {
     let mut out = Name::new();
     for c in text.chars() {
@@ -60,7 +60,7 @@ pub fn name(text: &str) -> Name {
 #[repr(transparent)] // DMA writes it
 pub struct Code(pub u16);
 
-/// Microseconds of the board's clock since it started, 64 bits: it does not wrap within a robot's life.
+/// Time of the board's clock since its start, us, 64 bits: it does not wrap within a robot's life.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Micros(pub u64);
@@ -83,7 +83,7 @@ impl Micros {
 pub struct Celsius(pub i16);
 
 impl Celsius {
-    /// In degrees.
+    /// Converts to degrees.
     pub fn to_f64(self) -> f64 {
         f64::from(self.0) / 100.0
     }
@@ -98,7 +98,7 @@ impl Fixed16 {
     /// One taxel.
     pub const ONE: Fixed16 = Fixed16(1 << 16);
 
-    /// From a raw wide value in units of 2^-16, saturating.
+    /// Converts a wide value in units of 2^-16, saturating.
     pub const fn saturating(raw: i64) -> Fixed16 {
         if raw > i32::MAX as i64 {
             Fixed16(i32::MAX)
@@ -109,7 +109,7 @@ impl Fixed16 {
         }
     }
 
-    /// As a float, exactly.
+    /// Converts to a float, exactly.
     pub fn to_f64(self) -> f64 {
         f64::from(self.0) / 65536.0
     }
@@ -121,7 +121,7 @@ impl Fixed16 {
 pub struct Fixed24(pub u32);
 
 impl Fixed24 {
-    /// As a float, exactly.
+    /// Converts to a float, exactly.
     pub fn to_f64(self) -> f64 {
         f64::from(self.0) / 16_777_216.0
     }
@@ -133,7 +133,7 @@ impl Fixed24 {
 pub struct Turn(pub i32);
 
 impl Turn {
-    /// In radians, in [-pi, pi).
+    /// Converts to radians, in [-pi, pi).
     pub fn to_radians(self) -> f64 {
         f64::from(self.0) * (core::f64::consts::PI / 2_147_483_648.0)
     }
@@ -148,13 +148,13 @@ impl Q15 {
     /// 1.0
     pub const ONE: Q15 = Q15(32768);
 
-    /// As a float, exactly.
+    /// Converts to a float, exactly.
     pub fn to_f64(self) -> f64 {
         f64::from(self.0) / 32768.0
     }
 
-    /// `part / whole` rounded to the nearest, half a step and 1e-9 off at most; 1 from `part = whole` on, and
-    /// 0 where `whole` is 0.
+    /// `part / whole` rounded to the nearest, at most half a step and 1e-9 off; 1 if `part >= whole`, 0 if
+    /// `whole` is 0.
     pub const fn ratio(part: u64, whole: u64) -> Q15 {
         if whole == 0 {
             return Q15(0);
@@ -168,8 +168,8 @@ impl Q15 {
     }
 }
 
-/// `2^15 part / whole` rounded to the nearest, for `part` not above `whole` and that below 2^31, digit by
-/// digit: half of what an [`Inverse`] costs for so few.
+/// `2^15 part / whole` rounded to the nearest, for `part <= whole < 2^31`, bit by bit: half the cost of an
+/// [`Inverse`] for so few bits.
 const fn share(part: u32, whole: u32) -> u32 {
     let (mut rest, mut quotient, mut digit) = (part, 0, 0);
     while digit < 15 {

@@ -1,11 +1,11 @@
-//! Products of wide numbers, for a machine that multiplies 32 bits by 32 and keeps 32.
+//! Products of wide numbers, for a machine that multiplies 32 by 32 bits and keeps the lower 32.
 
-/// The product of two words.
+/// Product of two words.
 pub(crate) const fn wide(a: u32, b: u32) -> u64 {
     if usize::BITS >= 64 { a as u64 * b as u64 } else { from_halves(a, b) }
 }
 
-/// The same from halves: 20 cycles on a Cortex-M0+, where the 64-bit multiplication of the library takes 55.
+/// Product from half-words: 20 cycles on a Cortex-M0+, where the library's 64-bit multiplication takes 55.
 const fn from_halves(a: u32, b: u32) -> u64 {
     let (a1, a0, b1, b0) = (a >> 16, a & 0xffff, b >> 16, b & 0xffff);
     let (middle, carry) = (a1 * b0).overflowing_add(a0 * b1);
@@ -15,13 +15,13 @@ const fn from_halves(a: u32, b: u32) -> u64 {
     (high as u64) << 32 | low as u64
 }
 
-/// The product of a number with sign and a word below 2^31.
+/// Product of a signed number and a word below 2^31.
 pub(crate) const fn signed_wide(a: i32, b: u32) -> i64 {
     let size = wide(a.unsigned_abs(), b) as i64;
     if a < 0 { -size } else { size }
 }
 
-/// The product modulo 2^64; fast where both fit in 32 bits.
+/// Product modulo 2^64; fast if both factors fit in 32 bits.
 pub(crate) const fn product(a: u64, b: u64) -> u64 {
     if (a | b) >> 32 == 0 { wide(a as u32, b as u32) } else { a.wrapping_mul(b) }
 }

@@ -1,11 +1,11 @@
-//! The integer square root without a divider.
+//! Integer square root without a divider.
 
 use super::product::wide;
 use super::shift::left;
 
-/// The greatest integer whose square is not above `value`. As `u64::isqrt`, in a third of its time where
-/// there is no divider: Newton's iteration for `1 / sqrt(value)`, which takes multiplications only, then one
-/// exact correction.
+/// The greatest integer whose square is not above `value`. Equals `u64::isqrt`, in a third of its time on a
+/// machine without a divider: Newton's iteration for `1 / sqrt(value)`, which needs multiplications only,
+/// then an exact correction.
 pub const fn root(value: u64) -> u32 {
     if value == 0 {
         return 0;
@@ -17,10 +17,10 @@ pub const fn root(value: u64) -> u32 {
     exact_root(left(value, shift)) >> (shift / 2)
 }
 
-/// The root of a `normal` with bit 63 or 62 set.
+/// Exact root of a `normal` with bit 63 or 62 set.
 const fn exact_root(normal: u64) -> u32 {
     let mut root = normal_root(normal);
-    // A unit or two off at most.
+    // Corrects an error of at most two units.
     let mut square = wide(root, root);
     while square > normal {
         root -= 1;
@@ -33,9 +33,9 @@ const fn exact_root(normal: u64) -> u32 {
     root
 }
 
-/// `sqrt(normal)` for a `normal` with bit 63 or 62 set, one or two off.
+/// Root of a `normal` with bit 63 or 62 set, at most one or two units off.
 const fn normal_root(normal: u64) -> u32 {
-    // N = normal / 2^64 in [1/4, 1) as Q16, and y, about 1 / sqrt(N), as Q15. The line is 9 % off at most;
+    // N = normal / 2^64 in [1/4, 1) as Q16, and y, about 1 / sqrt(N), as Q15. The line is at most 9 % off;
     // three rounds of y (3 - N y^2) / 2 in 16 bits leave 2^-13.
     let n = (normal >> 48) as u32;
     let mut y = 69_885 - ((n * 39_934) >> 16);
@@ -47,8 +47,8 @@ const fn normal_root(normal: u64) -> u32 {
         y = if y > 0xffff { 0xffff } else { y };
         round += 1;
     }
-    // sqrt(normal) = 2^32 N y; then twice r + (normal - r^2) / (2 r), where 1 / (2 r) = y / 2^33: 2^-25, and
-    // the unit.
+    // sqrt(normal) = 2^32 N y; then twice r + (normal - r^2) / (2 r), where 1 / (2 r) = y / 2^33: leaves
+    // 2^-25, then the unit.
     let top = (normal >> 32) as u32;
     let sum = (((top >> 16) * y) as u64 + (((top & 0xffff) * y) >> 16) as u64) << 1;
     let root = if sum > u32::MAX as u64 { u32::MAX } else { sum as u32 };
@@ -58,7 +58,7 @@ const fn normal_root(normal: u64) -> u32 {
     root.saturating_add_signed(scaled((rest >> 12) as i32, y) >> 20)
 }
 
-/// `value * y / 2^16`, for a y of 16 bits.
+/// `value * y / 2^16`, for a `y` of 16 bits.
 const fn scaled(value: i32, y: u32) -> i32 {
     (value >> 16) * y as i32 + (((value & 0xffff) as u32 * y) >> 16) as i32
 }

@@ -1,4 +1,4 @@
-//! A small unsigned soft float, for the few numbers of a contact that need range as well as precision.
+//! A small unsigned soft float, for the few quantities of a contact that need range as well as precision.
 //!
 //! | operation | relative error, at most |
 //! |---|---|
@@ -7,8 +7,8 @@
 //! | [`Scaled::over`], [`Scaled::inverse`] | 2^-31 |
 //! | [`Scaled::sqrt`] | 2^-31 |
 //!
-//! The exponent saturates, and beyond it the size is wrong and nothing else; the values of the core stay within
-//! 2^-130 ..= 2^130, far from there.
+//! The exponent saturates; beyond its range only the magnitude is wrong. The core's values stay within 2^-130
+//! ..= 2^130, far from there.
 
 use super::product::wide;
 use super::shift::{left, right};
@@ -26,20 +26,20 @@ const TOP: u32 = 1 << 31;
 impl Scaled {
     /// Zero.
     pub const ZERO: Scaled = Scaled { mantissa: 0, exponent: 0 };
-    /// The largest value; what a division by zero gives.
+    /// The largest value, and the result of a division by zero.
     pub const MAX: Scaled = Scaled { mantissa: u32::MAX, exponent: i16::MAX };
 
-    /// 32 bits with the highest set, or 0.
+    /// Mantissa: 32 bits with the highest set, or 0.
     pub(super) const fn mantissa(self) -> u32 {
         self.mantissa
     }
 
-    /// Power of two of the mantissa's lowest bit.
+    /// Exponent: power of two of the mantissa's lowest bit.
     pub(super) const fn exponent(self) -> i16 {
         self.exponent
     }
 
-    /// Rounded to the nearest.
+    /// Converts an integer, rounded to the nearest.
     pub const fn from_u64(value: u64) -> Scaled {
         if value == 0 {
             return Scaled::ZERO;
@@ -53,7 +53,7 @@ impl Scaled {
         Scaled::carried((full >> 32) as u32, (full >> 31) as u32 & 1, 32 - up as i16)
     }
 
-    /// The inverse of a divisor; [`Scaled::MAX`] where it is zero.
+    /// Inverse of a divisor; [`Scaled::MAX`] if it is zero.
     pub const fn inverse(divisor: &Inverse) -> Scaled {
         let exponent = divisor.shift as i16 - 63;
         match divisor.normal {
@@ -79,7 +79,7 @@ impl Scaled {
         Scaled::carried((product >> 32) as u32, (product >> 31) as u32 & 1, exponent)
     }
 
-    /// Quotient; [`Scaled::MAX`] where `other` is zero.
+    /// Quotient; [`Scaled::MAX`] if `other` is zero.
     pub const fn over(self, other: Scaled) -> Scaled {
         if other.mantissa == 0 {
             return Scaled::MAX;
@@ -87,7 +87,7 @@ impl Scaled {
         if self.mantissa == 0 {
             return Scaled::ZERO;
         }
-        // The larger mantissa gives up a bit, so that the quotient has 32 in any case.
+        // A larger dividend mantissa is shifted one bit less, so that the quotient always has 32 bits.
         let up = if self.mantissa < other.mantissa { 32 } else { 31 };
         let mantissa = Inverse::of_normal(other.mantissa).quotient((self.mantissa as u64) << up);
         Scaled { mantissa, exponent: self.exponent.saturating_sub(other.exponent).saturating_sub(up) }
@@ -98,14 +98,14 @@ impl Scaled {
         if self.mantissa == 0 {
             return Scaled::ZERO;
         }
-        // A radicand of 63 or 64 bits above an even exponent: the root has 32 bits.
+        // A radicand of 63 or 64 bits with an even exponent: its root has 32 bits.
         let odd = self.exponent & 1;
         let wide = self.mantissa as u64;
         let radicand = if odd == 0 { wide << 32 } else { wide << 31 };
         Scaled { mantissa: root(radicand), exponent: self.exponent.saturating_sub(32 - odd) / 2 }
     }
 
-    /// With a unit more, which may carry into the next power of two.
+    /// Adds a unit to the mantissa, which may carry into the next power of two.
     const fn carried(mantissa: u32, unit: u32, exponent: i16) -> Scaled {
         match mantissa.checked_add(unit) {
             Some(mantissa) => Scaled { mantissa, exponent },
@@ -121,7 +121,7 @@ impl Scaled {
         Scaled { exponent: self.exponent.saturating_add(exponent), ..self }
     }
 
-    /// Cut to a multiple of `2^-bits` and returned in that unit; saturates at `u64::MAX`.
+    /// Truncates to a multiple of `2^-bits` and returns it in that unit; saturates at `u64::MAX`.
     pub const fn to_wide(self, bits: i16) -> u64 {
         match self.exponent.saturating_add(bits) {
             _ if self.mantissa == 0 => 0,
@@ -132,7 +132,7 @@ impl Scaled {
         }
     }
 
-    /// Rounded to a multiple of `2^-bits` and returned in that unit; saturates at `u32::MAX`.
+    /// Rounds to a multiple of `2^-bits` and returns it in that unit; saturates at `u32::MAX`.
     pub const fn to_fixed(self, bits: i16) -> u32 {
         if self.mantissa == 0 {
             return 0;
@@ -145,24 +145,24 @@ impl Scaled {
         match down {
             0 => self.mantissa,
             1..=31 => (self.mantissa >> down) + (self.mantissa >> (down - 1) & 1),
-            // From half a step on.
+            // At least half a step: bit 31 of the mantissa is set.
             32 => 1,
             _ => 0,
         }
     }
 
-    /// As Q8.24, rounded to the nearest; saturates just below 256.
+    /// Converts to Q8.24, rounded to the nearest; saturates just below 256.
     pub const fn to_fixed24(self) -> Fixed24 {
         Fixed24(self.to_fixed(24))
     }
 
-    /// As Q15, rounded to the nearest; saturates at `i32::MAX`.
+    /// Converts to Q15, rounded to the nearest; saturates at `i32::MAX`.
     pub const fn to_q15(self) -> Q15 {
         let raw = self.to_fixed(15);
         Q15(if raw > i32::MAX as u32 { i32::MAX } else { raw as i32 })
     }
 
-    /// As a float, exactly (within the range of an `f64`).
+    /// Converts to a float, exactly (within the range of an `f64`).
     pub fn to_f64(self) -> f64 {
         let step = if self.exponent < 0 { 0.5 } else { 2.0 };
         (0..self.exponent.unsigned_abs()).fold(f64::from(self.mantissa), |value, _| value * step)
@@ -174,7 +174,7 @@ mod tests {
     extern crate std;
     use super::*;
 
-    /// Wide values of all magnitudes, from a small generator.
+    /// Wide values of all magnitudes, from a small random generator.
     fn values() -> impl Iterator<Item = u64> {
         let edges = [1, 2, 3, (1 << 32) - 1, 1 << 32, (1 << 32) + 1, u64::MAX, u64::MAX - 1, 1 << 63];
         let mut state = 1u64;
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(Scaled::from_u64(255).to_fixed24(), Fixed24(255 << 24));
         assert_eq!(Scaled::from_u64(u64::MAX).to_q15(), Q15(i32::MAX));
         assert_eq!(Scaled::from_u64(0xffff_ffff).to_fixed(0), u32::MAX);
-        // 2^-25 is half a step of Q8.24 and rounds up, less does not.
+        // 2^-25 is half a step of Q8.24 and rounds up; anything less does not.
         assert_eq!(Scaled::from_u64(1).over(Scaled::from_u64(1 << 25)).to_fixed24(), Fixed24(1));
         assert_eq!(Scaled::from_u64(1).over(Scaled::from_u64((1 << 25) + 1)).to_fixed24(), Fixed24(0));
         assert_eq!(Scaled::from_u64(3).shifted(62).to_wide(1), u64::MAX);

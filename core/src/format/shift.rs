@@ -1,7 +1,7 @@
-//! Shifts of wide numbers, for a machine whose registers have 32 bits: there the library's are calls of 30
+//! Shifts of wide numbers, for a machine with 32-bit registers, on which the library's shifts are calls of 30
 //! cycles.
 
-/// `value << by`, for less than 64.
+/// `value << by`, for `by` below 64.
 pub(crate) const fn left(value: u64, by: u32) -> u64 {
     if usize::BITS >= 64 { value << by } else { left_by_halves(value, by) }
 }
@@ -15,7 +15,7 @@ const fn left_by_halves(value: u64, by: u32) -> u64 {
     (high as u64) << 32 | low as u64
 }
 
-/// `value >> by`, for less than 64.
+/// `value >> by`, for `by` below 64.
 pub(crate) const fn right(value: u64, by: u32) -> u64 {
     if usize::BITS >= 64 { value >> by } else { right_by_halves(value, by) }
 }

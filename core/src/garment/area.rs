@@ -1,9 +1,9 @@
-//! Panels as numbered, places and rectangles on them.
+//! Numbered panels; positions and rectangles on them.
 
 use crate::format::Name;
 use serde::{Deserialize, Serialize};
 
-/// One panel as numbered: taxel `base + row * columns + column`.
+/// A numbered panel: its taxels are `base + row * columns + column`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Area {
     /// Name of the panel.
@@ -20,7 +20,7 @@ pub struct Area {
     pub rows: u16,
     /// Columns (x).
     pub columns: u16,
-    /// Distance of taxel centres along x and y, micrometres; 0 where unknown.
+    /// Distance of taxel centres along x and y, micrometres; 0 if unknown.
     pub pitch_um: [u32; 2],
     /// Area of a taxel, see [`cell_mm2`].
     pub cell_mm2: u32,
@@ -29,13 +29,13 @@ pub struct Area {
 }
 
 impl Area {
-    /// A length on this panel in taxels that is told in cm, both in the same fractions; below 2^17 of them.
+    /// Converts a length in cm to taxels of this panel, both in the same fractions; below 2^17 of them.
     pub const fn taxels(&self, cm: u32) -> u32 {
         (cm * self.taxels_per_cm as u32) >> 8
     }
 }
 
-/// Pitch that is assumed where a panel does not give one: 10 mm, in micrometres.
+/// Pitch of panels that give none: 10 mm, in micrometres.
 pub const ASSUMED_PITCH_UM: u32 = 10_000;
 
 /// Area of a taxel in mm2 on a panel of this pitch (0: unknown, 10 mm are assumed), rounded down, at least 1.
@@ -44,15 +44,15 @@ pub fn cell_mm2(pitch_um: [u32; 2]) -> u32 {
     (x * y / 100).max(1)
 }
 
-/// Taxels in 10 mm, in Q8, on a panel of this pitch (0: unknown, 10 mm are assumed): along the axis on which
-/// they lie closer. To the nearest, 4 at 655 mm to 25,600 at 0.1 mm.
+/// Taxels per 10 mm, Q8, on a panel of this pitch (0: unknown, 10 mm are assumed), along the axis of the
+/// smaller pitch. Rounded to the nearest: 4 at 655 mm to 25,600 at 0.1 mm.
 pub fn taxels_per_cm(pitch_um: [u32; 2]) -> u16 {
     let um = pitch_um.map(|um| if um == 0 { ASSUMED_PITCH_UM } else { um.clamp(100, 655_399) });
     let least = um[0].min(um[1]);
     ((256 * ASSUMED_PITCH_UM + least / 2) / least) as u16
 }
 
-/// Where a taxel is.
+/// Position of a taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
     /// Index of the panel.
@@ -63,8 +63,8 @@ pub struct Place {
     pub column: u16,
 }
 
-/// A rectangle of taxels of one panel, last row and column included. Whole words are copied in place, where
-/// five halves would be a call.
+/// A rectangle of taxels of one panel, last row and column included. Aligned to words: these are copied
+/// inline, where five half-words would take a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(align(4))]
 pub struct Rect {
@@ -81,7 +81,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Whether a taxel lies in the rectangle grown by `margin` on each side.
+    /// True if a taxel lies in the rectangle grown by `margin` on each side.
     pub const fn holds(&self, panel: u8, row: u16, column: u16, margin: u16) -> bool {
         self.panel == panel
             && row + margin >= self.top

@@ -1,5 +1,5 @@
-//! The checked wiring of a garment: which lines to drive for which block, row and column, and what is read
-//! then.
+//! The checked wiring of a garment: levels of the lines for each block, row and column, and the taxels read
+//! there.
 
 use super::area::{Area, Place};
 use super::config::{BLOCKS, Block, Coding, Garment, Group, LINES, Line};
@@ -11,7 +11,7 @@ use heapless::Vec;
 /// Most lines of a circuit, all groups and enables together.
 pub const CIRCUIT_LINES: usize = 32;
 
-/// A block as scanned: the taxel at wired row r and column c is `origin + r row_step + c column_step`.
+/// Wiring of a block: the taxel at wired row r and column c is `origin + r row_step + c column_step`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Site {
     /// Index of the block in the garment.
@@ -32,7 +32,7 @@ pub struct Site {
     pub row_step: i32,
     /// Step of the taxel number per wired column.
     pub column_step: i32,
-    /// Row of the panel modulo 8, times 8, and its column modulo 8, at wired row 0, column 0.
+    /// Position of wired row 0, column 0: row of the panel modulo 8, times 8, plus its column modulo 8.
     pub corner: u8,
 }
 
@@ -42,8 +42,8 @@ impl Site {
         (self.origin + row as i32 * self.row_step + column as i32 * self.column_step) as usize
     }
 
-    /// Row and column of the panel at a wired row and column of the block, as far as they are known: up to a
-    /// multiple of 8. Those of a panel of one column are told as columns.
+    /// Row and column of the panel, modulo 8, at a wired row and column of the block. On a panel of one
+    /// column a step counts as a column.
     pub const fn place(&self, row: u8, column: u8) -> (i32, i32) {
         let (mut y, mut x) = ((self.corner >> 3) as i32, (self.corner & 7) as i32);
         let by_row = row as i32 * self.row_step.signum();
@@ -165,8 +165,8 @@ impl Circuit {
         &self.sites
     }
 
-    /// How a taxel is wired: index of its block, row and column in that; none where there is none. Looks
-    /// everywhere.
+    /// Wiring of a taxel: index of its block, row and column within it; none for absent taxels. Searches all
+    /// blocks.
     pub fn wired(&self, taxel: usize) -> Option<(u8, u8, u8)> {
         self.sites.iter().find_map(|site| {
             let mut places =
@@ -176,20 +176,20 @@ impl Circuit {
         })
     }
 
-    /// The blocks by select code: those of one code are read together.
+    /// Blocks by select code: those of one code are read together.
     pub fn selects(&self) -> impl Iterator<Item = &[Site]> {
         let mut rest = self.sites.as_slice();
         core::iter::from_fn(move || {
             let select = rest.first()?.select;
             let count = rest.iter().take_while(|site| site.select == select).count();
-            // `chunk_by` would leave a panic here that the linker finds.
+            // `chunk_by` would leave a panic in the image, which the linker would find.
             let (sites, others) = rest.split_at_checked(count)?;
             rest = others;
             Some(sites)
         })
     }
 
-    /// Electrical levels of all lines that select a block, row and column.
+    /// Electrical levels of all lines for a block's select code, row and column.
     pub fn word(&self, select: u16, row: u8, column: u8) -> u32 {
         let mut word = self.enabled;
         let mut shift = 0;
@@ -198,14 +198,14 @@ impl Circuit {
                 Coding::Binary => u32::from(code),
                 Coding::OneHot => 1u32.checked_shl(u32::from(code)).unwrap_or(0),
             };
-            // A group without lines may stand behind 32 of them.
+            // A group without lines may come after 32 lines.
             word |= (bits & mask(usize::from(*lines))).checked_shl(shift).unwrap_or(0);
             shift += u32::from(*lines);
         }
         word ^ self.inverted
     }
 
-    /// Levels with nothing asserted: multiplexers disabled, all codes zero.
+    /// Levels at which nothing is asserted: multiplexers disabled, all codes zero.
     pub fn idle_word(&self) -> u32 {
         self.inverted
     }
@@ -215,7 +215,7 @@ impl Circuit {
         self.settle_ns
     }
 
-    /// Pressure lowers the code.
+    /// True if pressure lowers the code.
     pub fn falling(&self) -> bool {
         self.falling
     }
@@ -260,8 +260,8 @@ fn site(index: usize, block: &Block, area: &Area) -> Site {
     }
 }
 
-/// Sorts by select code, then by input. By insertion: the library's sort checks that an order is one, and
-/// panics.
+/// Sorts by select code, then by input. By insertion: the library's sort can panic if an order is
+/// inconsistent.
 fn in_order_of_scan(sites: &mut [Site]) {
     for end in 1..sites.len() {
         for at in (0..end).rev() {
@@ -274,7 +274,7 @@ fn in_order_of_scan(sites: &mut [Site]) {
     }
 }
 
-/// Every taxel that is not absent lies in exactly one block.
+/// Checks that every taxel that is not absent lies in exactly one block.
 fn check_cover(garment: &Garment, layout: &Layout) -> Result<(), GarmentError> {
     let holds = |block: &Block, place: Place| {
         let (width, height) = extent(block);

@@ -1,4 +1,4 @@
-//! What the author of a garment writes.
+//! The garment as its author writes it.
 
 use crate::format::Name;
 use heapless::Vec;
@@ -15,16 +15,16 @@ pub const SEAMS: usize = 8;
 /// Most rectangles of absent taxels.
 pub const ABSENT: usize = 32;
 
-/// Smallest and largest distance of taxel centres that is known, micrometres.
+/// Smallest and largest accepted distance of taxel centres, micrometres.
 pub const PITCH_UM: [u32; 2] = [500, 200_000];
 
 /// A whole garment: panels of taxels, the blocks that tile them, seams, gaps and wiring.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Garment {
-    /// What people call it; not empty.
+    /// Name for people; not empty.
     pub name: Name,
-    /// How the multiplexers and the converter are connected.
+    /// Connection of the multiplexers and the converter.
     pub wiring: Wiring,
     /// The panels, in the order in which their taxels are numbered.
     pub panels: Vec<Panel, PANELS>,
@@ -33,7 +33,7 @@ pub struct Garment {
     /// Panel edges that are sewn together.
     #[serde(default)]
     pub seams: Vec<Seam, SEAMS>,
-    /// Places of a panel without a taxel.
+    /// Rectangles of panels without taxels.
     #[serde(default)]
     pub absent: Vec<Absent, ABSENT>,
 }
@@ -42,18 +42,17 @@ pub struct Garment {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Panel {
-    /// Unique name; not empty, nor are link and region.
+    /// Unique name. Neither name nor link nor region may be empty.
     pub name: Name,
-    /// The link of the robot's description (URDF) that wears it.
+    /// Link of the robot's description (URDF) that the panel is on.
     pub link: Name,
-    /// The region of the body it covers; several panels may share one.
+    /// Region of the body that the panel covers; several panels may share one.
     pub region: Name,
     /// Rows (y).
     pub rows: u16,
     /// Columns (x).
     pub columns: u16,
-    /// Distance of taxel centres along x and along y in micrometres, within [`PITCH_UM`]; both 0 where they
-    /// are not known.
+    /// Distance of taxel centres along x and along y in micrometres, within [`PITCH_UM`]; both 0 if unknown.
     #[serde(default)]
     pub pitch_um: [u32; 2],
 }
@@ -64,9 +63,9 @@ pub struct Panel {
 pub struct Block {
     /// Index of its panel.
     pub panel: u8,
-    /// Row of the panel where the block's rectangle begins.
+    /// First row of the block's rectangle in the panel.
     pub row: u16,
-    /// Column of the panel where the block's rectangle begins.
+    /// First column of the block's rectangle in the panel.
     pub column: u16,
     /// Rows of the block as wired (codes of the row lines).
     pub rows: u8,
@@ -76,20 +75,20 @@ pub struct Block {
     pub input: u8,
     /// Code of the block lines that selects it.
     pub select: u16,
-    /// How the wired block lies in the panel.
+    /// Orientation of the wired block in the panel.
     #[serde(default)]
     pub orientation: Orientation,
 }
 
-/// How a block lies: first transposed, then mirrored along the panel's axes.
+/// Orientation of a block: first transposed, then mirrored along the panel's axes.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Orientation {
     /// Wired rows run along x of the panel, wired columns along y.
     pub transposed: bool,
-    /// x runs against the wiring.
+    /// x of the panel runs against the wiring.
     pub mirror_x: bool,
-    /// y runs against the wiring.
+    /// y of the panel runs against the wiring.
     pub mirror_y: bool,
 }
 
@@ -107,36 +106,36 @@ pub enum Side {
     Bottom,
 }
 
-/// A stretch of a panel's side, from taxel `start`.
+/// Part of a panel's side, from taxel `start`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
     /// Index of the panel.
     pub panel: u8,
-    /// Which side.
+    /// Side of the panel.
     pub side: Side,
-    /// First taxel of the stretch along that side.
+    /// First taxel along that side.
     #[serde(default)]
     pub start: u16,
 }
 
-/// Two stretches of the same length that are sewn together; taxel `i` of the one adjoins taxel `i` of the
-/// other, or `length - 1 - i` where `reversed`.
+/// Two edges of the same length that are sewn together: taxel `i` of `a` adjoins taxel `i` of `b`, or
+/// `length - 1 - i` if `reversed`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seam {
-    /// The one stretch.
+    /// First edge.
     pub a: Edge,
-    /// The other.
+    /// Second edge.
     pub b: Edge,
     /// Taxels along the seam.
     pub length: u16,
-    /// The two run in opposite directions.
+    /// True if the two run in opposite directions.
     #[serde(default)]
     pub reversed: bool,
 }
 
-/// A rectangle of a panel in which there are no taxels.
+/// A rectangle of a panel without taxels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Absent {
@@ -146,25 +145,24 @@ pub struct Absent {
     pub row: u16,
     /// First column.
     pub column: u16,
-    /// Rows.
+    /// Number of rows.
     pub rows: u16,
-    /// Columns.
+    /// Number of columns.
     pub columns: u16,
 }
 
-/// The select lines and the converter. A single binary address is three groups that follow each other;
-/// separate row and column multiplexers are two groups; one-hot rows or chip enables are a group with
-/// [`Coding::OneHot`].
+/// The select lines and the converter. A single binary address is written as three groups; separate row and
+/// column multiplexers as two; one-hot rows or chip enables as a group with [`Coding::OneHot`].
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wiring {
-    /// Lines that choose the block.
+    /// Lines that select the block.
     #[serde(default)]
     pub block: Group,
-    /// Lines that choose the row within the block.
+    /// Lines that select the row within the block.
     #[serde(default)]
     pub row: Group,
-    /// Lines that choose the column within the block.
+    /// Lines that select the column within the block.
     #[serde(default)]
     pub column: Group,
     /// Lines that are asserted for the whole scan.
@@ -173,7 +171,7 @@ pub struct Wiring {
     /// Time from a change of the select lines to the sample, in nanoseconds. A board refuses a time at which
     /// a frame takes longer than [`LONGEST_MS`](crate::acquire::LONGEST_MS).
     pub settle_ns: u32,
-    /// Pressure lowers the code instead of raising it.
+    /// True if pressure lowers the code instead of raising it.
     #[serde(default)]
     pub falling: bool,
 }
@@ -182,14 +180,14 @@ pub struct Wiring {
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Group {
-    /// How the code stands on the lines.
+    /// Coding of the code on the lines.
     #[serde(default)]
     pub coding: Coding,
     /// The lines, least significant first.
     pub lines: Vec<Line, LINES>,
 }
 
-/// How a code stands on the lines of a group.
+/// Coding of a code on the lines of a group.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coding {
@@ -206,7 +204,7 @@ pub enum Coding {
 pub struct Line {
     /// GPIO number.
     pub pin: u8,
-    /// Asserted is low.
+    /// True if the line is asserted low.
     #[serde(default)]
     pub inverted: bool,
 }

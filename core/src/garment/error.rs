@@ -1,4 +1,4 @@
-//! What can be wrong with a garment; every error names the place in the author's words.
+//! Errors of a garment. Each names the place as the author wrote it.
 
 use super::circuit::CIRCUIT_LINES;
 use super::config::{PITCH_UM, Side};
@@ -6,12 +6,12 @@ use super::pins::{NotFree, PinList};
 use crate::format::Name;
 use core::fmt;
 
-/// Why a garment is refused.
+/// Error of a garment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GarmentError {
-    /// It has no name.
+    /// The garment has no name.
     NoName,
-    /// It has no panel.
+    /// The garment has no panel.
     Empty,
     /// A panel without a name, a link or a region.
     Nameless {
@@ -20,29 +20,29 @@ pub enum GarmentError {
         /// "name", "link" or "region"
         key: &'static str,
     },
-    /// A pitch out of range.
+    /// A pitch is out of range.
     Pitch {
         /// the panel
         panel: Name,
         /// the pitch, um
         um: u32,
     },
-    /// A pitch that is known along one axis only.
+    /// A pitch is given along one axis only.
     HalfPitch(Name),
     /// A panel without rows or without columns.
     EmptyPanel(Name),
-    /// Two panels of one name.
+    /// Two panels have the same name.
     DuplicatePanel(Name),
     /// More taxels than this board or program can hold.
     TooLarge {
         /// taxels of the garment
         taxels: u32,
-        /// what fits
+        /// most taxels that fit
         capacity: u32,
     },
-    /// The moments of a contact that fills the panels would not be exact in 64 bits.
+    /// A contact that fills the panels would have moments that are not exact in 64 bits.
     Inexact {
-        /// the panel, or the first of the panels that are sewn together
+        /// the panel, or the first of those sewn together
         panel: Name,
         /// largest value of a taxel
         full_scale: u16,
@@ -51,21 +51,21 @@ pub enum GarmentError {
     NoSuchPanel {
         /// "block", "seam" or "absent"
         what: &'static str,
-        /// its index in the garment
+        /// index in the garment
         index: usize,
         /// the panel it names
         panel: u8,
     },
-    /// A block, or an absent rectangle, that leaves its panel or is empty.
+    /// A block or an absent rectangle reaches outside its panel, or is empty.
     OutsidePanel {
         /// "block" or "absent"
         what: &'static str,
-        /// its index in the garment
+        /// index in the garment
         index: usize,
         /// the panel
         panel: Name,
     },
-    /// A seam stretch that leaves its panel's side, or is empty.
+    /// An edge of a seam reaches outside its panel's side, or is empty.
     OutsideSide {
         /// index of the seam
         seam: usize,
@@ -74,9 +74,9 @@ pub enum GarmentError {
         /// the side
         side: Side,
     },
-    /// A seam that sews taxels to themselves.
+    /// A seam sews taxels to themselves.
     SelfSewn(usize),
-    /// It has no block: nothing can be scanned.
+    /// The garment has no block: nothing can be scanned.
     NoBlock,
     /// Two blocks cover the same taxel.
     Overlap(usize, usize),
@@ -89,9 +89,9 @@ pub enum GarmentError {
         /// column
         column: u16,
     },
-    /// Two blocks with the same select code on the same input.
+    /// Two blocks have the same select code on the same input.
     SameSelect(usize, usize),
-    /// A code that the group's lines cannot carry.
+    /// A code does not fit the lines of its group.
     Code {
         /// index of the block
         block: usize,
@@ -102,18 +102,18 @@ pub enum GarmentError {
         /// number of codes that the lines carry
         codes: u32,
     },
-    /// A pin used twice.
+    /// A pin is used twice.
     PinTwice(u8),
-    /// A select line on a pin that the board does not bring out as an output.
+    /// A select line is on a pin that the board does not bring out as an output.
     NoOutput {
         /// GPIO number
         pin: u8,
-        /// what it is instead
+        /// why the pin is no output
         why: NotFree,
     },
     /// More select and enable lines than a garment may have.
     TooManyLines,
-    /// An input that is no converter pin of the board.
+    /// An input is no converter pin of the board.
     NoAdc {
         /// index of the block
         block: usize,

@@ -21,9 +21,9 @@ impl Layout {
     /// Checks the geometry of `garment` for a program that holds `capacity` taxels with values up to
     /// `full_scale`.
     ///
-    /// Refused are, besides what is contradictory, panels on which `m^2` times the variance of a contact
-    /// might not fit in 64 bits: `(full_scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64` for N taxels in a box of w x
-    /// h. Panels that are sewn together count as one, with the box of their lengths laid end to end.
+    /// Also refuses panels on which `m^2` times the variance of a contact might not fit in 64 bits:
+    /// `(full_scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64` for N taxels in a box of w x h. Panels that are sewn
+    /// together count as one, with the box of their lengths laid end to end.
     pub fn build(garment: &Garment, capacity: usize, full_scale: u16) -> Result<Layout, GarmentError> {
         let mut layout = Layout {
             areas: Vec::new(),
@@ -50,7 +50,7 @@ impl Layout {
             let a = layout.area_of("seam", index, seam.a.panel)?;
             let b = layout.area_of("seam", index, seam.b.panel)?;
             let joint = Joint::build(index, seam, a, b)?;
-            // The list has the garment's own capacity.
+            // The list has the same capacity as the garment's.
             let _ = layout.joints.push(joint);
         }
         layout.check_exact(full_scale)?;
@@ -104,7 +104,7 @@ impl Layout {
     fn check_exact(&self, full_scale: u16) -> Result<(), GarmentError> {
         for (index, area) in self.areas.iter().enumerate() {
             let mut sewn = 1u32 << index;
-            // As many rounds as panels reach every panel that is sewn to this one.
+            // As many rounds as there are panels reach every panel sewn to this one.
             for _ in &self.areas {
                 for joint in &self.joints {
                     let pair = 1 << joint.a | 1 << joint.b;
@@ -129,12 +129,12 @@ impl Layout {
         Ok(())
     }
 
-    /// The panel that entry `index` of the list `what` names.
+    /// Returns the panel named by entry `index` of the list `what`.
     pub(super) fn area_of(&self, what: &'static str, index: usize, panel: u8) -> Result<&Area, GarmentError> {
         self.areas.get(usize::from(panel)).ok_or(GarmentError::NoSuchPanel { what, index, panel })
     }
 
-    /// The panels in their order.
+    /// The panels, in their order.
     pub fn areas(&self) -> &[Area] {
         &self.areas
     }
@@ -154,7 +154,7 @@ impl Layout {
         usize::from(self.taxels)
     }
 
-    /// Whether there is no taxel at that place.
+    /// True if the place has no taxel.
     pub fn is_absent(&self, panel: u8, row: u16, column: u16) -> bool {
         self.absent.iter().any(|gap| {
             gap.panel == panel
@@ -163,14 +163,14 @@ impl Layout {
         })
     }
 
-    /// Number of the taxel at a place; none outside its panel.
+    /// Number of the taxel at a place; none outside the panel.
     pub fn taxel(&self, place: Place) -> Option<usize> {
         let area = self.areas.get(usize::from(place.panel))?;
         (place.row < area.rows && place.column < area.columns)
             .then(|| usize::from(area.base + place.row * area.columns + place.column))
     }
 
-    /// Place of the taxel of that number; none past the last.
+    /// Place of a taxel; none past the last.
     pub fn place(&self, taxel: usize) -> Option<Place> {
         self.areas.iter().enumerate().find_map(|(panel, area)| {
             let local = taxel.checked_sub(usize::from(area.base))?;
@@ -185,7 +185,7 @@ impl Layout {
     }
 }
 
-/// Names, and the pitch where it is known.
+/// Checks names, and the pitch if it is given.
 fn check_panel(index: usize, panel: &Panel) -> Result<(), GarmentError> {
     for (key, name) in [("name", &panel.name), ("link", &panel.link), ("region", &panel.region)] {
         if name.is_empty() {

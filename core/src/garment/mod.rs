@@ -1,9 +1,9 @@
-//! The garment: what is sewn where, and how it is wired, as one value that arrives at run time.
+//! The garment: positions and wiring of its taxels, as one value that arrives at run time.
 //!
-//! [`Garment`] is what its author writes (a TOML file on a host, postcard on the wire). It is checked twice:
-//! [`Layout::build`] checks the geometry, which all perception needs; [`Circuit::build`] checks the wiring
-//! against the pins that a board brings out, which only the scan needs. Taxels are numbered panel by panel,
-//! row by row: `taxel = panel.base + row * panel.columns + column`; x is the column, y the row.
+//! [`Garment`] is written by its author (a TOML file on a host, postcard on the wire). [`Layout::build`]
+//! checks the geometry, which all of perception needs. [`Circuit::build`] checks the wiring against the pins
+//! that a board brings out, which only the scan needs. Taxels are numbered panel by panel, row by row:
+//! `taxel = panel.base + row * panel.columns + column`; x is the column, y the row.
 
 mod area;
 mod circuit;

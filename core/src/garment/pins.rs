@@ -1,17 +1,17 @@
-//! The pins of a board: what garments and scenes may use, and what the others are for.
+//! The pins of a board: those that garments and scenes may use, and the use of the others.
 
 use core::fmt;
 
-/// The pins that a board brings out, as bit masks over GPIO numbers.
+/// Pins that a board brings out, as bit masks over GPIO numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pins {
-    /// Free to drive select lines and reactions.
+    /// Pins free to drive select lines and reactions.
     pub outputs: u64,
     /// Converter inputs.
     pub inputs: u64,
-    /// GPIOs of the chip: it has GP0 to GP`gpios - 1`.
+    /// Number of GPIOs of the chip: GP0 to GP`gpios - 1`.
     pub gpios: u8,
-    /// Pins that the board needs for itself, each with its use as the end of a sentence.
+    /// Pins that the board uses itself, with the use as the end of a sentence.
     pub taken: &'static [(u8, &'static str)],
 }
 
@@ -33,17 +33,17 @@ impl Pins {
         ],
     };
 
-    /// Whether a garment or a scene may drive the pin.
+    /// True if a garment or a scene may drive the pin.
     pub const fn is_output(&self, pin: u8) -> bool {
         pin < 64 && self.outputs >> pin & 1 == 1
     }
 
-    /// Whether the pin has a converter.
+    /// True if the pin is a converter input.
     pub const fn is_input(&self, pin: u8) -> bool {
         pin < 64 && self.inputs >> pin & 1 == 1
     }
 
-    /// Why a garment may not drive the pin.
+    /// Reason why a garment may not drive the pin.
     pub fn why_no_output(&self, pin: u8) -> NotFree {
         match self.taken.iter().find(|(taken, _)| *taken == pin) {
             Some((_, other)) => NotFree::Taken(other),
@@ -54,19 +54,19 @@ impl Pins {
     }
 }
 
-/// Why a pin is no free output.
+/// Reason why a pin is no free output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotFree {
-    /// The board uses it; for what, as the end of a sentence.
+    /// The board uses the pin; the use as the end of a sentence.
     Taken(&'static str),
     /// The chip has fewer GPIOs.
     Beyond {
-        /// how many it has
+        /// number of GPIOs
         gpios: u8,
     },
-    /// It is a converter input.
+    /// The pin is a converter input.
     Input,
-    /// The board does not bring it out.
+    /// The board does not bring the pin out.
     Hidden,
 }
 
@@ -81,7 +81,7 @@ impl fmt::Display for NotFree {
     }
 }
 
-/// Pins of a mask as text: `GP2, GP3, GP6 to GP12`.
+/// A mask of pins as text: `GP2, GP3, GP6 to GP12`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PinList(pub u64);
 

@@ -53,8 +53,8 @@ impl Garment {
         garment
     }
 
-    /// One mat of 64 x 32 through four inputs: input k reads rows 16 k to 16 k + 15, two blocks of 4 x 16
-    /// beside each other.
+    /// One mat of 64 x 32 on four inputs: input k reads rows 16 k to 16 k + 15, two blocks of 4 x 16 side by
+    /// side.
     pub fn mat() -> Garment {
         let mut garment = plain("mat-64x32", 64, 32);
         for input in 0..4u8 {
@@ -66,10 +66,10 @@ impl Garment {
         garment
     }
 
-    /// The first thing to solder: one block of 4 x 16, its four rows driven by GP2, GP3, GP6 and GP7
-    /// themselves, its sixteen columns through one multiplexer (GP9-GP12) to one converter input (GP26).
+    /// The first garment to solder: one block of 4 x 16. GP2, GP3, GP6 and GP7 drive its four rows directly;
+    /// one multiplexer (GP9-GP12) connects its sixteen columns to one converter input (GP26).
     ///
-    /// It settles for 8 us: after the 7 that a delay in whole microseconds is sure to give, a line of 80 pF
+    /// It settles for 8 us. A delay in whole microseconds is sure to give 7, after which a line of 80 pF
     /// behind its 10 kOhm keeps 0.65 counts of a full-scale step (`taxel bench acquisition`).
     pub fn block() -> Garment {
         let mut garment = plain("block-4x16", 4, 16);
@@ -80,7 +80,7 @@ impl Garment {
         garment
     }
 
-    /// One panel of any size for recorded frames. It has no blocks, so it can be perceived but not scanned.
+    /// One panel of any size for recorded frames. Without blocks it can be perceived but not scanned.
     pub fn recorded(rows: u16, columns: u16) -> Garment {
         let mut garment = plain("recorded", rows, columns);
         if let Some(panel) = garment.panels.first_mut() {
@@ -109,13 +109,13 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
     }
 }
 
-/// Nine address lines on the pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block
+/// Nine address lines on pins that both a Feather RP2040 and a bare RP2040 bring out: three for the block
 /// (GP2, GP3, GP6), two for the row (GP7, GP8), four for the column (GP9-GP12).
 ///
-/// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds): a
-/// conditioned line with a time constant of 240 ns (3 kOhm and 80 pF) keeps 0.98 counts of a full-scale step
-/// then (`taxel bench acquisition`). A slower line needs a longer time, and a frame takes 512 times as much
-/// longer or a little more (`acquire::Rounds`). An amplifier that is quick enough: `taxel bench amplifier`.
+/// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds). A
+/// conditioned line with a time constant of 240 ns (3 kOhm and 80 pF) then keeps 0.98 counts of a full-scale
+/// step (`taxel bench acquisition`). A slower line needs a longer time, which a frame pays 512 times or a
+/// little more (`acquire::Rounds`). For an amplifier that is fast enough: `taxel bench amplifier`.
 fn reference_wiring() -> Wiring {
     Wiring {
         block: lines(&[2, 3, 6]),
@@ -144,7 +144,7 @@ fn block(panel: u8, row: u16, column: u16, input: u8, select: u8) -> Block {
     }
 }
 
-/// A flank of the torso: one side of the chest (panel 0) sewn to the other side of the back (panel 1).
+/// A flank of the torso: one side of the chest (panel 0), sewn to the opposite side of the back (panel 1).
 fn flank(chest: Side, back: Side) -> Seam {
     Seam {
         a: Edge { panel: 0, side: chest, start: 0 },

@@ -1,11 +1,11 @@
-//! Seams: where a contact passes from one panel to another, and how coordinates follow it.
+//! Seams: edges along which two panels touch, and the transform of coordinates across them.
 
 use super::area::Area;
 use super::config::{Edge, Seam, Side};
 use super::error::GarmentError;
 use core::ops::RangeInclusive;
 
-/// An integer map of taxel coordinates, a quarter turn or reflection and a shift:
+/// Integer transform of taxel coordinates, a quarter turn or reflection and a shift:
 /// `x' = xx x + xy y + dx`, `y' = yx x + yy y + dy`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Transform {
@@ -24,10 +24,10 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// Leaves coordinates as they are.
+    /// Leaves coordinates unchanged.
     pub const IDENTITY: Transform = Transform { xx: 1, xy: 0, yx: 0, yy: 1, dx: 0, dy: 0 };
 
-    /// Image of a point whose coordinates are in units of `1 / one` taxel.
+    /// Transforms a point whose coordinates are in units of `1 / one` taxel.
     pub const fn apply(&self, x: i64, y: i64, one: i64) -> (i64, i64) {
         (
             signed(self.xx, x) + signed(self.xy, y) + self.dx as i64 * one,
@@ -35,7 +35,7 @@ impl Transform {
         )
     }
 
-    /// The map that applies `first`, then `self`.
+    /// Composition: applies `first`, then `self`.
     pub const fn after(&self, first: &Transform) -> Transform {
         Transform {
             xx: self.xx * first.xx + self.xy * first.yx,
@@ -47,7 +47,7 @@ impl Transform {
         }
     }
 
-    /// The map that undoes this one (its linear part is orthogonal, so the inverse is the transpose).
+    /// Inverse transform (the linear part is orthogonal, so its inverse is the transpose).
     pub const fn inverse(&self) -> Transform {
         Transform {
             xx: self.xx,
@@ -60,7 +60,7 @@ impl Transform {
     }
 }
 
-/// `factor * value` for a factor of -1, 0 or 1.
+/// Returns `factor * value` for a factor of -1, 0 or 1.
 pub(crate) const fn signed(factor: i32, value: i64) -> i64 {
     match factor {
         0 => 0,
@@ -79,7 +79,7 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// `(x, y)` of the taxel of that number.
+    /// `(x, y)` of taxel `number` of the stretch.
     pub const fn at(&self, number: i32) -> (i32, i32) {
         (self.first.0 + self.along.0 * number, self.first.1 + self.along.1 * number)
     }
@@ -88,13 +88,13 @@ impl Stretch {
 /// A checked seam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Joint {
-    /// Index of the one panel.
+    /// Index of the first panel.
     pub a: u8,
-    /// Index of the other panel.
+    /// Index of the second panel.
     pub b: u8,
     /// Taxels along the seam.
     pub length: u16,
-    /// Coordinates of panel `b` to those of panel `a`.
+    /// Transform from coordinates of panel `b` to those of panel `a`.
     pub b_to_a: Transform,
     /// Taxels of panel `a` along the seam, from the top or left.
     pub edge_a: Stretch,
@@ -131,7 +131,7 @@ impl Joint {
         Ok(Joint { a: seam.a.panel, b: seam.b.panel, length: seam.length, b_to_a, edge_a, edge_b })
     }
 
-    /// The taxels of panel `b` that adjoin taxels `first ..= last` of panel `a`, corners included.
+    /// Taxels of panel `b` that adjoin taxels `first ..= last` of panel `a`, corners included.
     pub fn beside(&self, first: i32, last: i32) -> RangeInclusive<i32> {
         (first - 1).max(0)..=(last + 1).min(i32::from(self.length) - 1)
     }
@@ -145,7 +145,7 @@ impl Joint {
 
 type Point = (i32, i32);
 
-/// A stretch of a panel's side, and the direction out of the panel.
+/// Returns a stretch of a panel's side, and the direction out of the panel.
 fn stretch(seam: usize, edge: &Edge, length: u16, area: &Area) -> Result<(Stretch, Point), GarmentError> {
     let (right, bottom) = (i32::from(area.columns) - 1, i32::from(area.rows) - 1);
     let start = i32::from(edge.start);

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::shape::{BUILT_IN, Base, Shapes};
 use crate::symbol::Symbols;
 
-/// All stages of a scene; at first of none.
+/// All stages of a scene. The default belongs to no scene.
 #[derive(Debug, Default, Clone)]
 pub struct Pipeline {
     pub(super) panels: u8,
@@ -20,11 +20,10 @@ pub struct Pipeline {
     pub(super) contact: Contacts,
     pub(super) shape: Option<Shapes<BUILT_IN>>,
     pub(super) symbol: Symbols,
-    /// Touch over time; none: not recognised. It is no part of a scene, and stays where the scene or the
-    /// garment changes.
+    /// Touch over time; none: not recognised. Not part of a scene: it stays when the scene or the garment
+    /// changes.
     pub gestures: Option<Gestures>,
-    /// Confidence that an announcement of a gesture takes. It stays as well, also where another model is
-    /// asked for.
+    /// Confidence needed to announce a gesture. It stays as well, also when the model changes.
     pub certainty: Certainty,
     pub(super) friendliness: [i8; PANELS],
     pub(super) intent: Option<Intent>,
@@ -32,16 +31,15 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Checks a scene against the garment it is for.
+    /// Checks and builds a scene for a garment.
     pub fn build(scene: &Scene, layout: &Layout) -> Result<Pipeline, SceneError> {
         let mut pipeline = Pipeline::default();
         pipeline.fill(scene, layout)?;
         Ok(pipeline)
     }
 
-    /// As [`Pipeline::build`], in the place of what it was: on a microcontroller the stack has no room for a
-    /// second one. After an error some stages are those of the new scene and some are not: it is to be filled
-    /// again with what it was.
+    /// Builds a scene in place, because a microcontroller's stack has no room for a second pipeline. After an
+    /// error some stages are those of the new scene and some are not: fill it again with the previous scene.
     pub fn fill(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
         scene.stream.check()?;
         self.panels = scene.plan.panels;
@@ -55,7 +53,7 @@ impl Pipeline {
         self.fit(scene, layout)
     }
 
-    /// Takes the same scene to another garment; nothing changes if it does not fit.
+    /// Adapts the pipeline of `scene` to another garment; an error changes nothing.
     #[inline(never)]
     pub fn fit(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
         let friendliness = friendliness(scene, layout)?;
@@ -79,7 +77,7 @@ impl Pipeline {
         Ok(())
     }
 
-    /// How many forms are looked at in a frame from now on, whatever the scene is.
+    /// Sets how many forms are computed in a frame. Not part of a scene.
     pub fn look_at(&mut self, forms: Forms) {
         self.contact.forms = forms;
     }
@@ -95,7 +93,7 @@ impl Pipeline {
     }
 }
 
-/// How friendly it is to touch each region of a garment, percent.
+/// Friendliness of touches by region of the garment, percent.
 fn friendliness(scene: &Scene, layout: &Layout) -> Result<[i8; PANELS], InvalidRow> {
     let mut friendliness = [0; PANELS];
     for (index, entry) in scene.friendliness.iter().enumerate() {
@@ -103,7 +101,7 @@ fn friendliness(scene: &Scene, layout: &Layout) -> Result<[i8; PANELS], InvalidR
             let invalid = Invalid { parameter: "percent", must: "must be -100 to 100" };
             return Err(InvalidRow { list: "friendliness", index, invalid });
         }
-        // A scene may speak of regions that this garment does not cover.
+        // A scene may name regions that this garment does not cover.
         let region = layout.regions().iter().position(|region| *region == entry.region);
         if let Some(percent) = region.and_then(|region| friendliness.get_mut(region)) {
             *percent = entry.percent;

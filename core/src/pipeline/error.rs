@@ -1,17 +1,17 @@
-//! Why a scene is refused.
+//! Errors of a scene.
 
 use crate::format::{Invalid, InvalidRow};
 use crate::intent::MapError;
 use core::fmt;
 
-/// Why a scene does not fit a garment.
+/// Error of a scene for a garment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SceneError {
     /// A parameter is out of its range.
     Invalid(Invalid),
     /// A row of a list has a parameter that is out of its range.
     Row(InvalidRow),
-    /// The map is wrong.
+    /// The map is invalid.
     Map(MapError),
 }
 

@@ -1,4 +1,4 @@
-//! The data path, composed: codes of one scan in, everything that was perceived out.
+//! The composed data path: from the codes of one scan to everything that is perceived.
 
 mod compose;
 mod error;

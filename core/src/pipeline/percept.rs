@@ -1,4 +1,4 @@
-//! What comes out.
+//! The result of a frame.
 
 use super::state::CONTACTS;
 use crate::body::Placed;
@@ -10,29 +10,29 @@ use crate::react::ReactState;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 
-/// What was perceived in one frame.
+/// Everything perceived in one frame.
 #[derive(Debug, Clone)]
 pub struct Percept<'a> {
     /// Conditioned image by taxel number, background zero.
     pub image: &'a [u16],
-    /// Contacts that are there.
+    /// Present contacts.
     pub present: &'a [Placed],
-    /// How many frames old the form of each of those is; 255: at least so many.
+    /// Age of the form of each present contact, frames; saturates at 255.
     pub form_ages: &'a [u8],
-    /// Contacts that have gone.
+    /// Contacts released in this frame.
     pub released: &'a [Placed],
-    /// Contacts that did not fit, and runs that did not.
+    /// Number of contacts and runs for which there was no room.
     pub dropped: u16,
-    /// Which of those that are there may be drift.
+    /// Which present contacts may be drift.
     pub unsure: &'a UnsureState<CONTACTS>,
-    /// What was said of them.
+    /// Words for the contacts.
     pub symbols: &'a SymbolState<CONTACTS>,
-    /// What the touch means, if that is new.
+    /// Meaning of the touch, if it is new.
     pub meaning: Option<&'a Meaning>,
-    /// What goes on and what that is called, if it is new.
+    /// Gesture and its name, if it is new.
     pub gesture: Option<(Gesture, Name)>,
-    /// What the garment does by itself.
+    /// Reactions that the board runs by itself.
     pub reactions: &'a ReactState,
-    /// How far a tare is.
+    /// Progress of a tare.
     pub tare: Tare,
 }

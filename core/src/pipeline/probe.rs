@@ -1,6 +1,6 @@
-//! Who measures the stages.
+//! Measurement of the stages.
 
-/// Stages, in the order of the data path, for whoever measures them.
+/// Stages to measure, in the order of the data path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Stage {
@@ -24,13 +24,13 @@ pub enum Stage {
     Scan = 8,
 }
 
-/// Is told when a stage begins.
+/// Observer of the stages.
 pub trait Probe {
-    /// `stage` begins, so the one before has ended.
+    /// Called when `stage` begins, and the previous one has ended.
     fn begin(&mut self, stage: Stage);
 }
 
-/// Nobody measures.
+/// No measurement.
 impl Probe for () {
     fn begin(&mut self, _: Stage) {}
 }

@@ -1,4 +1,4 @@
-//! A frame, stage by stage.
+//! Processing of a frame, stage by stage.
 
 use super::compose::Pipeline;
 use super::percept::Percept;
@@ -14,7 +14,7 @@ use crate::shape::{Shape, Taught};
 use heapless::Vec;
 
 impl Pipeline {
-    /// Takes one frame of codes, scanned at `now`.
+    /// Processes one frame of codes, scanned at `now`.
     pub fn process<'s, const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
         state: &'s mut PipelineState<TAXELS, RUNS, PARTS>,
@@ -66,7 +66,7 @@ impl Pipeline {
             let strongest = sure()
                 .map(|(_, placed)| placed)
                 .reduce(|most, next| if press(next) > press(most) { next } else { most });
-            // The one that the stage would choose.
+            // The touch that the stage would choose itself.
             let own = state.fold.moves(now);
             let touch = strongest.map(|placed| Touch { own, ..self.touch(layout, placed) });
             let felt = self.felt(layout, sure().map(|(_, placed)| placed));
@@ -90,9 +90,9 @@ impl Pipeline {
         }
     }
 
-    /// Gives contacts their shapes and their places on the body; those that have gone, and those that were
-    /// not looked at, keep the shape that they had.
-    #[inline(always)] // once, and its iterators take what is there
+    /// Sets shape and place of each contact. Released ones, and those whose form was not computed in this
+    /// frame, keep their shape.
+    #[inline(always)] // one call; its iterators use the caller's values in place
     fn place(
         &self,
         touches: &Touches<'_>,
@@ -107,7 +107,7 @@ impl Pipeline {
             let shape = match &self.shape {
                 Some(stage) if *age == 0 => stage.process(moments, contact),
                 Some(_) => match present.get_mut(index) {
-                    // As nearly always: it has its shape already.
+                    // The usual case: the entry already is this contact's.
                     Some(placed) if placed.contact.id == contact.id => {
                         placed.follow(layout, contact);
                         continue;
@@ -121,14 +121,14 @@ impl Pipeline {
                     placed.shape = shape;
                     placed.follow(layout, contact);
                 }
-                // As many places as contacts.
+                // There are as many places as contacts.
                 None => _ = present.push(Placed::new(layout, contact.clone(), shape)),
             }
         }
         present.truncate(touches.present.len());
     }
 
-    /// What the map is told of a contact.
+    /// Inputs of the map from one contact.
     fn touch(&self, layout: &Layout, placed: &Placed) -> Touch {
         Touch {
             press: placed.contact.peak_total,
@@ -143,7 +143,7 @@ impl Pipeline {
         }
     }
 
-    /// What the map is told of all contacts together that are no drift.
+    /// Inputs of the map from all contacts that are not unsure.
     fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>) -> Felt {
         let mut felt = Felt::default();
         let high = self.contact.config().high;
@@ -158,7 +158,7 @@ impl Pipeline {
         felt
     }
 
-    /// Area of a taxel where it touches, if the map asks how hard things are.
+    /// Area of a taxel at the contact, mm2; 0 if the map does not use hardness.
     fn cell_mm2(&self, layout: &Layout, placed: &Placed) -> u32 {
         if !self.intent.as_ref().is_some_and(Intent::feels) {
             return 0;
@@ -168,7 +168,8 @@ impl Pipeline {
     }
 }
 
-/// Looks at one of the contacts with the base that was taught, and tells of each what it was found to be.
+/// Classifies one contact with the taught base, and sets the class of every contact to the last result for
+/// it.
 fn look<const RUNS: usize, const PARTS: usize>(
     taught: &mut Taught<CONTACTS>,
     present: &mut [Placed],
@@ -183,13 +184,13 @@ fn look<const RUNS: usize, const PARTS: usize>(
     present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
 }
 
-/// The shape that a contact had. Lists of contacts are in the order of their onset, so that what is left of
-/// one can be overwritten by what comes before.
+/// Returns the shape that a contact had in `list`. Lists of contacts are in the order of onset, so entries
+/// before the search can be overwritten.
 fn shape_in(list: &[Placed], id: u32) -> Shape {
     list.iter().find(|placed| placed.contact.id == id).map_or_else(Shape::default, |placed| placed.shape)
 }
 
-/// Fills a list anew; what does not fit is left out.
+/// Replaces the content of a list; items without room are left out.
 fn replace<T, const N: usize>(list: &mut Vec<T, N>, items: impl Iterator<Item = T>) {
     list.clear();
     for item in items {

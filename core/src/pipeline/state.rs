@@ -1,4 +1,4 @@
-//! What the stages remember.
+//! State of the stages.
 
 use super::compose::Pipeline;
 use crate::body::Placed;
@@ -15,10 +15,10 @@ use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 use heapless::Vec;
 
-/// Contacts that are followed at a time.
+/// Most contacts tracked at a time.
 pub const CONTACTS: usize = 32;
 
-/// All that the stages remember.
+/// State of all stages.
 #[derive(Debug, Clone)]
 pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     /// Baseline, gains, images.
@@ -31,7 +31,7 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: us
     pub(super) gesture: GestureState,
     pub(super) intent: IntentState,
     pub(super) react: ReactState,
-    /// How the joints stand.
+    /// Angles of the joints.
     pub fold: FoldState,
     /// Concept values that the host feeds.
     pub fed: Fed,
@@ -42,10 +42,10 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: us
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
     for PipelineState<TAXELS, RUNS, PARTS>
 {
-    #[inline(never)] // its caller would make it on the stack, and move it
+    #[inline(never)] // inlined, its caller would build it on the stack and move it
     fn default() -> Self {
         PipelineState {
-            // Constants: written where they belong, without a copy on the stack.
+            // Constants: written in place, without a copy on the stack.
             condition: const { ConditionState::new() },
             contact: const { ContactState::new() },
             present: Vec::new(),
@@ -63,14 +63,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<TAXELS, RUNS, PARTS> {
-    /// Starts afresh on a garment; pressure lowers its codes from `full_scale` if `falling`.
+    /// Resets for a garment, whose codes at rest are `full_scale` if `falling`, else 0.
     pub fn reset(&mut self, layout: &Layout, falling: bool, full_scale: u16) {
         self.condition.reset(layout, Code(if falling { full_scale } else { 0 }));
         self.contact.reset();
         self.forget();
     }
 
-    /// Forgets what a scene's stages found, for another scene; the baseline stays.
+    /// Forgets results that belong to a scene; the baseline stays.
     pub fn forget(&mut self) {
         self.symbol = SymbolState::default();
         self.gesture.forget();
@@ -78,7 +78,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.react = ReactState::default();
     }
 
-    /// A reaction has begun by reflex, at that pressure (counts); none if it lasts already.
+    /// Records a reaction that began by reflex at that pressure (counts). Returns none if it lasts already.
     pub fn begin_reaction(
         &mut self,
         reactions: &Reactions,
@@ -89,22 +89,22 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         reactions.begin(&mut self.react, index, value, now)
     }
 
-    /// What is remembered of the reactions.
+    /// State of the reactions.
     pub(crate) fn react(&self) -> &ReactState {
         &self.react
     }
 
-    /// As [`PipelineState::react`], to be changed.
+    /// Mutable state of the reactions.
     pub(crate) fn react_mut(&mut self) -> &mut ReactState {
         &mut self.react
     }
 
-    /// Reactions that last, a bit for each row.
+    /// Mask of the reactions that last, by row.
     pub fn reacting(&self) -> u8 {
         self.react.active()
     }
 
-    /// Whether something touched the garment in the last frame.
+    /// True if there was a contact in the last frame.
     pub fn is_touched(&self) -> bool {
         !self.present.is_empty()
     }
@@ -114,23 +114,23 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         &self.unsure
     }
 
-    /// The conditioned image of the last frame.
+    /// Conditioned image of the last frame.
     pub fn image(&self, pipeline: &Pipeline, layout: &Layout) -> Image<'_> {
         pipeline.condition.image(&self.condition, layout)
     }
 
-    /// Touches are recognised from the next on, by another model or none.
+    /// Forgets the present touch after a change of the gesture model; the next touch is recognised.
     pub fn recognise_anew(&mut self) {
         self.gesture.forget();
     }
 
-    /// Shapes are recognised from the next frame on, by another base.
+    /// Forgets all classes of shapes after a change of the base; recognition resumes with the next frame.
     pub fn recognise_shapes_anew(&mut self) {
         self.present.iter_mut().for_each(|placed| placed.shape.forget_class());
         self.symbol.forget_classes();
     }
 
-    /// The announced intention and what led to it.
+    /// The announced intention, and its evidence.
     pub fn intent(&self) -> &IntentState {
         &self.intent
     }
