@@ -27,7 +27,7 @@ pub struct Friendliness {
 /// Regions of the shipped scene. Any scene may name them, even if the garment does not cover them.
 const USUAL_REGIONS: [(&str, i8); 4] = [("chest", 20), ("back", 60), ("left arm", 40), ("right arm", 40)];
 
-/// What is streamed, and at which rate at most (0: never; 65535: with every scan).
+/// Content of the stream, and its largest rates (0: never; 65535: with every scan).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StreamConfig {
@@ -94,7 +94,7 @@ pub struct Scene {
     pub joints: Vec<Name, JOINTS>,
     /// Reactions that the board runs by itself.
     pub react: Vec<ReactionConfig, REACTIONS>,
-    /// What is streamed.
+    /// Stream to the host.
     pub stream: StreamConfig,
 }
 

@@ -133,7 +133,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Takes a part of stored settings. A part that does not fit is ignored, and the host is told why.
+    /// Takes a part of stored settings. A part that does not fit is ignored, and the reason is logged.
     #[inline(never)] // own frame: its stack is free again on return
     pub fn restore(&mut self, part: Part, bytes: &[u8]) {
         self.begin();
@@ -153,7 +153,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
     }
 
-    /// Tells the host why the stored settings were not used.
+    /// Logs why the stored settings were not used.
     pub fn forgot(&mut self, why: impl fmt::Display) {
         self.outbox.log(format_args!("stored settings: {why}; this is what ships"));
     }

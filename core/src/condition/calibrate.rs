@@ -1,4 +1,4 @@
-//! Codes to pressure: the taxels beyond their limit, and only those.
+//! Codes to pressure, for the taxels beyond their limits only.
 
 use super::marks::Marks;
 use super::sixteen::SIXTEEN;
@@ -8,16 +8,16 @@ use crate::format::Code;
 use crate::garment::Area;
 use bytemuck::{Pod, try_cast_slice};
 
-/// Taxels that are looked at together.
+/// Taxels that are compared together.
 const CHUNK: usize = SIXTEEN;
-/// Those of them that are calibrated together.
+/// Taxels of a chunk that are calibrated together.
 const PART: usize = 8;
-/// Chunks whose marks are kept until they are taken down.
+/// Chunks whose masks are kept until they are marked.
 const KEPT: usize = 8;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows; whether anything is
-    /// left. Where nothing is marked the image stays as it is.
+    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows. Returns true if any
+    /// taxel is active. Writes only where something is or was marked.
     pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], falling: bool) -> bool {
         let limit = panel_of(&self.limit, area);
         let codes = panel_of(codes, area);
@@ -35,7 +35,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     }
 }
 
-/// The taxels of a panel.
+/// Values of the taxels of a panel.
 pub(super) struct Panel<'a> {
     pub codes: &'a [Code],
     pub limit: &'a [u16],
@@ -45,7 +45,7 @@ pub(super) struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// `plain`: what a code may differ from that at rest before it counts, if every gain is 1.
+    /// `plain`: the largest inactive difference of a code from its baseline, if every gain is 1.
     fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>, plain: Option<u16>) -> bool {
         #[cfg(target_pointer_width = "64")]
         if let Some(margin) = plain.filter(|_| marks.are_sixteens() && self.codes.len() == self.out.len()) {
@@ -54,7 +54,7 @@ impl Panel<'_> {
         self.calibrate_chunks::<FALLING>(&mut marks, plain)
     }
 
-    /// The same, whatever the columns and however many codes there are.
+    /// Calibrates with any number of columns and codes.
     pub fn calibrate_chunks<const FALLING: bool>(
         &mut self,
         marks: &mut Marks<'_>,
@@ -65,8 +65,8 @@ impl Panel<'_> {
         whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, marks, plain) || any
     }
 
-    /// All from `first` on that N divides: what is quiet is skipped, then all is calibrated until something
-    /// is quiet again.
+    /// Calibrates all whole chunks of N taxels from `first` on: skips inactive chunks, then calibrates up to
+    /// the next inactive one, and so on.
     fn chunks<const N: usize, const PART: usize, const FALLING: bool>(
         &mut self,
         first: usize,
@@ -110,7 +110,7 @@ impl Panel<'_> {
                 }
                 (held, KEPT)
             };
-            // The one after those is known to be quiet.
+            // The chunk after those is known to be inactive.
             at += (held + 1).min(there);
             any |= held > 0;
         }
@@ -118,7 +118,7 @@ impl Panel<'_> {
     }
 }
 
-/// How many chunks hold nothing beyond a limit. The next may hold nothing either.
+/// Returns the number of leading chunks that are inactive. The next one may be inactive, too.
 fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
     match (pairs(codes), pairs(limit)) {
         (Some(codes), Some(limit)) => quiet_pairs::<FALLING>(codes, limit),
@@ -126,12 +126,12 @@ fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16
     }
 }
 
-/// Two taxels, whichever of them comes first.
+/// Two taxels in a word, in either order.
 type Pair = u32;
-/// Pairs that are looked at before the next: as many as leave nothing on the stack of a Cortex-M0+.
+/// Pairs per step of the comparison: as many as need no stack on a Cortex-M0+.
 const PAIRS: usize = 2;
 
-/// Whole chunks as pairs, if they lie in memory as words do.
+/// Casts whole chunks to pairs, if they are aligned like words.
 fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2]]> {
     if N != CHUNK {
         return None;
@@ -140,12 +140,12 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
     Some(words.as_chunks().0)
 }
 
-/// Two taxels at once.
+/// Skips inactive chunks, two taxels at once.
 ///
-/// A difference below 0 sets the highest bit of its half, and borrows from the other half, which counts no
-/// more then. Only if what is taken away has that bit itself may the difference not have it; such a taxel
-/// counts as not quiet, and so do some of those whose difference has more than 15 bits.
-#[inline(never)] // the few registers of an M0+ are for its loop
+/// SWAR compare: bit 15 of a half is set on underflow. The borrow changes the other half, but the chunk
+/// counts as active then in any case. An underflow can leave bit 15 clear only if the subtrahend has it set,
+/// so that bit counts, too. Values and differences from 0x8000 may therefore report a false positive.
+#[inline(never)] // M0+: out of line
 fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
     let doubtful = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
         let [codes, limit] = [codes, limit].map(|pairs| pairs.as_chunks::<PAIRS>().0);
@@ -160,11 +160,11 @@ fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair;
     codes.iter().zip(limit).position(doubtful).unwrap_or(codes.len())
 }
 
-/// One taxel after the other.
+/// Skips inactive chunks, one taxel after the other.
 ///
-/// Without a branch per taxel (one is negative, then all are), and not inlined, so that the loop has the
-/// registers of a Cortex-M0+ to itself.
-#[inline(never)]
+/// No branch per taxel: a chunk's differences are combined, and the sign of the result tells if one is
+/// negative.
+#[inline(never)] // M0+: out of line
 fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
     let loud = |(codes, limit): (&[Code; N], &[u16; N])| {
         let over = codes.iter().zip(limit).map(|(code, limit)| {
@@ -176,8 +176,8 @@ fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit:
     codes.iter().zip(limit).position(loud).unwrap_or(codes.len())
 }
 
-/// Calibrates until a chunk is quiet, or no marks can be kept; how many hold something, and `found`: which of
-/// their taxels.
+/// Calibrates chunks up to the first inactive one, or until `found` is full. Returns their number; `found[i]`
+/// masks the active taxels.
 #[inline(never)]
 fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
@@ -207,7 +207,7 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     held
 }
 
-/// The same where every gain is 1: a code differs from that at rest by `margin` more than from its limit.
+/// Calibrates like [`loud`] with unity gain: code - baseline = (code - limit) + margin.
 #[inline(never)]
 fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
@@ -228,14 +228,14 @@ fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
     held
 }
 
-/// Takes down which taxels of a chunk hold something, and empties the others.
+/// Stores the mask of a chunk's active taxels, and clears the values of taxels that were active before.
 #[inline(always)]
 fn replace<const N: usize, const PART: usize>(out: &mut [u16; N], found: &mut u16, bits: u32) {
     silence::<N, PART>(out, u32::from(*found) & !bits);
     *found = bits as u16;
 }
 
-/// Empties those taxels that were there in the last image, if it was not emptied, and are no more.
+/// Clears the values of taxels that were active in the last image, and are no more.
 #[inline(always)]
 fn silence<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
     if gone & gone.wrapping_sub(1) == 0 {
@@ -247,7 +247,7 @@ fn silence<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
     silence_several::<N, PART>(out, gone);
 }
 
-/// All of them are asked: it would take longer to find several one by one.
+/// Clears several taxels by testing all: finding them one by one would take longer.
 #[inline(never)]
 fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
     let mut gone = gone;
@@ -261,12 +261,11 @@ fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: 
     }
 }
 
-/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit; a bit for each of them.
+/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit. Returns their mask.
 ///
-/// The product of two 16-bit numbers leaves room for the rounding, whose two steps need no constant in a
-/// register. As short as the compiler unrolls it. Not inlined: five places in memory are all that the
-/// registers of a Cortex-M0+ can tell.
-#[inline(never)]
+/// The product of two 16-bit numbers leaves room for rounding, whose two steps need no constant in a
+/// register. `PART` is as long as the compiler unrolls; the registers hold no more than these five addresses.
+#[inline(never)] // M0+: out of line
 pub(super) fn scale<const PART: usize, const FALLING: bool>(
     codes: &[Code; PART],
     limit: &[u16; PART],
@@ -289,9 +288,9 @@ pub(super) fn scale<const PART: usize, const FALLING: bool>(
     bits
 }
 
-/// The same of all taxels of a chunk, whose gain is 1, given how much farther than from its limit a code is
-/// from that at rest.
-#[inline(never)] // the few registers of an M0+ are for this
+/// Values of all active taxels of a chunk with unity gain, for which a code is `margin` further from its
+/// baseline than from its limit. Returns their mask.
+#[inline(never)] // M0+: out of line
 fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[Code; N],
     limit: &[u16; N],
@@ -318,7 +317,7 @@ fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
 mod tests {
     use super::*;
 
-    /// Few sizes, so that many are the same, at both ends of the scale and in its middle.
+    /// Few distinct values, so that many are equal, at both ends of the scale and in its middle.
     #[test]
     fn pairs_are_quiet_where_both_taxels_are() {
         let mut noise = 1u32;
@@ -328,7 +327,7 @@ mod tests {
         };
         let all = [0, 1, 700, 701, 0x7fff, 0x8000, 0x8001, 0xffff];
         for round in 0..20_000 {
-            // Mostly quiet; half the rounds within 15 bits.
+            // Mostly inactive; half the rounds within 15 bits.
             let sizes = if round % 2 == 0 { &all[..5] } else { &all };
             let [mut less, mut more] = [[0; CHUNK]; 2];
             for (less, more) in less.iter_mut().zip(&mut more) {

@@ -1,15 +1,14 @@
-//! What is known of the calibration that the gains belong to.
+//! The calibration from which the gains come.
 
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// Which calibration is in force, of which day, and how well it fits. The curves themselves are on the host,
-/// in the file of that id.
+/// Identity, date and error of the calibration in force. Its curves are on the host, in the file of that id.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Certificate {
     /// CRC-32/ISO-HDLC of gains and curves.
     pub id: u32,
-    /// Taxels of the garment that it is for.
+    /// Number of taxels of its garment.
     pub taxels: u16,
     /// 2000 ..= 9999
     pub year: u16,
@@ -17,12 +16,12 @@ pub struct Certificate {
     pub month: u8,
     /// 1 ..= 31
     pub day: u8,
-    /// Error of the forces of the weights that it was made with, 1/100 % rms.
+    /// Error of the forces of the weights used for it, 1/100 % rms.
     pub error: u16,
 }
 
 impl Certificate {
-    /// Whether the date can be one; else what is wrong with it.
+    /// Error if the date is impossible: the reason.
     pub fn check(&self) -> Result<(), &'static str> {
         match (self.year, self.month, self.day) {
             (2000..=9999, 1..=12, 1..=31) => Ok(()),
@@ -33,7 +32,7 @@ impl Certificate {
     }
 }
 
-/// As in `Hello`: `id 3fa9c21b, 2026-11-21, 1.25 %`.
+/// The text of `Hello`: `id 3fa9c21b, 2026-11-21, 1.25 %`.
 impl fmt::Display for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Certificate { id, year, month, day, error, .. } = self;

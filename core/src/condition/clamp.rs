@@ -1,13 +1,12 @@
-//! A taxel within the range of its eight neighbours: one comparison after another, or many taxels at once.
+//! Clamps a taxel to the range of its eight neighbours: by single comparisons, or many taxels at once.
 
-/// Whether a machine compares many numbers at once. Where it does not, few comparisons settle most taxels.
+/// True if the machine has SIMD. Without it, a few comparisons settle most taxels.
 pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
-/// Taxels that are done together with the one before them and the one after: as many as fill a vector, or a
-/// few.
+/// Taxels of a run, with one neighbour at each end: as many as fill a vector, or a few without SIMD.
 pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
 
-/// Clamps all of `here` but its ends, each to the range of its eight neighbours.
+/// Clamps all taxels of `here` except its ends, each to the range of its eight neighbours.
 #[inline(always)]
 pub(super) fn clamp_run<const N: usize>(
     above: &[u16; N],
@@ -18,14 +17,14 @@ pub(super) fn clamp_run<const N: usize>(
     if VECTORS { by_range(above, here, below, out) } else { by_comparison(above, here, below, out) }
 }
 
-/// All at once.
+/// Clamps all taxels at once.
 fn by_range<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], out: &mut [u16; N]) {
     let rows = above.array_windows().zip(here.array_windows()).zip(below.array_windows());
     let inside = out.iter_mut().skip(1);
     rows.zip(inside).for_each(|(((above, here), below), out)| *out = clamp(above, here, below));
 }
 
-/// Clamps `here[1]` to the range of the others.
+/// Clamps `here[1]` to the range of its neighbours.
 #[inline(always)]
 pub(super) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 {
     let [left, value, right] = *here;
@@ -36,10 +35,10 @@ pub(super) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 
     value.max(least).min(greatest)
 }
 
-/// One after another. Not inlined, so that it has the registers of a Cortex-M0+ to itself.
-#[inline(never)]
+/// Clamps one taxel after another.
+#[inline(never)] // M0+: out of line
 fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], out: &mut [u16; N]) {
-    // A compiler keeps a loop of that length, and with it an index and five sums for each taxel.
+    // Unrolled by hand: the compiler would keep a loop, with an index and five additions per taxel.
     step::<1, N>(above, here, below, out);
     step::<2, N>(above, here, below, out);
     step::<3, N>(above, here, below, out);
@@ -50,8 +49,8 @@ fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16
     step::<8, N>(above, here, below, out);
 }
 
-/// Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not
-/// greater settle a taxel: two or three comparisons mostly.
+/// Clamps taxel AT. Only a strict extreme of the nine changes, so one neighbour that is not smaller and one
+/// that is not greater settle a taxel: usually two or three comparisons.
 #[inline(always)]
 fn step<const AT: usize, const N: usize>(
     above: &[u16; N],
@@ -62,7 +61,7 @@ fn step<const AT: usize, const N: usize>(
     let (Some(a), Some([left, value, right]), Some(b)) =
         (three(above, AT), three(here, AT), three(below, AT))
     else {
-        // A run that is shorter.
+        // The run is shorter.
         return;
     };
     let mut settled = *value;
@@ -78,20 +77,20 @@ fn step<const AT: usize, const N: usize>(
     }
 }
 
-/// The neighbours above and below, the nearest first.
+/// Neighbours above and below, nearest first.
 #[inline(always)]
 fn around(above: &[u16; 3], below: &[u16; 3]) -> impl Iterator<Item = u16> {
     [above[1], below[1], above[0], above[2], below[0], below[2]].into_iter()
 }
 
-/// A taxel of a row with its neighbours.
+/// A taxel of a row with its two neighbours.
 #[inline(always)]
 fn three<const N: usize>(row: &[u16; N], at: usize) -> Option<&[u16; 3]> {
     row.get(at - 1..)?.first_chunk()
 }
 
-/// The greatest neighbour. Not inlined, as [`least`], lest the neighbours be kept for it, one by one, on the
-/// stack.
+/// The greatest neighbour. Out of line, like [`least`]: inlined, the compiler would keep the neighbours on
+/// the stack.
 #[inline(never)]
 fn greatest<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], at: usize) -> u16 {
     fold_around(above, here, below, at, u16::max)
@@ -123,7 +122,7 @@ fn fold_around<const N: usize>(
 mod tests {
     use super::*;
 
-    /// All that three by three values of four sizes can be, at both ends of the scale.
+    /// All 3x3 values of four sizes, at both ends of the scale.
     #[test]
     fn to_compare_one_after_another_makes_no_difference() {
         for case in 0..1u32 << 18 {

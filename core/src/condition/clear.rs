@@ -1,7 +1,7 @@
-//! Emptying the images where they may hold something.
+//! Clears the images where they may be non-zero.
 //!
-//! Rows that are calibrated and filtered as a whole are not emptied first: what they held is overwritten.
-//! Those of them that hold nothing any more are emptied once that is known, before the filter looks at them.
+//! Rows that are calibrated and filtered as a whole are not cleared first, but overwritten. Those that are no
+//! longer active are cleared once that is known, before the filter reads them.
 
 use super::config::Filter;
 use super::held::Held;
@@ -13,13 +13,13 @@ use crate::garment::{Area, Layout};
 use core::ops::Range;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Empties the images, before and after the filter, but for the rows that it gives back, if there may be
-    /// any: they are not [held](super::Rows) any more, and may still hold something.
+    /// Clears both images; returns the rows left for overwriting, none if no panel was active. These are no
+    /// longer [held](super::Rows), and may still be non-zero.
     pub(super) fn clear(&mut self, layout: &Layout, codes: usize, filter: Filter) -> Option<Held> {
         if self.active == 0 {
             return None;
         }
-        // Rows that follow each other are one part: that is sooner done than to look for their columns.
+        // Consecutive rows are cleared together, which is faster than finding their columns.
         let mut held = 0..0;
         for (_, area) in areas_of(layout, self.active) {
             if self.overwrites(area, codes, filter) {
@@ -45,7 +45,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         Some(self.rows.release())
     }
 
-    /// Whether a row of a panel that is worked on is written as a whole, given how many codes there are.
+    /// True if the rows of an active panel are overwritten as a whole, given the number of codes.
     fn overwrites(&mut self, area: &Area, codes: usize, filter: Filter) -> bool {
         let rows = area.first_row..area.first_row.saturating_add(area.rows);
         let end = usize::from(area.base) + usize::from(area.rows) * SIXTEEN;
@@ -55,7 +55,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             && self.rows.places(rows).is_some()
     }
 
-    /// Empties those of some rows that hold nothing any more.
+    /// Clears the rows of `before` that are no longer active.
     pub(super) fn clear_left(&mut self, layout: &Layout, before: &Held) {
         let left = before.without(self.rows.held());
         if left.is_empty() {

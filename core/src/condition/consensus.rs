@@ -1,59 +1,58 @@
-//! How the panels drift as a whole.
+//! Drift of the panels as a whole.
 
 use super::rates::COMMON;
 use super::slices::panel_of;
 use crate::format::Code;
 use crate::garment::{Area, PANELS};
 
-/// Taxels of a panel that are asked.
+/// Witnesses of a panel: taxels sampled for its drift.
 const WITNESSES: usize = 16;
 
-/// Fewest of them that say something for their panel.
+/// Least number of votes that count for a panel.
 const FEWEST: usize = 4;
 
-/// A code so near its baseline is noise, counts.
+/// Largest distance of a code from its baseline that counts as noise, counts.
 const NOISE: i32 = 4;
 
-/// Witnesses may stay so far apart, counts: their noise is remembered, or the panel would walk with it.
+/// Largest offset of a witness from the others that is kept, counts: the panel would follow noise otherwise.
 const APART: i32 = 8;
 
-/// What moves all of a panel by more in a turn is no drift, but an input that broke, counts.
+/// Largest common step in a turn that counts as drift, counts; beyond it an input is broken.
 const BROKEN: i32 = 2 * COMMON;
 
-/// A panel is fast that moves by more than so many counts in a turn.
+/// Drift in a turn above which a panel is fast, counts.
 const FAST: i32 = 4;
 
-/// After so many halves of a turn at most a panel is no longer taken to drift fast, and each that is fast
-/// counts for so many: noise hides the drift from the witnesses now and then, and when it turns it is slow
-/// for seconds.
+/// Most half-turns for which a panel stays fast after its last fast one, and half-turns added by each fast
+/// one. Noise hides the drift from the witnesses now and then, and drift that reverses is slow for seconds.
 const LASTING: u8 = 40;
 const LASTS: u8 = 4;
 
-/// What each panel drifts in a turn, counts.
+/// Drift of each panel per turn, counts.
 ///
-/// Twice in a turn those of its witnesses that nothing touches tell how far they have drifted beyond what the
-/// panel is known to have. It moves by their median if seven eighths of them are beyond it the same way, by a
-/// quarter of the median at least: drift is common, and where something presses slowly a part of a panel
-/// stays at rest. If only most of them are beyond it, it moves by one count a turn. What sets a witness apart
-/// from the others by more than noise is forgotten by a count a turn, and at once where the panel moves fast,
-/// so that it does not hide what all have in common.
+/// Twice a turn, each untouched witness votes with its drift beyond the known drift of its panel. If seven
+/// eighths of the votes have the sign of their median and at least a quarter of its size, the panel moves by
+/// the median: drift is common to a panel, while under a slow press a part of the panel stays at rest. If
+/// only a majority has the same sign, the panel moves by one count per turn. An offset of a witness from the
+/// others beyond noise is forgotten by one count per turn, and at once if the panel moves fast, so that it
+/// does not hide common drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Consensus {
     panels: [Panel; PANELS],
-    /// One of them drifts fast.
+    /// True if one of the panels drifts fast.
     fast: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Panel {
-    /// Where each witness would be, had it drifted as the panel has; below 0 or beyond 65535 it is held there.
+    /// Code of each witness if it had drifted with the panel; limited to 0 and 65535.
     known: [u16; WITNESSES],
     begun: bool,
-    /// Drift in the half of a turn before, and in this one.
+    /// Drift in the previous half-turn, and in this one.
     steps: [i8; 2],
-    /// All of it so far, modulo 2^32.
+    /// Total drift, modulo 2^32.
     drifted: i32,
-    /// Halves of a turn for which it is still taken to drift fast.
+    /// Half-turns for which it still counts as fast.
     lately: u8,
 }
 
@@ -70,35 +69,35 @@ impl Consensus {
         Consensus { panels: [panel; PANELS], fast: false }
     }
 
-    /// Begins anew, since baselines have been set.
+    /// Begins again after baselines have been set.
     pub fn forget(&mut self) {
         let begin = |panel: &mut Panel| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
         self.panels.iter_mut().for_each(begin);
         self.fast = false;
     }
 
-    /// What a panel moves by in this turn, counts.
+    /// Drift of a panel in this turn, counts.
     pub fn step(&self, panel: u8) -> i32 {
         self.panels.get(usize::from(panel)).map_or(0, Panel::in_turn)
     }
 
-    /// What a panel has drifted so far, counts modulo 2^32.
+    /// Total drift of a panel, counts modulo 2^32.
     pub fn drifted(&self, panel: u8) -> i32 {
         self.panels.get(usize::from(panel)).map_or(0, |panel| panel.drifted)
     }
 
-    /// Whether this panel drifts fast, or did a moment ago.
+    /// True if the panel drifts fast, or did recently.
     pub fn was_fast(&self, panel: u8) -> bool {
         self.panels.get(usize::from(panel)).is_some_and(|panel| panel.lately > 0)
     }
 
-    /// Whether one of the panels drifts fast.
+    /// True if one of the panels drifts fast.
     pub const fn is_fast(&self) -> bool {
         self.fast
     }
 
-    /// Asks the witnesses of a panel, given the baselines and gains of all taxels. `whole`: a turn begins, else
-    /// it is half over; `touched` tells which of its taxels a contact holds.
+    /// Takes the votes of a panel's witnesses, given the baselines and gains of all taxels. `whole`: a turn
+    /// begins, else it is half over; `touched` returns true for taxels of the panel under a contact.
     #[inline(never)] // M0+: out of line
     pub fn vote(
         &mut self,
@@ -119,10 +118,10 @@ impl Consensus {
                 *known = baseline.get(at).copied().unwrap_or(0);
             });
         }
-        // How far each is beyond what is known, if it was asked.
+        // Drift of each witness beyond the known drift; none if it does not vote.
         let mut beyond = [None; WITNESSES];
         for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
-            // Absent and dead ones are not asked, nor what is held.
+            // Absent and dead taxels do not vote, nor touched ones beyond noise.
             if gain.get(at).is_some_and(|gain| *gain != 0)
                 && let (Some(code), Some(rest)) = (codes.get(at), baseline.get(at))
             {
@@ -135,7 +134,7 @@ impl Consensus {
         }
         let mut sorted = if is_middle_zero(&beyond) { Sorted::NONE } else { Sorted::of(&beyond) };
         if sorted.middle().abs() > NOISE + 1 {
-            // That is more than noise: those who have moved less are believed, too.
+            // The median is more than noise, so witnesses that moved less vote with their codes, too.
             for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
                 if let (Some(beyond), Some(code)) = (beyond, codes.get(at)) {
                     *beyond = i32::from(code.0) - i32::from(*known);
@@ -147,7 +146,7 @@ impl Consensus {
         let step = agreed(&sorted, panel.steps[1].into(), whole).clamp(-COMMON / 2, COMMON / 2);
         panel.steps = [panel.steps[1], step as i8];
         panel.drifted = panel.drifted.wrapping_add(step);
-        // In the middle of a turn in which nothing moves, nothing is forgotten either.
+        // At half a turn without a step nothing is forgotten.
         let changed = if whole || step != 0 { WITNESSES } else { 0 };
         for (known, beyond) in panel.known.iter_mut().zip(beyond).take(changed) {
             let apart = beyond.map_or(0, |beyond| beyond - middle);
@@ -166,7 +165,7 @@ impl Consensus {
     }
 }
 
-/// Whether the one in the middle has not moved, as mostly: then they agree on nothing, and need not be sorted.
+/// True if the median is 0, the usual case: then there is no agreement, and sorting is not needed.
 fn is_middle_zero(beyond: &[Option<i32>; WITNESSES]) -> bool {
     let (mut below, mut above, mut asked) = (0, 0, 0);
     for beyond in beyond.iter().flatten() {
@@ -178,8 +177,8 @@ fn is_middle_zero(beyond: &[Option<i32>; WITNESSES]) -> bool {
     below <= middle && above < asked - middle
 }
 
-/// What witnesses agree on, given how far they are beyond what is known and the step before; 0 for nothing.
-/// Fast drift goes on while five eighths agree: noise may hide it from some.
+/// Returns the step on which the votes agree, given the previous step; 0 for none. Fast drift goes on while
+/// five eighths agree, because noise may hide it from some.
 fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
     let (all, middle) = (beyond.all(), beyond.middle());
     if all.len() < FEWEST {
@@ -195,7 +194,7 @@ fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
     if whole { i32::from(side(1)) - i32::from(side(-1)) } else { 0 }
 }
 
-/// What witnesses told, in ascending order.
+/// Votes in ascending order.
 struct Sorted {
     numbers: [i32; WITNESSES],
     count: usize,
@@ -214,7 +213,7 @@ impl Sorted {
         let Some(end) = self.numbers.get_mut(self.count) else { return };
         *end = number;
         self.count += 1;
-        // Down to its place: mostly none of those before is greater.
+        // Insertion: usually no earlier number is greater.
         let mut left = self.numbers.get_mut(..self.count).unwrap_or(&mut []);
         while let [rest @ .., before, last] = left
             && *before > *last
@@ -229,13 +228,13 @@ impl Sorted {
         self.numbers.get(..self.count).unwrap_or(&[])
     }
 
-    /// The one in the middle; 0 of none.
+    /// The median; 0 of no votes.
     fn middle(&self) -> i32 {
         self.all().get(self.count / 2).copied().unwrap_or(0)
     }
 }
 
-/// Where they are in a panel of so many taxels: an odd distance apart, lest they stand in one column.
+/// Taxels of the witnesses in a panel: an odd distance apart, so that they do not lie in one column.
 fn witnesses(taxels: usize) -> impl Iterator<Item = usize> {
     let stride = (taxels / WITNESSES) | 1;
     (0..WITNESSES).scan(0, move |next, _| {
@@ -288,14 +287,14 @@ mod tests {
         let agreed = |numbers| agreed_after(0, numbers);
         let spread = [14, 7, 21, 9, 12, 8, 20, 15, 11, 13, 10, 16, 17, 18, 19, 14];
         assert_eq!((agreed(spread), agreed(spread.map(|off| -off))), (14, -14));
-        // Of 16 two may be elsewhere; then most decide, and half are not most.
+        // Two of 16 may differ; with more a majority decides, and half is no majority.
         let but = |count: usize| core::array::from_fn(|at| if at < count { 0 } else { spread[at] });
         assert_eq!([2, 3, 7, 8].map(|count| agreed(but(count))), [14, 1, 1, 0]);
         assert_eq!(agreed([1, 1, 0, 0, -1, -1, 0, 2, 0, -2, 1, -1, 3, -3, 0, 0]), 0);
         assert_eq!([6, 7].map(|count| agreed_after(9, but(count))), [13, 1]);
         assert_eq!([9, -9, 2].map(|before| agreed_after(before, but(5))), [13, 1, 1]);
         assert_eq!(super::agreed(&sorted(&[5, 5, 5]), 0, true), 0);
-        // In the middle of a turn most alone decide nothing.
+        // At half a turn a majority alone decides nothing.
         assert_eq!([2, 3].map(|count| super::agreed(&sorted(&but(count)), 0, false)), [14, 0]);
     }
 }

@@ -1,7 +1,7 @@
-//! Conservative smoothing: a taxel is clamped to the range of its eight neighbours.
+//! Conservative smoothing: clamps a taxel to the range of its eight neighbours.
 //!
-//! Neighbours beyond the border do not count: were the border replicated, a taxel there would be its own
-//! neighbour and an impulse would survive.
+//! Taxels beyond the border do not count: with a replicated border a taxel there would be its own neighbour,
+//! and an impulse would survive.
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::row::Row;
@@ -10,7 +10,7 @@ use super::sixteen::{SIXTEEN, clamp_sixteen};
 use crate::garment::Area;
 use core::ops::Range;
 
-/// Smooths a panel where it may hold something; `out` is empty elsewhere. Whether it may have
+/// Smooths a panel where it may be non-zero; `out` is zero elsewhere. Returns true if it may have
 /// [points](super::points::stands_out).
 pub(super) fn conservative(
     values: &[u16],
@@ -21,7 +21,7 @@ pub(super) fn conservative(
 ) -> bool {
     let columns = usize::from(area.columns);
     if area.rows == 1 || columns == 1 {
-        // A taxel has two neighbours, or one twice.
+        // A taxel has two neighbours, or one that counts twice.
         narrow(values, out);
         mark_all(area, marks);
         return true;
@@ -40,7 +40,8 @@ pub(super) fn conservative(
         let groups = bridged(marks.groups(number), there);
         marks.widen(number, groups);
         let here = usize::from(number - first) * columns;
-        // The other side lends what is missing: a neighbour that counts twice changes neither end of the range.
+        // At the border the opposite row replaces the missing one: counted twice, it changes neither end of
+        // the range.
         let above = if number == first { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
@@ -55,9 +56,8 @@ pub(super) fn conservative(
     true
 }
 
-/// Smooths a panel of sixteen columns and two rows at least; whether it has points. Not inlined, for the
-/// registers.
-#[inline(never)]
+/// Smooths a panel of sixteen columns and at least two rows. Returns true if it has points.
+#[inline(never)] // M0+: out of line
 fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     let mut points = false;
     let (rows, _) = values.as_chunks();
@@ -66,7 +66,7 @@ fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     let ([top_out, out @ .., bottom_out], [top_groups, groups @ .., bottom_groups]) = (out, groups) else {
         return true;
     };
-    // At both ends the other side lends what is missing.
+    // At both ends the opposite row replaces the missing one.
     if widen(top_groups) {
         clamp_sixteen(&[*second, *top], second, *top_groups, top_out, &mut points);
     }
@@ -81,7 +81,8 @@ fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     points
 }
 
-/// Adds what the filter may fill to the groups of a row of sixteen columns; whether it has any.
+/// Adds the groups that the filter may fill to those of a row of sixteen columns. Returns false if it has
+/// none.
 #[inline(always)]
 fn widen(groups: &mut u16) -> bool {
     if *groups == 0 {
@@ -91,16 +92,15 @@ fn widen(groups: &mut u16) -> bool {
     true
 }
 
-/// After a panel whose rows are not told apart.
+/// Marks all columns of all rows of a panel.
 fn mark_all(area: &Area, marks: &mut Rows) {
     for number in area.first_row..area.first_row.saturating_add(area.rows) {
         marks.add(number, u16::MAX);
     }
 }
 
-/// Groups of a row that may hold something once it is smooth: a taxel without pressure gets some from
-/// neighbours on both sides, or from those on the one side that it has. Where a group has more columns, it is
-/// at the end of one.
+/// Groups of a row that may be non-zero after smoothing: a taxel without pressure gets some from neighbours
+/// on both sides, or on its only side. In a group of several columns it is at the end of the group.
 fn bridged(groups: u16, there: u16) -> u16 {
     let last = there ^ there >> 1;
     let (before, after) = (groups << 1, groups >> 1);
@@ -116,7 +116,7 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// Smooths some columns of a row, a run at a time.
+/// Smooths some columns of a row, run by run.
 #[inline(never)]
 fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
     if row.columns < SHORT {
@@ -127,7 +127,7 @@ fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
     });
 }
 
-/// Smooths a row that is shorter than a run.
+/// Smooths a row shorter than a run.
 #[inline(never)]
 fn smooth_each(row: &Row, values: &[u16], out: &mut [u16]) {
     let [above, here, below] = row.starts;
@@ -142,7 +142,7 @@ fn smooth_each(row: &Row, values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// A taxel of the first or the last column.
+/// Clamps a taxel of the first or the last column.
 #[inline(always)]
 fn border(value: u16, others: [u16; 5]) -> u16 {
     if others.iter().all(|other| *other < value) {
@@ -168,7 +168,7 @@ mod tests {
                 (noise >> 28) as u16
             });
             let values = &values[..rows * SIXTEEN];
-            // A row that holds nothing is left out.
+            // A row without pressure is left out.
             let mut groups = [u16::MAX; 9];
             groups[rows / 2] = 0;
             let mut out = [[7; 9 * SIXTEEN]; 2];

@@ -1,13 +1,13 @@
-//! The baseline follows drift, in counts per second.
+//! Drift of the baseline, in counts per second.
 //!
 //! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
-//! whatever the frame rate. Its taxels move by what their panel drifts as a whole
-//! ([`Consensus`](super::consensus::Consensus)). Where no contact is within a taxel, they go on from there
-//! towards their own codes: as far as taxels may differ from their panel, and by [`OWN`] where they show no
-//! pressure. So a held contact is never swallowed, and neither is a slow one once it shows. While a panel
-//! drifts fast, what shows less than a sixteenth of a contact's peak is none of it: what lies around it would
-//! drift apart, join it, and take along what lies around that. Only a tared baseline drifts: recordings are
-//! taken as they are.
+//! whatever the frame rate. Its taxels move by the common drift of their panel
+//! ([`Consensus`](super::consensus::Consensus)). Taxels farther than one taxel from any contact then move on
+//! towards their own codes: by as much as taxels may differ from their panel, and by [`OWN`] if they show no
+//! pressure. A held contact is therefore never absorbed by the baseline, nor is a slow one once it shows.
+//! While a panel drifts fast, a taxel with less than a sixteenth of a contact's peak does not belong to the
+//! contact: otherwise the surroundings of a contact would not follow, drift away from the panel, join the
+//! contact, and stop their own surroundings. Only a tared baseline drifts; recordings are used unchanged.
 
 use super::feedback::Feedback;
 use super::rates::{OWN, beside};
@@ -19,8 +19,8 @@ use crate::format::Code;
 use crate::garment::{Area, Layout};
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Lets the rows whose turn it is follow their codes. Before the rows of a panel, and before the second
-    /// half of them, its witnesses have a turn of their own, so that all frames cost alike.
+    /// Updates the rows that are due. The witnesses of a panel have slots of their own, before its rows and
+    /// before the second half of them, so that all frames cost alike.
     pub(super) fn follow_drift<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,
@@ -50,7 +50,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// Asks the witnesses of a panel; `whole`: its turn begins.
+    /// Takes the votes of a panel's witnesses; `whole`: its turn begins.
     fn ask<const CONTACTS: usize>(
         &mut self,
         panel: u8,
@@ -94,8 +94,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         });
     }
 
-    /// Moves the baselines of a row by what is common, and from there towards each taxel's code by at most
-    /// what `own` says of its column and of what it shows.
+    /// Moves the baselines of a row by `common`, and from there towards each taxel's code by at most
+    /// `own(column, shown pressure)`.
     #[inline(always)]
     fn follow_row(
         &mut self,
@@ -123,7 +123,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             }
             *rest = now as u16;
             *limit = match *limit {
-                // It would be further away, if there were codes.
+                // Saturated: the true limit may lie beyond the range, so it is computed again.
                 same if same == silent => terms.limit(*rest, terms.margin(*gain)),
                 limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };

@@ -1,4 +1,4 @@
-//! The Sobel operator, where it is asked for.
+//! The Sobel operator at single taxels.
 
 use super::sixteen::{SIXTEEN, Sixteen};
 use crate::garment::Area;
@@ -19,23 +19,22 @@ impl Gradient {
     }
 }
 
-/// The 3x3 Sobel gradient at a taxel of a panel, the border replicated; 0 where the slice does not hold what
-/// it takes.
+/// 3x3 Sobel gradient at a taxel of a panel, border replicated; 0 if the slice is too short for it.
 pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
     let (row, column) = (row.min(area.rows.saturating_sub(1)), column.min(area.columns.saturating_sub(1)));
     Neighbourhood::of(values, area, row).gradient(column)
 }
 
-/// A row of a panel with the one above and the one below it, itself at the border.
+/// A row of a panel with the rows above and below it; at the border the row itself replaces them.
 pub(crate) struct Neighbourhood<'a> {
     values: &'a [u16],
-    /// Numbers of the first taxels: of the row above, the row, the row below.
+    /// Numbers of the first taxels of the row above, the row, and the row below.
     rows: [u16; 3],
     columns: u16,
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Of a row that the panel has.
+    /// Neighbourhood of a row of the panel.
     pub fn of(values: &'a [u16], area: &Area, row: u16) -> Self {
         let here = area.base + row * area.columns;
         let above = if row > 0 { here - area.columns } else { here };
@@ -43,12 +42,12 @@ impl<'a> Neighbourhood<'a> {
         Neighbourhood { values, rows: [above, here, below], columns: area.columns }
     }
 
-    /// The rows, if they have sixteen columns.
+    /// The three rows, if they have sixteen columns.
     pub fn sixteens(&self) -> Option<[&'a Sixteen; 3]> {
         if usize::from(self.columns) == SIXTEEN { self.pieces(0) } else { None }
     }
 
-    /// At a column that the panel has.
+    /// Gradient at a column of the panel.
     pub fn gradient(&self, column: u16) -> Gradient {
         let gradient = if column == 0 || column + 1 == self.columns {
             self.gradient_beside(column)
@@ -58,7 +57,7 @@ impl<'a> Neighbourhood<'a> {
         gradient.unwrap_or_default()
     }
 
-    /// In the first or the last column.
+    /// Gradient in the first or the last column.
     fn gradient_beside(&self, column: u16) -> Option<Gradient> {
         if self.columns == 1 {
             let [[above], [here], [below]] = self.pieces(0)?;
@@ -73,10 +72,10 @@ impl<'a> Neighbourhood<'a> {
         })
     }
 
-    /// From a column on, a piece of each row.
+    /// N taxels of each row from a column on.
     fn pieces<const N: usize>(&self, column: u16) -> Option<[&'a [u16; N]; 3]> {
         let piece = |first: u16| {
-            // One comparison, since 17 bits and a few cannot overflow.
+            // One comparison: sums of 17 bits and a few cannot overflow.
             let from = usize::from(first) + usize::from(column);
             self.values.get(from..from + N)?.first_chunk()
         };
@@ -85,14 +84,14 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// Sum of the magnitudes at some taxels of the middle one of three rows of sixteen, each in eighths: a bit
-/// for each column.
+/// Sum of the gradients' magnitudes at the taxels in the mask `taxels` (a bit per column) of the middle one
+/// of three rows of sixteen, each in eighths.
 ///
-/// A taxel takes a Cortex-M0+ 40 cycles, each other one 4, counted in its instructions: no place is asked
-/// whether it is there.
-#[inline(never)] // the few registers of an M0+ are for this
+/// On a Cortex-M0+ a taxel in the mask takes 40 cycles, any other 4 (counted in instructions), as no bounds
+/// are checked.
+#[inline(never)] // M0+: out of line
 pub(crate) fn steepness_of_sixteens(rows: [&Sixteen; 3], taxels: u32) -> u32 {
-    // A compiler keeps a loop of that length, and with it an index and a shift for each taxel.
+    // Unrolled by hand: the compiler would keep a loop, with an index and a shift per taxel.
     let sum = at::<0, 0, 1>(rows, taxels, 0);
     let sum = at::<0, 1, 2>(rows, taxels, sum);
     let sum = at::<1, 2, 3>(rows, taxels, sum);
@@ -123,7 +122,7 @@ fn at<const LEFT: usize, const HERE: usize, const RIGHT: usize>(
     sum + (slopes(&around.each_ref()).magnitude() >> 3)
 }
 
-/// In the middle of three rows of three.
+/// Gradient at the centre of 3x3 taxels.
 fn slopes([above, here, below]: &[&[u16; 3]; 3]) -> Gradient {
     let [[nw, n, ne], [w, _, e], [sw, s, se]] = [above, here, below].map(|row| row.map(i32::from));
     // Both diagonals count for both slopes.
@@ -167,10 +166,10 @@ mod tests {
         let at = |row, column| sobel(&values, &layout.areas()[0], row, column);
         assert_eq!(at(2, 3), Gradient { x: 24, y: 160 });
         assert_eq!(at(2, 3).magnitude(), 184);
-        // Replicated border: half the difference is seen.
+        // Replicated border: half the difference shows.
         assert_eq!(at(0, 0), Gradient { x: 12, y: 80 });
         assert_eq!(at(4, 6), Gradient { x: 12, y: 80 });
-        // Total: outside and without values.
+        // Any input is accepted: outside the panel, and without values.
         assert_eq!(at(99, 99), at(4, 6));
         assert_eq!(sobel(&[], &layout.areas()[0], 1, 1), Gradient::default());
     }

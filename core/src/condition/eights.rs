@@ -1,4 +1,4 @@
-//! The median of nine by a machine with vectors: eight taxels of a row at once, from the top of a panel down.
+//! The median of nine by SIMD: eight taxels of a row at once, down the rows of a panel.
 
 use super::median::{mark, median_of_columns, sorted};
 use super::rows::{Rows, columns_as_groups};
@@ -7,24 +7,24 @@ use bytemuck::must_cast;
 use core::ops::Range;
 use wide::{i16x8, u16x16};
 
-/// Taxels that are filtered at once.
+/// Taxels filtered at once.
 const EIGHT: usize = 8;
-/// Columns of a panel from which on it can be filtered so: eight have their neighbours, too.
+/// Least columns of a panel for it: eight taxels and a neighbour on each side.
 pub(super) const FEWEST: usize = EIGHT + 2;
-/// Rows that are looked through at once.
+/// Rows searched at once.
 const BLOCK: usize = u32::BITS as usize;
 
-/// Pressure as numbers with a sign, which are sooner compared.
+/// Pressure as signed numbers, which compare faster.
 type Eight = i16x8;
-/// 0 as such a number.
+/// Zero pressure as such a number.
 const NOTHING: Eight = Eight::splat(i16::MIN);
 
-/// Filters a panel where it may hold something, its border replicated; `out` is empty elsewhere.
+/// Filters a panel where it may be non-zero, border replicated; `out` is zero elsewhere.
 pub(super) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     let panel = area.first_row..area.first_row.saturating_add(area.rows);
     for column in (1..columns - 1).step_by(EIGHT) {
-        // The last may begin within the ones before: they say the same again.
+        // The last eight may overlap the previous eight, with equal results.
         let column = column.min(columns - 1 - EIGHT);
         let reach = columns_as_groups(column - 1..column + EIGHT + 1, grain);
         let marks = marks.places(panel.clone());
@@ -33,7 +33,7 @@ pub(super) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, gra
             let mut held = u32::MAX >> (u32::BITS - rows);
             if let Some(marks) = marks.as_ref().and_then(|marks| marks.get(block..block + rows as usize)) {
                 held = holding(marks, reach);
-                // One row may be filled from both sides, and what lies beyond the block is not known.
+                // A row may be filled from both sides; rows beyond the block are assumed to hold something.
                 held |= (held << 1 | 1) & (held >> 1 | 1 << (rows - 1));
             }
             while held != 0 {
@@ -53,7 +53,7 @@ pub(super) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, gra
     });
 }
 
-/// Which of at most [`BLOCK`] rows have some of those groups.
+/// Returns a mask of those of at most [`BLOCK`] rows that have any of the groups.
 #[inline(always)]
 fn holding(rows: &[u16], groups: u16) -> u32 {
     let (sixteens, rest) = rows.as_chunks();
@@ -64,9 +64,8 @@ fn holding(rows: &[u16], groups: u16) -> u32 {
     })
 }
 
-/// Filters eight columns of some rows, neither the first column nor the last. The three of a row around a
-/// taxel are sorted once, and used for it and for those above and below it; what two rows have in common is
-/// found once for both.
+/// Filters eight columns of some rows, neither the first column nor the last. Each three taxels of a row are
+/// sorted once, for all rows that use them; what two output rows have in common is computed once for both.
 #[inline(always)]
 fn filter(values: &[u16], out: &mut [u16], columns: usize, column: usize, rows: Range<usize>) {
     let mut values = values.get(rows.start.saturating_sub(1) * columns..).unwrap_or(&[]);
@@ -98,7 +97,7 @@ fn filter(values: &[u16], out: &mut [u16], columns: usize, column: usize, rows: 
     }
 }
 
-/// Eight taxels of a row, each sorted with the ones beside it: the least, the middle and the greatest of three.
+/// Eight taxels of a row, each sorted with its two neighbours: least, middle and greatest of the three.
 #[inline(always)]
 fn three(row: &[u16], column: usize) -> [Eight; 3] {
     let around = row.get(column - 1..).and_then(<[u16]>::first_chunk::<FEWEST>);
@@ -127,7 +126,7 @@ fn filter_ends(values: &[u16], out: &mut [u16], columns: usize, row: usize) {
     }
     let column = |end: usize, at: usize| sorted(above[end][at], here[end][at], below[end][at]);
     if let Some([first, .., last]) = out.get_mut(row * columns..).and_then(|row| row.get_mut(..columns)) {
-        // The column at the end counts twice.
+        // The column at the border counts twice.
         *first = median_of_columns(column(0, 0), column(0, 0), column(0, 1));
         *last = median_of_columns(column(1, 1), column(1, 1), column(1, 0));
     }
@@ -143,7 +142,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Both ways against a sorted list, on panels with and without columns, rows and blocks to spare.
+    /// Both medians against a sorted list, on panels with and without spare columns, rows and blocks.
     #[test]
     fn a_taxel_becomes_the_fifth_of_nine() {
         let mut noise = 1u32;
@@ -156,7 +155,7 @@ mod tests {
             let layout = Layout::build(&Garment::recorded(rows, columns), 4800, 255).unwrap();
             let area = &layout.areas()[0];
             let (last_row, last_column) = (i32::from(rows) - 1, i32::from(columns) - 1);
-            // Blots on an empty panel, few of them or many, of all sizes of numbers.
+            // Blots on an empty panel, few of them or many, of values of all sizes.
             let mut values = vec![0u16; layout.taxels()];
             for _ in 0..[1, 5, 200][round % 3] {
                 let (row, column) = (next(rows.into()) as u16, next(columns.into()) as u16);

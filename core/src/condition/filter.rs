@@ -1,4 +1,4 @@
-//! The 3x3 filters, where there is something in reach.
+//! The 3x3 filters, applied where the image may be non-zero.
 
 use super::config::Filter;
 use super::conservative::conservative;
@@ -12,8 +12,8 @@ use super::state::ConditionState;
 use crate::garment::Area;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Filters the calibrated image of a panel whose filtered image is empty. What either of them may hold
-    /// takes the place of what the calibrated one held.
+    /// Filters the calibrated image of a panel whose filtered image is zero. The marks are widened to where
+    /// either image may be non-zero.
     pub(super) fn filter(&mut self, area: &Area, filter: Filter) {
         let values = panel_of(&self.calibrated, area);
         let out = panel_mut(&mut self.filtered, area);
@@ -63,7 +63,7 @@ mod tests {
         let filters = [Filter::Conservative, Filter::Median, Filter::Square];
         assert_eq!(filters.map(|f| kept(f, &finger)), [4, 0, 4]);
         assert_eq!(filters.map(|f| kept(f, &line)), [16, 0, 16]);
-        // An impulse goes, on the border too; a gap is bridged.
+        // An impulse is removed, on the border too; a gap is bridged.
         assert_eq!(kept(Filter::Conservative, &[(37, 4000)]), 0);
         assert_eq!(kept(Filter::Conservative, &[(0, 4000)]), 0);
         let gap: Vec<_> = (0..64).filter(|t| *t != 37).map(|taxel| (taxel, 500)).collect();

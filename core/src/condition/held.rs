@@ -1,12 +1,12 @@
-//! Which rows may hold something.
+//! A set of rows that may be non-zero.
 
 use core::ops::Range;
 
-/// Rows that are told apart; those from the last of them on are one.
+/// Entries of the set; the last one stands for all further rows.
 pub(super) const ENTRIES: usize = 256;
 
 /// A bit for each row by its number over all panels ([`Area::first_row`](crate::garment::Area)` + row`). Rows
-/// from 255 on share one.
+/// from 255 on share one bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Held([u32; ENTRIES / 32]);
 
@@ -16,33 +16,33 @@ impl Held {
     /// Every row.
     pub const ALL: Held = Held([u32::MAX; ENTRIES / 32]);
 
-    /// Those of both.
+    /// Union.
     pub fn with(&self, other: &Held) -> Held {
         let mut all = *self;
         all.0.iter_mut().zip(other.0).for_each(|(all, other)| *all |= other);
         all
     }
 
-    /// Those that the other does not hold.
+    /// Rows that are not in `other`.
     pub(super) fn without(&self, other: &Held) -> Held {
         let mut rest = *self;
         rest.0.iter_mut().zip(other.0).for_each(|(rest, other)| *rest &= !other);
         rest
     }
 
-    /// Whether there is none.
+    /// True if there is no row.
     pub fn is_empty(&self) -> bool {
         *self == Held::NONE
     }
 
-    /// The first of some rows that may hold something.
+    /// First row of the range that may be non-zero.
     pub const fn next(&self, rows: Range<u16>) -> Option<u16> {
         let mut row = rows.start;
         while row < rows.end {
             let entry = entry(row);
             let ahead = self.0[entry / 32] >> (entry % 32);
             if ahead & 1 == 1 {
-                // Most rows that hold something follow another, and to count zeros takes a Cortex-M0+ long.
+                // Most such rows follow another one, and counting zeros takes a Cortex-M0+ long.
                 return Some(row);
             }
             if entry == SHARED {
@@ -57,7 +57,7 @@ impl Held {
         None
     }
 
-    /// The first of some rows that may hold something, with those behind it up to the first that holds nothing.
+    /// First run of consecutive rows of the range that may be non-zero.
     pub fn run(&self, rows: Range<u16>) -> Option<Range<u16>> {
         let start = self.next(rows.clone())?;
         let mut end = start;
@@ -81,7 +81,7 @@ impl Held {
         self.0[entry / 32] |= 1 << (entry % 32);
     }
 
-    /// Adds entries that follow each other.
+    /// Adds consecutive entries.
     pub(super) fn add_run(&mut self, entries: Range<usize>) {
         let mut from = entries.start;
         while from < entries.end {
@@ -93,16 +93,16 @@ impl Held {
         }
     }
 
-    /// Takes an entry away.
+    /// Removes an entry.
     pub(super) const fn remove(&mut self, entry: usize) {
         self.0[entry / 32] &= !(1 << (entry % 32));
     }
 }
 
-/// The last entry, which many rows share.
+/// Index of the last entry, which many rows share.
 pub(super) const SHARED: usize = ENTRIES - 1;
 
-/// Where a row is noted.
+/// Index of a row's entry.
 pub(super) const fn entry(row: u16) -> usize {
     if row as usize >= SHARED { SHARED } else { row as usize }
 }

@@ -1,4 +1,4 @@
-//! The limit of each taxel, kept beside its calibration, so that a quiet taxel is compared and left.
+//! The limit of each taxel, kept beside its calibration: an inactive taxel is only compared with it.
 
 use super::calibrate::scale;
 use super::state::{ConditionState, UNITY};
@@ -6,7 +6,7 @@ use super::terms::Terms;
 use crate::format::Code;
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Sets the limits anew if they are for other terms, or for another calibration.
+    /// Recomputes the limits if they are for other terms, or for another calibration.
     pub(super) fn set_limits(&mut self, terms: Terms) {
         if self.limits_for == Some(terms) {
             return;
@@ -23,7 +23,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// The same for one taxel, whose calibration has changed.
+    /// Recomputes the limit of one taxel, whose calibration has changed.
     pub(super) fn set_limit(&mut self, taxel: usize) {
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
         if let (Some(terms), Some((rest, gain)), Some(limit)) =
@@ -34,8 +34,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// The last code of a taxel that comes to less than `level` counts; of one that is silenced the last of
-    /// all.
+    /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
+    /// taxel.
     pub fn quiet_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
         let terms = Terms { floor: level, falling };
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
@@ -45,7 +45,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         })
     }
 
-    /// What the code of a taxel comes to, counts.
+    /// Pressure of a taxel at a code, counts.
     pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
         let mut value = [0];
         if let Some((rest, gain)) = self.baseline.get(taxel).zip(self.gain.get(taxel)) {

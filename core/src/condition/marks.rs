@@ -1,18 +1,18 @@
-//! Where something is beyond its limit.
+//! Marks of taxels beyond their limits.
 
 use super::rows::{Rows, grain};
 use super::sixteen::SIXTEEN;
 use crate::garment::Area;
 use core::ops::Range;
 
-/// Takes down where something is; goes through a panel once, row by row.
+/// Marks the active taxels of a panel in one pass, row by row.
 pub(super) struct Marks<'a> {
     rows: &'a mut Rows,
-    /// Those of the panel, over all panels.
+    /// Rows of the panel, numbered over all panels.
     panel: Range<u16>,
-    /// Over all panels.
+    /// Present row, numbered over all panels.
     row: u16,
-    /// Its first taxel in the panel.
+    /// First taxel of that row, numbered in the panel.
     start: usize,
     columns: usize,
     grain: u32,
@@ -30,23 +30,23 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// The groups of the rows from one of the panel on, where rows are of sixteen taxels and have a place
-    /// each: one bit for each of them. What is written there is to be [held](Marks::hold).
+    /// Groups of the panel's rows from `first` on, one bit per taxel, if rows have sixteen columns and an
+    /// entry each. Rows whose groups are written must be [held](Marks::hold).
     #[inline(always)]
     pub fn rows(&mut self, first: usize) -> Option<&mut [u16]> {
         let (panel, sixteen) = (self.panel.clone(), self.columns == SIXTEEN);
         if sixteen { self.rows.places(panel)?.get_mut(first..) } else { None }
     }
 
-    /// Holds some rows, by their number in the panel.
+    /// Holds some rows, numbered in the panel.
     #[inline(always)]
     pub fn hold(&mut self, rows: Range<usize>) {
         let row = |row: usize| usize::from(self.panel.start) + row;
         self.rows.hold(row(rows.start)..row(rows.end));
     }
 
-    /// Taxels of the panel from number `at` on, `count` of them, a bit for each that holds something; 16 at
-    /// most.
+    /// Marks the active taxels among `count` taxels from number `at` of the panel on, given a bit for each;
+    /// at most 16.
     pub fn mark(&mut self, at: usize, count: usize, bits: u32) {
         let mut column = at - self.start;
         while column >= self.columns {
@@ -55,7 +55,7 @@ impl<'a> Marks<'a> {
         }
         let (mut rest, mut left) = (bits, count);
         while rest != 0 {
-            // As far as the row goes, and in groups that are wider than all taxels as far as the group goes.
+            // Up to the end of the row and, if a group has more columns than there are bits, of the group.
             let (before, inside) = (column >> self.grain, column & ((1 << self.grain) - 1));
             let wide = self.grain > MOST_FOLDED;
             let row = self.columns - column;
@@ -77,24 +77,23 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// Largest grain of groups whose bits, with those of 16 taxels, are in one word.
+/// Largest grain at which a group's bits and those of 16 taxels fit in one word.
 const MOST_FOLDED: u32 = 4;
 
-/// Marks of whole rows of sixteens, by a machine with vectors.
+/// Marks whole rows of sixteens, by SIMD.
 #[cfg(target_pointer_width = "64")]
 impl Marks<'_> {
-    /// Whether all rows are whole sixteens of columns, and no group is wider than one.
+    /// True if rows are whole sixteens of columns, and no group is wider than one.
     pub const fn are_sixteens(&self) -> bool {
         self.columns.is_multiple_of(SIXTEEN) && self.grain <= MOST_FOLDED
     }
 
-    /// Sixteens of a row.
+    /// Number of sixteens of a row.
     pub const fn sixteens(&self) -> usize {
         self.columns / SIXTEEN
     }
 
-    /// The groups of a row that have some of the taxels of a sixteen, given its number in the row and a bit
-    /// for each of those.
+    /// Groups of a row with active taxels in a sixteen, given its number in the row and a bit per taxel.
     #[inline(always)]
     pub fn groups_of_sixteen(&self, sixteen: u32, bits: u32) -> u16 {
         let groups = match self.grain {
@@ -104,14 +103,14 @@ impl Marks<'_> {
         (groups << ((sixteen * SIXTEEN as u32) >> self.grain)) as u16
     }
 
-    /// Takes down the groups of a row of the panel, in place of those that it had.
+    /// Replaces the groups of a row of the panel.
     #[inline(always)]
     pub const fn mark_row(&mut self, row: usize, groups: u16) {
         self.rows.set(self.panel.start.saturating_add(row as u16), groups);
     }
 }
 
-/// As [`fold`] of 16 bits with a grain of 2, that of panels of 33 to 64 columns.
+/// [`fold`] of 16 bits with a grain of 2, that of panels of 33 to 64 columns.
 #[cfg(target_pointer_width = "64")]
 const fn fold_sixteen_by_four(bits: u32) -> u32 {
     let two = bits | bits >> 1;
@@ -120,11 +119,11 @@ const fn fold_sixteen_by_four(bits: u32) -> u32 {
     ((four * 0x1248) >> 12) & 0xf
 }
 
-/// A bit for each `2^grain` of them: whether one is set.
+/// Returns a bit for each `2^grain` bits: 1 if any of them is set.
 fn fold(bits: u32, grain: u32) -> u32 {
     let mut bits = bits;
     for _ in 0..grain {
-        // Of two neighbours, then those that are left move together.
+        // Combines neighbours, then moves the remaining bits together.
         bits = (bits | bits >> 1) & 0x5555_5555;
         bits = (bits | bits >> 1) & 0x3333_3333;
         bits = (bits | bits >> 2) & 0x0f0f_0f0f;

@@ -4,11 +4,11 @@ use super::rows::{Pieces, Rows, columns_as_groups};
 use crate::garment::Area;
 use core::ops::Range;
 
-/// Filters a panel where it may hold something, its border replicated; `out` is empty elsewhere.
+/// Filters a panel where it may be non-zero, border replicated; `out` is zero elsewhere.
 ///
-/// Each column of three is sorted once and used three times; the median of nine is the median of the largest
-/// low, the median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ where
-/// all are pressed, see `docs/bench/cycles.txt`.
+/// Each column of three is sorted once and used three times. The median of nine is the median of the largest
+/// low, the median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ if all
+/// are pressed, see `docs/bench/cycles.txt`.
 pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     mark(area, grain, marks, |row, groups| {
@@ -21,15 +21,15 @@ pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, m
     });
 }
 
-/// Marks the groups of a panel in which something may be left, which `each` is told row by row: five of nine
-/// are in two rows at least. The border is replicated.
+/// Marks the groups of a panel that may be non-zero after the filter, and calls `each` with every such row:
+/// five of nine taxels lie in at least two rows. The border is replicated.
 #[inline(always)]
 pub(super) fn mark(area: &Area, grain: u32, marks: &mut Rows, mut each: impl FnMut(usize, u16)) {
     let there = columns_as_groups(0..area.columns.into(), grain);
     let widened = |groups: u16| (groups | groups << 1 | groups >> 1) & there;
     let end = area.first_row.saturating_add(area.rows);
     let here = marks.groups(area.first_row);
-    // As they were before the filter.
+    // Groups as they were before the filter.
     let (mut above, mut here) = (widened(here), widened(here));
     for (row, number) in (area.first_row..end).enumerate() {
         let below = if number + 1 < end { widened(marks.groups(number + 1)) } else { here };
@@ -42,7 +42,7 @@ pub(super) fn mark(area: &Area, grain: u32, marks: &mut Rows, mut each: impl FnM
     }
 }
 
-/// Some columns of a row.
+/// Filters some columns of a row.
 fn part(rows: [&[u16]; 3], columns: Range<usize>, out: &mut [u16]) {
     let led = columns.start > 0;
     let around = columns.start - usize::from(led)..(columns.end + 1).min(out.len());
@@ -50,7 +50,7 @@ fn part(rows: [&[u16]; 3], columns: Range<usize>, out: &mut [u16]) {
     row(above, here, below, led, out.get_mut(columns).unwrap_or(&mut []));
 }
 
-/// The same; if `led`, the rows begin one column before `out`.
+/// Filters a row; if `led`, the inputs begin one column before `out`.
 #[inline(never)]
 fn row(above: &[u16], here: &[u16], below: &[u16], led: bool, out: &mut [u16]) {
     let mut columns =

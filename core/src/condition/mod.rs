@@ -3,28 +3,28 @@
 //! | | |
 //! |---|---|
 //! | input | [`Code`] by taxel number; missing codes read as no pressure |
-//! | output | [`Image`]: `u16` counts above the baseline by taxel number, and which rows may hold something |
+//! | output | [`Image`]: `u16` counts above the baseline by taxel number, and the rows that may be non-zero |
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none; a point that presses a single taxel passes one frame later |
 //! | RAM | 10 bytes per taxel and 1,312 bytes |
 //! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 138 k (persistent), about 34 k more where gains are not 1 |
 //!
-//! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12, or `baseline - code`
-//! where pressure lowers the code; a value below the floor is 0. The filter then works over the whole panel,
-//! across the seams of its blocks.
+//! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12. If pressure lowers
+//! the code, the difference is `baseline - code`. A value below the floor is 0. The filter then works on the
+//! whole panel, across the seams of its blocks.
 //!
-//! Work follows what is touched. A quiet taxel is compared with a limit of its own, which is kept beside its
-//! baseline, and left; what is beyond is calibrated and marked in [`Rows`], and only there the images are
-//! filtered and, one frame later, cleared or overwritten. The result is that of the plain definition, bit for
-//! bit.
+//! Cost grows with the touched area. Each taxel has a limit beside its baseline; one within its limit is
+//! inactive and is only compared. Taxels beyond their limits are calibrated and marked in [`Rows`]. Only
+//! there are the images filtered and, one frame later, cleared or overwritten. The result is that of the
+//! plain definition, bit for bit.
 //!
-//! The filter that ships ([`Filter::Persistent`]) removes what is one frame long on one taxel, and keeps what
-//! stays. It remembers no image: only the [`POINTS`] first taxels of a frame that exceed their neighbours by
-//! more than noise does.
+//! The shipped filter ([`Filter::Persistent`]) removes impulses of one frame on one taxel, and keeps pressure
+//! that lasts. It stores no previous image, only the first [`POINTS`] taxels of a frame that exceed their
+//! neighbours by more than noise.
 //!
-//! Each row follows drift once in 0.7 s, twice while its garment drifts fast, at any frame rate. Where
-//! something touches, the baseline moves as the witnesses of its panel agree, so that a held contact neither
-//! is swallowed nor drifts.
+//! Each row follows drift once in 0.7 s, twice while its garment drifts fast, at any frame rate. Under a
+//! contact the baseline moves with the drift on which the panel's witnesses agree, so that a held contact
+//! neither vanishes nor drifts.
 
 mod calibrate;
 mod certificate;

@@ -1,4 +1,4 @@
-//! Codes to pressure where every gain is 1, by a machine with vectors: sixteen taxels at once.
+//! Codes to pressure with unity gains by SIMD: sixteen taxels at once.
 
 use super::calibrate::Panel;
 use super::marks::Marks;
@@ -8,8 +8,8 @@ use bytemuck::must_cast;
 use wide::u16x16;
 
 impl Panel<'_> {
-    /// Calibrates whole rows of a multiple of sixteen columns, given how much farther than from its limit a
-    /// code is from that at rest; whether anything is left.
+    /// Calibrates whole rows of a multiple of sixteen columns, where a code is `margin` further from its
+    /// baseline than from its limit. Returns true if any taxel is active.
     pub fn calibrate_rows<const FALLING: bool>(&mut self, marks: &mut Marks<'_>, margin: u16) -> bool {
         let (codes, limits) = (self.codes.as_chunks().0, self.limit.as_chunks().0);
         let out = self.out.as_chunks_mut().0;
@@ -33,8 +33,8 @@ impl Panel<'_> {
     }
 }
 
-/// What codes beyond their limits become, and a bit for each; the others become 0, and nothing is written
-/// where all are such.
+/// Stores the values of sixteen taxels, 0 for inactive ones, and returns the mask of active ones. Writes
+/// nothing if none is active.
 #[inline(always)]
 fn exceed<const FALLING: bool>(
     codes: &[Code; SIXTEEN],
@@ -61,7 +61,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Rows of one sixteen and of several, as the chunks that they are.
+    /// Rows of one sixteen and of several, compared with the chunks that they consist of.
     #[test]
     fn rows_are_calibrated_as_their_chunks() {
         let mut noise = 1u32;
@@ -75,7 +75,7 @@ mod tests {
         {
             let layout = Layout::build(&Garment::recorded(12, columns), 3072, 255).unwrap();
             let area = &layout.areas()[0];
-            // At both ends of the scale; few are beyond their limits, or most.
+            // At both ends of the scale; few codes are beyond their limits, or most.
             let margin = [1, 60, 4000][round % 3];
             let (codes, limit): (Vec<Code>, Vec<u16>) = (0..layout.taxels())
                 .map(|_| {

@@ -1,21 +1,21 @@
-//! Points: taxels that stand out of their neighbours, in this frame and in the one before.
+//! Points: taxels that stand out from their neighbours, in this frame and in the previous one.
 
 use super::clamp::VECTORS;
 use super::rows::Rows;
 use crate::garment::Area;
 use heapless::Vec;
 
-/// Most points that a frame remembers, over all panels. Those after them, in the order of their numbers, are
-/// smoothed in the next frame as if they had not been there. Each may be a contact of its own, and twice as
-/// many do not leave time for a frame.
+/// Most points stored per frame, over all panels. Further ones, in the order of taxel numbers, are smoothed
+/// in the next frame as if they were new. Each point may become a contact, and twice as many leave no time
+/// for a frame.
 pub const POINTS: usize = 24;
 
-/// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of that and so many
-/// counts: what is nearer may be noise, or the unevenness of what presses, and loses little by being
-/// smoothed.
+/// A taxel is a point if it exceeds its greatest neighbour by more than a sixteenth of it plus this many
+/// counts. A smaller excess may be noise, or unevenness of the pressing object, and loses little by
+/// smoothing.
 pub const MARGIN: u16 = 64;
 
-/// Whether a taxel is a point, given what it is smoothed to.
+/// True if a taxel is a point, given its smoothed value.
 #[inline(always)]
 pub(super) const fn stands_out(value: u16, smooth: u16) -> bool {
     value.saturating_sub(smooth) > (smooth >> 4) + MARGIN
@@ -27,13 +27,13 @@ struct Point {
     value: u16,
 }
 
-/// The points of two frames, each by the numbers of their taxels.
+/// Points of two frames, ascending by taxel number.
 #[derive(Debug, Clone)]
 pub(super) struct Points {
     lists: [Vec<Point, POINTS, u8>; 2],
-    /// The points of this frame are in the second list.
+    /// True if the second list holds the points of this frame.
     second: bool,
-    /// Points of the frame before that have been compared.
+    /// Number of the previous frame's points that have been compared.
     compared: u8,
 }
 
@@ -42,7 +42,7 @@ impl Points {
         Points { lists: [Vec::new(), Vec::new()], second: false, compared: 0 }
     }
 
-    /// Begins a frame: its points become those of the frame before.
+    /// Begins a frame: its points become those of the previous frame.
     pub fn begin(&mut self) {
         self.second = !self.second;
         self.compared = 0;
@@ -50,14 +50,14 @@ impl Points {
         if self.second { second.clear() } else { first.clear() }
     }
 
-    /// Forgets all, as where there was no frame before.
+    /// Forgets all points, so that there is no previous frame.
     pub fn forget(&mut self) {
         self.lists.iter_mut().for_each(Vec::clear);
     }
 
-    /// Gives back to the points of a panel what they had in the frame before, and no more than they have now.
-    /// `values` are smoothed to `out`, and held where `marks` says so.
-    #[inline(never)] // the few registers of an M0+ are for its loops
+    /// Restores each point of a panel to the lesser of its values in the previous frame and in this one.
+    /// `values` are unfiltered, `out` smoothed; `marks` tells where they may be non-zero.
+    #[inline(never)] // M0+: out of line
     pub fn restore(&mut self, values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
         let columns = usize::from(area.columns);
         let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
@@ -76,7 +76,7 @@ impl Points {
         }
     }
 
-    /// Whether no further point is remembered or given back.
+    /// True if no further point can be stored or restored.
     fn is_done(&self) -> bool {
         let [first, second] = &self.lists;
         let (before, now) = if self.second { (first, second) } else { (second, first) };
@@ -92,8 +92,8 @@ impl Points {
         }
     }
 
-    /// Remembers a point whose number is beyond that of the last one; the less of what it has and what it had
-    /// in the frame before.
+    /// Stores a point whose number is above that of the last one. Returns the lesser of its value and that in
+    /// the previous frame; 0 if it was no point then.
     fn take(&mut self, point: Point) -> u16 {
         let [first, second] = &mut self.lists;
         let (before, now) = if self.second { (first, second) } else { (second, first) };
@@ -110,8 +110,7 @@ impl Points {
     }
 }
 
-/// Whether one of the taxels of a row is a point. Without a branch per taxel, so that a machine with vectors
-/// compares many at once.
+/// True if a row has a point. Without a branch per taxel, so that SIMD compares many at once.
 fn has_points(values: &[u16], out: &[u16]) -> bool {
     values.iter().zip(out).fold(false, |any, (value, out)| any | stands_out(*value, *out))
 }

@@ -1,27 +1,27 @@
-//! How far a tare is.
+//! Progress of a tare.
 
-/// How far a tare is.
+/// Progress of a tare, as reported.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Tare {
-    /// None has been asked for, or the last has been reported as done.
+    /// No tare was requested, or the last one has been reported as done.
     #[default]
     Idle,
-    /// The image is zero until so many more frames have been taken in.
+    /// The image is zero until the tare ends.
     Running {
         /// frames still to come
         left: u16,
     },
-    /// The last frame completed it: the next one is measured from the new baseline.
+    /// The last frame completed it: the next one uses the new baseline.
     Done,
 }
 
-/// Progress of a tare.
+/// State of a tare.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Progress {
     pub(super) tare: Tare,
-    /// Frames of the tare.
+    /// Number of frames of the tare.
     pub(super) frames: u16,
-    /// Panels that are being tared; latched at its first frame.
+    /// Panels being tared; set by its first frame.
     pub(super) panels: Option<u8>,
     pub(super) tared: bool,
 }

@@ -1,21 +1,21 @@
-//! A row of a panel, filtered run by run.
+//! Filters a row of a panel run by run.
 
 use core::ops::Range;
 
-/// A row with the ones above and below it.
+/// A row with the rows above and below it.
 pub(super) struct Row {
-    /// Where the row above, the row and the row below begin in a panel.
+    /// Offsets in a panel of the row above, the row, and the row below.
     pub starts: [usize; 3],
-    /// At least a run and its neighbours.
+    /// Number of columns: at least a run with its two neighbours.
     pub columns: usize,
 }
 
 impl Row {
-    /// Filters some columns, and others beside them, N - 2 at a time: they have their neighbours, too.
+    /// Filters `columns`, N - 2 at a time, and possibly some beside them.
     ///
-    /// `run` filters all but the ends of some taxels, given with those above and below. `end` filters the
-    /// first taxel of the row, or the last, given the first two of the row above, the row and the row below,
-    /// or the last two from the last on.
+    /// `run` filters N taxels except both ends, given the rows above, here and below. `end` filters the first
+    /// or the last taxel of the row, given the two taxels of each of the three rows at that end, outermost
+    /// first.
     #[inline(always)]
     pub fn filter<const N: usize>(
         &self,
@@ -44,12 +44,12 @@ impl Row {
             if at + 1 >= columns.end {
                 return;
             }
-            // The last may begin within the one before: it says the same again.
+            // The last run may overlap the previous one, with equal results.
             at = at.min(latest);
         }
     }
 
-    /// Some taxels from a column on, with those above and below them.
+    /// N taxels from a column on, with those above and below them.
     #[inline(always)]
     fn around<'a, const N: usize>(&self, values: &'a [u16], column: usize) -> Option<[&'a [u16; N]; 3]> {
         let [above, here, below] = self.starts;

@@ -1,4 +1,4 @@
-//! Which parts of an image are worth a look.
+//! Parts of an image that may be non-zero.
 
 use super::held::{ENTRIES, Held, SHARED, entry};
 use super::slices::row_of;
@@ -8,15 +8,15 @@ use core::ops::Range;
 /// Bits of an entry.
 const GROUPS: u32 = 16;
 
-/// The activity of an image: for each row, by its number over all panels ([`Area::first_row`]` + row`), the
-/// columns that may hold something; whatever it leaves out is 0.
+/// The columns of each row, by its number over all panels ([`Area::first_row`]` + row`), that may be
+/// non-zero. All others are 0.
 ///
-/// A row has one bit for each of 16 groups of columns, so up to 16 columns have one of their own. Rows from
-/// 255 on share one entry, so that it answers "may hold something" for any garment.
+/// A row has one bit for each of 16 groups of columns: with up to 16 columns each has its own. Rows from 255
+/// on share one entry, so that any garment is covered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rows {
     groups: [u16; ENTRIES],
-    /// Rows with a group.
+    /// Rows with at least one group.
     held: Held,
 }
 
@@ -26,7 +26,7 @@ impl Rows {
     /// Every column of every row.
     pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: Held::ALL };
 
-    /// The places of `values` (by taxel number) that hold anything but 0.
+    /// The places where `values` (by taxel number) are not 0.
     pub fn of(layout: &Layout, values: &[u16]) -> Rows {
         let mut rows = Rows::NONE;
         for area in layout.areas() {
@@ -40,27 +40,27 @@ impl Rows {
         rows
     }
 
-    /// Whether the row, or one that shares its entry, may hold something.
+    /// True if the row, or one that shares its entry, may be non-zero.
     pub const fn contains(&self, row: u16) -> bool {
         self.groups(row) != 0
     }
 
-    /// Whether nothing is held.
+    /// True if the whole image is zero.
     pub fn is_empty(&self) -> bool {
         self.held.is_empty()
     }
 
-    /// The first of some rows that may hold something.
+    /// First row of the range that may be non-zero.
     pub const fn next(&self, rows: Range<u16>) -> Option<u16> {
         self.held.next(rows)
     }
 
-    /// The rows that may hold something.
+    /// Rows that may be non-zero.
     pub(crate) const fn held(&self) -> &Held {
         &self.held
     }
 
-    /// The groups of columns of a row that may hold something.
+    /// Groups of columns of a row that may be non-zero.
     pub(super) const fn groups(&self, row: u16) -> u16 {
         self.groups[entry(row)]
     }
@@ -73,28 +73,28 @@ impl Rows {
         }
     }
 
-    /// The groups of some rows, if none of them shares its entry. Those that get some are to be
+    /// Groups of some rows, if none of them shares an entry. Rows whose groups are set must be
     /// [held](Rows::hold).
     pub(super) fn places(&mut self, rows: Range<u16>) -> Option<&mut [u16]> {
         self.groups.get_mut(..SHARED)?.get_mut(usize::from(rows.start)..usize::from(rows.end))
     }
 
-    /// Holds some rows, none of which shares its entry.
+    /// Holds some rows, none of which shares an entry.
     pub(super) fn hold(&mut self, rows: Range<usize>) {
         self.held.add_run(rows);
     }
 
-    /// Lets go of all rows, whose groups stay; which they were.
+    /// Releases and returns all rows; their groups stay.
     pub(super) fn release(&mut self) -> Held {
         core::mem::replace(&mut self.held, Held::NONE)
     }
 
-    /// Adds groups to those of a row that has some.
+    /// Adds groups to a row that has some.
     pub(super) const fn widen(&mut self, row: u16, groups: u16) {
         self.groups[entry(row)] |= groups;
     }
 
-    /// Leaves only these groups of a row, unless others share its entry.
+    /// Replaces the groups of a row, or adds to them if others share its entry.
     pub(super) const fn set(&mut self, row: u16, groups: u16) {
         if entry(row) != SHARED {
             self.forget(entry(row));
@@ -102,7 +102,7 @@ impl Rows {
         self.add(row, groups);
     }
 
-    /// Empties the entry that many rows share.
+    /// Clears the entry that many rows share.
     pub(super) const fn forget_shared(&mut self) {
         self.forget(SHARED);
     }
@@ -113,7 +113,7 @@ impl Rows {
     }
 }
 
-/// Columns of a group, as a power of two.
+/// Columns per group, log2.
 pub(super) fn grain(area: &Area) -> u32 {
     let mut grain = 0;
     while area.columns.saturating_sub(1) >> grain >= GROUPS as u16 {
@@ -122,13 +122,13 @@ pub(super) fn grain(area: &Area) -> u32 {
     grain
 }
 
-/// The groups of some columns, of which there is one at least.
+/// Groups of a non-empty range of columns.
 pub(super) const fn columns_as_groups(columns: Range<usize>, grain: u32) -> u16 {
     let (first, last) = (columns.start >> grain, (columns.end - 1) >> grain);
     u16::MAX << first & u16::MAX >> (GROUPS as usize - 1 - last)
 }
 
-/// The first and the last of some groups, as columns.
+/// Range of columns from the first to the last of some groups.
 pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
     if groups == 0 {
         return 0..0;
@@ -139,7 +139,7 @@ pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
     columns(groups.trailing_zeros())..columns(u16::BITS - groups.leading_zeros())
 }
 
-/// Groups that follow each other: as groups, and as columns of a row.
+/// Iterator over runs of consecutive groups: as groups, and as columns of a row.
 pub(super) struct Pieces {
     groups: u32,
     at: u32,

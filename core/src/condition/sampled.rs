@@ -1,15 +1,15 @@
-//! What is conditioned.
+//! The input of the stage.
 
 use crate::format::{Code, Micros};
 
-/// The codes of a scan, and how they are to be read.
+/// The codes of a scan, and how to read them.
 #[derive(Debug, Clone, Copy)]
 pub struct Sampled<'a> {
-    /// By taxel number; what is missing reads as no pressure, what is too much is ignored.
+    /// Codes by taxel number; missing ones read as no pressure, surplus ones are ignored.
     pub codes: &'a [Code],
-    /// Pressure lowers the code.
+    /// True if pressure lowers the code.
     pub falling: bool,
-    /// Panels whose bit is not set read as zero and keep their baseline.
+    /// Mask of the panels read; the others read as zero and keep their baseline.
     pub panels: u8,
     /// Start of the scan, us.
     pub now: Micros,

@@ -1,20 +1,20 @@
-//! Rows of sixteen taxels, each within the range of its eight neighbours: one comparison after another.
+//! Clamps rows of sixteen taxels to the range of their eight neighbours, by single comparisons.
 //!
-//! Only a strict extreme of the nine is changed, so one neighbour that is not smaller and one that is not
-//! greater settle a taxel. Few comparisons settle most: those beside it first.
+//! Only a strict extreme of the nine changes, so one neighbour that is not smaller and one that is not
+//! greater settle a taxel. A few comparisons settle most: the neighbours on both sides come first.
 
 use super::points::stands_out;
 
 /// Taxels of a row.
 pub(super) const SIXTEEN: usize = 16;
-/// A row and the one before it: two places in memory, that of the row below and that of the result are all
-/// that the registers of a Cortex-M0+ can tell beside what is compared.
+/// A row and the one before it, adjacent: besides the compared values, a Cortex-M0+'s registers hold two
+/// addresses more, that of the row below and that of the result.
 pub(super) type Two = [Sixteen; 2];
 /// A row.
 pub(crate) type Sixteen = [u16; SIXTEEN];
 
-/// Clamps the latter of two rows, given the one below. Of four columns none of which is among `groups`
-/// nothing may be left. Sets `points` where a taxel [stands out](stands_out).
+/// Clamps the second of two rows, given the one below. Four columns without any of `groups` become 0. Sets
+/// `points` if a taxel [stands out](stands_out).
 #[inline(always)]
 pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
     if groups == u16::MAX {
@@ -24,8 +24,8 @@ pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut S
     }
 }
 
-/// The same; if ALL, the groups are all there are. Not inlined, so that it has the registers to itself.
-#[inline(never)]
+/// Clamps a row; if ALL, all groups are set.
+#[inline(never)] // M0+: out of line
 fn clamp_groups<const ALL: bool>(
     two: &Two,
     below: &Sixteen,
@@ -33,7 +33,7 @@ fn clamp_groups<const ALL: bool>(
     out: &mut Sixteen,
     points: &mut bool,
 ) {
-    // A compiler keeps a loop of that length, and with it an index and sums for each taxel.
+    // Unrolled by hand: the compiler would keep a loop, with an index and additions per taxel.
     if ALL || groups & 0xf != 0 {
         end::<0, 1>(two, below, out, points);
         inside::<1>(two, below, out, points);
@@ -68,18 +68,18 @@ fn clamp_groups<const ALL: bool>(
     }
 }
 
-/// Four taxels without pressure.
+/// Clears four taxels.
 #[inline(always)]
 fn empty<const AT: usize>(out: &mut Sixteen) {
     (out[AT], out[AT + 1], out[AT + 2], out[AT + 3]) = (0, 0, 0, 0);
 }
 
-/// A taxel with neighbours on both sides.
+/// Clamps a taxel with neighbours on both sides.
 #[inline(always)]
 fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen, points: &mut bool) {
     let [above, here] = two;
     let (left, value, right) = (here[AT - 1], here[AT], here[AT + 1]);
-    // Kept at once: nothing is to be remembered while it is compared.
+    // Stored before the comparisons, so that it needs no register during them.
     out[AT] = value;
     let around =
         || [above[AT], below[AT], above[AT - 1], above[AT + 1], below[AT - 1], below[AT + 1]].into_iter();
@@ -92,7 +92,7 @@ fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen, points
     }
 }
 
-/// The first taxel, or the last, given the column beside it.
+/// Clamps the first or the last taxel, given the column beside it.
 #[inline(always)]
 fn end<const AT: usize, const BESIDE: usize>(
     two: &Two,
@@ -115,8 +115,8 @@ fn end<const AT: usize, const BESIDE: usize>(
     }
 }
 
-/// The greatest neighbour, given the column before. Not inlined, as [`least`], lest the neighbours be kept
-/// for it, one by one, on the stack.
+/// The greatest neighbour, given the column before. Out of line, like [`least`]: inlined, the compiler would
+/// keep the neighbours on the stack.
 #[inline(never)]
 fn greatest(two: &Two, below: &Sixteen, first: usize, points: &mut bool) -> u16 {
     let greatest = neighbours(two, below, first).into_iter().fold(0, u16::max);
@@ -131,7 +131,7 @@ fn least(two: &Two, below: &Sixteen, first: usize) -> u16 {
     neighbours(two, below, first).into_iter().fold(u16::MAX, u16::min)
 }
 
-/// All eight.
+/// All eight neighbours.
 #[inline(always)]
 fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
     let three = |row: &Sixteen| row.get(first..).and_then(|row| row.first_chunk().copied());
@@ -147,7 +147,7 @@ fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
 mod tests {
     use super::*;
 
-    /// Few sizes, so that many are the same, at both ends of the scale.
+    /// Few distinct values, so that many are equal, at both ends of the scale.
     #[test]
     fn a_taxel_is_within_the_range_of_its_neighbours() {
         let mut noise = 1u32;
@@ -159,7 +159,7 @@ mod tests {
                 })
             };
             let mut rows = [row(), row(), row()];
-            // Sometimes nothing in some of the columns, which are left out then.
+            // Sometimes some columns are zero, and are then left out.
             let groups = [u16::MAX, 0xff0f, 0x000f, 0x0110, 0][usize::from(round % 5)];
             for row in &mut rows {
                 (0..SIXTEEN).filter(|at| groups >> (at / 4 * 4) & 0xf == 0).for_each(|at| row[at] = 0);

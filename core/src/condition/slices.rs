@@ -1,4 +1,4 @@
-//! Rows and panels as parts of a slice by taxel number.
+//! Rows and panels of a slice by taxel number.
 
 use crate::garment::Area;
 
@@ -8,14 +8,14 @@ fn place(area: &Area, row: u16) -> (usize, usize) {
     (usize::from(area.base) + usize::from(row) * columns, columns)
 }
 
-/// The part of a slice by taxel number that is one row of a panel; shorter, or empty, where the slice ends.
+/// One row of a panel, from a slice by taxel number; shorter or empty if the slice ends.
 pub(crate) fn row_of<'a, T>(values: &'a [T], area: &Area, row: u16) -> &'a [T] {
     let (start, columns) = place(area, row);
     let rest = values.get(start..).unwrap_or(&[]);
     rest.get(..columns).unwrap_or(rest)
 }
 
-/// As [`row_of`], to write.
+/// Mutable [`row_of`].
 pub(crate) fn row_mut<'a, T>(values: &'a mut [T], area: &Area, row: u16) -> &'a mut [T] {
     let (start, columns) = place(area, row);
     let rest = values.get_mut(start..).unwrap_or(&mut []);
@@ -23,13 +23,13 @@ pub(crate) fn row_mut<'a, T>(values: &'a mut [T], area: &Area, row: u16) -> &'a 
     rest.get_mut(..length).unwrap_or(&mut [])
 }
 
-/// The part of a slice by taxel number that is one panel; shorter, or empty, where the slice ends.
+/// One panel, from a slice by taxel number; shorter or empty if the slice ends.
 pub(crate) fn panel_of<'a, T>(values: &'a [T], area: &Area) -> &'a [T] {
     let rest = values.get(usize::from(area.base)..).unwrap_or(&[]);
     rest.get(..usize::from(area.rows) * usize::from(area.columns)).unwrap_or(rest)
 }
 
-/// As [`panel_of`], to write.
+/// Mutable [`panel_of`].
 pub(super) fn panel_mut<'a, T>(values: &'a mut [T], area: &Area) -> &'a mut [T] {
     let rest = values.get_mut(usize::from(area.base)..).unwrap_or(&mut []);
     let length = rest.len().min(usize::from(area.rows) * usize::from(area.columns));

@@ -1,10 +1,10 @@
-//! A taxel is no more than the best square of 2x2 taxels that holds it.
+//! Clamps a taxel to the best 2x2 square that holds it.
 
 use super::rows::Rows;
 use crate::garment::Area;
 
-/// Clamps each taxel of a panel to the greatest mean of the four squares of 2x2 taxels that it belongs to;
-/// beyond the border there is 0. `out` is empty where nothing is held.
+/// Clamps each taxel of a panel to the greatest mean of the four 2x2 squares that it belongs to; beyond the
+/// border there is 0. `out` is zero outside the marks.
 pub(super) fn square(values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
     let columns = usize::from(area.columns);
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
@@ -19,11 +19,11 @@ pub(super) fn square(values: &[u16], out: &mut [u16], area: &Area, marks: &Rows)
     }
 }
 
-/// One row; those above and below are empty where there are none.
+/// Filters one row; the rows above and below are empty if they do not exist.
 #[inline(never)]
 fn row(above: &[u16], here: &[u16], below: &[u16], out: &mut [u16]) {
     let at = |row: &[u16], column: usize| row.get(column).map_or(0, |value| u32::from(*value));
-    // With the taxel above, and with the one below.
+    // Sums with the taxel above, and with the one below.
     let columns =
         |column: usize| [at(above, column) + at(here, column), at(here, column) + at(below, column)];
     let mut left = [0, 0];

@@ -1,4 +1,4 @@
-//! The stage.
+//! The stage, which turns codes into an image.
 
 use super::config::{ConditionConfig, Filter};
 use super::feedback::Feedback;
@@ -10,7 +10,7 @@ use super::terms::Terms;
 use crate::format::{Code, Invalid};
 use crate::garment::Layout;
 
-/// Makes pressure out of codes; see the [module](super).
+/// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Condition {
     config: ConditionConfig,
@@ -30,10 +30,10 @@ impl ConditionConfig {
 }
 
 impl Condition {
-    /// Takes in one frame.
+    /// Processes one frame.
     ///
-    /// `feedback` is what the previous frame's contacts left ([`Feedback::new`] if there are none). While a
-    /// tare runs, and for its last frame, the image is zero.
+    /// `feedback` comes from the previous frame's contacts ([`Feedback::new`] if there are none). During a
+    /// tare, including its last frame, the image is zero.
     pub fn process<'a, const TAXELS: usize, const CONTACTS: usize>(
         &self,
         state: &'a mut ConditionState<TAXELS>,
@@ -53,13 +53,13 @@ impl Condition {
         self.image(state, layout)
     }
 
-    /// The last image again.
+    /// Returns the last image again.
     pub fn image<'a, const TAXELS: usize>(
         &self,
         state: &'a ConditionState<TAXELS>,
         layout: &Layout,
     ) -> Image<'a> {
-        // During a tare the calibrated image holds sums; the filtered one is empty then.
+        // During a tare `calibrated` holds sums and `filtered` zeros.
         let calibrated = self.config.filter == Filter::Off && state.active != 0;
         let values = if calibrated { &state.calibrated } else { &state.filtered };
         Image { values: values.get(..layout.taxels()).unwrap_or(values), rows: &state.rows }
@@ -67,7 +67,7 @@ impl Condition {
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Makes the image of a frame.
+    /// Computes the image of a frame.
     fn perceive(&mut self, layout: &Layout, codes: &[Code], falling: bool, panels: u8, filter: Filter) {
         self.points.begin();
         let before = self.clear(layout, codes.len(), filter);
@@ -125,7 +125,7 @@ mod tests {
                 state.set_gain(taxel, (next() >> (mode % 16)) as u16);
                 state.set_baseline(taxel, Code((next() >> (mode / 16 % 16)) as u16));
             }
-            // Without tracking, so that the reference needs no memory.
+            // Without tracking, so that the reference needs no state.
             let floor = 1 + (next() % 300) as u16;
             let config = ConditionConfig { floor, track_baseline: false, ..plain() };
             let condition = if round == 0 { condition.clone() } else { config.build().unwrap() };
@@ -211,7 +211,7 @@ mod tests {
             let mut feedback = Feedback::<4>::new();
             let mut codes = vec![Code(10); 2048];
             let mut now = Micros(0);
-            // For so many turns of 0.7 s.
+            // For this number of turns of 0.7 s.
             let mut run = |state: &mut State, codes: &[Code], feedback: &Feedback<4>, turns: u64| {
                 for _ in 0..turns * 700_000 / period_us {
                     now = Micros(now.0 + period_us);
@@ -220,15 +220,15 @@ mod tests {
                 }
                 state.baseline().unwrap().to_vec()
             };
-            // Untared, nothing drifts.
+            // Without a tare nothing drifts.
             assert_eq!(run(&mut state, &codes, &feedback, 3), [0; 2048]);
             state.tare(1);
             run(&mut state, &codes, &feedback, 1);
-            // All together, upwards and downwards.
+            // All taxels drift together, upwards and downwards.
             codes.fill(Code(30));
             assert_eq!(run(&mut state, &codes, &feedback, 2), [30; 2048]);
             codes.fill(Code(7));
-            // Until that was long ago.
+            // Until the fast drift has ended long ago.
             assert_eq!(run(&mut state, &codes, &feedback, 40), [7; 2048]);
             // A held contact on the chest with a weak fringe: a block of 4 x 4 at 1000, around it 20 counts,
             // below the floor.
@@ -239,14 +239,14 @@ mod tests {
             let rect = Rect { panel: 0, top: 10, bottom: 13, left: 5, right: 8 };
             feedback.home.push(Pressed { rect, peak: 1000 }).unwrap();
             assert_eq!(run(&mut state, &codes, &feedback, 30), [7; 2048]);
-            // The rest drifts fast: what is held goes with it, and its fringe is none of it any more.
+            // The rest drifts fast: the held contact goes with it, and its fringe no longer belongs to it.
             let drifted: Vec<Code> = codes.iter().map(|code| Code(code.0 + 12)).collect();
             for (codes, rest) in [(&drifted, 19), (&codes, 7)] {
                 let rests = run(&mut state, codes, &feedback, 2);
                 assert!(rests.iter().zip(codes).all(|(now, code)| *now == rest || code.0 == rest + 20));
                 assert!((rest + 1..=rest + 20).contains(&rests[9 * 16 + 4]), "{}", rests[9 * 16 + 4]);
             }
-            // Let go of the rectangle: the fringe below the floor is taken for drift, the contact is not.
+            // Without the rectangle the fringe below the floor counts as drift; the contact does not.
             let rest = run(&mut state, &codes, &Feedback::new(), 30);
             assert_eq!((rest[10 * 16 + 5], rest[9 * 16 + 4], rest[0]), (7, 27, 7));
         }
@@ -261,7 +261,7 @@ mod tests {
         assert!(state.set_baseline(2047, Code(1)) && !state.set_baseline(2048, Code(1)));
         state.tare(2);
         assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
-        // What the table of the module says about memory.
+        // The memory stated in the module's table.
         assert!(size_of::<State>() <= 10 * 2048 + 1312, "{}", size_of::<State>());
     }
 }

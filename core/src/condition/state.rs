@@ -1,4 +1,4 @@
-//! What the stage remembers: the calibration of every taxel and the last image.
+//! State of the stage: the calibration of every taxel and the last image.
 
 use super::consensus::Consensus;
 use super::points::Points;
@@ -16,25 +16,25 @@ pub const UNITY: u16 = 4096;
 /// Baseline, gain and image of every taxel.
 #[derive(Debug, Clone)]
 pub struct ConditionState<const TAXELS: usize> {
-    /// Code at rest. While a tare runs: the low halves of the sums.
+    /// Baseline codes. During a tare: the low halves of the sums.
     pub(super) baseline: [u16; TAXELS],
     /// Q4.12; 0 for absent taxels.
     pub(super) gain: [u16; TAXELS],
-    /// The last code of each taxel that is quiet.
+    /// Last inactive code of each taxel.
     pub(super) limit: [u16; TAXELS],
-    /// What the limits were made for; none: they are not valid.
+    /// Terms of the limits; none if the limits are not valid.
     pub(super) limits_for: Option<Terms>,
-    /// Every gain is known to be 1, or 0, with which no taxel is beyond its limit.
+    /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
     pub(super) plain: bool,
-    /// Before the filter. While a tare runs: the high halves of the sums.
+    /// Image before the filter. During a tare: the high halves of the sums.
     pub(super) calibrated: [u16; TAXELS],
-    /// After the filter.
+    /// Image after the filter.
     pub(super) filtered: [u16; TAXELS],
-    /// Where one of the images may hold something.
+    /// Where one of the images may be non-zero.
     pub(super) rows: Rows,
-    /// Panels that may hold something.
+    /// Panels that may be non-zero.
     pub(super) active: u8,
-    /// Taxels that stand out of their neighbours.
+    /// Taxels that stand out from their neighbours.
     pub(super) points: Points,
     pub(super) tracking: Progress,
     pub(super) consensus: Consensus,
@@ -42,7 +42,7 @@ pub struct ConditionState<const TAXELS: usize> {
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// For no garment: every gain is 0. To be followed by [`ConditionState::reset`].
+    /// State without a garment: every gain is 0. Call [`ConditionState::reset`] next.
     pub const fn new() -> Self {
         ConditionState {
             baseline: [0; TAXELS],
@@ -61,9 +61,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         }
     }
 
-    /// Starts afresh on a garment: every baseline is `rest` (0, or the full scale of a garment on which
-    /// pressure lowers the code), every gain 1.0, and 0 where a taxel is absent. A tare under way is
-    /// forgotten.
+    /// Resets for a garment: every baseline becomes `rest` (0, or full scale if pressure lowers the code),
+    /// every gain 1.0, or 0 for absent taxels. Cancels a tare in progress.
     pub fn reset(&mut self, layout: &Layout, rest: Code) {
         self.baseline.fill(rest.0);
         self.gain.fill(0);
@@ -84,8 +83,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.turn = Turn::new();
     }
 
-    /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, as a dead taxel. `false` if there is no
-    /// such taxel.
+    /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, like a dead taxel. Returns `false` if
+    /// there is no such taxel.
     pub fn set_gain(&mut self, taxel: usize, gain: u16) -> bool {
         let Some(held) = self.gain.get_mut(taxel) else { return false };
         *held = gain;
@@ -93,8 +92,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         true
     }
 
-    /// Restores the baseline of a taxel, as a tare would have set it; all of it follows drift from then on.
-    /// `false` if there is no such taxel or a tare is under way.
+    /// Restores the baseline of a taxel as if by a tare; all baselines follow drift from then on. Returns
+    /// `false` if there is no such taxel or a tare is in progress.
     pub fn set_baseline(&mut self, taxel: usize, rest: Code) -> bool {
         if matches!(self.tracking.tare(), Tare::Running { .. }) {
             return false;
@@ -107,13 +106,13 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         true
     }
 
-    /// Code at rest by taxel number; none while a tare runs.
+    /// Baseline codes by taxel number; none during a tare.
     pub fn baseline(&self) -> Option<&[u16]> {
         (!matches!(self.tracking.tare(), Tare::Running { .. })).then_some(&self.baseline)
     }
 
-    /// What a panel has drifted since the start, as its witnesses agree: counts modulo 2^32, of which only
-    /// differences mean something.
+    /// Drift of a panel since the start, as its witnesses agree, counts modulo 2^32: only differences are
+    /// meaningful.
     pub fn drifted(&self, panel: u8) -> i32 {
         self.consensus.drifted(panel)
     }
@@ -123,15 +122,15 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         &self.gain
     }
 
-    /// Takes the mean code of the next `frames` frames (at least 1) as the baseline; a tare under way starts
-    /// again. The panels that the first of those frames works on are tared, the others keep theirs. The old
-    /// baseline is given up at once. It is the caller's part not to tare under load, and to say so where
-    /// contacts are present.
+    /// Takes the mean code of the next `frames` frames (at least 1) as the baseline; a tare in progress
+    /// starts again. Tares the panels that the first of these frames reads; the others keep their baseline.
+    /// The old baseline is lost at once. The caller must not tare under load, and must say so if contacts are
+    /// present.
     pub fn tare(&mut self, frames: u16) {
         self.tracking.request(frames.max(1));
     }
 
-    /// How far the tare is.
+    /// Progress of the tare.
     pub fn tare_progress(&self) -> Tare {
         self.tracking.tare()
     }

@@ -1,7 +1,7 @@
-//! The code at rest as the mean of some frames.
+//! The baseline as the mean code of some frames.
 //!
-//! A tare needs no memory of its own: while it runs nothing else does, and the 32-bit sums lie in the arrays
-//! of the baseline (low halves) and of the calibrated image (high halves): 65535 frames of 65535 counts fit.
+//! A tare needs no memory of its own. Nothing else runs meanwhile, so the 32-bit sums lie in the arrays of
+//! the baseline (low halves) and of the calibrated image (high halves): 65535 frames of 65535 counts fit.
 
 use super::progress::Tare;
 use super::rows::Rows;
@@ -11,7 +11,7 @@ use crate::format::Code;
 use crate::garment::{Area, Layout};
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Takes a frame into the tare, if one runs; `true` if it did, and then there is no image.
+    /// Adds a frame to the tare in progress. Returns `false` if there is none; else the frame has no image.
     pub(super) fn tare_frame(&mut self, layout: &Layout, codes: &[Code], panels: u8) -> bool {
         let Tare::Running { left } = self.tracking.tare else {
             self.tracking.tare = Tare::Idle;
@@ -41,7 +41,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         true
     }
 
-    /// Empties the image, and the sums of the panels to be tared.
+    /// Clears the images, and the sums of the panels to be tared.
     fn begin(&mut self, layout: &Layout, panels: u8) -> u8 {
         self.tracking.panels = Some(panels);
         self.calibrated.fill(0);

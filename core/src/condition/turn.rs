@@ -1,4 +1,4 @@
-//! Whose turn it is to follow drift: each row once in a [turn](TURN_US), whatever the frame rate.
+//! Rotation of the rows that follow drift: each once in a [turn](TURN_US), whatever the frame rate.
 
 use super::rates::TURN_US;
 use crate::format::Micros;
@@ -8,9 +8,9 @@ use crate::format::Micros;
 pub(super) struct Turn {
     /// Next row, over all panels.
     row: u16,
-    /// When it is due.
+    /// Time at which it is due.
     due: Micros,
-    /// From a row to the next, us.
+    /// Time between rows, us.
     row_us: u32,
 }
 
@@ -20,11 +20,11 @@ impl Turn {
         Turn { row: 0, due: Micros(0), row_us: 0 }
     }
 
-    /// The next row of so many, if it is due; twice as soon if `hurried`. After a pause at most one whole
-    /// turn is due.
+    /// Returns the next of `rows` rows if it is due; in half the time if `hurried`. After a pause at most one
+    /// whole turn is made up.
     pub fn next(&mut self, now: Micros, rows: u16, hurried: bool) -> Option<u16> {
         let turn = u64::from(TURN_US);
-        // A clock that was set back waits for nothing.
+        // After the clock was set back, a row is due at once.
         if self.due.since(now) > turn {
             self.due = now;
         }
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    /// Rows that are visited in each frame.
+    /// Rows visited in each frame.
     fn visits(times: impl Iterator<Item = u64>, rows: u16, hurried: bool) -> Vec<usize> {
         let mut turn = Turn::new();
         let mut want = 0;

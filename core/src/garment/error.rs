@@ -176,7 +176,7 @@ impl fmt::Display for GarmentError {
     }
 }
 
-/// A pitch out of range; one that is given in mm, or in nm, is told in um.
+/// Writes the error of a pitch out of range, with a hint in um if it seems to be given in mm or nm.
 fn pitch(f: &mut fmt::Formatter<'_>, panel: &Name, um: u32) -> fmt::Result {
     let [least, most] = PITCH_UM;
     write!(f, "panel {panel}: pitch_um is {um}, outside {least} to {most}")?;
