@@ -84,8 +84,8 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// Sum of the gradients' magnitudes at the taxels in the mask `taxels` (a bit per column) of the middle one
-/// of three rows of sixteen, each in eighths.
+/// Sum of the gradients' magnitudes, each divided by 8 and truncated, at the taxels of the middle one of three
+/// rows of sixteen that are in the mask `taxels` (a bit per column).
 ///
 /// On a Cortex-M0+ a taxel in the mask takes 40 cycles, any other 4 (counted in instructions), as no bounds
 /// are checked.

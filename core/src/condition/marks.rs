@@ -55,7 +55,7 @@ impl<'a> Marks<'a> {
         }
         let (mut rest, mut left) = (bits, count);
         while rest != 0 {
-            // Up to the end of the row and, if a group has more columns than there are bits, of the group.
+            // Up to the end of the row and, if groups are too wide to fold in a word, of the group.
             let (before, inside) = (column >> self.grain, column & ((1 << self.grain) - 1));
             let wide = self.grain > MOST_FOLDED;
             let row = self.columns - column;
