@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-/// The repository.
+/// The repository: the one in which cargo runs this program, also if it was built in another place.
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository").to_path_buf()
+    let tests = std::env::var_os("CARGO_MANIFEST_DIR");
+    let tests = tests.map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).into(), PathBuf::from);
+    tests.parent().expect("tests/ lies in the repository").to_path_buf()
 }
 
 /// The firmware's package.

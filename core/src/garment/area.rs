@@ -24,7 +24,7 @@ pub struct Area {
     pub pitch_um: [u32; 2],
     /// Area of a taxel, see [`cell_mm2`].
     pub cell_mm2: u32,
-    /// Taxels in 10 mm, see [`taxels_per_cm`].
+    /// Taxels in 10 mm along the axis with the smaller pitch, Q8: 4 (655 mm) to 25,600 (0.1 mm).
     pub taxels_per_cm: u16,
 }
 

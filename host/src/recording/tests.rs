@@ -311,8 +311,7 @@ fn left(until: usize, writes: usize, cuts: usize, kind: io::ErrorKind) -> u64 {
     let found = scan(&path).unwrap();
     assert_eq!(found.damaged(), (0, 0), "fails after {until}, {writes} writes and {cuts} cuts");
     let repaired = repaired(&path);
-    let count = messages(&repaired);
-    count
+    messages(&repaired)
 }
 
 #[test]
