@@ -107,7 +107,7 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) 
 }
 
 /// The nearest prototype, if its squared distance is below a limit; of equals the first in the base.
-#[inline(never)] // the few registers of an M0+ are for its loop
+#[inline(never)] // M0+: out of line
 fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, Class) {
     let mut closest = (limit, Class::UNKNOWN);
     // One by one: two at a time want more registers.

@@ -36,7 +36,7 @@ pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>
 
 /// Makes code bytes of the first of some bytes and of all zeros but the last. An error: where a code byte
 /// would have to tell more than it can; what is before it is coded.
-#[inline(never)] // the few registers of an M0+ are for its loop
+#[inline(never)] // M0+: out of line
 fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let start = bytes.as_ptr().addr();
     let Some((first, data)) = bytes.split_first_mut() else { return Ok(()) };

@@ -14,7 +14,7 @@ static TABLE: [u32; 256] = {
 };
 
 /// The CRC of some bytes.
-#[inline(never)] // the few registers of an M0+ are for its loop
+#[inline(never)] // M0+: out of line
 pub(super) fn of(bytes: &[u8]) -> u32 {
     let (first, words, last) = pod_align_to(bytes);
     let crc = first.iter().fold(u32::MAX, byte);
