@@ -2,8 +2,9 @@
 //! run.
 //!
 //! All arguments of the calls come from outside, so the compiler knows nothing about them: any state, any
-//! bytes, any codes. With `--cfg control` one panic is reachable, and it must not link. `cargo xtask test
-//! --only no-panic` builds both, as the firmware is built. To find a panic, define the function by
+//! bytes, any codes. With `--cfg control` one panic is reachable, and it must not link.
+//! `cargo xtask test --only no-panic` builds both, as the firmware is built. To find a panic, define the
+//! function by
 //! `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in the disassembly for calls of `core::panicking`.
 //!
 //! The loop around the board, an `async fn`, is not covered: polled again after its end it panics.

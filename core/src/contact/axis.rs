@@ -146,9 +146,9 @@ fn half_angle(y: i32, x: i32) -> Turn {
     Turn(if half == -(1 << 30) { 1 << 30 } else { half })
 }
 
-/// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across, `w^2 = 12
-/// variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction. Moments are
-/// scaled to millimetres first, so that the pitches along the axes may differ.
+/// Width across the major axis, in 0.1 mm: that of the uniform strip with the same variance across,
+/// `w^2 = 12 variance + pixel^2`, where the pixel is a rectangle of the pitch as seen along that direction.
+/// Moments are scaled to millimetres first, so that the pitches along the axes may differ.
 ///
 /// A pitch of 0 counts as 10 mm; every other is rounded down to 0.1 mm and clamped to 0.1 to 655.3 mm. At
 /// pitches of 2 to 30 mm that differ by a factor of 4 at most, the result is rounded to the nearest: 0.501

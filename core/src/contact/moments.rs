@@ -8,9 +8,10 @@ use crate::garment::{Transform, signed};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
 ///
-/// All are exact integers. [`Moments::jm`] and [`Moments::central`] are exact as well wherever `(full scale
-/// N)^2 (w^2 + h^2 - 2) / 12 < 2^64`. `Layout::build` asserts this for the full scale that it is given: give
-/// it `u16::MAX`, or keep values within what it was given. Beyond that the results wrap; nothing panics.
+/// All are exact integers. [`Moments::jm`] and [`Moments::central`] are exact as well wherever
+/// `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`. `Layout::build` asserts this for the full scale that it is
+/// given: give it `u16::MAX`, or keep values within what it was given. Beyond that the results wrap; nothing
+/// panics.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Moments {
     /// sum f: mass

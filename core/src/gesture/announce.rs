@@ -72,7 +72,7 @@ mod tests {
         };
         assert_eq!((take(2, 1, 0), take(2, 1, 199), take(2, 1, 200)), (None, None, Some(2)));
         assert_eq!(take(2, 1, 900), None, "it is announced already");
-        // To and fro within the time: nothing.
+        // A change back and forth within the onset time is not announced.
         for ms in (1000..3000).step_by(100) {
             assert_eq!(take(usize::from(ms % 200 == 0), 99, ms), None);
         }

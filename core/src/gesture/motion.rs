@@ -100,7 +100,7 @@ mod tests {
     fn a_press_is_common_and_leaves_all_in_the_total() {
         let have = of(200, |frame, _, _| if frame % 20 < 10 { 900 } else { 100 });
         assert_eq!(have[2..], [8192, 0]);
-        // Seven of eight neighbours.
+        // Seven of eight cells have a neighbour that changes alike.
         assert!(have[..2].iter().all(|f| f.abs_diff(4096 + 3584) <= 1), "{have:?}");
     }
 
@@ -108,7 +108,7 @@ mod tests {
     fn a_line_that_wanders_changes_along_itself_and_little_in_the_total() {
         let have = of(200, |frame, x, _| if x == frame / 4 % SIDE { 1000 } else { 0 });
         assert!(have[0].abs_diff(4096 + 3584) <= 1, "{have:?}");
-        // What one column loses the next one gets, six times of seven.
+        // What one column loses, the next one gains, six times out of seven.
         assert!(have[1] < 4096 - 1700 && have[2] < 300 && have[3] > 8 * 256, "{have:?}");
     }
 

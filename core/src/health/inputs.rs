@@ -5,8 +5,6 @@
 //! another row. An open line shows what was converted before, or drifts: many taxels show less pressure than
 //! at rest, which no touch causes. A line that is connected to the supply shows the same code everywhere. If
 //! an input shows this at rest already, the fault is not found.
-//! pressure than at rest, as no touch makes them. One that is connected to the supply shows the same
-//! everywhere. What an input at rest shows anyway is not told apart from that.
 
 use super::monitor::Codes;
 use crate::acquire::Plan;

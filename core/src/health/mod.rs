@@ -23,7 +23,6 @@
 //! Where the codes are too quiet (noise under 1.8 counts rms, or codes of 8 bits), no taxel is called stuck.
 //! A pressed taxel is called noisy only if its noise is over a fifth of its signal: a moving object changes
 //! how the cloth lies.
-//! lies changes under what moves.
 //!
 //! | | |
 //! |---|---|

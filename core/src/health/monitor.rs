@@ -23,7 +23,7 @@ const FOUND: usize = 16;
 /// A faulty taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IllTaxel {
-    /// Its number.
+    /// Number of the taxel.
     pub taxel: u16,
     /// Kind of fault.
     pub health: TaxelHealth,
@@ -63,7 +63,7 @@ impl Worn<'_> {
     }
 }
 
-/// The health of a garment.
+/// Health of the taxels of a garment.
 #[derive(Debug, Clone)]
 pub struct Monitor {
     /// In the order of their numbers.
@@ -113,7 +113,7 @@ impl Monitor {
         self.ill.iter_mut().find(|ill| usize::from(ill.taxel) == taxel)
     }
 
-    /// The class of a taxel.
+    /// Health of a taxel.
     pub fn health(&self, taxel: usize) -> TaxelHealth {
         let ill = self.ill.iter().find(|ill| usize::from(ill.taxel) == taxel);
         ill.map_or(TaxelHealth::Good, |ill| ill.health)

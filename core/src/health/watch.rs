@@ -33,8 +33,8 @@ impl Watch {
         self.begun = 0;
     }
 
-    /// Takes a frame of that many taxels. Returns true if a group is now complete: the one of age `FRAMES -
-    /// 1`.
+    /// Takes a frame of that many taxels. Returns true if a group is now complete: the one of age
+    /// `FRAMES - 1`.
     pub fn take(&mut self, codes: &[Code], taxels: usize) -> bool {
         if self.begun == 0 {
             (self.group, self.slot) = (0, 0);
