@@ -1,9 +1,9 @@
-//! Puts the memory maps where the linker looks for them and names the linker scripts.
+//! Copies the memory maps to where the linker looks for them, and names the linker scripts.
 
 use std::{env, fs, path::PathBuf};
 
-/// The images, and the memory map of each. A memory.x in the folder where the linker runs would silently win
-/// over these: that is why none lies beside this file.
+/// The images and their memory maps. A memory.x in the folder where the linker runs would silently take
+/// precedence, so there is none beside this file.
 const MAPS: [(&str, &str); 2] = [("taxel-firmware", "../memory.x"), ("bench", "src/bin/bench.x")];
 
 fn main() {
@@ -19,8 +19,8 @@ fn main() {
         println!("cargo:rustc-link-arg-bins=-T{script}");
     }
     println!("cargo:rustc-link-arg-bins=--nmagic");
-    // What runs first: src/levels.rs, which calls what would.
+    // The first function that runs is that of src/levels.rs, which calls the original one.
     println!("cargo:rustc-link-arg-bin=taxel-firmware=--wrap=__pre_init");
-    // defmt drops what is below the level that is set at compile time; its default is errors only.
+    // defmt drops messages below the level set at compile time; its default is errors only.
     println!("cargo:rustc-env=DEFMT_LOG=info");
 }

@@ -2,40 +2,40 @@
 //!
 //! | | |
 //! |---|---|
-//! | input | the contacts of a frame, what each panel has drifted, the time |
-//! | output | which of them are unsure |
+//! | input | contacts of a frame, drift of each panel, time |
+//! | output | the contacts that are unsure |
 //! | latency | none |
 //! | RAM | 16 bytes a contact, 16 a panel |
 //! | M0+ cycles | about 60 a contact |
 //!
-//! A patch of a garment that warms shows the codes of a thing that presses as slowly, and nothing that is
-//! measured tells them apart. A contact is unsure from the start if it came up slowly: for 0.4 s before,
-//! something was nearly a contact in its panel, or another contact is unsure there, of which it may be a part.
-//! It is sure once its peak has risen by more than 16 counts within 0.5 s, which no drift does that the garment
-//! is meant for (5 counts/s in a patch, half as much again for a taxel). It is unsure again once its panel has
-//! drifted, since the contact began, by twice its peak or more: taxels drift at 0.5 to 1.5 times the rate of
-//! their panel, so that all of it may be drift.
+//! A patch of a garment that warms up shows the same codes as an object that presses equally slowly; no
+//! measurement distinguishes the two. A contact is unsure from the start if it came up slowly: for 0.4 s
+//! before, something was nearly a contact in its panel, or another contact there is unsure, of which it may
+//! be a part. It becomes sure once its peak has risen by more than 16 counts within 0.5 s: no drift that the
+//! garment is specified for does that (5 counts/s in a patch, half as much again for a taxel). It is unsure
+//! again once its panel has drifted, since the contact began, by twice its peak or more: taxels drift at 0.5
+//! to 1.5 times the rate of their panel, so that all of it may be drift.
 
 use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::PANELS;
 use heapless::Vec;
 
-/// A touch is nearly a contact for less than this time before it is one, us; at 7.5 counts/s drift takes three
-/// times as long.
+/// A touch is nearly a contact for less than this time before it becomes one, us. Drift at 7.5 counts/s takes
+/// three times as long.
 const SLOW_US: u64 = 400_000;
 
-/// What is nearly a contact goes on being that after a pause of this time at most, us: noise interrupts it.
+/// Longest pause that does not restart the time of being nearly a contact, us: noise interrupts it.
 const PAUSE_US: u64 = 200_000;
 
-/// A touch rises within this time by more than drift does, us.
+/// Window within which a touch rises by more than drift does, us.
 const WINDOW_US: u32 = 500_000;
 
-/// What drift and noise may add to a peak within [`WINDOW_US`], counts: four for the drift of a patch, twelve
-/// for noise.
+/// Rise of a peak that drift and noise may cause within [`WINDOW_US`], counts: four for the drift of a patch,
+/// twelve for noise.
 const RISE: u16 = 16;
 
-/// What is remembered of the contacts of the last frame, in the order of their onset.
+/// State of the contacts of the last frame, in the order of their onset.
 #[derive(Debug, Clone)]
 pub struct UnsureState<const CONTACTS: usize> {
     watched: Vec<Watched, CONTACTS>,
@@ -43,53 +43,53 @@ pub struct UnsureState<const CONTACTS: usize> {
     changed: bool,
 }
 
-/// Since when something has been nearly a contact in a panel, and when it was that last.
+/// First and last time at which something was nearly a contact in a panel.
 #[derive(Debug, Clone, Copy)]
 struct Faint {
     since: Micros,
     last: Micros,
 }
 
-/// A contact, by its peak.
+/// State of a contact.
 #[derive(Debug, Clone)]
 struct Watched {
     id: u32,
-    /// When the window began: the low bits of its time.
+    /// Begin of the window, us modulo 2^32.
     since: u32,
-    /// What its panel had drifted when it came there, counts modulo 2^16: a converter has no more.
+    /// Drift of its panel when the contact came there, counts modulo 2^16: a converter has no more.
     drifted: i16,
     /// Least peak since the window began, counts.
     least: u16,
     panel: u8,
-    /// It has not risen faster than drift.
+    /// True until it rises faster than drift.
     slow: bool,
     unsure: bool,
 }
 
 impl<const CONTACTS: usize> UnsureState<CONTACTS> {
-    /// Nothing touches.
+    /// State without contacts.
     pub const fn new() -> Self {
         let never = Faint { since: Micros(0), last: Micros(0) };
         UnsureState { watched: Vec::new(), faint: [never; PANELS], changed: false }
     }
 
-    /// Whether the contact of this index of the last frame is unsure.
+    /// True if the contact of this index in the last frame is unsure.
     pub fn is_unsure(&self, index: usize) -> bool {
         self.watched.get(index).is_some_and(|watched| watched.unsure)
     }
 
-    /// Whether one has become unsure or sure with the last frame.
+    /// True if a contact became unsure or sure with the last frame.
     pub const fn has_changed(&self) -> bool {
         self.changed
     }
 
-    /// Ids of those that are unsure.
+    /// Ids of the unsure contacts.
     pub fn ids(&self) -> impl Iterator<Item = u32> {
         self.watched.iter().filter(|watched| watched.unsure).map(|watched| watched.id)
     }
 
     /// Takes the contacts of a frame, in the order of their onset. `faint` has a bit for each panel in which
-    /// something is nearly a contact; `drifted` tells what a panel has drifted so far, counts.
+    /// something is nearly a contact; `drifted` returns the drift of a panel so far, counts.
     #[inline(never)] // M0+: out of line
     pub(crate) fn process(
         &mut self,
@@ -115,7 +115,7 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
         }
     }
 
-    /// Forgets those that have gone, and watches those that have come.
+    /// Forgets the contacts that have gone, and watches the new ones.
     fn begin(&mut self, present: &[Placed], drifted: impl Fn(u8) -> i32, now: Micros) {
         self.watched.retain(|watched| present.iter().any(|placed| placed.contact.id == watched.id));
         for placed in present.iter().skip(self.watched.len()) {
@@ -124,7 +124,7 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
             let slow = faint.is_some_and(|faint| faint.is_slow(now))
                 || self.watched.iter().any(|other| other.slow && other.panel == panel);
             let (id, since, drifted) = (placed.contact.id, now.0 as u32, drifted(panel) as i16);
-            // As many places as contacts.
+            // Always room: as many places as contacts.
             let _ = self.watched.push(Watched { id, since, drifted, least, panel, slow, unsure: false });
         }
     }
@@ -138,7 +138,7 @@ impl Faint {
         self.last = now;
     }
 
-    /// Whether what begins now came up slowly.
+    /// True if a contact that begins now came up slowly.
     fn is_slow(&self, now: Micros) -> bool {
         now.since(self.last) <= PAUSE_US && self.last.since(self.since) >= SLOW_US
     }
@@ -206,8 +206,8 @@ mod tests {
         Placed::new(&layout, contact, Shape::default())
     }
 
-    /// Whether what has this peak over seconds is unsure at the end, as a contact from 40 counts on, on a panel
-    /// that drifts at `rate` counts/s.
+    /// True if a contact with this peak over time, from 40 counts on, is unsure at the end, on a panel that
+    /// drifts at `rate` counts/s.
     fn is_unsure(period_us: u64, seconds: f64, peak: impl Fn(f64) -> f64, rate: f64) -> bool {
         let mut state = UnsureState::<4>::new();
         for now in (0..(seconds * 1e6) as u64).step_by(period_us as usize) {
@@ -229,7 +229,7 @@ mod tests {
             for rate in [40.0, 400.0, 40_000.0] {
                 assert!(!is_unsure(period_us, 4.0, |t| (rate * t).min(3_000.0), 0.0), "{rate} counts/s");
             }
-            // It has come at once, and lies there.
+            // Comes at once, and stays.
             assert!(!is_unsure(period_us, 60.0, |t| if t < 1.0 { 0.0 } else { 41.0 }, 0.0));
         }
     }

@@ -1,11 +1,11 @@
-//! Links only if no panic is reachable from [`Board`]: the panic handler calls a function that nobody
-//! defines. Never run.
+//! Links only if no panic is reachable from [`Board`]: the panic handler calls an undefined function. Never
+//! run.
 //!
-//! What the calls are given comes from outside, so the compiler knows nothing of it: any state, any bytes,
-//! any codes. With `--cfg control` one panic is reachable, and it must not link.
+//! All arguments of the calls come from outside, so the compiler knows nothing about them: any state, any
+//! bytes, any codes. With `--cfg control` one panic is reachable, and it must not link.
 //! `cargo xtask test --only no-panic` builds both, as the firmware is built. To find a panic, define the
-//! function by `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in the disassembly for who calls
-//! `core::panicking`.
+//! function by
+//! `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in the disassembly for calls of `core::panicking`.
 //!
 //! The loop around the board, an `async fn`, is not covered: polled again after its end it panics.
 #![no_std]
@@ -24,20 +24,20 @@ use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
 
 unsafe extern "C" {
-    /// The linker names it where a panic is reachable.
+    /// The linker reports this name if a panic is reachable.
     fn a_panic_is_reachable() -> !;
 }
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
-    // SAFETY: what links does not call it.
+    // SAFETY: no image that links calls it.
     unsafe { a_panic_is_reachable() }
 }
 
-/// With the capacities of the firmware.
+/// Taxels and runs as in the firmware; with the default number of parts.
 type Reference = Board<2048, 1024>;
 
-/// What a reset leaves.
+/// State that a reset leaves.
 #[derive(Clone, Copy)]
 pub struct Left(Reset, u32);
 
@@ -55,7 +55,7 @@ impl Remains for Left {
     }
 }
 
-/// What the calls are given.
+/// Arguments of the calls.
 pub struct Given {
     call: u8,
     board: Reference,
@@ -80,7 +80,7 @@ pub struct Given {
     left: Left,
 }
 
-/// One call; where a linker begins, and so what it keeps.
+/// Makes one call. The linker starts from here, and keeps only what it reaches.
 #[unsafe(no_mangle)]
 pub extern "C" fn _start(given: &mut Given) {
     let Given { board, now, bytes, codes, report, info, garment, scene, touch, image, .. } = given;
@@ -138,7 +138,7 @@ pub extern "C" fn _start(given: &mut Given) {
     }
 }
 
-/// The compiler must take it that somebody looks at the value.
+/// Hides from the compiler that the value is not used.
 fn keep<T>(value: T) {
     black_box(value);
 }

@@ -1,19 +1,19 @@
-//! Copies, four words at a time: 13 cycles of a Cortex-M0+ for them, or 25 where they stand otherwise, and
-//! the loops of the compiler's library take 32 or 80.
+//! Copies four words at a time: 13 cycles of a Cortex-M0+ for these, or 25 if source and destination are
+//! aligned differently. The loops of the compiler's library take 32 or 80.
 //!
-//! These are the functions that compiled code calls for copies of some length, in place of that library's
-//! own, which give way to others.
+//! Compiled code calls these functions for copies of some length. They replace the weak symbols of that
+//! library.
 
-// SAFETY: they do what the run-time ABI for the Arm architecture (5.3.4) asks of them: `r0`, `r1`, `r2` are
-// the places to and from which so many bytes are copied, which overlap in those named `memmove` alone; in
-// those of the names with 4 and 8 both are whole words, and the last may be a part of one. What they change
-// besides `r0` to `r3` they put back. To the front each byte is read before its place is written. `memmove`
-// is the library's.
+// SAFETY: they meet the run-time ABI for the Arm architecture (5.3.4). `r0`, `r1`, `r2` are destination,
+// source and number of bytes; the two overlap only in functions named `memmove`. In functions with 4 or 8 in
+// their names both are aligned to words, and the last word may be partial. Registers other than `r0` to `r3`
+// are restored. Towards lower addresses each byte is read before its place is written. `memmove` is the
+// library's.
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(
-        // Four words a step from a place so many bytes behind a whole word: `r3` holds what was read and not
-        // yet written.
+        // Copies four words per step from a source `bytes` bytes past a word boundary. `r3` holds the bytes
+        // that were read but not written yet.
         ".macro taxel_copy_by bytes",
         "    subs r1, #\\bytes",
         "    ldmia r1!, {{r3}}",
@@ -62,14 +62,14 @@ mod words {
         ".type __aeabi_memcpy, %function",
         ".thumb_func",
         "__aeabi_memcpy:",
-        // Words may stand alike in both.
+        // Fast path if both are aligned alike.
         "    movs r3, r0",
         "    eors r3, r1",
         "    lsls r3, r3, #30",
         "    bne 6f",
         "    cmp r2, #8",
         "    blo 6f",
-        // Up to the next whole word.
+        // Up to the next word boundary.
         "    lsls r3, r0, #30",
         "    beq __aeabi_memcpy4",
         "0:",
@@ -97,7 +97,7 @@ mod words {
         "    subs r2, #16",
         "    bhs 1b",
         "2:",
-        // Here and below: what is left, less one step.
+        // Here and below, `r2` is the number of bytes left, minus one step.
         "    adds r2, #12",
         "    bmi 4f",
         "3:",
@@ -125,7 +125,7 @@ mod words {
         "    pop {{r4, pc}}",
         "7:",
         "    push {{r4, r5, r6, r7, lr}}",
-        // Up to the next whole word of the place to.
+        // Up to the next word boundary of the destination.
         "    b 9f",
         "8:",
         "    ldrb r3, [r1]",
@@ -136,7 +136,7 @@ mod words {
         "9:",
         "    lsls r3, r0, #30",
         "    bne 8b",
-        // `ip`: where the last step ends; `lr`: bytes behind it.
+        // `ip`: end of the last step; `lr`: number of bytes behind it.
         "    movs r3, #15",
         "    movs r4, r2",
         "    bics r4, r3",
@@ -144,7 +144,7 @@ mod words {
         "    mov lr, r2",
         "    adds r4, r0",
         "    mov ip, r4",
-        // How the place from stands in its words: carry is its second bit, zero that its first is not set.
+        // Offset of the source in its word: carry is its upper bit; zero means that its lower bit is clear.
         "    lsls r3, r1, #31",
         "    bcc 11f",
         "    beq 12f",

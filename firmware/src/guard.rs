@@ -1,19 +1,19 @@
-//! What lies below the stack may not be touched: memory ends there, and the memory protection unit makes a
-//! fault of every access for certain, whatever the chip's bus does with such an address. The stack can then
-//! not even push what an exception needs, the processor locks up, and the watchdog restarts the board.
+//! Stack guard. The memory ends below the stack, and the memory protection unit turns every access there into
+//! a fault, whatever the chip's bus does with such an address. The stack then has no room for the exception
+//! frame either, so the processor locks up, and the watchdog restarts the board.
 
 use cortex_m::peripheral::MPU;
 
-/// The end of the memory: memory.x puts the stack at its beginning.
+/// Start of the guarded region, which ends where the memory begins: memory.x puts the stack there.
 const GUARDED: u32 = 0x1fff_0000;
-/// A region of 2^(15 + 1) bytes; its attributes allow no access, and no execution.
+/// A region of 2^(15 + 1) bytes without access and without execution.
 const REGION: u32 = 1 << 28 | 15 << 1 | 1;
-/// Region 0 by number.
+/// Selects region 0 by its number.
 const BY_NUMBER: u32 = 1 << 4;
-/// All that no region covers stays as it is; the unit is on.
+/// Enables the unit; addresses outside the region keep their default attributes.
 const ON: u32 = 1 << 2 | 1;
 
-/// Puts the guard up.
+/// Enables the guard.
 pub fn put_up() {
     #[allow(unsafe_code)]
     // SAFETY: nothing else uses the unit, and no code or data of the program lie in the region.

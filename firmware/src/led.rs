@@ -1,8 +1,8 @@
-//! The heartbeat, on a pin that somebody may ground at the start.
+//! The heartbeat LED, on a pin that may be grounded at power-up to request the shipped settings.
 
 use embassy_rp::gpio::{Drive, Flex};
 
-/// Time for the pin's level to follow, cycles: some 10 us.
+/// Time until the pin's level is valid, cycles: some 10 us.
 const FOLLOWED: u32 = 1250;
 
 /// The LED.
@@ -12,10 +12,10 @@ pub struct Led {
 }
 
 impl Led {
-    /// Drives the pin high and looks at it: no LED pulls it below half of the supply, a wire to ground does.
-    /// Where one does it is driven no more.
+    /// Drives the pin high and reads it back: an LED does not pull it below half of the supply, but a wire to
+    /// ground does. A grounded pin is then no longer driven.
     pub fn new(mut pin: Flex<'static>) -> Led {
-        // What the pin gives into a wire to ground meanwhile is least so.
+        // Limits the current into a wire to ground.
         pin.set_drive_strength(Drive::_2mA);
         pin.set_high();
         pin.set_as_output();
@@ -28,12 +28,12 @@ impl Led {
         Led { pin, grounded }
     }
 
-    /// The pin was connected to ground when the board started.
+    /// True if the pin was connected to ground when the board started.
     pub fn was_grounded(&self) -> bool {
         self.grounded
     }
 
-    /// On or off, in turn; it stays dark where the pin was grounded.
+    /// Toggles the LED; it stays dark if the pin was grounded.
     pub fn toggle(&mut self) {
         if !self.grounded {
             self.pin.toggle();

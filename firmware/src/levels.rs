@@ -1,10 +1,10 @@
-//! The outputs before the program: each stands at its fault level as soon as the first instructions run, as
-//! kept in the flash.
+//! Output levels before the program starts: each output gets its fault level, as stored in the flash, with
+//! the first instructions.
 //!
-//! Memory is cleared only after that: at the 6 MHz of a chip that has just started it takes some 60 ms.
-//! embassy-rp has its own function there, which resets the levels of all pins; the linker (`--wrap`,
-//! build.rs) lets this one go around it. When the clocks start, embassy-rp resets the pads once more, and
-//! they are driven again as soon as that is over.
+//! This runs before memory is cleared, which takes some 60 ms at the 6 MHz of a chip that has just started.
+//! embassy-rp has a function of its own there, which resets the levels of all pins; the linker option
+//! `--wrap` (build.rs) redirects the call to this one. When the clocks start, embassy-rp resets the pads once
+//! more, and the outputs are driven again right after that.
 
 use crate::store::LEVELS;
 use core::ptr;
@@ -13,18 +13,18 @@ use rp_pac::{IO_BANK0, PADS_BANK0, RESETS, SIO};
 use taxel_core::react::Levels;
 use taxel_store::{Record, in_force};
 
-/// Where the flash begins in memory.
+/// Address of the flash in memory.
 const FLASH: usize = 0x1000_0000;
-/// The pins of the chip.
+/// Number of pins of the chip.
 const PINS: usize = 30;
 
-#[allow(unsafe_code)] // SAFETY: embassy-rp's function for the same place, by the name that the linker gives it
+#[allow(unsafe_code)] // SAFETY: embassy-rp's own function, by the name that the linker gives it
 unsafe extern "C" {
     #[link_name = "__real___pre_init"]
     fn pre_init_of_embassy();
 }
 
-/// Runs first, on the stack alone: no memory has been set yet.
+/// The first function that runs. It uses only the stack: no memory is initialised yet.
 #[allow(unsafe_code)] // SAFETY: no other symbol has this name; nothing here or there reads or writes a static
 #[unsafe(export_name = "__wrap___pre_init")]
 unsafe extern "C" fn pre_init() {
@@ -37,7 +37,7 @@ unsafe extern "C" fn pre_init() {
     drive();
 }
 
-/// Drives the pins that the flash names to the levels that it names.
+/// Drives the pins to the levels that are stored in the flash.
 pub fn drive() {
     let Some(Levels { pins, high }) = in_force(LEVELS.map(record)) else { return };
     let (out, enable) = (SIO.gpio_out(0), SIO.gpio_oe(0));
@@ -50,11 +50,11 @@ pub fn drive() {
     }
 }
 
-/// A record of the flash, read through its memory map.
+/// Reads a record of the flash through the memory map.
 fn record(offset: u32) -> Record {
     let first = ptr::with_exposed_provenance::<Record>(FLASH + offset as usize);
     #[allow(unsafe_code)]
-    // SAFETY: the place is one of the flash, whole words, which nothing writes now
+    // SAFETY: the address lies in the flash, is aligned to words, and nothing writes there now
     unsafe {
         ptr::read_volatile(first)
     }

@@ -1,4 +1,4 @@
-//! The taxel sensor controller: puts this board's pins, converter, link and clock under the core's loop.
+//! The taxel sensor controller: connects this board's pins, converter, link and clock to the core's loop.
 #![no_std]
 #![no_main]
 #![deny(unsafe_code)]
@@ -27,17 +27,17 @@ use taxel_core::board::{Board, SetupError};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 
-/// Taxels, runs of touched taxels in a row, and parts of contacts that the memory holds.
+/// Capacities for taxels, for runs of touched taxels in a row, and for parts of contacts.
 const TAXELS: usize = 2048;
 const RUNS: usize = TAXELS / 2;
 const PARTS: usize = TAXELS / 4;
 
-/// Bits of a byte on the line: one start bit, eight of data, one stop bit.
+/// Number of bits per byte on the line: one start bit, eight data bits, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
 
 type Pool = Lines<pins::Line, { board::LINES }>;
 
-// What is large is static and not on the stack: these, and the board, which is a part of the main task.
+// Large objects are static, not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
@@ -51,21 +51,21 @@ fn employ(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
     board.employ(Scene::shipped())
 }
 
-/// Gives the board what ships. Functions of their own: the main task's stack would keep room for ever for
-/// what is only needed here.
+/// Sets the shipped garment and scene. Functions of their own: otherwise the main task would keep their stack
+/// for ever.
 #[inline(never)]
 fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
     if let Err(error) = dress(board).and_then(|()| employ(board)) {
         defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
-        // Nothing feeds the watchdog from here on, so the board starts again and says so again.
+        // From here on nothing feeds the watchdog, so the board restarts and reports it again.
         loop {
             cortex_m::asm::wfe();
         }
     }
 }
 
-/// The scanner over this board's parts. A function of its own, too: what is put into a static is built on the
-/// stack.
+/// Builds the scanner from this board's parts. A function of its own, because a static is built on the stack
+/// first.
 #[inline(never)]
 fn scanner(
     lines: [(u8, pins::Line); board::LINES],

@@ -1,5 +1,5 @@
-//! Marks for the emulator: it watches one word of memory and sums the cycles between two marks by stage. On a
-//! board a mark is a store.
+//! Marks for the emulator, which watches one word of memory and sums up the cycles between two marks by
+//! stage. On a board a mark is a store.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -8,7 +8,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 #[unsafe(no_mangle)]
 static TAXEL_MARK: AtomicU32 = AtomicU32::new(0);
 
-/// Says that the stage of this number begins.
+/// Marks the beginning of the stage of this number.
 #[inline]
 pub fn mark(stage: u32) {
     TAXEL_MARK.store(stage, Ordering::Relaxed);

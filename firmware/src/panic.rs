@@ -1,4 +1,4 @@
-//! A panic is logged, then the board restarts: a garment must not fall silent until somebody presses a button.
+//! Panic handler: logs, then restarts the board, so that a garment does not stay silent until a reset.
 
 use crate::remains::Scratch;
 use core::panic::PanicInfo;
@@ -8,11 +8,12 @@ use taxel_core::boot::{Remains, panicked};
 #[panic_handler]
 fn panic(info: &PanicInfo) -> ! {
     cortex_m::interrupt::disable();
-    // First of all: should the rest hang, the watchdog restarts the board, and this was the cause.
+    // First: if the rest hangs, the watchdog restarts the board, and the cause is known.
     Scratch.keep(panicked(Scratch.word()));
     defmt::error!("{}", defmt::Display2Format(info));
     #[allow(unsafe_code)]
-    // SAFETY: interrupts are off and nothing returns from here, so no other owner of the watchdog runs again.
+    // SAFETY: interrupts are off and this function never returns, so no other owner of the watchdog runs
+    // again.
     let watchdog = unsafe { WATCHDOG::steal() };
     Watchdog::new(watchdog).trigger_reset();
     loop {

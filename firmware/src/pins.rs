@@ -1,16 +1,16 @@
-//! Select lines: pins that are found by number, because a garment names its pins at run time.
+//! Select lines: pins looked up by number, because a garment names its pins at run time.
 
 use core::convert::Infallible;
 use embassy_rp::{Peri, gpio};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use taxel_core::acquire::{Pad, Pull};
 
-/// A free pin. It stays high-impedance until something drives it, so that a line no garment names disturbs
-/// nothing.
+/// A free pin. It stays high-impedance until it is driven, so that a pin which no garment names has no
+/// effect.
 pub struct Line(gpio::Flex<'static>);
 
 impl Line {
-    /// Takes the pin; its number goes with it.
+    /// Takes the pin; returns its number with it.
     pub fn new(pin: Peri<'static, gpio::AnyPin>) -> (u8, Line) {
         use gpio::Pin;
         (pin.pin(), Line(gpio::Flex::new(pin)))
@@ -21,7 +21,7 @@ impl ErrorType for Line {
     type Error = Infallible;
 }
 
-// The level is set before the driver is switched on: the line never shows a level that nobody asked for.
+// The level is set before the driver is switched on, so that no other level ever shows.
 impl OutputPin for Line {
     #[inline]
     fn set_low(&mut self) -> Result<(), Infallible> {

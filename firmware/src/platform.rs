@@ -1,4 +1,4 @@
-//! The board's clock, settling delay, watchdog, heartbeat and marks.
+//! The board's clock, settling delay, watchdog, heartbeat, stored settings and marks.
 
 use crate::led::Led;
 use crate::mark::mark;
@@ -20,17 +20,18 @@ use taxel_core::{
 };
 use taxel_store::{Found, StoreError};
 
-/// The board restarts when the loop has not come round for this long. The core refuses garments and scenes
+/// Time without a round of the loop after which the board restarts. The core refuses garments and scenes
 /// whose frames take nearly as long.
 pub const WATCHDOG: Duration = Duration::from_millis(WATCHDOG_MS as u64);
 
-/// The LED changes this often, as long as the loop runs.
+/// Time between two toggles of the LED, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;
 
-/// Longest pause of the loop: bytes of the host wait in their ring meanwhile.
+/// Longest pause of the loop; bytes from the host wait in their ring meanwhile.
 const LONGEST_PAUSE_US: u64 = 1_000;
 
-/// Saves that a board can take soon where nobody knows how many it took before: it began with what ships.
+/// Number of saves granted to a board that starts with the shipped settings and does not know its earlier
+/// saves.
 const UNKNOWN_SAVES: u8 = 1;
 
 /// Time since the board started, from the 1 MHz timer.
@@ -43,10 +44,10 @@ impl Clock for Timer {
         Micros(Instant::now().as_micros())
     }
 
-    /// Feeds the watchdog. Only what has done a step of its work comes here; no timer and no interrupt does.
+    /// Feeds the watchdog. Called only after a step of work, never by a timer or an interrupt.
     #[inline]
     fn progressed(&self) {
-        // It counts two for each microsecond (RP2040-E1).
+        // The counter decrements twice per microsecond (RP2040-E1).
         rp_pac::WATCHDOG.load().write_value(Load(2_000 * WATCHDOG_MS));
     }
 }
@@ -60,13 +61,13 @@ pub struct Settle {
 }
 
 impl Settle {
-    /// A round is a subtraction and a taken branch: 3 cycles.
+    /// Number of cycles of a round: a subtraction and a taken branch.
     const CYCLES_PER_ROUND: u32 = 3;
 
-    /// Longest wait whose number of rounds is computed at once, for clocks up to 190 MHz.
+    /// Longest wait that is computed in one piece, for clocks up to 190 MHz.
     const PIECE_NS: u32 = 1_000_000;
 
-    /// For the present system clock.
+    /// Delay for the present system clock.
     pub fn new() -> Settle {
         let scaled = u64::from(clocks::clk_sys_freq()) << 16;
         let per_ns = scaled.div_ceil(1_000_000_000 * u64::from(Self::CYCLES_PER_ROUND));
@@ -74,8 +75,8 @@ impl Settle {
     }
 
     fn wait(&self, ns: u32) {
-        // No division here: this core has none, and one in software takes 2 us. `delay` does one round more
-        // than it is told, which makes up for the rounding.
+        // Without a division: an M0+ has none, and one in software takes 2 us. `delay` does one round more
+        // than requested, which makes up for the rounding.
         cortex_m::asm::delay((ns * self.rounds_per_ns) >> 16);
     }
 }
@@ -93,7 +94,7 @@ impl DelayNs for Settle {
     }
 }
 
-/// All of the board that is neither pin, converter nor link.
+/// The parts of the board other than pins, converter and link.
 pub struct Board {
     watchdog: Watchdog,
     flash: Flash,
@@ -111,7 +112,7 @@ impl Board {
         Board { watchdog, flash, led, led_due: Micros(0), boots }
     }
 
-    /// Keeps where the outputs stand when the board starts, beside settings that are stored.
+    /// Stores the levels of outputs for the next start, beside the settings.
     fn keep_levels(&mut self, levels: Levels, saved: Saved) -> Result<Saved, StoreError> {
         let mut flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
         Ok(match flash.keep_levels(levels)? {
@@ -120,8 +121,8 @@ impl Board {
         })
     }
 
-    /// Gives a board that has not begun yet the settings that were stored, unless they stay aside; then the
-    /// flash is not even read. Not inlined: it needs stack only meanwhile.
+    /// Restores the stored settings, unless they are set aside; then the flash is not even read. Call before
+    /// the board has begun. Out of line: its stack is needed only here.
     #[inline(never)]
     pub fn recall(&mut self, board: &mut board::Board<TAXELS, RUNS, PARTS>) {
         let uses_stored = self.boots.boot().aside == Aside::No;
@@ -171,7 +172,7 @@ impl Platform for Board {
 
     #[inline(never)]
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
-        // Before it begins: it may be the save itself that does not end.
+        // Before it begins: the save itself may never end.
         self.boots.spend(settings.saves);
         let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let saved = flash.store().and_then(|mut store| store.save(settings));

@@ -1,10 +1,10 @@
-//! What a reset leaves as it is: a scratch register of the watchdog, which only the loss of power and the reset
-//! pin clear. The boot ROM uses the upper four registers; this is the first.
+//! State that survives a reset: a scratch register of the watchdog, which only power loss and the reset pin
+//! clear. The boot ROM uses the upper four registers; this is the first.
 
 use rp_pac::{VREG_AND_CHIP_RESET, WATCHDOG};
 use taxel_core::boot::{Remains, Reset};
 
-/// The register, and the causes beside it.
+/// The scratch register, and the cause of the reset.
 #[derive(Debug, Clone, Copy)]
 pub struct Scratch;
 

@@ -1,4 +1,4 @@
-//! The sectors of the flash that hold the settings, and those that hold the levels of outputs.
+//! The sectors of the flash with the settings, and those with the levels of outputs.
 
 use crate::platform::WATCHDOG;
 use core::ops::Range;
@@ -9,19 +9,20 @@ use taxel_core::board::Saved;
 use taxel_core::react::Levels;
 use taxel_store::{Store, StoreError, keep_levels};
 
-/// The smallest flash of any board with an RP2040.
+/// Size of the smallest flash of any board with an RP2040.
 const BYTES: usize = 2 * 1024 * 1024;
 
-/// Where memory.x ends the program. Two sets of the longest settings take 25 KB; the rest spreads the wear.
+/// Sectors of the settings, the last 64 KiB. Two sets of the longest settings take 25 KB; the rest spreads
+/// the wear.
 const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
 
-/// Two sectors before them, which hold the levels of outputs for a board that starts.
+/// The two sectors before them, with the levels of outputs at start-up.
 pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.start - ERASE_SIZE as u32];
 
-/// The flash. Nothing runs while it is written or erased, interrupts included: code lies in it.
+/// The flash. While it is written or erased nothing runs, not even interrupts: it holds the code.
 pub type Flash = flash::Flash<'static, FLASH, Blocking, BYTES>;
 
-/// The flash, with a watchdog that is fed before each step: erasing a sector may take 0.4 s.
+/// The flash with a watchdog that is fed before each step: erasing a sector may take 0.4 s.
 pub struct Fed<'a> {
     /// The flash.
     pub flash: &'a mut Flash,
@@ -30,12 +31,12 @@ pub struct Fed<'a> {
 }
 
 impl Fed<'_> {
-    /// The settings in it.
+    /// Opens the settings.
     pub fn store(self) -> Result<Store<Self>, StoreError> {
         Store::new(self, SECTORS)
     }
 
-    /// Keeps the levels of outputs for the next start.
+    /// Stores the levels of outputs for the next start.
     pub fn keep_levels(&mut self, levels: Levels) -> Result<Saved, StoreError> {
         keep_levels(self, LEVELS, levels)
     }

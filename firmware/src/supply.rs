@@ -1,5 +1,5 @@
-//! The supply of the processor: below this voltage the chip resets itself. A processor that goes on with less
-//! may write nonsense into the flash.
+//! The brown-out threshold: below it the chip resets itself. At a lower voltage the processor might write
+//! garbage into the flash.
 
 use rp_pac::VREG_AND_CHIP_RESET;
 

@@ -1,64 +1,64 @@
-//! The index: which parts of the settings are in force, and how they are known to be whole.
+//! The index: the parts of the settings that are in force, with their checksums.
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 use taxel_core::board::Part;
 
-/// Version of the form in which settings are stored.
+/// Version of the storage format.
 pub const VERSION: u8 = 1;
 
 static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
-/// A part in force.
+/// Entry of a part in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Entry {
     /// Number of the [`Part`].
     pub part: u8,
-    /// Which of its two places, 0 or 1.
+    /// Its place, 0 or 1.
     pub place: u8,
-    /// Its bytes.
+    /// Number of its bytes.
     pub length: u16,
-    /// CRC-32/ISO-HDLC of them.
+    /// CRC-32/ISO-HDLC of its bytes.
     pub sum: u32,
 }
 
 impl Entry {
-    /// Of a part with this content, in this place.
+    /// Entry of a part with this content in this place.
     pub fn of(part: Part, place: u8, content: &[u8]) -> Entry {
         Entry { part: part as u8, place, length: content.len() as u16, sum: CRC.checksum(content) }
     }
 
-    /// Whether that is its content.
+    /// True if that is its content.
     pub fn holds(&self, content: &[u8]) -> bool {
         usize::from(self.length) == content.len() && self.sum == CRC.checksum(content)
     }
 }
 
-/// All parts in force, and what goes with them.
+/// Index of all parts in force.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Index {
-    /// The parts.
+    /// Entries of the parts.
     pub entries: Vec<Entry, { Part::ALL.len() }>,
-    /// What else is known of them.
+    /// Further fields.
     pub more: More,
 }
 
-/// What an index holds behind its parts since that was first stored. An older one has nothing there, and an
-/// older firmware does not read so far.
+/// Fields that later versions appended to an index. An older index ends before them, and an older firmware
+/// does not read them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct More {
-    /// Saves that the flash could take soon after this one.
+    /// Number of saves that the flash could take soon after this one.
     pub saves: u8,
-    /// A host has put the settings aside: a board that starts does not use them.
+    /// True if a host has set the settings aside: a board does not use them at start-up.
     pub aside: bool,
 }
 
 impl Index {
-    /// Longest form in bytes: version, number of entries, the fields of each, and what else there is.
+    /// Greatest length in bytes: version, number of entries, the fields of each, and the further fields.
     pub const BYTES: usize = 2 + Part::ALL.len() * 10 + 2;
 
-    /// No part is in force, and so many saves are left.
+    /// An index without parts, with that number of saves left.
     pub const fn new(saves: u8) -> Index {
         Index { entries: Vec::new(), more: More { saves, aside: false } }
     }
@@ -68,7 +68,7 @@ impl Index {
         self.entries.iter().find(|entry| entry.part == part as u8).copied()
     }
 
-    /// The bytes of an index, behind its version; none: they are damaged.
+    /// Decodes the bytes of an index behind its version; none if they are damaged.
     pub fn read(bytes: &[u8]) -> Option<Index> {
         let (entries, rest) = postcard::take_from_bytes(bytes).ok()?;
         let older = More { saves: u8::MAX, aside: false };
@@ -76,7 +76,7 @@ impl Index {
         Some(Index { entries, more })
     }
 
-    /// As it is stored; none: there is no room.
+    /// Encodes the index with its version; none if there is no room.
     pub fn write<'b>(&self, to: &'b mut [u8; Index::BYTES]) -> Option<&'b [u8]> {
         let written = postcard::to_slice(&(VERSION, &self.entries, self.more), to).ok()?;
         Some(written)
@@ -96,7 +96,7 @@ mod tests {
         let bytes = index.write(&mut bytes).unwrap();
         assert_eq!(bytes, [VERSION, 1, 2, 1, 0x80, 0x20, 0xff, 0xff, 0xff, 0xff, 0x0f, 5, 1]);
         assert_eq!(Index::read(&bytes[1..]), Some(index.clone()));
-        // As it was written before it had an end.
+        // The format before the further fields.
         let older = &bytes[..bytes.len() - 2];
         let read = Index::read(&older[1..]).unwrap();
         assert_eq!((read.entries, read.more), (index.entries.clone(), More { saves: u8::MAX, aside: false }));

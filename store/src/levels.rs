@@ -1,40 +1,40 @@
-//! Levels of the outputs, in two sectors of their own: a board that starts reads them where they lie, before
-//! it has any memory.
+//! Levels of the outputs, in two sectors of their own: a board reads them in place at start-up, before its
+//! memory is initialised.
 //!
 //! | word | what |
 //! |---|---|
 //! | 0 | number of the record: the later is in force |
 //! | 1 | pins that are driven, bit `i` for GPIO `i` |
-//! | 2 | those of them that are high |
+//! | 2 | pins of these that are high |
 //! | 3 | CRC-32/ISO-HDLC of the bytes before, in the order of the flash |
 //!
-//! A record is written into the sector that does not hold the one in force: whatever happens meanwhile, the
-//! old or the new one is.
+//! A record is written to the sector that does not hold the one in force. So one of the two is always in
+//! force, whatever happens during the write.
 
 use crate::store::StoreError;
 use embedded_storage::nor_flash::NorFlash;
 use taxel_core::board::Saved;
 use taxel_core::react::Levels;
 
-/// Words of a record.
+/// Number of words of a record.
 const WORDS: usize = 4;
 
-/// A record, as its words in the flash.
+/// A record: its words in the flash.
 pub type Record = [u32; WORDS];
 
-/// Bytes of a record.
+/// Number of bytes of a record.
 const BYTES: usize = 4 * WORDS;
 /// Polynomial of the CRC, the lowest bit first.
 const POLYNOMIAL: u32 = 0xedb8_8320;
 
-/// The levels that two records say; none: neither is whole. No memory is used but registers and the stack.
+/// Returns the levels in force; none if neither record is valid. Uses only registers and the stack.
 #[inline]
 pub fn in_force(records: [Record; 2]) -> Option<Levels> {
     let [_, pins, high, _] = records[newest(&records)?];
     Some(Levels { pins, high })
 }
 
-/// Which of two records is in force.
+/// Index of the record in force.
 #[inline]
 fn newest(records: &[Record; 2]) -> Option<usize> {
     let [a, b] = records;
@@ -52,7 +52,7 @@ fn is_whole(record: &Record) -> bool {
     sum_of([number, pins, high]) == sum
 }
 
-/// Bit by bit: a table takes time to be fetched from a flash that has just been switched on.
+/// Bitwise CRC: loading a table from a flash that has just been powered takes time.
 #[inline]
 fn sum_of(words: [u32; 3]) -> u32 {
     let mut crc = u32::MAX;
@@ -65,8 +65,8 @@ fn sum_of(words: [u32; 3]) -> u32 {
     !crc
 }
 
-/// Keeps levels in the sectors that begin at `sectors`. What is in force already is left alone; so are blank
-/// sectors, where no pin is to be driven.
+/// Stores levels in the sectors that begin at `sectors`. Writes nothing if they are in force already, or if
+/// the sectors are blank and no pin is to be driven.
 pub fn keep_levels<F: NorFlash>(
     flash: &mut F,
     sectors: [u32; 2],

@@ -1,17 +1,16 @@
-//! Settings of a board in NOR flash, the same code under a real flash and under a simulated one whose power
-//! is cut.
+//! Settings of a board in NOR flash. One code for a real flash and for a simulated one with power cuts.
 //!
 //! | file | what |
 //! |---|---|
 //! | `store.rs` | saving and loading |
-//! | `index.rs` | which parts are in force, and how they are known to be whole |
-//! | `levels.rs` | where the outputs stand when a board starts |
-//! | `waitless.rs` | a flash that blocks, where one that waits is asked for |
+//! | `index.rs` | the parts in force, with their checksums |
+//! | `levels.rs` | levels of the outputs at start-up |
+//! | `waitless.rs` | adapter from a blocking flash to the asynchronous traits |
 //!
-//! The parts of the settings lie as items of at most [`CHUNK`] bytes in a map of sequential-storage. Each
-//! part has two places: a save writes the parts that have changed to the place that is not in force, and then
-//! one item, the index, which puts them in force together. Until that item is whole, the old index and all
-//! that it names are untouched.
+//! The parts of the settings are stored as items of at most [`CHUNK`] bytes in a map of sequential-storage.
+//! Each part has two places. A save writes the parts that have changed to the place that is not in force, and
+//! then one item, the index, which puts them in force together. Until that item is complete, the old index
+//! and everything it refers to are untouched.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

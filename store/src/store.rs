@@ -1,4 +1,4 @@
-//! Saving and loading.
+//! Saving and loading of the settings.
 
 use crate::index::{Entry, Index, VERSION};
 use crate::waitless::Waitless;
@@ -10,36 +10,36 @@ use sequential_storage::map::{MapConfig, MapStorage};
 use taxel_core::board::{Board, PART_BYTES, Part, Saved, Settings};
 use taxel_core::run::block_on;
 
-/// Most bytes of an item: four fit a sector of 4 KiB with what the map writes around them.
+/// Greatest number of bytes of an item: four fit in a sector of 4 KiB with the map's own data.
 pub const CHUNK: usize = 1000;
-/// Items of the longest part.
+/// Number of items of the longest part.
 const CHUNKS: usize = PART_BYTES.div_ceil(CHUNK);
-/// Key of the index; those of the parts follow.
+/// Key of the index; the keys of the parts follow.
 const INDEX: u8 = 0;
-/// An item with its key, in whole words of any flash.
+/// Bytes of an item with its key, in whole words of any flash.
 const ITEM: usize = (CHUNK + 1).next_multiple_of(32);
 
 const _: () = assert!(Part::ALL.len() * 2 * CHUNKS < 256, "the keys fit a byte");
 
-/// Why settings cannot be stored or read.
+/// Error of storing or reading settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StoreError {
-    /// The sectors set aside are not whole, or fewer than two.
+    /// The reserved sectors are not whole, or fewer than two.
     Range,
     /// The flash cannot be read, written or erased.
     Flash,
-    /// The settings need more sectors than are set aside.
+    /// The settings need more sectors than are reserved.
     Full,
-    /// What is stored is not what was written.
+    /// The stored bytes are not those that were written.
     Damaged,
-    /// The settings were stored in another form.
+    /// The settings have another storage format.
     Version,
-    /// A part does not fit its place.
+    /// A part is too long for its place.
     TooLong(Part),
 }
 
 impl StoreError {
-    /// What is wrong, in a few words.
+    /// Short description.
     pub const fn sentence(self) -> &'static str {
         match self {
             StoreError::Range => "the sectors set aside in the flash are not whole, or fewer than two",
@@ -74,36 +74,37 @@ impl<E> From<sequential_storage::Error<E>> for StoreError {
 
 type Map<F> = MapStorage<u8, Waitless<F>, Cache<Uncached, Uncached, Uncached, u8>>;
 
-/// What a board that starts has found.
+/// Result of loading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Found {
     /// Nothing was stored.
     Nothing,
-    /// Settings that a host has put aside: the board was given none of them.
+    /// Settings that a host has set aside: the board got none of them.
     Aside,
-    /// Settings, which the board has now.
+    /// Settings, which were given to the board.
     Settings,
 }
 
-/// Settings in some sectors of a flash.
+/// Settings in a range of sectors of a flash.
 pub struct Store<F: NorFlash> {
     map: Map<F>,
 }
 
 impl<F: NorFlash> Store<F> {
-    /// In the sectors from offset `range.start` up to `range.end` of `flash`.
+    /// Opens the sectors from offset `range.start` up to `range.end` of `flash`. Error if they are not whole,
+    /// or fewer than two.
     pub fn new(flash: F, range: Range<u32>) -> Result<Self, StoreError> {
         let config = MapConfig::try_new(range).map_err(|_| StoreError::Range)?;
         Ok(Store { map: MapStorage::new(Waitless(flash), config, Cache::new_uncached()) })
     }
 
-    /// Stores what has changed. Whatever happens meanwhile, what is loaded later are the old settings or these;
-    /// unless something else has written into the sectors, so that nothing can be added: then they are erased
-    /// before, and a power cut may leave neither.
+    /// Stores what has changed. If power fails meanwhile, either the old settings or these are loaded later.
+    /// The exception: if something else has written to the sectors so that nothing can be added, they are
+    /// erased first, and a power cut may leave neither.
     pub fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, StoreError> {
         let in_the_way = match self.change(settings) {
             Ok(Saved::Unchanged) => return Ok(Saved::Unchanged),
-            // A flash says nothing of bits that it could not raise.
+            // A flash reports no error for bits that it could not raise.
             Ok(Saved::Written) => !self.holds(settings)?,
             Err(error @ StoreError::TooLong(_)) => return Err(error),
             Err(StoreError::Full) if !self.has_room(settings)? => return Err(StoreError::Full),
@@ -116,8 +117,8 @@ impl<F: NorFlash> Store<F> {
         Ok(Saved::Written)
     }
 
-    /// Whether these settings can be read.
-    #[inline(never)] // its room on the stack is not needed before
+    /// True if these settings can be read back.
+    #[inline(never)] // out of line: its stack is needed only during the call
     fn holds(&mut self, settings: &Settings<'_>) -> Result<bool, StoreError> {
         let index = match self.index() {
             Ok(Some(index)) => index,
@@ -139,8 +140,8 @@ impl<F: NorFlash> Store<F> {
         Ok(true)
     }
 
-    /// Whether these settings fit sectors that hold nothing else: four items each, and one sector stays free.
-    #[inline(never)] // likewise
+    /// True if these settings fit in otherwise empty sectors: four items each, and one sector stays free.
+    #[inline(never)] // out of line: its stack is needed only during the call
     fn has_room(&mut self, settings: &Settings<'_>) -> Result<bool, StoreError> {
         let mut content = [0; PART_BYTES];
         let mut items = 1;
@@ -152,12 +153,12 @@ impl<F: NorFlash> Store<F> {
         Ok(items <= 4 * sectors.saturating_sub(1))
     }
 
-    #[inline(never)] // its room on the stack is not needed afterwards
+    #[inline(never)] // out of line: its stack is needed only during the call
     fn change(&mut self, settings: &Settings<'_>) -> Result<Saved, StoreError> {
         let old = match self.index() {
             Ok(index) => index,
             Err(StoreError::Flash) => return Err(StoreError::Flash),
-            // What cannot be read does not come back: the new takes its place.
+            // Settings that cannot be read are lost: the new ones replace them.
             Err(_) => None,
         };
         if old.is_none() {
@@ -175,7 +176,7 @@ impl<F: NorFlash> Store<F> {
                 Some(entry) if entry.holds(content) && self.stands(&entry, content)? => entry,
                 before => self.write(part, before.map_or(0, |entry| entry.place ^ 1), content)?,
             };
-            // There is room for every part.
+            // Always room for every part.
             let _ = new.entries.push(entry);
         }
         if old.is_some_and(|old| old.entries == new.entries && !old.more.aside) {
@@ -185,8 +186,8 @@ impl<F: NorFlash> Store<F> {
         Ok(Saved::Written)
     }
 
-    /// Erases the sectors that hold anything: another program may have left there what settings cannot be
-    /// written over.
+    /// Erases all sectors that are not blank: another program may have left bytes there that settings cannot
+    /// overwrite.
     fn clear(&mut self) -> Result<(), StoreError> {
         for start in self.map.flash_range().step_by(F::ERASE_SIZE) {
             let end = start + F::ERASE_SIZE as u32;
@@ -208,8 +209,8 @@ impl<F: NorFlash> Store<F> {
         Ok(true)
     }
 
-    /// Puts what is stored aside, until the next save: a board that starts does not use it. Or takes it up
-    /// again. What cannot be read is not used anyway.
+    /// Sets the stored settings aside until the next save, so that a board does not use them at start-up; or
+    /// restores them. Does nothing if they cannot be read, since they are not used then.
     pub fn put_aside(&mut self, aside: bool) -> Result<Saved, StoreError> {
         let mut index = match self.index() {
             Ok(Some(index)) if index.more.aside != aside => index,
@@ -227,8 +228,8 @@ impl<F: NorFlash> Store<F> {
         self.put(INDEX, bytes)
     }
 
-    /// Gives a board that has not begun yet what was stored last, unless it was put aside; and what is left of
-    /// its saves. What is wrong with a part is for the board to say; the others hold.
+    /// Gives the stored settings to a board that has not begun yet, unless they are set aside; also the
+    /// number of saves left. The board reports an invalid part; the other parts are used.
     pub fn load<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
         &mut self,
         board: &mut Board<TAXELS, RUNS, PARTS>,
@@ -257,7 +258,7 @@ impl<F: NorFlash> Store<F> {
         }
     }
 
-    /// Whether a part that is in force can be read.
+    /// True if a part in force can be read.
     fn stands(&mut self, entry: &Entry, content: &[u8]) -> Result<bool, StoreError> {
         for (chunk, expected) in content.chunks(CHUNK).enumerate() {
             let mut item = [0; ITEM];
@@ -295,7 +296,7 @@ impl<F: NorFlash> Store<F> {
     }
 }
 
-/// Key of a piece of a part in its place.
+/// Key of a chunk of a part in its place.
 fn key(entry: &Entry, chunk: usize) -> u8 {
     let place = usize::from(entry.part) * 2 + usize::from(entry.place);
     (1 + place * CHUNKS + chunk) as u8

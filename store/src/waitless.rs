@@ -1,9 +1,9 @@
-//! A flash that blocks, where one that waits is asked for.
+//! Adapter from a blocking flash to the asynchronous traits.
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 use embedded_storage_async::nor_flash as waiting;
 
-/// Is ready at once.
+/// A blocking flash, whose futures are ready at once.
 pub struct Waitless<F>(pub F);
 
 impl<F: ErrorType> ErrorType for Waitless<F> {

@@ -1,4 +1,4 @@
-//! Settings in flash: what was stored is what is loaded, also where the power fails at any step of a save.
+//! Settings in flash: what was stored is loaded again, even if the power fails at any step of a save.
 
 #[path = "../../host/src/sim/flash.rs"]
 mod flash;
@@ -15,7 +15,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
 use taxel_store::{Found, Store, StoreError, in_force, keep_levels};
 
-/// Random numbers, always the same.
+/// Pseudo-random numbers with a fixed seed.
 struct Random(u32);
 
 impl Random {
@@ -25,7 +25,7 @@ impl Random {
     }
 }
 
-/// What a host may set.
+/// Settings that a host may make.
 #[derive(Debug, Clone, PartialEq)]
 struct Kept {
     garment: Garment,
@@ -35,7 +35,7 @@ struct Kept {
     calibration: Option<Certificate>,
 }
 
-/// Saves that are left, as every save here says.
+/// Number of saves left, in every save of these tests.
 const SAVES: u8 = 7;
 
 impl Kept {
@@ -79,10 +79,10 @@ impl Kept {
     }
 }
 
-/// As much of the flash as the block needs twice: every sector is erased again and again.
+/// A flash of twice the size that the block needs: every sector is erased again and again.
 const FOUR_SECTORS: u32 = 16 * 1024;
 
-/// The sectors set aside for so many taxels.
+/// Sectors reserved for that many taxels.
 fn range(taxels: usize) -> std::ops::Range<u32> {
     0..if taxels == 64 { FOUR_SECTORS } else { SimFlash::BYTES }
 }
@@ -91,7 +91,7 @@ fn save(flash: &mut SimFlash, kept: &Kept) -> Result<Saved, StoreError> {
     Store::new(flash, range(kept.gain.len())).unwrap().save(&kept.settings())
 }
 
-/// What a board that starts knows; none: the flash holds nothing.
+/// Settings of a board after start-up; none if the flash holds nothing.
 fn load<const TAXELS: usize>(flash: &mut SimFlash) -> Result<Option<Kept>, StoreError> {
     load_from::<TAXELS>(flash, range(TAXELS))
 }
@@ -196,7 +196,7 @@ fn an_empty_or_alien_flash_is_said_to_be_so() {
 #[test]
 fn a_part_that_does_not_fit_leaves_the_others() {
     let mut flash = SimFlash::default();
-    // A board of 64 taxels finds what was stored by one of 2,048.
+    // A board of 64 taxels loads settings stored by one of 2,048.
     let calibration = Some(Certificate { id: 7, taxels: 2048, year: 2026, month: 11, day: 21, error: 99 });
     let kept = Kept { gain: vec![1; 2048], calibration, ..Kept::new(Garment::reference(), 2048) };
     save(&mut flash, &kept).unwrap();
@@ -206,7 +206,7 @@ fn a_part_that_does_not_fit_leaves_the_others() {
     assert!(kept.settings().write(Part::Gain, &mut buffer).is_err());
 }
 
-/// What a board that starts finds, what it wears then, and how many saves it has left.
+/// Result of loading, garment of the board after it, and number of saves left.
 fn start(flash: &mut SimFlash) -> (Found, Garment, usize) {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
@@ -214,7 +214,7 @@ fn start(flash: &mut SimFlash) -> (Found, Garment, usize) {
     let garment = board.settings().garment.clone();
     let mut wire = [0; 64];
     let save = encode(&Request::Save, &mut wire).unwrap();
-    // All within seconds: none is granted again.
+    // All within seconds: no further save is granted.
     let (mut saves, mut now) = (0, Micros(1_000));
     while saves < 99 {
         board.step(now, Input::Received(save), &mut ());
@@ -291,10 +291,10 @@ fn a_flash_that_cannot_be_read_is_said_to_be_so() {
     assert_eq!(load::<64>(&mut flash), Err(StoreError::Flash));
 }
 
-/// The sectors that hold the levels of outputs.
+/// The sectors with the levels of outputs.
 const LEVELS: [u32; 2] = [0, 4096];
 
-/// The levels that a board would start with.
+/// Levels with which a board would start.
 fn levels(flash: &mut SimFlash) -> Levels {
     let records = LEVELS.map(|start| {
         let mut bytes = [0; 16];
@@ -324,7 +324,7 @@ fn power_may_fail_while_levels_are_kept() {
                 torn.restore_power();
                 let found = levels(&mut torn);
                 assert!(found == old || found == wanted, "round {round}, step {step}, {cut:?}: {found:?}");
-                // And the next time it is kept for certain.
+                // The next attempt is certain to store it.
                 keep_levels(&mut torn, LEVELS, wanted).unwrap();
                 assert_eq!(levels(&mut torn), wanted);
             }
@@ -335,8 +335,7 @@ fn power_may_fail_while_levels_are_kept() {
     }
 }
 
-/// What boot loaders, other firmware and half an erasure leave: a flash need not be empty when it is first
-/// used.
+/// Contents left by boot loaders, other firmware and half an erasure: a flash need not be blank at first use.
 #[test]
 fn a_flash_that_something_else_has_written_takes_settings() {
     let mut random = Random(19);
@@ -345,7 +344,7 @@ fn a_flash_that_something_else_has_written_takes_settings() {
         for _ in 0..1 + random.below(9) {
             let place = random.below(FOUR_SECTORS - 600);
             let bytes: Vec<u8> = (0..random.below(600)).map(|_| random.below(256) as u8).collect();
-            // Bits that would have to rise stay as they are.
+            // Bits that would have to rise stay 0.
             let _ = flash.write(place, &bytes);
         }
         let mut kept = Kept::new(Garment::block(), 64);

@@ -1,22 +1,22 @@
-//! One step of the map that ships in several formats of numbers.
+//! One step of the map that ships, in several number formats.
 
 use micromath::F32Ext;
 use taxel_core::intent::{Inference, Map, MapConfig, tactile};
 
-/// Concepts of a map of the board.
+/// Number of concepts of a map on the board.
 pub const CONCEPTS: usize = taxel_core::intent::CONCEPTS;
 
-/// Concepts that are computed with floats: enough for the map that ships.
+/// Number of concepts computed in floats: enough for the map that ships.
 pub const PLAIN: usize = 24;
 
-/// How it is computed.
+/// Number format of the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Activation {
-    /// As the core does.
+    /// Q15, by the core.
     Q15,
-    /// f32, the exponential by micromath.
+    /// f32, with micromath's exponential.
     Micromath,
-    /// f32, the hyperbolic tangent by libm.
+    /// f32, with libm's hyperbolic tangent.
     Libm,
 }
 
@@ -40,7 +40,7 @@ impl Maps {
         Some(Maps { map: Map::build(&config).ok()?, weights, lambda: f32::from(config.lambda) / 1000.0 })
     }
 
-    /// A whole inference by the core, with the steps that a scene allows, in the place of the last one.
+    /// Runs a whole inference by the core, with the steps that a scene allows; `run` is overwritten.
     #[inline(never)]
     pub fn infer(&self, start: &[i32], run: &mut Inference<CONCEPTS>) {
         self.map.infer_into(start, 16, run);
@@ -56,7 +56,7 @@ impl Activation {
     /// All of them.
     pub const ALL: [Activation; 3] = [Activation::Q15, Activation::Micromath, Activation::Libm];
 
-    /// What tables call it.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Activation::Q15 => "Q15",
@@ -65,7 +65,7 @@ impl Activation {
         }
     }
 
-    /// The next state of the first concepts (Q15, or the bits of f32) from one in Q15.
+    /// Returns the next state of the first concepts (Q15, or the bits of f32), from a state in Q15.
     #[inline(never)]
     pub fn step(self, maps: &Maps, state: &[i32; CONCEPTS]) -> [u32; PLAIN] {
         match self {
@@ -80,7 +80,7 @@ impl Activation {
         }
     }
 
-    /// The number: -1 to 1.
+    /// Value of a result, -1 to 1.
     pub fn value(self, raw: u32) -> f64 {
         match self {
             Activation::Q15 => f64::from(raw as i32) / 32768.0,
@@ -94,7 +94,7 @@ fn plain(maps: &Maps, start: &[i32; CONCEPTS], transfer: fn(f32) -> f32) -> [u32
     state.iter_mut().zip(start).for_each(|(to, value)| *to = *value as f32 / 32768.0);
     let mut next = state;
     for (value, weights) in next.iter_mut().zip(&maps.weights) {
-        // What nothing causes is held.
+        // Concepts without causes keep their value.
         if weights.iter().any(|weight| *weight != 0.0) {
             let sum = weights.iter().zip(&state).map(|(weight, y)| weight * y).sum::<f32>();
             *value = transfer(maps.lambda * sum.max(0.0));

@@ -1,4 +1,4 @@
-//! The whole chain: a board that is handed codes and whose messages are drained at once.
+//! The whole chain: a board that gets codes, and whose messages are read at once.
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
@@ -8,11 +8,11 @@ use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::scene::Scene;
 
-/// Taxels that a board holds.
+/// Capacity for taxels.
 pub const TAXELS: usize = 2048;
-/// Runs of touched taxels in a row.
+/// Capacity for runs of touched taxels in a row.
 const RUNS: usize = TAXELS / 2;
-/// Parts of contacts.
+/// Capacity for parts of contacts.
 const PARTS: usize = TAXELS / 4;
 
 /// Time from scan to scan, us: 195 frames a second.
@@ -30,18 +30,17 @@ pub struct Chain {
     scans: u64,
 }
 
-/// What a board said since it was last asked.
+/// Output of a board since the last call.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Said {
-    /// Bytes on the wire.
+    /// Number of bytes on the wire.
     pub bytes: u32,
-    /// CRC-32/ISO-HDLC of them: images, contacts, shapes, symbols, intentions, in the order in which they
-    /// were sent.
+    /// CRC-32/ISO-HDLC of them: images, contacts, shapes, symbols and intentions in the order of sending.
     pub digest: u32,
 }
 
 impl Chain {
-    /// A board without a garment, made where the caller keeps it.
+    /// A board without a garment, built in the caller's place.
     #[inline(never)]
     pub fn bare() -> Chain {
         let info = BoardInfo {
@@ -53,7 +52,7 @@ impl Chain {
         Chain { board: Board::bare(info), scans: 0 }
     }
 
-    /// Gives it the reference garment and the scene that ships.
+    /// Sets the reference garment and the shipped scene.
     #[inline(never)]
     pub fn ship(&mut self) -> Result<(), SetupError> {
         self.board.dress(Garment::reference())?;
@@ -64,15 +63,15 @@ impl Chain {
         Micros(self.scans * PERIOD_US)
     }
 
-    /// Bytes come from the host.
+    /// Receives bytes from the host.
     pub fn receive(&mut self, bytes: &[u8]) -> Said {
         let now = self.now();
         self.board.step(now, Input::Received(bytes), &mut ());
         self.drain(&mut (), |_| ())
     }
 
-    /// A scan is done; what the board sends goes to `link`, too. `probe` is told what the board does;
-    /// [`Stage::Scan`] is what is no work of the board.
+    /// Processes a finished scan; the bytes that the board sends also go to `link`. `probe` gets the stages
+    /// of the board; [`Stage::Scan`] stands for everything outside of it.
     pub fn scanned(&mut self, codes: &[Code], probe: &mut impl Probe, link: impl FnMut(&[u8])) -> Said {
         self.scans += 1;
         let now = self.now();
@@ -84,7 +83,7 @@ impl Chain {
         said
     }
 
-    /// Takes all that waits to be sent.
+    /// Takes all pending bytes.
     fn drain(&mut self, probe: &mut impl Probe, mut link: impl FnMut(&[u8])) -> Said {
         let now = self.now();
         let (mut digest, mut bytes) = (CRC.digest(), 0);

@@ -1,18 +1,17 @@
-//! Copies of bytes between places that stand otherwise in their words, as messages meet them on their way
-//! through the rings of a link.
+//! Copies of bytes between places of different alignment, like those of messages in the rings of a link.
 
 use core::hint::black_box;
 
-/// Places in a word.
+/// Number of positions in a word.
 const PLACES: usize = 4;
-/// Pairs of places, from and to.
+/// Number of pairs of positions, source and destination.
 pub const PAIRS: usize = PLACES * PLACES;
-/// Bytes of a packet on USB.
+/// Number of bytes of a packet on USB.
 const PACKET: usize = 64;
-/// The longest copy.
+/// Length of the longest copy.
 const LONGEST: usize = 80;
 
-/// Room for the longest copy at the last place, and for what must stay as it is.
+/// Room for the longest copy at the last position, and for bytes that must not change.
 pub type Space = [u8; PLACES + LONGEST + PLACES];
 
 /// Copies a packet once for each pair of places.
@@ -23,7 +22,8 @@ pub fn packets(from: &Space, to: &mut Space) {
     }
 }
 
-/// Copies and moves of all lengths, for each pair of places: every byte of the room after each of them.
+/// Copies and moves with all lengths and pairs of positions; returns every byte of the room after each of
+/// them.
 pub fn all(from: &Space) -> impl Iterator<Item = u8> {
     let pairs = (0..=LONGEST).flat_map(|length| (0..PAIRS).map(move |pair| (length, pair)));
     pairs.flat_map(|(length, pair)| {
@@ -42,7 +42,7 @@ fn copy(from: &Space, to: &mut Space, pair: usize, length: usize) {
     }
 }
 
-/// Within the room, to the front and to the back.
+/// Moves bytes within the room, in both directions.
 #[inline(never)]
 fn shift(space: &mut Space, pair: usize, length: usize) {
     let (at, source) = (pair / PLACES, pair % PLACES);

@@ -1,5 +1,5 @@
-//! The plain chain: every taxel calibrated, filtered, labelled and summed by definition, touched or not. It
-//! knows no seams, no shapes and no tracks: it is less than the core does.
+//! The plain chain: every taxel is calibrated, filtered, labelled and summed by definition, touched or not.
+//! Without seams, shapes and tracks, it does less than the core.
 
 use crate::chain::TAXELS;
 use crate::pattern::Pattern;
@@ -7,13 +7,13 @@ use taxel_core::format::Code;
 
 const COLUMNS: usize = 16;
 const ROWS: usize = 32;
-/// As in the scene that ships.
+/// Values of the shipped scene.
 const FLOOR: u16 = 14;
 const LOW: u16 = 16;
-/// Contacts that are summed.
+/// Greatest number of contacts that are summed.
 const CONTACTS: usize = 32;
 
-/// All that it holds.
+/// State of the chain.
 pub struct Dense {
     rest: [Code; TAXELS],
     values: [u16; TAXELS],
@@ -25,7 +25,7 @@ pub struct Dense {
 /// Sums of a contact.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Sums {
-    /// The label, from 1.
+    /// Label of the contact, from 1.
     label: u16,
     /// sum f
     pub m: u64,
@@ -42,7 +42,7 @@ impl Default for Dense {
 }
 
 impl Dense {
-    /// With the first frame of noise as its baseline.
+    /// A chain with the first frame of noise as its baseline.
     pub fn new() -> Dense {
         let mut rest = [Code(0); TAXELS];
         Pattern::Empty.codes(0, &mut rest);
@@ -50,7 +50,7 @@ impl Dense {
         Dense { rest, values, filtered, labels, sums: [Sums::default(); CONTACTS] }
     }
 
-    /// The contacts of a frame, by the order of their first taxels.
+    /// Returns the contacts of a frame in the order of their first taxels.
     #[inline(never)]
     pub fn process(&mut self, codes: &[Code; TAXELS]) -> &[Sums] {
         for ((value, code), rest) in self.values.iter_mut().zip(codes).zip(&self.rest) {
@@ -77,7 +77,7 @@ impl Dense {
         }
     }
 
-    /// Each taxel gets the smallest label around it; again until nothing changes.
+    /// Gives each taxel the smallest label around it, until nothing changes.
     fn label(&mut self) {
         for (taxel, (label, value)) in (1u16..).zip(self.labels.iter_mut().zip(&self.filtered)) {
             *label = if *value < LOW { 0 } else { taxel };
@@ -130,7 +130,7 @@ impl Dense {
     }
 }
 
-/// The taxels around one, in its panel.
+/// Neighbours of a taxel in its panel.
 fn neighbours(taxel: usize) -> impl Iterator<Item = usize> {
     let (row, column) = (taxel / COLUMNS % ROWS, taxel % COLUMNS);
     let rows = row.saturating_sub(1)..=(row + 1).min(ROWS - 1);

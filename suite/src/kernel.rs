@@ -1,4 +1,4 @@
-//! What is measured besides the chain, by number: kernels that take 2,048 codes and give a few words.
+//! Kernels that are measured besides the chain, by number. Each takes 2,048 codes and returns a word.
 
 use crate::activation::{Activation, CONCEPTS, Maps, PLAIN};
 use crate::chain::TAXELS;
@@ -16,34 +16,34 @@ use taxel_core::shape::{DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASU
 /// A kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kernel {
-    /// Each code is read.
+    /// Reads each code.
     Read,
-    /// Each code is read and compared with one limit.
+    /// Reads each code and compares it with one limit.
     Compare,
     /// The plain chain.
     Dense,
-    /// Eight windows in a format of numbers.
+    /// Measures eight windows in a number format.
     Measure(Measure),
-    /// One step of the map in a format of numbers.
+    /// One step of the map in a number format.
     Activate(Activation),
-    /// The map that ships, from its inputs until it settles.
+    /// An inference of the shipped map from its inputs until it settles.
     Infer,
-    /// A frame of a touch on a panel of 512 taxels.
+    /// Takes a frame of a touch on a panel of 512 taxels.
     Touch,
-    /// What the touch so far is taken for.
+    /// Classifies the touch so far.
     Decide,
-    /// Eight windows of 16 x 16 taxels are described.
+    /// Computes the descriptors of eight windows of 16 x 16 taxels.
     Describe,
-    /// The nearest of 200 prototypes.
+    /// Finds the nearest of 200 prototypes.
     Nearest,
-    /// Packets of bytes from and to all places in a word.
+    /// Copies packets of bytes between all positions in a word.
     Copy,
 }
 
-/// Taxels of a panel of the reference garment.
+/// Number of taxels of a panel of the reference garment.
 const PANEL: usize = 512;
 
-/// What a kernel works with.
+/// Work space of the kernels.
 pub struct Bench {
     dense: Dense,
     maps: Option<Maps>,
@@ -54,7 +54,7 @@ pub struct Bench {
 }
 
 impl Default for Bench {
-    #[inline(never)] // what it takes of the stack to make one is needed only here
+    #[inline(never)] // out of line: its stack is needed only during the call
     fn default() -> Bench {
         let model = Model::read(Shipped::Gestures.bytes()).ok();
         let gestures = model.map(|model| Touches::new(model, 32, 16));
@@ -70,7 +70,7 @@ impl Default for Bench {
 }
 
 impl Kernel {
-    /// All of them; the emulated board is told their places in this order.
+    /// All kernels; the emulated board gets their indices in this order.
     pub fn all() -> impl Iterator<Item = Kernel> {
         let plain = [Kernel::Read, Kernel::Compare, Kernel::Dense];
         let measures = Measure::ALL.map(Kernel::Measure);
@@ -85,8 +85,8 @@ impl Kernel {
         ])
     }
 
-    /// Runs it; a word that depends on everything it found. The work lies between the marks [`Stage::Idle`]
-    /// and [`Stage::Scan`].
+    /// Runs the kernel. Returns a word that depends on its whole result. The work lies between the marks
+    /// [`Stage::Idle`] and [`Stage::Scan`].
     pub fn run(self, bench: &mut Bench, codes: &[Code; TAXELS], probe: &mut impl Probe) -> u32 {
         probe.begin(Stage::Idle);
         match self {
@@ -126,7 +126,7 @@ impl Bench {
     }
 
     fn infer(&mut self, codes: &[Code], probe: &mut impl Probe) -> Option<u32> {
-        // Four inputs; the others start at rest.
+        // Four inputs; the others start at 0.
         let start: [i32; PLAIN] = state(codes, 4);
         self.maps.as_ref()?.infer(&start, &mut self.inferred);
         probe.begin(Stage::Scan);
@@ -179,19 +179,19 @@ fn copy(codes: &[Code], probe: &mut impl Probe) -> u32 {
     fold(to.into_iter().chain(copies::all(&from)).map(u32::from))
 }
 
-/// The work begins here: what was before is no part of it.
+/// Marks the beginning of the work; anything before it is not measured.
 fn begin(probe: &mut impl Probe) {
     probe.begin(Stage::Scan);
     probe.begin(Stage::Idle);
 }
 
-/// The work is done, and this is what it gave.
+/// Marks the end of the work; returns its result.
 fn done<T>(probe: &mut impl Probe, found: T) -> T {
     probe.begin(Stage::Scan);
     found
 }
 
-/// As many prototypes as there may be, anywhere.
+/// A full gallery of random prototypes.
 fn gallery() -> Gallery<GALLERY_PROTOTYPES> {
     let mut gallery = Gallery::new();
     let mut random = 1u32;
@@ -210,7 +210,7 @@ fn gallery() -> Gallery<GALLERY_PROTOTYPES> {
     gallery
 }
 
-/// Codes as activations from 0 to 1, the first `count`.
+/// The first `count` codes as activations from 0 to 1.
 fn state<const N: usize>(codes: &[Code], count: usize) -> [i32; N] {
     let mut state = [0; N];
     for (value, code) in state.iter_mut().zip(codes).take(count) {
@@ -219,13 +219,13 @@ fn state<const N: usize>(codes: &[Code], count: usize) -> [i32; N] {
     state
 }
 
-/// Reads every code: the least that a frame costs.
+/// Reads every code: the least cost of a frame.
 #[inline(never)]
 fn read(codes: &[Code]) -> u32 {
     codes.iter().fold(0, |sum, code| sum | u32::from(code.0))
 }
 
-/// Whether any code is above a limit.
+/// True if any code is above a limit.
 #[inline(never)]
 fn compare(codes: &[Code], limit: u16) -> bool {
     let limit = i32::from(limit);

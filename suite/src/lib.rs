@@ -1,7 +1,7 @@
-//! What is measured, once for the emulated board (`cargo xtask cycles`) and for this machine (`taxel bench`):
-//! the scenes of [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading
-//! alone, the [`dense`] chain, and formats of numbers to [`measure`] the contacts of [`windows`] with, or for
-//! the [`activation`] of concepts, and [`copies`].
+//! Benchmarks, shared by the emulated board (`cargo xtask cycles`) and this machine (`taxel bench`): the
+//! scenes of [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading alone,
+//! the [`dense`] chain, number formats to [`measure`] the contacts of [`windows`] or for the [`activation`]
+//! of concepts, and [`copies`].
 #![no_std]
 #![forbid(unsafe_code)]
 

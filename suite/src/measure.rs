@@ -1,29 +1,28 @@
-//! Centroid, NMI and azimuth of a window in several formats of numbers.
+//! Centroid, NMI and azimuth of a window in several number formats.
 
 use crate::windows::SIDE;
 use micromath::F32Ext;
 use taxel_core::contact::{Moments, axis};
 use taxel_core::format::{Code, Fixed16, Fixed24, Inverse, Scaled, Turn};
 
-/// How they are computed.
+/// Number format of the computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
-    /// As the core does: exact integer sums, one rounding at the end.
+    /// Exact integer sums, one rounding at the end, like the core.
     Exact,
-    /// Weights of 15 bits, everything in 32 bits.
+    /// Weights of 15 bits, all arithmetic in 32 bits.
     Q15,
-    /// Exact integer sums, the rest in f32 with micromath's root and arctangent.
+    /// Exact integer sums, then f32 with micromath's root and arctangent.
     SumsMicromath,
-    /// Exact integer sums, the rest in f32 with libm.
+    /// Exact integer sums, then f32 with libm.
     SumsLibm,
-    /// Everything in f32, with micromath.
+    /// All in f32, with micromath.
     Micromath,
-    /// Everything in f32, with libm.
+    /// All in f32, with libm.
     Libm,
 }
 
-/// What is computed, as its format holds it: column and row of the centroid, NMI (eq. 4 of the source),
-/// azimuth.
+/// Results in their format: column and row of the centroid, NMI (eq. 4 of the source), azimuth.
 pub type Raw = [u32; 4];
 
 impl Measure {
@@ -37,7 +36,7 @@ impl Measure {
         Measure::Libm,
     ];
 
-    /// What tables call it.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Measure::Exact => "exact integers",
@@ -49,7 +48,7 @@ impl Measure {
         }
     }
 
-    /// Of a window of 16 x 16 taxels that are not all 0.
+    /// Measures a window of 16 x 16 taxels that are not all 0.
     #[inline(never)]
     pub fn of(self, window: &[Code]) -> Raw {
         match self {
@@ -62,7 +61,7 @@ impl Measure {
         }
     }
 
-    /// The numbers: taxels, NMI, radians.
+    /// Values of the results: taxels, NMI, radians.
     pub fn values(self, raw: Raw) -> [f64; 4] {
         let [x, y, nmi, azimuth] = raw;
         match self {
@@ -81,7 +80,7 @@ impl Measure {
     }
 }
 
-/// The image's moments, row by row.
+/// Moments of the window, row by row.
 fn moments(window: &[Code]) -> Moments {
     let mut sum = Moments::default();
     for (y, row) in window.chunks(SIDE).enumerate() {
@@ -108,7 +107,7 @@ fn exact(window: &[Code]) -> Raw {
 /// Fraction bits of the NMI in 32 bits.
 const NMI_BITS: u32 = 21;
 
-/// With weights `f / m` of 15 bits: the window must not be larger than 16 x 16 taxels of 12 bits.
+/// Uses weights `f / m` of 15 bits: the window may have at most 16 x 16 taxels of 12 bits.
 fn q15(window: &[Code]) -> Raw {
     let mass: u32 = window.iter().map(|code| u32::from(code.0)).sum();
     let inverse = (1u32 << 31).checked_div(mass).unwrap_or(0);
@@ -121,7 +120,7 @@ fn q15(window: &[Code]) -> Raw {
             y += weight * row as u32;
         }
     }
-    // About the centroid, with distances of 8 and squares of 8 fraction bits.
+    // About the centroid; distances and squares have 8 fraction bits.
     let [mut a, mut b, mut c] = [0i32; 3];
     for (row, codes) in window.chunks(SIDE).enumerate() {
         let dy = ((row as i32) << 15).wrapping_sub(y as i32) >> 7;
@@ -135,18 +134,18 @@ fn q15(window: &[Code]) -> Raw {
     }
     let spread = (a.wrapping_add(b) as u32) << 1;
     let (spread, mass) = (spread.isqrt(), (mass << 10).isqrt());
-    // 12 bits of the one, 5 of the other.
+    // 12 fraction bits of the spread, 5 of the mass.
     let nmi = (spread << (NMI_BITS - 12 + 5)).checked_div(mass).unwrap_or(0);
     let azimuth = idsp::atan2(c.wrapping_mul(2), a.wrapping_sub(b)) >> 1;
     [x, y, nmi, azimuth as u32]
 }
 
-/// What is left to do in f32.
+/// Sums in f32, for the rest of the computation.
 struct Sums {
     m: f32,
     sx: f32,
     sy: f32,
-    /// `m sxx - sx^2` and so on.
+    /// `m sxx - sx^2`; `b` and `c` likewise.
     a: f32,
     b: f32,
     c: f32,

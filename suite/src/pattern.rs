@@ -1,15 +1,15 @@
-//! What touches the reference garment in a scene: pressure and codes of every taxel in every frame, from
-//! integers alone.
+//! Scenes of touches on the reference garment: pressure and codes of every taxel in every frame, computed in
+//! integers.
 
 use crate::chain::{FULL_SCALE, TAXELS};
 use taxel_core::format::Code;
 
-/// Columns of a panel of the reference garment.
+/// Number of columns of a panel of the reference garment.
 const COLUMNS: usize = 16;
-/// Rows of a panel.
+/// Number of rows of a panel.
 const ROWS: usize = 32;
 
-/// Units of a [`Disc`]'s place and radius in a taxel.
+/// Units of a [`Disc`]'s place and radius per taxel.
 pub const UNITS: i32 = 20;
 
 /// A scene.
@@ -21,15 +21,15 @@ pub enum Pattern {
     One,
     /// Five discs on all panels, one across the seam of chest and back; each moves 0.1 taxel a frame.
     Five,
-    /// Forty contacts of 2 x 2 to 3 x 3 taxels: more than are followed.
+    /// Forty contacts of 2 x 2 to 3 x 3 taxels: more than can be tracked.
     Forty,
-    /// Every taxel pressed, with 11 bits at random on top of it.
+    /// Every taxel pressed, with 11 random bits on top of it.
     Texture,
-    /// Every code is the greatest.
+    /// The greatest code everywhere.
     Flat,
     /// Every second taxel of every second row: 512 labels.
     Grid,
-    /// Every second taxel, like the fields of one colour on a chess board.
+    /// Every second taxel, like the fields of one colour on a chessboard.
     Checkerboard,
 }
 
@@ -46,7 +46,7 @@ pub struct Disc {
 
 /// Radius of a disc: 3 taxels.
 const RADIUS: i32 = 3 * UNITS;
-/// Pressure in its centre, counts.
+/// Pressure at its centre, counts.
 const PEAK: u32 = 1500;
 
 impl Disc {
@@ -54,12 +54,12 @@ impl Disc {
     pub fn pressure(&self, column: i32, row: i32) -> u16 {
         let (dx, dy) = (column * UNITS - self.x, row * UNITS - self.y);
         let left = (RADIUS * RADIUS - dx * dx - dy * dy).max(0) as u32;
-        // The root of the square, with five more bits of it.
+        // Square root with five extra bits.
         (PEAK * (left << 10).isqrt() / (RADIUS.unsigned_abs() << 5)) as u16
     }
 
-    /// Adds its pressure to the image of the garment; what lies beyond the right flank of the chest is on the
-    /// back.
+    /// Adds its pressure to the image of the garment; the part beyond the right flank of the chest lies on
+    /// the back.
     fn press(&self, image: &mut [u16; TAXELS]) {
         for (row, column) in (0..ROWS as i32).flat_map(|row| (0..2 * COLUMNS as i32).map(move |c| (row, c))) {
             let (panel, inside) = match column.checked_sub(COLUMNS as i32) {
@@ -76,7 +76,7 @@ impl Disc {
 }
 
 impl Pattern {
-    /// All of them.
+    /// All patterns.
     pub const ALL: [Pattern; 8] = [
         Pattern::Empty,
         Pattern::One,
@@ -88,7 +88,7 @@ impl Pattern {
         Pattern::Checkerboard,
     ];
 
-    /// What tables call it.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Pattern::Empty => "empty",
@@ -104,13 +104,13 @@ impl Pattern {
 
     /// The discs of a frame.
     pub fn discs(self, frame: u32) -> impl Iterator<Item = Disc> {
-        // To and fro over 8 taxels, 0.1 taxel a frame.
+        // Back and forth over 8 taxels, 0.1 taxel a frame.
         let step = 2 * frame as i32 % 320;
         let along = if step < 160 { step } else { 320 - step };
         let disc = |panel, x, y| Disc { panel, x, y };
         let discs = [
             disc(0, 80 + along / 2, 200),
-            // Its greater part lies on the chest, the rest on the back.
+            // Mostly on the chest, the rest on the back.
             disc(0, 293, 400 + along),
             disc(1, 113, 331 - along),
             disc(2, 207 - along / 2, 100 + along),
@@ -140,7 +140,7 @@ impl Pattern {
         self.discs(frame).for_each(|disc| disc.press(image));
     }
 
-    /// Codes of a frame: the taxels' own offsets, noise, and the pressure.
+    /// Codes of a frame: offset of the taxel, plus noise, plus pressure.
     pub fn codes(self, frame: u32, codes: &mut [Code; TAXELS]) {
         let mut image = [0; TAXELS];
         self.pressure(frame, &mut image);
@@ -161,7 +161,7 @@ fn small(row: usize, column: usize) -> u16 {
     if inside { 300 + field as u16 * 8 } else { 0 }
 }
 
-/// Bits that look random, of a taxel and a purpose.
+/// Returns pseudo-random bits for a taxel; `salt` separates purposes.
 pub(crate) const fn hash(taxel: u32, salt: u32) -> u32 {
     let mut bits = taxel.wrapping_mul(0x9e37_79b1) ^ salt.wrapping_mul(0x85eb_ca6b);
     bits = (bits ^ bits >> 15).wrapping_mul(0x2c1b_3c6d);

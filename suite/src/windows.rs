@@ -1,19 +1,19 @@
-//! Contacts of their own for the formats of numbers: eight windows of 16 x 16 taxels, each with an elongated
+//! Contacts for the comparison of number formats: eight windows of 16 x 16 taxels, each with an elongated
 //! dome.
 
 use crate::chain::TAXELS;
 use crate::pattern::{UNITS, hash};
 use taxel_core::format::Code;
 
-/// Rows and columns of a window.
+/// Number of rows, and of columns, of a window.
 pub const SIDE: usize = 16;
-/// Taxels of a window.
+/// Number of taxels of a window.
 pub const AREA: usize = SIDE * SIDE;
-/// Windows of a round.
+/// Number of windows of a round.
 pub const WINDOWS: usize = TAXELS / AREA;
 
 /// Fills all windows: domes of pressure `p (1 - (u / a)^2 - (v / b)^2)` with random place, direction, lengths
-/// (a to 7, b 0.3 to 0.7 of it, taxels) and peaks from 100 to 4095 counts.
+/// (a to 7 taxels, b 0.3 to 0.7 of it) and peaks from 100 to 4095 counts.
 pub fn fill(round: u32, values: &mut [Code; TAXELS]) {
     for (number, window) in values.chunks_mut(AREA).enumerate() {
         let random = |salt: u32, from: i64, to: i64| {

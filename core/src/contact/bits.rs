@@ -5,19 +5,19 @@ use core::ops::Range;
 /// Columns of a word.
 pub(super) const WORD: u16 = u32::BITS as u16;
 
-/// The lowest run of ones.
+/// Returns the lowest run of ones.
 pub(super) const fn lowest_run(taxels: u32) -> u32 {
     taxels & !taxels.wrapping_add(taxels & taxels.wrapping_neg())
 }
 
-/// Whether there is one run of ones.
+/// True if the ones form a single run.
 pub(super) const fn is_run(taxels: u32) -> bool {
     taxels != 0 && lowest_run(taxels) == taxels
 }
 
-/// The places of one run of ones.
+/// Bit positions of a single run of ones.
 pub(super) const fn run_of(taxels: u32) -> Range<usize> {
-    // A whole row of sixteen: an M0+ takes long to count zeros, and longer to count ones.
+    // Fast path of a full row of sixteen: an M0+ has no instruction that counts zeros or ones.
     if taxels == 0xffff {
         return 0..16;
     }
@@ -25,7 +25,7 @@ pub(super) const fn run_of(taxels: u32) -> Range<usize> {
     lowest.trailing_zeros() as usize..taxels.wrapping_add(lowest).trailing_zeros() as usize
 }
 
-/// The place of the highest one. An M0+ counts no leading zeros.
+/// Position of the highest one, without a count of leading zeros, which an M0+ does not have.
 pub(super) const fn highest(taxels: u32) -> u16 {
     let mut below = taxels >> 1;
     below |= below >> 1;
@@ -36,12 +36,12 @@ pub(super) const fn highest(taxels: u32) -> u16 {
     below.wrapping_add(1).trailing_zeros() as u16
 }
 
-/// Some taxels and those beside them.
+/// Returns the taxels and their neighbours in the row.
 pub(super) const fn widened(taxels: u32) -> u32 {
     taxels | taxels << 1 | taxels >> 1
 }
 
-/// The runs of `taxels` that have one of `touched`, all of which are among them.
+/// Returns the runs of `taxels` that contain a taxel of `touched`, a subset of `taxels`.
 pub(super) const fn flood(taxels: u32, touched: u32) -> u32 {
     if is_run(taxels) {
         return taxels;

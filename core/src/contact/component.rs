@@ -1,4 +1,4 @@
-//! Which components are contacts, and what is measured on each of them.
+//! The choice of contacts among the components, and their moments.
 
 use super::config::ContactConfig;
 use super::join::{Joins, weigh};
@@ -17,7 +17,7 @@ use heapless::Vec;
 /// A connected touch of one frame, not yet tracked.
 #[derive(Debug, Clone)]
 pub struct Component {
-    /// Its first part.
+    /// Root of its parts.
     pub(super) part: u16,
     joined: bool,
     /// Sum of the pressure, counts.
@@ -26,23 +26,23 @@ pub struct Component {
     pub peak: u16,
     /// First taxel with the greatest value.
     pub peak_at: Option<Place>,
-    /// Taxels.
+    /// Number of taxels.
     pub area: u16,
-    /// In the home panel, where it lies there.
+    /// Bounding box of its taxels in the home panel.
     pub bounds: Rect,
-    /// In the frame of the home panel.
+    /// Moments in the frame of the home panel.
     pub moments: Moments,
-    /// Of its mass, the total.
+    /// Inverse of the total.
     pub(super) inverse: Inverse,
-    /// Centroid in the frame of the home panel, rounded once: half a step off at most.
+    /// Centroid in the frame of the home panel, column; rounded once: half a step off at most.
     pub x: Fixed16,
-    /// As `x`, across the rows.
+    /// Centroid, row; rounded like `x`.
     pub y: Fixed16,
 }
 
 const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX, right: 0 };
 
-/// What is known of a component before it is measured.
+/// Sums of a component before its moments are measured.
 struct Found {
     part: u16,
     joined: bool,
@@ -56,11 +56,11 @@ struct Found {
 #[derive(Debug, Clone)]
 pub(super) struct Components<const CONTACTS: usize> {
     pub list: Vec<Component, CONTACTS>,
-    /// Parts of them beyond a seam: which component, where.
+    /// Index of a component, and bounding box of its taxels on a panel other than its home.
     pub beyond: Vec<(u16, Rect), CARRIED>,
-    /// Contacts that did not fit, in this frame.
+    /// Number of contacts of this frame that did not fit.
     pub dropped: u16,
-    /// Panels in which something is nearly a contact, a bit each.
+    /// Panels with a component that is nearly a contact, one bit each.
     pub faint: u8,
 }
 
@@ -70,7 +70,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0 }
     }
 
-    /// Picks the components that are contacts; where they do not fit, those with the greatest totals.
+    /// Picks the components that are contacts; if they do not fit, those with the greatest totals.
     pub fn select<const RUNS: usize, const PARTS: usize>(
         &mut self,
         config: &ContactConfig,
@@ -104,10 +104,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Puts a component in the place of the one with the smallest total, which `least` remembers, if it has
-    /// more.
+    /// Replaces the component with the smallest total if `found` has more. `least` caches that component.
     fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Found) {
-        // Of equals the last found gives way.
+        // Among equal totals the last one found is replaced.
         let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
         let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
             return;
@@ -121,14 +120,14 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Tells the parts which contact they belong to.
+    /// Gives each part the index of its contact.
     pub fn number<const RUNS: usize, const PARTS: usize>(&self, labels: &mut Labels<RUNS, PARTS>) {
         for (index, component) in (0u16..).zip(&self.list) {
             if let Some(part) = labels.parts.get_mut(usize::from(component.part)) {
                 part.contact = index;
             }
         }
-        // The one that stands for a part has a smaller index, and its number already.
+        // The root of a part has a smaller index, so it has its number already.
         for index in 0..labels.parts.len() {
             let Some(part) = labels.parts.get(index) else { return };
             let first = if usize::from(part.parent) == index { part.group } else { part.parent };
@@ -142,7 +141,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Measures all components.
+    /// Measures the moments, bounds and centroids of all components.
     pub fn measure<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
@@ -168,9 +167,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the pieces to the components that they belong to, strip by strip: a strip's sums come together in
-    /// registers.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Adds the pieces to their components, strip by strip, so that the sums of a strip stay in registers.
+    #[inline(never)] // M0+: out of line
     fn take_strips<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
@@ -192,7 +190,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// The same piece by piece, for a machine with many registers: in wide rows most strips are of one piece.
+    /// Adds the pieces to their components one by one. For a machine with many registers: most strips of wide
+    /// rows are of one piece.
     fn take_pieces<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
@@ -224,13 +223,13 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             None => {
                 let mut rect = Rect { panel, ..NOWHERE };
                 strip.widen(&mut rect);
-                // At most one per join, and there are no more joins than places.
+                // Always room: at most one entry per join, and the list has as many places as joins.
                 let _ = self.beyond.push((contact, rect));
             }
         }
     }
 
-    /// What the next frame is told.
+    /// Fills in the contacts' rectangles and peaks that the next frame's conditioning needs.
     pub fn feed_back(&self, feedback: &mut Feedback<CONTACTS>) {
         feedback.home.clear();
         feedback.beyond.clear();
@@ -246,7 +245,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 }
 
 impl Component {
-    /// Of nothing.
+    /// A component without taxels.
     const BLANK: Component = Component {
         part: NONE,
         joined: false,
@@ -261,7 +260,7 @@ impl Component {
         y: Fixed16(0),
     };
 
-    /// Becomes what was found, in place of another that was not measured either.
+    /// Starts over with what was found; neither component has been measured yet.
     fn begin(&mut self, found: &Found) {
         let Found { part, joined, total, peak, area, panel } = *found;
         (self.part, self.joined) = (part, joined);
@@ -269,7 +268,7 @@ impl Component {
         self.bounds.panel = panel;
     }
 
-    /// The pieces of its rows, with their numbers; of one that lies on several panels all.
+    /// Pieces in the rows of its box, with their indices; all pieces if it lies on several panels.
     pub(super) fn pieces<'l, const RUNS: usize, const PARTS: usize>(
         &self,
         labels: &'l Labels<RUNS, PARTS>,
@@ -282,7 +281,7 @@ impl Component {
         labels.in_rows(rows.0, rows.1)
     }
 
-    /// Takes in another one, of the same home panel.
+    /// Adds another component of the same home panel.
     pub(super) fn absorb(&mut self, other: &Component) {
         let place = |component: &Component| component.peak_at.map(|at| (at.panel, at.row, at.column));
         if (other.peak, place(self)) > (self.peak, place(other)) {
@@ -298,7 +297,7 @@ impl Component {
         self.locate();
     }
 
-    /// Finds the centroid, rounded once to the nearest 2^-16 taxel.
+    /// Computes the centroid, rounded once to the nearest 2^-16 taxel.
     fn locate(&mut self) {
         self.inverse = Inverse::of(self.total);
         let mean = |sum: i64| {
@@ -308,7 +307,7 @@ impl Component {
         (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
     }
 
-    /// Adds pieces; whether they lie beyond a seam.
+    /// Adds a strip; returns true if it lies on a panel other than the home.
     #[inline(always)]
     fn take(&mut self, strip: &Strip, joins: &mut Joins) -> bool {
         self.add(strip, joins);
@@ -336,15 +335,15 @@ impl Component {
         }
     }
 
-    /// Adds pieces to the sums.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for this
+    /// Adds the pieces of a strip to the moments.
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
     fn add(&mut self, strip: &Strip, joins: &mut Joins) {
-        // Of parts that are carried the sums are, once all their pieces are in.
+        // Moments of a carried part stay in its own coordinates until all its pieces are added.
         let carried = if self.joined { joins.moments_of(strip.part.parent) } else { None };
         let moments = carried.unwrap_or(&mut self.moments);
         let &Strip { pieces, area, .. } = strip;
         if pieces.len() > 2 && is_small(area.columns, area.rows, self.peak) {
-            // One piece in a row.
+            // One piece per row, so that a chunk has at most FEW rows.
             pieces.chunks(FEW).for_each(|pieces| moments.add_few(pieces, area.first_row));
         } else {
             for piece in pieces {
@@ -359,8 +358,8 @@ impl Component {
         }
     }
 
-    /// Notes where the greatest value is first found, in a piece that has it. The pieces of a row may come in
-    /// any order.
+    /// Updates `peak_at` from a piece that has the peak, to the first such taxel of the row. The pieces of a
+    /// row may come in any order.
     #[inline(never)] // rarely called
     fn look_for_peak(&mut self, piece: &Piece, panel: u8, area: &Area, values: &[u16]) {
         let row = piece.row - area.first_row;
@@ -385,7 +384,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Two panels, of one word or of several a row, sewn together or not.
+    /// Panels of one or several words a row, with and without a seam.
     #[test]
     fn strips_add_up_to_what_their_pieces_do() {
         let mut noise = 1u32;

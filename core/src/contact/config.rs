@@ -2,29 +2,28 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is a contact, and how it is followed.
+/// Thresholds of contacts, and limits of tracking and slip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactConfig {
-    /// Taxels from this many counts on belong to a component; at least 1.
+    /// Threshold of a component's taxels, counts; at least 1.
     pub low: u16,
-    /// A component begins to be a contact when its peak reaches this many counts; not below `low`. It stays
-    /// one while its peak is at least `low`.
+    /// Peak at which a component becomes a contact, counts; not below `low`. It stays one while its peak is
+    /// at least `low`.
     pub high: u16,
-    /// Smallest number of taxels.
+    /// Smallest area of a contact, taxels.
     pub min_area: u16,
-    /// A contact is looked for within so many cm of where it should be (and half the size of its box, and the
-    /// way that it made since); 1 to 1000. A cm is a taxel where taxels lie 10 mm apart, and where nothing is
-    /// known of that.
+    /// Search radius around the expected centroid of a contact, cm; 1 to 1000. Half the longer side of its
+    /// box and the expected step are added to it. Where the pitch is unknown, a taxel counts as 10 mm.
     pub gate: u16,
-    /// Time constant of the velocity, in ms; 0 takes it from one frame to the next.
+    /// Time constant of the velocity, ms; 0 takes the velocity from one frame to the next.
     pub smoothing_ms: u16,
-    /// Speed from which a contact slips, in 1/16 cm/s. With [`NO_SLIP`] none does, and the pattern inside
-    /// contacts is not followed, which saves its cycles.
+    /// Speed from which a contact slips, 1/16 cm/s. [`NO_SLIP`] turns slip off and saves the cycles of
+    /// following the pattern inside contacts.
     pub slip_speed: u16,
 }
 
-/// The [`slip_speed`](ContactConfig::slip_speed) of a scene that does not ask for slip.
+/// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip.
 pub const NO_SLIP: u16 = u16::MAX;
 
 impl Default for ContactConfig {

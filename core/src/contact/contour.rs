@@ -1,22 +1,22 @@
-//! The contour of a contact: how long it is, and how steep.
+//! The contour of a contact: its length and its steepness.
 
 use super::component::Component;
 use super::label::Labels;
 use crate::condition::{Image, Neighbourhood, steepness_of_sixteens};
 use crate::garment::Layout;
 
-/// The taxels of a contact with at least one of four neighbours in the panel, or beyond its border, below the
-/// threshold.
+/// Contour of a contact: its taxels with at least one of the four neighbours below the threshold or outside
+/// the panel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contour {
-    /// How many there are; a garment has fewer than 2^16.
+    /// Number of taxels; a garment has fewer than 2^16.
     pub length: u32,
-    /// Sum of their Sobel magnitudes, in eighths: none is above the full scale, so that 32 bits do.
+    /// Sum of their Sobel magnitudes / 8; fits in 32 bits, since none of these exceeds full scale.
     pub slope: u32,
 }
 
 impl Contour {
-    /// Of component `index`.
+    /// Returns the contour of component `index`.
     pub fn of<const RUNS: usize, const PARTS: usize>(
         index: u16,
         component: &Component,
@@ -37,8 +37,8 @@ impl Contour {
         contour
     }
 
-    /// Adds some taxels of the word that begins at a column.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Adds taxels of the word that begins at `column`.
+    #[inline(never)] // M0+: out of line
     fn add(&mut self, taxels: u32, column: u16, around: &Neighbourhood) {
         self.length = self.length.wrapping_add(taxels.count_ones());
         let slope = match around.sixteens() {
@@ -49,7 +49,7 @@ impl Contour {
     }
 }
 
-/// As [`steepness_of_sixteens`], in a row of any length: of the word that begins at a column.
+/// Like [`steepness_of_sixteens`], for a row of any length; `taxels` are of the word that begins at `column`.
 fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
     let mut sum = 0;
     while taxels != 0 {
@@ -59,7 +59,7 @@ fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
     sum
 }
 
-#[inline(never)] // the few registers of an M0+ are for this
+#[inline(never)] // M0+: out of line
 fn magnitude(around: &Neighbourhood, column: u16) -> u32 {
     around.gradient(column).magnitude()
 }

@@ -1,40 +1,40 @@
-//! How far a pattern of pressure has moved between two small pictures: least squares over temporal change and
+//! Displacement of a pattern of pressure between two small pictures: least squares over temporal change and
 //! spatial slope (Lucas and Kanade 1981), in integers.
 //!
 //! Slopes are taken over three taxels and smoothed across with 1 4 1; the change is smoothed with 1 4 1 both
 //! ways. The quotient of the two is that of the fourth-order compact difference scheme: for a wave of six
-//! taxels 1 % off, where plain central differences are 17 % off. Both pictures share the slope, so that there
-//! and back are the same way.
+//! taxels it is 1 % off, plain central differences 17 %. The slope is that of both pictures together, so that
+//! the displacement there and back is the same.
 
 use super::slopes::{Line, SIDE, Terms, differentiate, products, smooth};
 use crate::format::Inverse;
 
-/// Two pictures of the same size, and which taxels of them count.
+/// Two pictures of one size, and the mask of the taxels to compare.
 pub(super) struct Pictures<'a> {
     pub before: &'a [[u16; SIDE]; SIDE],
-    /// Rows of the later one; as wide as `columns`, or nothing is found.
+    /// Rows of the later picture. Each must have `columns` values; otherwise the result is [`Flow::Changed`].
     pub now: [&'a [u16]; SIDE],
     pub rows: usize,
     pub columns: usize,
-    /// Bits of the columns that count, row by row; never at the border of the picture.
+    /// Bit mask of the columns to compare, row by row; without the border of the picture.
     pub inner: &'a [u16; SIDE],
-    /// Greatest pressure in either.
+    /// Greatest pressure in either picture.
     pub peak: u16,
 }
 
-/// What the pictures say.
+/// Result of the comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flow {
-    /// The later is the earlier, moved by so much along x and y, in 2^-16 taxel; at most two taxels.
+    /// The pattern has moved by this much along x and y, in 2^-16 taxel; at most two taxels.
     Moved([i32; 2]),
     /// There is no pattern.
     Flat,
-    /// There is one, but what changed is not its place.
+    /// There is a pattern, but the change is not a displacement of it.
     Changed,
 }
 
-/// Sums over the taxels that count: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t
-/// in 18ths (14 bits). None exceeds 31 bits, even if all 100 taxels inside count.
+/// Sums over the masked taxels: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t in
+/// 18ths (14 bits). None exceeds 31 bits, even if all 100 taxels inside the border count.
 #[derive(Debug, Default)]
 struct Sums {
     count: u32,
@@ -54,7 +54,7 @@ struct Sums {
 const FLAT: u32 = 64;
 
 impl Flow {
-    /// Compares the pictures. Along a direction in which there is no pattern, as along a ridge, the way is
+    /// Compares the pictures. Along a direction without a pattern, for example along a ridge, the result is
     /// `expected`.
     pub fn of(pictures: &Pictures, expected: [i32; 2]) -> Flow {
         match Sums::of(pictures) {
@@ -65,9 +65,9 @@ impl Flow {
 }
 
 impl Sums {
-    /// None where a row is missing.
+    /// Returns none if a row is missing.
     fn of(pictures: &Pictures) -> Option<Sums> {
-        // Eight significant bits: what is beyond them is below the noise of any taxel.
+        // Eight significant bits: the rest is below the noise of any taxel.
         let scale = (16 - pictures.peak.leading_zeros()).saturating_sub(8);
         let now = pictures.now.get(..pictures.rows)?;
         if now.iter().any(|row| row.len() != pictures.columns) || pictures.columns > SIDE {
@@ -100,7 +100,7 @@ impl Sums {
         self.tt = self.tt.wrapping_add(tt);
     }
 
-    /// A change that is the same everywhere is pressure, not motion: sums about the means.
+    /// Subtracts the means: a change that is the same everywhere is pressure, not motion.
     fn centre(&mut self) {
         let count = Inverse::of(self.count);
         let [x, y, t] = [self.x, self.y, self.t].map(|sum| count.nearest(sum.into()));
@@ -112,11 +112,11 @@ impl Sums {
         self.tt = self.tt.wrapping_sub(t.wrapping_mul(self.t));
     }
 
-    /// `w` of `t = w (x, y)` by least squares; the way is `-4/3 w`.
+    /// Solves `t = w (x, y)` for `w` by least squares; the displacement is `-4/3 w`.
     fn solve(mut self, expected: [i32; 2]) -> Flow {
         self.centre();
         let energy = (self.xx.max(0) as u32).saturating_add(self.yy.max(0) as u32);
-        // Sums that wrapped: something else, of more than the peak, has come into the picture.
+        // The sums have wrapped: the pictures differ by more than the peak.
         if self.xx.min(self.yy) < 0 || self.xy.unsigned_abs() > energy {
             return Flow::Changed;
         }
@@ -133,8 +133,8 @@ impl Sums {
         }
         let left = |w: [i32; 2]| tt.saturating_sub((w[0] * xt + w[1] * yt) >> 12).max(0);
         let determinant = xx * yy - xy * xy;
-        // The standard deviation of w along a direction is that of what is left, over the root of the slope's
-        // energy there.
+        // The standard deviation of w along a direction is that of the residual, divided by the root of the
+        // slope's energy along it.
         let clear = |energy: i32, w: [i32; 2]| {
             i64::from(energy) * i64::from(self.count) >= i64::from(left(w)) * CLEAR
         };
@@ -147,7 +147,7 @@ impl Sums {
             w = (all.iter().all(|w| w.abs() <= LONGEST) && clear(weaker, all)).then_some(all);
         }
         let w = w.unwrap_or_else(|| {
-            // What is expected, corrected where there is a slope.
+            // The expected displacement, corrected where there is a slope.
             let e = expected.map(|way| -((way.clamp(-2 << 16, 2 << 16) * 3) >> 6));
             let correct = |e, x, y, t: i32| e + per_energy.nearest(i64::from((t << 12) - x - y));
             [correct(e[0], xx * e[0], xy * e[1], xt), correct(e[1], xy * e[0], yy * e[1], yt)]
@@ -155,7 +155,7 @@ impl Sums {
         if w.iter().any(|w| w.abs() > LONGEST) || !clear(energy, w) {
             return Flow::Changed;
         }
-        // What is left must be less than half a taxel of displacement would leave.
+        // The residual must be less than a displacement by half a taxel would leave.
         if left(w) > energy >> 3 {
             return Flow::Changed;
         }
@@ -163,11 +163,11 @@ impl Sums {
     }
 }
 
-/// Two taxels, in w.
+/// Longest accepted w: two taxels.
 const LONGEST: i32 = 3 << 11;
 
-/// The inverse of the variance of w that is allowed: a standard deviation of 0.135 taxel, 0.101 in w, by the
-/// taxels' own count.
+/// Largest accepted standard deviation of w (0.101, which is 0.135 taxel), as 1/variance; for independent
+/// taxels.
 const CLEAR: i64 = 98;
 
 #[cfg(test)]
@@ -178,7 +178,7 @@ mod tests {
 
     type Picture = [[u16; SIDE]; SIDE];
 
-    /// All taxels but those of the border.
+    /// All taxels except the border.
     const INNER: [u16; SIDE] = {
         let mut inner = [0x7fe; SIDE];
         (inner[0], inner[SIDE - 1]) = (0, 0);
@@ -195,7 +195,7 @@ mod tests {
         Pictures { before, now, rows: SIDE, columns: SIDE, inner: &INNER, peak }
     }
 
-    /// Waves of `length` along both axes, moved by so many taxels.
+    /// Waves of `length` along both axes, displaced by (dx, dy) taxels.
     fn waves(length: f64, [dx, dy]: [f64; 2], [unit, peak]: [f64; 2]) -> Picture {
         let k = TAU / length;
         picture(|x, y| peak * (0.5 + unit * ((k * (x - dx)).cos() + (k * (y - dy) + 1.0).cos())))
@@ -214,7 +214,7 @@ mod tests {
                 assert!(error < 0.015 * way[0].hypot(way[1]) + rounding, "{full} {way:?} {told:?}");
             }
         }
-        // Plain central differences tell sin(k) / k of the slope, 17 % less than there is.
+        // Plain central differences find sin(k) / k of the slope, 17 % too little.
         let k = TAU / 6.0;
         assert!((1.0 - k.sin() / k - 0.17).abs() < 0.005);
         assert!((k.sin() / k / (2.0 / 3.0 + k.cos() / 3.0) - 1.0).abs() < 0.01);
@@ -255,8 +255,8 @@ mod tests {
             state >> 8
         };
         for round in 0..2000u32 {
-            // Extremes only, so that slopes and changes are as large as they can be; in stripes, columns and
-            // dots.
+            // Only extremes, in stripes, columns and dots, so that slopes and changes are as large as
+            // possible.
             let extreme = [255u16, 4095, u16::MAX][round as usize % 3];
             let [a, b, c] = [next(), next(), next()];
             let make = |shift: u32| -> Picture {
@@ -274,7 +274,7 @@ mod tests {
             let wide = wide(&before, &now, extreme);
             let have = [sums.xx, sums.xy, sums.yy, sums.xt, sums.yt, sums.tt].map(i64::from);
             assert_eq!((sums.count, have), (100, wide), "round {round}");
-            // And what follows from them does not overflow either.
+            // Nor does anything overflow in the solution.
             Flow::of(&pictures, [i32::MAX, i32::MIN]);
         }
     }

@@ -1,4 +1,4 @@
-//! The form of a contact: what is costly to tell, and changes slowly.
+//! The form of a contact: measures that are costly and change slowly.
 
 use super::axis::axis_and_breadth;
 use super::component::Component;
@@ -8,7 +8,7 @@ use super::record::Contact;
 use crate::condition::Image;
 use crate::garment::Layout;
 
-/// Where forms are seen.
+/// The frame in which forms are measured.
 pub(super) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
     pub labels: &'a Labels<RUNS, PARTS>,
     pub layout: &'a Layout,
@@ -16,8 +16,8 @@ pub(super) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
 }
 
 impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
-    /// Tells a contact's contour, axis and breadth, from the component that it became, number `index`.
-    #[inline(never)] // a stack frame of its own is near
+    /// Measures the contour, axis and breadth of a contact from its component, number `index`.
+    #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
         let Contour { length, slope } = Contour::of(index, component, self.labels, self.layout, self.image);
         contact.perimeter = length as u16;

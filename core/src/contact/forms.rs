@@ -1,20 +1,20 @@
-//! How many forms are looked at in a frame.
+//! Number of forms measured in a frame.
 
-/// How many of the contacts that were there before have their forms looked at in a frame, in turn; those that
-/// are new always have. One, if nothing else is asked for: a form costs as much as all the rest of a contact.
+/// How many held contacts have their form measured in a frame, in turn; new contacts always have. The default
+/// is one: a form costs as much as all the rest of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forms(u8);
 
 impl Forms {
-    /// All in each frame.
+    /// All contacts in each frame.
     pub const ALL: Forms = Forms(0);
 
-    /// So many in a frame; 0: all.
+    /// That many contacts in a frame; 0 stands for all.
     pub const fn of(in_frame: u8) -> Forms {
         Forms(in_frame)
     }
 
-    /// How many are looked at in a frame, at most.
+    /// Greatest number of held contacts that have their turn in a frame.
     pub(super) const fn in_frame(self) -> usize {
         if self.0 == 0 { u16::MAX as usize } else { self.0 as usize }
     }

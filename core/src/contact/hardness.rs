@@ -5,27 +5,27 @@
 //! | input | force (counts) and area (taxels) of one contact, frame after frame |
 //! | output | counts per cm2, rounded down; and a word for it |
 //! | saturation | at 2^32 - 1 |
-//! | latency | none; nothing is known before the force is twice that of the first frame |
+//! | latency | none; the cue is unknown until the force is twice that of the first frame |
 //! | RAM | [`Growth`]: 16 bytes a contact |
-//! | M0+ cycles | 30 a frame, and one division of 32 bits where the cue is asked for |
+//! | M0+ cycles | 30 a frame, and a 32-bit division when the cue is read |
 //!
-//! What gives way wraps around what presses it, so that force and area grow together; what is hard keeps its
+//! A soft object wraps around what it touches, so that force and area grow together; a hard one keeps its
 //! outline, and only the force grows. For a ball of radius R in Hertz' contact (Johnson, Contact Mechanics,
 //! 1985, 4.2) the patch has radius a, the force is 4/3 E a^3 / R, and dF/dA = 2 E a / (pi R): proportional to
-//! the common modulus E of both. So it compares what has one shape; a sharper thing of the same stuff also
-//! seems harder. A thing that shows no taxel more than in its first frame counts as one taxel: this is as
-//! hard as the garment can tell.
+//! the common modulus E of both. So the cue compares objects of one shape: a sharper object of the same
+//! material also seems harder. A contact that never has more taxels than in its first frame counts as grown
+//! by one taxel: this is the greatest hardness that the garment can tell.
 
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
-/// Below this a thing is soft, counts per cm2: with 1,000 counts per newton it takes another cm2 for each
-/// newton more (10 kPa).
+/// Cue below which an object is soft, counts per cm2. At 1,000 counts per newton, such a contact grows by
+/// more than 1 cm2 for each further newton (10 kPa).
 pub const SOFT: u32 = 1_000;
-/// From this it is hard, counts per cm2.
+/// Cue from which an object is hard, counts per cm2.
 pub const HARD: u32 = 4_000;
 
-/// A contact's force and area in its first frame, and in that of its greatest force.
+/// Force and area of a contact in its first frame, and in the frame of its greatest force.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Growth {
     first: Option<(u32, u16)>,
@@ -33,7 +33,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Takes the next frame of the contact. What does not grow changes nothing.
+    /// Takes the next frame of the contact. A force that is not greater than all before changes nothing.
     pub fn feel(&mut self, force: u32, area: u16) {
         if self.first.is_none() || force > self.greatest.0 {
             self.greatest = (force, area);
@@ -41,8 +41,8 @@ impl Growth {
         self.first.get_or_insert((force, area));
     }
 
-    /// Rise of the force over that of the area, counts per cm2, where a taxel has `cell_mm2`
-    /// ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has doubled. Total.
+    /// Returns the rise of the force over the rise of the area, counts per cm2; a taxel has `cell_mm2`
+    /// ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has doubled. Does not panic.
     pub fn hardness(&self, cell_mm2: u32) -> Option<u32> {
         let (force, area) = self.first?;
         let rise = self.greatest.0.checked_sub(force).filter(|rise| *rise >= force.max(1))?;
@@ -52,20 +52,20 @@ impl Growth {
     }
 }
 
-/// How hard the thing is that touches. Variants are only appended.
+/// Class of a hardness cue. Variants are only appended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Hardness {
     /// Below [`SOFT`].
     Soft,
-    /// Between.
+    /// From [`SOFT`] to below [`HARD`].
     Firm,
     /// From [`HARD`] on.
     Hard,
 }
 
 impl Hardness {
-    /// The word for a cue in counts per cm2.
+    /// Returns the class of a cue in counts per cm2.
     pub const fn of(cue: u32) -> Hardness {
         match cue {
             0..SOFT => Hardness::Soft,
@@ -74,7 +74,7 @@ impl Hardness {
         }
     }
 
-    /// The word.
+    /// Name in lower case.
     pub const fn as_str(self) -> &'static str {
         match self {
             Hardness::Soft => "soft",
@@ -140,8 +140,8 @@ mod tests {
         assert_eq!(felt(&[(0, 0), (1, u16::MAX)]).hardness(CM), Some(0));
     }
 
-    /// Hertz: a = (3 F R / 4 E)^(1/3), and the area is pi a^2. The cue between two forces against the exact
-    /// quotient.
+    /// Hertz: a = (3 F R / 4 E)^(1/3), and the area is pi a^2. Compares the cue between two forces with the
+    /// exact quotient.
     #[test]
     fn balls_of_hertz_are_ordered_by_their_modulus() {
         let area = |newton: f64, kpa: f64| {

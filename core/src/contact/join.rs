@@ -1,8 +1,8 @@
-//! Parts of a contact on both sides of a seam.
+//! Joins of parts across seams, and the moments of contacts that cross them.
 //!
-//! Each pair of parts that neighbour taxels of a seam connect is joined once. The frame of a contact is that
-//! of its heaviest part on its home panel, the panel with most of its mass; every other part is carried into
-//! it along the joins that really connect them, shortest path first and then in the order of the joins: so a
+//! Each pair of parts that neighbour taxels of a seam connect is joined once. A contact has the frame of its
+//! heaviest part on its home panel, the panel with most of its mass. Every other part is carried into that
+//! frame along the joins that connect the two: the shortest path first, then in the order of the joins. So a
 //! grip around a flank stays in one piece, and a ring that closes over two seams is cut at the later one.
 //! Parts of the home panel that are connected only over another panel are carried like all others.
 
@@ -23,26 +23,26 @@ struct Join {
     joint: u8,
 }
 
-/// A part that is not at home, and the way there.
+/// A joined part, and its transform to the frame of its contact.
 #[derive(Debug, Clone, Copy)]
 struct Carried {
     part: u16,
     contact: u16,
     map: Transform,
-    /// What has been collected of it, in its own coordinates.
+    /// Moments so far, in the part's own coordinates.
     moments: Moments,
 }
 
-/// The way along a seam.
+/// State of the walk along a seam.
 struct Walk<'a> {
-    /// of the joint
+    /// Index of the joint.
     index: u8,
     joint: &'a Joint,
     beside: Side<'a>,
-    /// The part that was looked at last, and the last that was found beside it, or [`NONE`].
+    /// The part last looked at, and the last part found beside it, or [`NONE`].
     part: u16,
     there: u16,
-    /// The last taxel along the seam that was looked at beside it.
+    /// Last taxel of the other side that was looked at for this part.
     seen: i32,
 }
 
@@ -50,9 +50,9 @@ struct Walk<'a> {
 #[derive(Debug, Clone)]
 pub(super) struct Joins {
     joins: Vec<Join, CARRIED>,
-    /// All parts that are joined; anchors with the identity.
+    /// All joined parts; the heaviest of each contact's home panel has the identity.
     carried: Vec<Carried, { 2 * CARRIED }>,
-    /// Joins that did not fit, in this frame: those contacts stay apart.
+    /// Number of joins of this frame that did not fit: the contacts stay apart.
     pub overflow: u16,
 }
 
@@ -71,7 +71,7 @@ impl Joins {
         self.carried.clear();
         self.overflow = 0;
         for (index, joint) in (0u8..).zip(layout.joints()) {
-            // Most frames end here: nothing touches the seam's side of one of the two panels.
+            // Most frames end here: no piece touches the seam's side of one of the two panels.
             if labels.touches(joint.a, joint.edge_a.side) && labels.touches(joint.b, joint.edge_b.side) {
                 self.find_along(index, joint, labels, layout);
             }
@@ -81,8 +81,9 @@ impl Joins {
         }
     }
 
-    /// From part to part of the one panel at the seam, and from part to part of the other beside it.
-    #[inline(never)] // a stack frame of its own is near
+    /// Joins along one seam: walks the parts of panel `a`, and for each of them the parts beside it on panel
+    /// `b`.
+    #[inline(never)] // own frame: locals stay within short SP offsets
     fn find_along<const RUNS: usize, const PARTS: usize>(
         &mut self,
         index: u8,
@@ -124,8 +125,8 @@ impl Joins {
         }
     }
 
-    /// Joins a part to those beside it, that has the taxels `first ..= last` along the seam.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Joins a part that has the taxels `first ..= last` along the seam to the parts beside them.
+    #[inline(never)] // M0+: out of line
     fn step(&mut self, walk: &mut Walk, part: u16, first: i32, last: i32) {
         if walk.part != part {
             (walk.part, walk.there, walk.seen) = (part, NONE, -1);
@@ -149,14 +150,14 @@ impl Joins {
         }
     }
 
-    /// The panel with most of the mass of contact `contact`, whose parts are joined; places all its parts.
+    /// Returns the home panel of a joined contact, the one with most of its mass, and places all its parts.
     pub fn settle<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
         layout: &Layout,
         contact: u16,
     ) -> u8 {
-        // Of each panel: the mass, and the heaviest part with its own.
+        // Of each panel: mass, heaviest part, and mass of that part.
         let mut sums = [(0u64, 0, 0); PANELS];
         for (index, part) in labels.whole_parts().filter(|(_, part)| part.contact == contact) {
             if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(part.panel)) {
@@ -177,10 +178,10 @@ impl Joins {
         home
     }
 
-    /// Carries along every join that has one side placed, until none is left.
+    /// Places the parts at the other side of joins with one placed side, until none is left.
     fn carry(&mut self, layout: &Layout, contact: u16) {
         for _ in 0..=self.joins.len() {
-            // Only what the previous rounds placed counts, so that the shortest path wins.
+            // Joins go only from parts that earlier rounds placed, so that the shortest path wins.
             let placed = self.carried.len();
             for index in 0..self.joins.len() {
                 let Some(join) = self.joins.get(index).copied() else { continue };
@@ -200,23 +201,24 @@ impl Joins {
 
     fn place(&mut self, part: u16, contact: u16, map: Transform) {
         if !self.carried.iter().any(|c| c.part == part) {
-            // Each join brings at most two parts, and the list has room for as many.
+            // Always room: each join brings at most two parts, and the list has twice the capacity of the
+            // joins.
             let _ = self.carried.push(Carried { part, contact, map, moments: Moments::default() });
         }
     }
 
-    /// Where the moments of a part are collected if it is joined to another.
+    /// Moments of a part, if it is joined to another.
     pub fn moments_of(&mut self, part: u16) -> Option<&mut Moments> {
         self.carried.iter_mut().find(|c| c.part == part).map(|c| &mut c.moments)
     }
 
-    /// What has been collected, in the frames of the contacts' home panels.
+    /// Contacts and the moments of their parts, in the frames of the contacts' home panels.
     pub fn carried_moments(&self) -> impl Iterator<Item = (u16, Moments)> {
         self.carried.iter().map(|c| (c.contact, c.moments.transform(&c.map)))
     }
 }
 
-/// The part that stands for all that seams join to `part`.
+/// Returns the root among the parts that seams join to `part`.
 fn group(parts: &[Part], mut part: u16) -> u16 {
     while let Some(held) = parts.get(usize::from(part)) {
         if held.group >= part {
@@ -239,7 +241,7 @@ fn unite(parts: &mut [Part], a: u16, b: u16) {
     }
 }
 
-/// What a contact weighs with everything that seams join to its first part: total, peak, area, held.
+/// Returns total, peak, area and `held` of a contact, over all parts that seams join to its first part.
 pub(super) fn weigh<const RUNS: usize, const PARTS: usize>(
     labels: &Labels<RUNS, PARTS>,
     first: u16,

@@ -9,36 +9,36 @@ use crate::condition::{Image, panel_of, row_of};
 use crate::garment::{Area, Layout, Side};
 use heapless::Vec;
 
-/// The parts of a frame, and their pieces.
+/// The parts and pieces of a frame.
 #[derive(Debug, Clone)]
 pub(super) struct Labels<const RUNS: usize, const PARTS: usize> {
-    /// In the order of rows and words.
+    /// In the order of rows, then words.
     pub pieces: Vec<Piece, RUNS>,
     /// In the order of their first taxels.
     pub parts: Vec<Part, PARTS>,
-    /// Sides of panels that have a piece, four bits for each panel.
+    /// Sides of panels that a piece touches, four bits for each panel.
     sides: u32,
-    /// Pieces that did not fit, or their parts, in this frame.
+    /// Number of pieces of this frame that did not fit, or whose parts did not.
     pub overflow: u16,
 }
 
-/// The bit of a side among the four of its panel.
+/// Returns the bit of a side among the four of its panel.
 const fn bit(panel: u8, side: Side) -> u32 {
     1 << (panel as u32 % 8 * 4 + side as u32)
 }
 
-/// Where the pieces that are looked for lie.
+/// Position of the scan in a panel, and what it has found so far.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
     pub panel: u8,
-    /// over all panels
+    /// Row, counted over all panels.
     pub row: u16,
-    /// The first piece of the row above, or of this row where that has none.
+    /// Index of the first piece of the row above, or of this row if the row above has none.
     pub above: usize,
-    /// Of rows of one word: if the row above is one piece, what it reaches of this one, and its part.
+    /// Fast path of rows of one word: dilated mask and label of the row above, if it is all one part.
     pub reach: u32,
     pub part: u16,
-    /// What was touched so far in the first and in the last words of the panel's rows.
+    /// Taxels touched so far in the first and in the last words of the panel's rows.
     pub ends: [u32; 2],
 }
 
@@ -48,7 +48,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         Labels { pieces: Vec::new(), parts: Vec::new(), sides: 0, overflow: 0 }
     }
 
-    /// Forgets all of them.
+    /// Empties all lists.
     pub fn clear(&mut self) {
         self.pieces.clear();
         self.parts.clear();
@@ -56,7 +56,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.overflow = 0;
     }
 
-    /// Finds the parts of an image.
+    /// Labels the connected taxels of an image.
     pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
         self.clear();
         if image.rows.is_empty() {
@@ -68,7 +68,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.flatten();
     }
 
-    #[inline(never)] // a stack frame of its own is near
+    #[inline(never)] // own frame: locals stay within short SP offsets
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
         let start = self.pieces.len();
         let last = area.first_row.saturating_add(area.rows);
@@ -76,7 +76,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         let are_sixteens = sixteens.len() == usize::from(area.rows);
         let mut line = Line { panel, row: 0, above: start, reach: 0, part: NONE, ends: [0; 2] };
         let mut from = area.first_row;
-        // Only rows that follow each other touch.
+        // A gap between active rows separates parts.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
             line = Line { row: rows.start, above: self.pieces.len(), reach: 0, part: NONE, ..line };
@@ -97,8 +97,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.mark_sides(start, area, &line);
     }
 
-    /// Appends a piece to its part, and returns that, and the piece if there is room; to a new part, if that
-    /// is [`NONE`].
+    /// Appends a piece to its part, or to a new part if that is [`NONE`]. Returns the part, and the piece if
+    /// there is room.
     #[inline(always)]
     pub fn push(&mut self, mut piece: Piece, panel: u8) -> (u16, Option<&mut Piece>) {
         let mut fits = true;
@@ -114,7 +114,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         (part, self.pieces.last_mut())
     }
 
-    /// Marks the sides of a panel that its pieces touch, which are those from `start` on.
+    /// Marks the sides of a panel that its pieces, those from `start` on, touch.
     fn mark_sides(&mut self, start: usize, area: &Area, line: &Line) {
         let pieces = self.pieces.get(start..).unwrap_or(&[]);
         let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return };
@@ -130,13 +130,13 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         mark(right >> (area.columns.saturating_sub(1) % WORD) & 1 == 1, Side::Right);
     }
 
-    /// Whether a piece touches that side of a panel.
+    /// True if a piece touches that side of a panel.
     pub const fn touches(&self, panel: u8, side: Side) -> bool {
         self.sides & bit(panel, side) != 0
     }
 
-    /// Gives the parts the sums of their pieces, which are those from `start` on.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Adds the sums of the pieces from `start` on to their parts.
+    #[inline(never)] // M0+: out of line
     fn weigh(&mut self, start: usize) {
         for pieces in strips(self.pieces.get(start..).unwrap_or(&[])) {
             let (mut mass, mut area, mut peak) = (0u32, 0u32, 0);
@@ -154,8 +154,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
-    /// Makes the first of the parts that belong together the parent of each of them, and gives it the sums of
-    /// all.
+    /// Makes the root the parent of each part, and gives it the sums of all.
     fn flatten(&mut self) {
         for index in 0..self.parts.len() {
             let Some(part) = self.parts.get(index) else { return };
@@ -163,7 +162,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             if parent >= index {
                 continue;
             }
-            // Those before it have the first of theirs already.
+            // Parts before this one have their root as parent already.
             let (mass, area, peak) = (part.mass, part.area, part.peak as u16);
             let Some(first) = self.parts.get(parent).map(|part| part.parent) else { return };
             if let Some(part) = self.parts.get_mut(index) {
@@ -175,7 +174,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
-    /// Component `lost` has become a part of `whole`, and those after it move up.
+    /// Renumbers contacts after component `lost` has become part of `whole`: those after it move up.
     pub fn renumber(&mut self, whole: u16, lost: u16) {
         for part in self.parts.iter_mut().filter(|part| part.contact != NONE) {
             let contact = if part.contact == lost { whole } else { part.contact };
@@ -183,7 +182,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         }
     }
 
-    /// The parts that are whole, with their indices.
+    /// Roots with their indices.
     pub fn whole_parts(&self) -> impl Iterator<Item = (u16, &Part)> {
         (0u16..).zip(&self.parts).filter(|(index, part)| part.parent == *index)
     }

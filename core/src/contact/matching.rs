@@ -1,4 +1,4 @@
-//! Which component of this frame is which contact of the last: the nearest pairs first.
+//! Assignment of this frame's components to the last frame's contacts: the nearest pairs first.
 
 use super::component::Component;
 use super::config::ContactConfig;
@@ -11,21 +11,21 @@ use crate::garment::{Layout, PANELS};
 use core::ops::Range;
 use heapless::Vec;
 
-/// Work space.
+/// Work space of the assignment.
 #[derive(Debug, Clone)]
 pub(super) struct Matching<const CONTACTS: usize> {
-    /// Of each contact the squared distance to the nearest component that is not taken, [`FAR`] if none is
-    /// within reach, and which one that is, the first of equals.
+    /// Per contact: (squared distance, index) of the nearest free component; [`FAR`] outside the gate; ties
+    /// go to the lower index.
     least: [(u32, u16); CONTACTS],
-    /// Where the components are.
+    /// Centroids of the components.
     points: Vec<Point, CONTACTS>,
-    /// Where a contact should be, on its own panel and as seen from others.
+    /// Expected position of a contact, on its own panel and as seen from others.
     expected: Images,
-    /// Components that have found their contact.
+    /// Components that are assigned.
     taken: [bool; CONTACTS],
 }
 
-/// Out of reach.
+/// Distance of a component outside the gate.
 const FAR: u32 = u32::MAX;
 
 impl<const CONTACTS: usize> Matching<CONTACTS> {
@@ -38,8 +38,8 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         }
     }
 
-    /// Gives each track the index of its component, or [`NONE`].
-    #[inline(never)] // a stack frame of its own is near
+    /// Assigns to each track the index of its component, or [`NONE`].
+    #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn assign(
         &mut self,
         config: &ContactConfig,
@@ -73,7 +73,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
             trail.component = if least.0 < FAR { least.1 } else { NONE };
         }
         if are_distinct(least, taken) {
-            // As mostly: whichever pair comes first, each has its nearest.
+            // The usual case: no two contacts are nearest to the same component.
             return;
         }
         taken.fill(false);
@@ -96,7 +96,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
     }
 }
 
-/// Whether no two are nearest to the same component; marks these, up to the first that is.
+/// True if no two contacts are nearest to the same component. Marks the components up to the first conflict.
 fn are_distinct(least: &[(u32, u16)], taken: &mut [bool]) -> bool {
     let mut within = least.iter().filter(|(distance, _)| *distance < FAR);
     within.all(|(_, component)| {
@@ -104,7 +104,7 @@ fn are_distinct(least: &[(u32, u16)], taken: &mut [bool]) -> bool {
     })
 }
 
-/// The pair that is nearest; of equals the oldest contact.
+/// Returns the nearest pair of contact and component; of equal pairs that of the oldest contact.
 fn nearest_pair(least: &[(u32, u16)]) -> Option<(usize, u16)> {
     let within = least.iter().enumerate().filter(|(_, (distance, _))| *distance < FAR);
     within.min_by_key(|(_, (distance, _))| *distance).map(|(track, (_, component))| (track, *component))
@@ -116,7 +116,7 @@ fn seconds(us: u64) -> u32 {
     (wide(us.min(16_000_000) as u32, 281_474_977) >> 32) as u32
 }
 
-/// Where a contact should be, and how far from there it may be; this and the gate in 1/16 taxel.
+/// Returns the expected position of a contact and its search radius; radius and `gate` in 1/16 taxel.
 fn expected(contact: &Contact, seconds: u32, gate: i32) -> (Point, u32) {
     let step = |v: Fixed16| (signed_wide(v.0, seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
     let still = contact.vx.0 == 0 && contact.vy.0 == 0;
@@ -128,12 +128,12 @@ fn expected(contact: &Contact, seconds: u32, gate: i32) -> (Point, u32) {
     (Point { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
 }
 
-/// The points on a panel.
+/// The points on one panel.
 #[derive(Debug, Clone)]
 struct Crowd {
-    /// From which to which they are; points of other panels may be between them.
+    /// Range of their indices; points of other panels may lie between them.
     span: Range<usize>,
-    /// The rectangle around them.
+    /// Their bounding box.
     left: i32,
     right: i32,
     top: i32,
@@ -144,14 +144,14 @@ impl Crowd {
     const NONE: Crowd =
         Crowd { span: 0..0, left: i32::MAX, right: i32::MIN, top: i32::MAX, bottom: i32::MIN };
 
-    /// Whether one of them may be within reach of a point.
+    /// True if one of them may be within reach of a point.
     fn is_near(&self, point: &Point, reach: i32) -> bool {
         let near = |at: i32, from: i32, to: i32| at + reach >= from && at - reach <= to;
         near(point.x, self.left, self.right) && near(point.y, self.top, self.bottom)
     }
 }
 
-/// Gathers the points of each panel.
+/// Collects the points of each panel.
 fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
     for (index, point) in points.iter().enumerate() {
         if let Some(crowd) = crowds.get_mut(usize::from(point.panel)) {
@@ -162,9 +162,9 @@ fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
     }
 }
 
-/// The least squared distance of the points that are not taken from any of the images, and the first point
-/// that has it; [`FAR`] if none is within reach.
-#[inline(never)] // the few registers of an M0+ are for this
+/// Returns the least squared distance from a free point to any of the images, and the first point that has
+/// it; [`FAR`] if none is within reach.
+#[inline(never)] // M0+: out of line
 fn nearest(
     images: &Images,
     points: &[Point],
@@ -181,7 +181,7 @@ fn nearest(
         let points = points.get(crowd.span.clone()).unwrap_or(&[]);
         for (point, column) in points.iter().zip(crowd.span.start as u16..) {
             let x = (image.x - point.x).unsigned_abs();
-            // Most pairs are told apart by this.
+            // Rejects most pairs.
             if x > reach || point.panel != image.panel {
                 continue;
             }
@@ -189,11 +189,11 @@ fn nearest(
             if y > reach || taken.get(usize::from(column)) == Some(&true) {
                 continue;
             }
-            // No reach is longer than LONGEST.
+            // Fits: no reach exceeds LONGEST.
             let squared = x * x + y * y;
             if squared <= reach * reach {
                 least = least.min((squared, column));
-                // Nothing that is farther along one axis is as near.
+                // A point farther than this along one axis cannot be nearer.
                 reach = reach.min(x + y);
             }
         }

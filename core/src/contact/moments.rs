@@ -8,10 +8,10 @@ use crate::garment::{Transform, signed};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
 ///
-/// All are exact integers; what is derived from them ([`Moments::jm`], [`Moments::central`]) is exact as well
-/// wherever `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`, which `Layout::build` asserts for the full scale
-/// that it is given: give it `u16::MAX`, or keep values within what it was given. Beyond that the results
-/// wrap; nothing panics.
+/// All are exact integers. [`Moments::jm`] and [`Moments::central`] are exact as well wherever
+/// `(full scale N)^2 (w^2 + h^2 - 2) / 12 < 2^64`. `Layout::build` asserts this for the full scale that it is
+/// given: give it `u16::MAX`, or keep values within what it was given. Beyond that the results wrap; nothing
+/// panics.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Moments {
     /// sum f: mass
@@ -34,24 +34,24 @@ pub struct Moments {
 /// `C = m sxy - sx sy`.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Central {
-    /// along x
+    /// Along x.
     pub a: u64,
-    /// along y
+    /// Along y.
     pub b: u64,
-    /// mixed; `2 |C| <= A + B`
+    /// Mixed; `2 |C| <= A + B`.
     pub c: i64,
 }
 
-/// Rows whose sums fit in 32 bits where they are [`is_small`]; the squares just so: 16^2 * 4095^2 < 2^32.
+/// Number of rows whose sums fit in 32 bits if [`is_small`] holds; the squares barely: 16^2 * 4095^2 < 2^32.
 pub(super) const FEW: usize = 16;
 
-/// Whether a panel has 16 columns and 32 rows at most, and values 12 bits.
+/// True for a panel of at most 16 columns and 32 rows with values of 12 bits.
 pub(super) const fn is_small(columns: u16, rows: u16, peak: u16) -> bool {
     columns <= 16 && rows <= 32 && peak < 1 << 12
 }
 
-/// Moments in 32 bits, where a multiplication takes one cycle instead of 55: of a piece near the first column
-/// and row, everything is below 128^2 * 2^17 = 2^31.
+/// Moments in 32 bits, where a multiplication takes one cycle instead of 55. For a piece near the first
+/// column and row, all of them are below 128^2 * 2^17 = 2^31.
 #[derive(Default)]
 struct Near {
     m: u32,
@@ -76,7 +76,7 @@ impl Near {
         let Sums { s0, s1, s2, .. } = *sums;
         let first = s1.wrapping_sub(s0);
         let sx = x * s0 + first;
-        // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; what overflows on the way comes back.
+        // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; wraps on the way, but the result fits.
         let second = (s2 << 1).wrapping_add(s0).wrapping_sub(s1.wrapping_mul(3));
         // sum (x + i)^2 f = x (sum (x + i) f + sum i f) + sum i^2 f
         (sx, x * (sx + first) + second)
@@ -104,10 +104,10 @@ impl Near {
 }
 
 impl Moments {
-    /// Of nothing.
+    /// Moments of no taxel.
     pub(super) const NONE: Moments = Moments { m: 0, sx: 0, sy: 0, sxx: 0, syy: 0, sxy: 0, s2: 0 };
 
-    /// Of a run of a row whose first taxel is (x, y).
+    /// Moments of a run of a row whose first taxel is (x, y).
     pub fn of_run(x: u32, y: u32, values: &[u16]) -> Moments {
         let mut sum = Moments::default();
         let mut x = x;
@@ -120,8 +120,8 @@ impl Moments {
         sum
     }
 
-    /// Adds a piece of a row whose first taxel is (x, y), given what its taxels add up to. Its squares are
-    /// asked for where they did not fit.
+    /// Adds a piece of a row whose first taxel is (x, y), from the sums of its taxels. Calls `squares` if the
+    /// sum of squares may not fit in 32 bits.
     pub(super) fn add_piece(
         &mut self,
         x: u32,
@@ -137,17 +137,17 @@ impl Moments {
         }
     }
 
-    /// Small coordinates and sums, as nearly always.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Adds small sums at small coordinates: nearly every piece.
+    #[inline(never)] // M0+: out of line
     fn add_near(&mut self, x: u32, y: u32, sums: &Sums) {
         self.add(&Near::of(x, y, sums).wide());
     }
 
-    /// Adds pieces of [`FEW`] rows at most, where the first row of their panel counts as 0, and all columns,
+    /// Adds pieces of [`FEW`] rows at most. Rows count from `first_row`, the first of the panel; all columns,
     /// rows and values are [`is_small`].
-    #[inline(never)] // the few registers of an M0+ are for its loops
+    #[inline(never)] // M0+: out of line
     pub(super) fn add_few(&mut self, pieces: &[Piece], first_row: u16) {
-        // One loop for all of them would have twice as much to keep as there are registers.
+        // Three loops, because one would need twice as many registers as there are.
         let mut sum = Near::default();
         for piece in pieces {
             sum.m = sum.m.wrapping_add(piece.sums.s0);
@@ -168,14 +168,14 @@ impl Moments {
         self.add(&sum.wide());
     }
 
-    /// Any coordinates and values.
+    /// Adds sums of any size at any coordinates.
     #[cold]
     #[inline(never)]
     fn add_far(&mut self, x: u32, y: u32, sums: &Sums, squares: u64) {
         self.add(&Moments::of_sums(x, y, sums, squares));
     }
 
-    /// Of a piece of a row whose first taxel is (x, y), given what its taxels add up to.
+    /// Moments of a piece of a row whose first taxel is (x, y), from the sums of its taxels.
     #[inline(always)]
     pub(super) fn of_sums(x: u32, y: u32, sums: &Sums, squares: u64) -> Moments {
         let (x, y) = (u64::from(x), u64::from(y));
@@ -194,7 +194,7 @@ impl Moments {
         }
     }
 
-    /// Of a whole image as it stands, row by row.
+    /// Moments of a whole image, row by row.
     pub fn of_image(values: &[u16], columns: usize) -> Moments {
         let mut sum = Moments::default();
         for (y, row) in values.chunks(columns.max(1)).enumerate() {
@@ -214,11 +214,11 @@ impl Moments {
         self.s2 = self.s2.wrapping_add(other.s2);
     }
 
-    /// The same pressure in the coordinates that `map` leads to; exact.
+    /// Returns the moments of this pressure in the coordinates that `map` leads to; exact.
     pub fn transform(&self, map: &Transform) -> Moments {
         let Transform { xx, xy, yx, yy, dx, dy } = *map;
         let sum = i64::wrapping_add;
-        // The quarter turn or reflection first: of each row and column one factor is 0, the other 1 or -1;
+        // The quarter turn or reflection first: each row and column of it has one 0, and one 1 or -1;
         let x = sum(signed(xx, self.sx), signed(xy, self.sy));
         let y = sum(signed(yx, self.sx), signed(yy, self.sy));
         let (x_x, y_y) = if xx == 0 { (self.syy, self.sxx) } else { (self.sxx, self.syy) };
@@ -263,7 +263,7 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    /// Runs on both sides of every limit of the fast paths, against the definition in wide integers.
+    /// Compares with the definition in wide integers, on both sides of every limit of the fast paths.
     #[test]
     fn sums_of_a_run_are_exact_on_every_path() {
         let mut state = 1u32;
@@ -291,7 +291,7 @@ mod tests {
         }
     }
 
-    /// The largest sums that there may be, and others.
+    /// The largest possible sums, and smaller ones.
     #[test]
     fn sums_of_few_rows_are_those_of_each() {
         for (first, least) in [(16, 4095), (0, 4095), (7, 0)] {

@@ -1,12 +1,12 @@
-//! Faint parts near contacts of the previous frame, which go on as those.
+//! Faint parts near contacts of the previous frame, which continue those contacts.
 
 use super::label::Labels;
 use crate::condition::{Feedback, Pressed};
 use crate::garment::{Area, Layout, Rect};
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Marks the parts that come within one taxel of a contact of the previous frame. Only of parts with a
-    /// peak below `high` that is asked, and most frames have none.
+    /// Marks the parts that come within one taxel of a contact of the previous frame. Only parts with a peak
+    /// below `high` need the mark, and most frames have none.
     pub fn mark_held<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,

@@ -1,33 +1,33 @@
-//! Parts: touched taxels of one panel that are connected.
+//! Provisional labels: connected taxels of one panel, joined by union-find.
 
-/// No contact.
+/// Index that stands for no part, no component or no contact.
 pub(super) const NONE: u16 = u16::MAX;
 
-/// Touched taxels of one panel that are connected, or as many of them as were found so before they met others.
+/// A provisional label: union-find node of one panel, with the sums of its taxels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
-    /// sum f; fits, since taxels and values have 16 bits
+    /// sum f; fits in 32 bits, since taxels and values have 16 bits each
     pub mass: u32,
-    /// A part with a smaller index that it belongs to, or itself. In a whole frame: the first, which carries
-    /// the sums of all.
+    /// Union-find parent: a part with a smaller index, or itself for a root. Once the frame is scanned, it is
+    /// the root, which has the sums of all its parts.
     pub parent: u16,
-    /// Of the first: the same, between parts that a seam joins.
+    /// Only of a root: its parent among the roots that seams join.
     pub group: u16,
-    /// The index of its contact, or [`NONE`].
+    /// Index of its contact, or [`NONE`].
     pub contact: u16,
-    /// taxels
+    /// Number of taxels.
     pub area: u16,
-    /// greatest value; 16 bits, which are sooner read back as a word
+    /// Greatest value, counts: 16 bits, held in a word because an M0+ loads that faster.
     pub peak: u32,
     pub panel: u8,
-    /// It comes within one taxel of a contact of the previous frame; asked of faint parts only.
+    /// True if it comes within one taxel of a contact of the previous frame; set in frames with a faint part.
     pub held: bool,
-    /// A seam joins it to another.
+    /// True if a seam joins it to another part.
     pub joined: bool,
 }
 
 impl Part {
-    /// Number `index`, without a taxel.
+    /// Part number `index`, without taxels.
     pub const fn new(index: u16, panel: u8) -> Part {
         Part {
             mass: 0,
@@ -42,7 +42,7 @@ impl Part {
         }
     }
 
-    /// Adds the sums of others.
+    /// Adds the sums of other taxels.
     #[cfg_attr(target_pointer_width = "64", inline)]
     pub fn add(&mut self, mass: u32, area: u16, peak: u16) {
         self.mass = self.mass.wrapping_add(mass);
@@ -51,8 +51,7 @@ impl Part {
     }
 }
 
-/// The first of the parts that belong together with `part`. Parents have smaller indices, so this ends; it
-/// halves the path.
+/// Returns the root of a part, and halves the path to it. Ends because each parent has a smaller index.
 #[cfg_attr(target_pointer_width = "64", inline)]
 pub(super) fn first_of(parts: &mut [Part], mut part: u16) -> u16 {
     let parent = |parts: &[Part], part: u16| parts.get(usize::from(part)).map_or(part, |part| part.parent);
@@ -72,7 +71,7 @@ pub(super) fn first_of(parts: &mut [Part], mut part: u16) -> u16 {
     }
 }
 
-/// Lets two parts belong together; the first of them.
+/// Joins two parts; returns their root.
 pub(super) fn unite(parts: &mut [Part], a: u16, b: u16) -> u16 {
     let (a, b) = (first_of(parts, a), first_of(parts, b));
     if let Some(part) = parts.get_mut(usize::from(a.max(b))) {

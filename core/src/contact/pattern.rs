@@ -1,8 +1,8 @@
-//! The pattern of pressure inside a contact, and how far it has moved.
+//! The pattern of pressure inside a contact, and its displacement.
 //!
 //! A small picture of the middle of the contact is kept as an anchor, and each frame is compared with it
-//! ([`Flow`]): displacement is measured from a fixed picture, so that the noise of the frames does not add
-//! up, and a pattern that creeps is seen. Where it has moved by half a taxel, the picture is taken anew.
+//! ([`Flow`]). Because displacement is measured from a fixed picture, the noise of the frames does not add
+//! up, and slow creep is found. After half a taxel of displacement, a new picture is taken.
 
 use super::component::Component;
 use super::flow::{Flow, Pictures};
@@ -10,18 +10,18 @@ use super::slopes::SIDE;
 use crate::condition::Image;
 use crate::garment::{Area, Rect};
 
-/// Way in 2^-16 taxel along x and y.
+/// Displacement along x and y, in 2^-16 taxel.
 pub(super) type Way = [i32; 2];
 
-/// Smallest contact whose pattern is looked at: a square of ten has six by six taxels that are clear of its
-/// outline. With less, a wave of pressure is not told from a slope.
+/// Smallest contact whose pattern is followed: in a square of ten, six by six taxels are clear of the
+/// outline. With fewer, a wave of pressure cannot be distinguished from a slope.
 const LEAST_AREA: u16 = 100;
 const LEAST_INNER: u32 = 36;
-/// Frames for which a contact without a pattern is left alone.
+/// Frames for which a contact without a pattern is not examined.
 const PAUSE: u8 = 8;
-/// Pictures in a row that need not fit before that.
+/// Consecutive mismatches that are tolerated before such a pause.
 const PATIENCE: u8 = 3;
-/// Displacement from which the picture is taken anew: half a taxel.
+/// Displacement after which a new picture is taken: half a taxel.
 const FAR: i32 = 1 << 15;
 
 /// A row in which nothing touches.
@@ -31,18 +31,18 @@ const NOTHING: [u16; SIDE] = [0; SIDE];
 #[derive(Debug, Clone)]
 pub(super) struct Pattern {
     anchor: [[u16; SIDE]; SIDE],
-    /// Columns of each row that are looked at: two taxels clear of the contact's outline.
+    /// Bit mask of the columns of each row that are compared: two taxels clear of the contact's outline.
     inner: [u16; SIDE],
-    /// Where the picture was taken.
+    /// Position of the picture.
     window: Rect,
-    /// Sum and peak of the contact when it was taken; none: there is no picture.
+    /// Total and peak of the contact when the picture was taken; none without a picture.
     taken: Option<(u32, u16)>,
-    /// Way since then.
+    /// Displacement since then.
     moved: Way,
     /// Last step.
     step: Way,
     pause: u8,
-    /// Pictures in a row that did not fit.
+    /// Consecutive frames that did not match the picture.
     lost: u8,
 }
 
@@ -60,7 +60,7 @@ impl Pattern {
         }
     }
 
-    /// There is nothing to compare the next frame with.
+    /// Drops the picture, so that the next frame is compared with nothing.
     pub fn forget(&mut self) {
         self.taken = None;
         self.pause = 0;
@@ -68,8 +68,8 @@ impl Pattern {
         self.step = [0; 2];
     }
 
-    /// The step of the pattern since the last frame where there is one, else `step`, that of the contact's
-    /// centroid.
+    /// Returns the displacement of the pattern since the last frame; without a pattern that of the contact's
+    /// centroid, `step`.
     pub fn follow(&mut self, component: &Component, area: &Area, image: &Image, low: u16, step: Way) -> Way {
         if self.pause > 0 {
             self.pause -= 1;
@@ -92,14 +92,14 @@ impl Pattern {
             self.take(component, area, image, low);
         }
         if self.lost != 1 {
-            // Once it may have been the picture; then it was the prediction.
+            // A first mismatch may be due to the picture; a second one is due to the prediction.
             self.step = step;
         }
         step
     }
 
-    /// The way since the picture was taken; none if there is no picture, or the contact is not what it was:
-    /// more pressure makes the pattern higher, which is not to be taken for a way.
+    /// Displacement since the picture was taken. Returns none if there is no picture, or if the contact's
+    /// total or panel has changed: more pressure raises the pattern, which must not be taken for motion.
     fn compare(&self, component: &Component, area: &Area, image: &Image, step: Way) -> Option<Flow> {
         let (total, peak) = self.taken?;
         let same =
@@ -109,7 +109,8 @@ impl Pattern {
             return None;
         }
         let sum = |step: Way| [self.moved[0].saturating_add(step[0]), self.moved[1].saturating_add(step[1])];
-        // It goes on as before, unless all of the contact has gone farther than the comparison reaches.
+        // Expected to go on as before, unless the whole contact has moved farther than the comparison
+        // reaches.
         let outline = sum(step);
         let start =
             if step.iter().any(|way| way.unsigned_abs() > 3 << 14) { outline } else { sum(self.step) };
@@ -144,7 +145,7 @@ impl Pattern {
         })
     }
 
-    /// Takes the picture.
+    /// Takes a new picture.
     fn take(&mut self, component: &Component, area: &Area, image: &Image, low: u16) {
         self.taken = None;
         self.moved = [0; 2];
@@ -159,7 +160,7 @@ impl Pattern {
             let row = image.row(area, row).get(usize::from(left)..=usize::from(right)).unwrap_or(&[]);
             anchor.iter_mut().zip(row).for_each(|(kept, value)| *kept = *value);
         }
-        // Rows of the picture and one on each side, and so its columns: bit 0 is the column before the first.
+        // Rows and columns of the picture and one on each side: bit 0 is the column before the first.
         let mut held = [0u16; SIDE + 2];
         for (held, row) in held.iter_mut().zip(top..=bottom.saturating_add(2)) {
             let row = row.checked_sub(1).map_or(&[][..], |row| image.row(area, row));
@@ -176,10 +177,11 @@ impl Pattern {
         let twice = eroded(&once);
         let rows = self.inner.iter_mut().zip(twice.iter().skip(1)).zip(top..bottom);
         for (number, ((inner, row), _)) in rows.enumerate().skip(1) {
-            // Not the border of the picture.
+            // Without the border of the picture.
             let clear = row >> 1 & columns & !1;
             count += clear.count_ones();
-            // Every other row: each is smoothed with its neighbours, so that the rest adds cost, not knowledge.
+            // Every other row: rows are smoothed with their neighbours, so the rest would add cost but no
+            // information.
             *inner = if number % 2 == 1 { clear } else { 0 };
         }
         if count >= LEAST_INNER {
@@ -190,7 +192,7 @@ impl Pattern {
     }
 }
 
-/// Some columns of an image.
+/// Columns of an image.
 struct Cut<'a> {
     image: &'a Image<'a>,
     area: &'a Area,
@@ -199,16 +201,16 @@ struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    /// Those of a row; none where the panel has none.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Returns the columns of a row, as zeros if the row is inactive; empty if the row is too short.
+    #[inline(never)] // M0+: out of line
     fn row(&self, row: u16) -> &'a [u16] {
-        // A row in which nothing touches is not in the image.
+        // The image has no values of an inactive row.
         let row = self.image.row(self.area, row).get(self.left..).unwrap_or(&NOTHING);
         row.get(..self.columns).unwrap_or(&[])
     }
 }
 
-/// At most [`SIDE`] of the places `first ..= last`, around `centre` (in 2^-16).
+/// Returns at most [`SIDE`] of the places `first ..= last`, around `centre` (in 2^-16).
 fn middle(centre: i32, first: u16, last: u16) -> (u16, u16) {
     let side = SIDE as u16 - 1;
     if last.saturating_sub(first) <= side {
@@ -219,7 +221,7 @@ fn middle(centre: i32, first: u16, last: u16) -> (u16, u16) {
     (start, start + side)
 }
 
-/// The taxels whose eight neighbours are in the set too.
+/// Returns the taxels whose eight neighbours are in the set too (morphological erosion).
 fn eroded<const ROWS: usize>(rows: &[u16; ROWS]) -> [u16; ROWS] {
     let mut inner = [0; ROWS];
     for (inner, rows) in inner.iter_mut().skip(1).zip(rows.windows(3)) {

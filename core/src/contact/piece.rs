@@ -3,27 +3,27 @@
 use super::bits::{WORD, widened};
 use super::sums::Sums;
 
-/// The taxels of one part in a word: in a row, or in [`WORD`] columns of a longer one. They are whole runs,
-/// which have no touched taxel beside them but in another word.
+/// The runs of one row that belong to one part, within one word: a whole row, or [`WORD`] columns of a longer
+/// one. The runs are complete, except where they go on in a neighbouring word.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     /// Bit `i` stands for column `column + i`; not 0.
     pub taxels: u32,
     /// All touched taxels of the word.
     pub all: u32,
-    /// over all panels
+    /// Row, counted over all panels.
     pub row: u16,
-    /// The part as which it was found, whose parent is the part that it belongs to.
+    /// Part under which it was found; the parent of that is the part that it belongs to.
     pub part: u16,
-    /// First column that belongs to it.
+    /// First column of the piece.
     pub left: u16,
-    /// Last column that belongs to it.
+    /// Last column of the piece.
     pub right: u16,
-    /// taxels
+    /// Number of taxels.
     pub area: u16,
-    /// greatest value
+    /// Greatest value, counts.
     pub peak: u16,
-    /// From the first column on.
+    /// Sums over the values, `i` counted from `left`.
     pub sums: Sums,
 }
 
@@ -33,33 +33,33 @@ impl Piece {
         first_column(self.left)
     }
 
-    /// The place of the word as one number, in the order of the pieces.
+    /// Position of the word as one number, in the order of the pieces.
     pub const fn key(&self) -> u32 {
         key(self.row, self.left)
     }
 
-    /// Whether it has the taxel of a column of its word.
+    /// True if the taxel in `column`, a column of its word, belongs to it.
     pub const fn holds(&self, column: u16) -> bool {
         self.taxels >> (column % WORD) & 1 == 1
     }
 
-    /// Its taxels, with bit 0 for the first of its columns.
+    /// Its taxels, with bit 0 for column `left`.
     pub const fn rebased(&self) -> u32 {
         self.taxels >> (self.left % WORD)
     }
 
-    /// Which of its taxels lie in the columns `first ..= last`.
+    /// Its taxels in the columns `first ..= last`.
     pub const fn within(&self, first: u16, last: u16) -> u32 {
         self.taxels & columns(self.column(), first, last)
     }
 
-    /// Which taxels of that word touch it in the next row (corners included), or in its own.
+    /// Taxels of the word that touch it, in the next row (corners included) or in its own.
     pub const fn reach(&self) -> u32 {
         widened(self.taxels)
     }
 }
 
-/// The place of a taxel's word as one number, in the order of the pieces.
+/// Position of a taxel's word as one number, in the order of the pieces.
 pub(super) const fn key(row: u16, column: u16) -> u32 {
     (row as u32) << 16 | first_column(column) as u32
 }
@@ -69,12 +69,12 @@ const fn first_column(column: u16) -> u16 {
     column - column % WORD
 }
 
-/// The columns `first ..= last` of a row as bits of its word at `column`.
+/// The columns `first ..= last` of a row, as bits of the word that begins at `column`.
 const fn columns(column: u16, first: u16, last: u16) -> u32 {
     let word = column as u32;
     let from = (first as u32).saturating_sub(word);
     let end = (last as u32 + 1).saturating_sub(word);
-    // The bits below a place; all, if it is beyond the word.
+    // The bits below a place; all bits if the place is beyond the word.
     const fn below(place: u32) -> u32 {
         if place < WORD as u32 { (1 << place) - 1 } else { u32::MAX }
     }

@@ -1,4 +1,4 @@
-//! What is asked of a frame's pieces by their places.
+//! Queries of a frame's pieces by position.
 
 use super::bits::WORD;
 use super::label::Labels;
@@ -7,20 +7,19 @@ use super::piece::{Piece, key};
 use crate::garment::Area;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// The part that a piece belongs to.
+    /// Root of the part of a piece.
     pub fn part_of(&self, piece: &Piece) -> Option<u16> {
         Some(self.parts.get(usize::from(piece.part))?.parent)
     }
 
-    /// The pieces of the rows `first ..= last`, over all panels, with their numbers.
+    /// Pieces of the rows `first ..= last`, counted over all panels, with their indices.
     pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Piece)> {
         let from = self.pieces.partition_point(|piece| piece.row < first);
         let pieces = (from..).zip(self.pieces.get(from..).unwrap_or(&[]));
         pieces.take_while(move |(_, piece)| piece.row <= last)
     }
 
-    /// Those of the taxels of a piece, number `number`, that have all four neighbours in their panel, which
-    /// is `area`.
+    /// Returns the taxels of piece `number` that have all four neighbours touched, in its panel `area`.
     pub fn enclosed(&self, number: usize, piece: &Piece, area: &Area) -> u32 {
         let (Piece { taxels, row, .. }, column) = (*piece, piece.column());
         let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
@@ -40,23 +39,23 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         taxels & above & below & left & right
     }
 
-    /// All touched taxels of a word that comes before a piece.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Returns all touched taxels of a word that comes before piece `number`.
+    #[inline(never)] // M0+: out of line
     fn all_before(&self, number: usize, word: u32) -> u32 {
         let pieces = self.pieces.get(..number).unwrap_or(&[]);
         let last = pieces.iter().rev().find(|piece| piece.key() <= word);
         last.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
     }
 
-    /// All touched taxels of a word that comes after a piece.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Returns all touched taxels of a word that comes after piece `number`.
+    #[inline(never)] // M0+: out of line
     fn all_after(&self, number: usize, word: u32) -> u32 {
         let pieces = self.pieces.get(number + 1..).unwrap_or(&[]);
         let first = pieces.iter().find(|piece| piece.key() >= word);
         first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
     }
 
-    /// The contact that a taxel belongs to, once contacts are numbered.
+    /// Contact of a taxel; valid once contacts are numbered.
     pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
         let word = key(area.first_row.saturating_add(row), column);
         let first = self.pieces.partition_point(|piece| piece.key() < word);
@@ -64,7 +63,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         self.contact_of(pieces.find(|piece| piece.holds(column))?)
     }
 
-    /// The contact that a piece belongs to, once contacts are numbered.
+    /// Contact of a piece; valid once contacts are numbered.
     pub fn contact_of(&self, piece: &Piece) -> Option<u16> {
         let part = self.parts.get(usize::from(piece.part))?;
         (part.contact != NONE).then_some(part.contact)

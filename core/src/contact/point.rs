@@ -4,10 +4,10 @@ use crate::format::Fixed16;
 use crate::garment::{Layout, SEAMS, Transform};
 use heapless::Vec;
 
-/// Distances are in 1/16 taxel, at most 2047 taxels: two squares fit in 32 bits.
+/// Longest distance along an axis, 2047 taxels in 1/16 taxel: two squares fit in 32 bits.
 pub(super) const LONGEST: i32 = 32767;
 
-/// A point of a panel in 1/16 taxel: fine enough to compare distances, and 32 bits do.
+/// A point of a panel in 1/16 taxel: fine enough to compare distances, and in 32 bits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub panel: u8,
@@ -16,12 +16,12 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// From coordinates in Q16.
+    /// Point with coordinates in Q16.
     pub fn of(panel: u8, x: Fixed16, y: Fixed16) -> Point {
         Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
     }
 
-    /// Lists itself, and as seen from the panels beyond every seam.
+    /// Lists the point, and its images on the panels beyond every seam.
     pub fn list_images(self, layout: &Layout, images: &mut Images) {
         images.clear();
         let mut add = |panel, (x, y)| {
@@ -39,16 +39,16 @@ impl Point {
     }
 
     fn through(self, way: &Transform) -> (i32, i32) {
-        // As `Transform::apply`, in 32 bits: coordinates are below 2^20, and so are shifts.
+        // Like `Transform::apply`, in 32 bits: coordinates and shifts are below 2^20.
         (way.xx * self.x + way.xy * self.y + way.dx * 16, way.yx * self.x + way.yy * self.y + way.dy * 16)
     }
 }
 
-/// A point, and where it lies in the frames of the panels that seams join to its own.
+/// A point, and its images on the panels that seams join to its own.
 pub(super) type Images = Vec<Point, { 1 + 2 * SEAMS }>;
 
-/// The way between two panels (none within one panel, else over one seam) that brings a point closest to
-/// another, and the squared distance that is left.
+/// Returns the transform between two panels (none within one panel, else over one seam) that brings `from`
+/// closest to `to`, and the squared distance that is left.
 pub(super) fn nearest_way(layout: &Layout, from: Point, to: Point) -> Option<(Option<Transform>, u32)> {
     let squared = |(x, y): (i32, i32)| {
         let square = |apart: i32| (apart.clamp(-LONGEST, LONGEST).pow(2)) as u32;

@@ -1,10 +1,10 @@
-//! What is told of a contact.
+//! Public record of a contact.
 
 use crate::format::{Fixed16, Micros, Q15, Turn};
 use crate::garment::{Place, Rect};
 use serde::{Deserialize, Serialize};
 
-/// Where a contact is in its life.
+/// Phase of a contact's life.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Phase {
@@ -13,7 +13,7 @@ pub enum Phase {
     Onset,
     /// It was there in the previous frame.
     Held,
-    /// It is gone: the values are the last ones, the total is 0. Told once.
+    /// It is gone: the values are the last ones, the total is 0. Reported once.
     Released,
 }
 
@@ -21,14 +21,14 @@ pub enum Phase {
 /// beyond a seam continues them past the border.
 ///
 /// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`,
-/// `anisotropy`, `breadth`) is that of the last frame in which it was looked at: its first one, and from then
-/// on each of those present has its turn, [`Forms`](super::Forms) in a frame. Of a lone contact it is always
-/// of the frame, of five contacts at most four frames old if one has its turn.
+/// `anisotropy`, `breadth`) is measured in the first frame, and from then on when it is the contact's turn:
+/// [`Forms`](super::Forms) contacts have their turn in a frame. With one turn a frame, the form of a single
+/// contact is always that of the frame, and the forms of five contacts are at most four frames old.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contact {
-    /// From 1 upwards in the order of onsets; the same from onset to release.
+    /// Number of its onset, from 1 upwards; constant from onset to release.
     pub id: u32,
-    /// Where it is in its life.
+    /// Onset, held or released.
     pub phase: Phase,
     /// Index of its home panel.
     pub panel: u8,
@@ -36,37 +36,38 @@ pub struct Contact {
     pub total: u32,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
-    /// The first taxel with that pressure; of another panel where the contact crosses a seam.
+    /// First taxel with that pressure; may be on another panel if the contact crosses a seam.
     pub peak_at: Place,
-    /// Taxels.
+    /// Number of taxels.
     pub area: u16,
-    /// Taxels with at least one of four neighbours in the panel, or beyond its border, below the low threshold.
+    /// Number of taxels with at least one of the four neighbours below the low threshold or outside the
+    /// panel.
     pub perimeter: u16,
     /// Mean slope over those taxels, counts per taxel (Sobel magnitude / 8); saturates.
     pub edge: u16,
-    /// The smallest rectangle of the home panel around what lies there.
+    /// Bounding box of its taxels in the home panel.
     pub bounds: Rect,
-    /// Centroid (eq. 1 and 2, from 0), rounded once: half a step off at most.
+    /// Centroid, column (eq. 1 and 2, from 0), rounded once: half a step off at most.
     pub x: Fixed16,
-    /// As `x`, across the rows.
+    /// Centroid, row; rounded like `x`.
     pub y: Fixed16,
-    /// Direction of the major axis, see [`Axis`](super::Axis); none where the contact has no direction.
+    /// Direction of the major axis, see [`Axis`](super::Axis); none if the contact has no clear direction.
     pub azimuth: Option<Turn>,
-    /// 0 for a disc or square, 1 for a line.
+    /// Elongation: 0 for a disc or square, 1 for a line.
     pub anisotropy: Q15,
-    /// Width across the major axis in 0.1 mm, see [`breadth`](super::breadth); at 10 mm pitch where the panel
-    /// gives none.
+    /// Width across the major axis in 0.1 mm, see [`breadth`](super::breadth); 10 mm pitch is assumed if the
+    /// panel gives none.
     pub breadth: u32,
-    /// Way since onset along x, of the centroid or of the pattern inside; follows the contact across seams.
-    /// The leaps of merging and parting do not count.
+    /// Displacement since onset along x, of the centroid or of the pattern inside, taxels. It follows the
+    /// contact across seams. The jumps of merging and splitting do not count.
     pub dx: Fixed16,
-    /// Way since onset along y.
+    /// Displacement since onset along y.
     pub dy: Fixed16,
     /// Smoothed velocity along x, taxels per second.
     pub vx: Fixed16,
     /// Smoothed velocity along y.
     pub vy: Fixed16,
-    /// It slips: see the [module](super).
+    /// True while it slips: see the [module](super).
     pub slip: bool,
     /// Time of its first frame.
     pub onset: Micros,
@@ -74,7 +75,7 @@ pub struct Contact {
     pub duration_ms: u32,
     /// Greatest total since onset.
     pub peak_total: u32,
-    /// Breadth when it was looked at with the greatest total: what touches, not what is left of it while it
-    /// comes or goes.
+    /// Breadth at the greatest total with which the form was measured: that of the object, not of the
+    /// remainder while it comes or goes.
     pub peak_breadth: u32,
 }

@@ -1,5 +1,5 @@
-//! Parts of one former contact stay one while no more than a taxel has opened between them: a hand that lies
-//! on ribs, or an arm on a crease, keeps its id.
+//! Keeps parts of one former contact together while no more than a taxel has opened between them: a hand that
+//! lies on ribs, or an arm on a crease, keeps its id.
 
 use super::component::Components;
 use super::label::Labels;
@@ -10,9 +10,9 @@ use super::track::Tracks;
 use crate::garment::{Layout, Place, Rect};
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
-    /// Adds components that are nobody's to the one that a contact became, where they lie on what it was and
-    /// have hardly come off.
-    #[inline(never)] // a stack frame of its own is near
+    /// Adds each unassigned component to the component of the contact that it has just come off: it peaks
+    /// where that contact was, and hardly a gap has opened.
+    #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn reunite<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &mut Labels<RUNS, PARTS>,
@@ -20,11 +20,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         tracks: &mut Tracks<CONTACTS>,
     ) {
         if tracks.trails.iter().filter(|trail| trail.component != NONE).count() == self.list.len() {
-            // As mostly: each is somebody's.
+            // The usual case: each component is assigned.
             return;
         }
         let known = tracks.known();
-        // Those after one that is taken away move up: they have had their turn.
+        // In descending order, because removal moves up the components behind.
         for lost in (0..self.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {
             let whole = self.whole_of(lost, labels, layout, tracks);
             if let Some(whole) = whole {
@@ -35,7 +35,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// The component that one belongs to, if it has hardly come off a contact.
+    /// Returns the component that `lost` belongs to, if hardly a gap separates it from a contact.
     fn whole_of<const RUNS: usize, const PARTS: usize>(
         &self,
         lost: usize,
@@ -52,7 +52,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         near.then_some(whole)
     }
 
-    /// Makes one of two.
+    /// Merges component `lost` into `whole`.
     fn join(&mut self, whole: usize, lost: usize) {
         let part = self.list.get(lost).cloned();
         if let (Some(whole), Some(part)) = (self.list.get_mut(whole), part) {
@@ -66,7 +66,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 }
 
-/// Index of the contact that was at a place, if only one was.
+/// Index of the contact that covered a place, if only one did.
 fn only_at(contacts: &[Contact], at: Place) -> Option<usize> {
     let mut there = contacts
         .iter()
@@ -77,7 +77,7 @@ fn only_at(contacts: &[Contact], at: Place) -> Option<usize> {
     there.next().is_none().then_some(only)
 }
 
-/// Whether two rectangles have at most a row and a column between them.
+/// True if at most a row and a column lie between two rectangles.
 fn are_near(a: &Rect, b: &Rect) -> bool {
     let near = |a: [u16; 2], b: [u16; 2]| a[0].max(b[0]) <= a[1].min(b[1]).saturating_add(2);
     a.panel == b.panel
@@ -86,12 +86,12 @@ fn are_near(a: &Rect, b: &Rect) -> bool {
 }
 
 impl<const CONTACTS: usize> Tracks<CONTACTS> {
-    /// The component that a contact became.
+    /// Component of a contact.
     fn component_of(&self, contact: usize) -> Option<u16> {
         self.trails.get(contact).map(|trail| trail.component).filter(|component| *component != NONE)
     }
 
-    /// Component `lost`, which was nobody's, is none of its own any more; those after it move up.
+    /// Renumbers components after `lost`, which was unassigned, is removed: those after it move up.
     fn renumber(&mut self, lost: u16) {
         for trail in self.trails.iter_mut().filter(|trail| trail.component != NONE && trail.component > lost)
         {
@@ -101,7 +101,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 }
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Whether a piece has a taxel at most two from one of a component, in the same panel.
+    /// True if a piece has a taxel at most two away from one of a component, in the same panel.
     fn is_beside(&self, piece: &Piece, component: u16) -> bool {
         let panel = |piece: &Piece| self.parts.get(usize::from(piece.part)).map(|part| part.panel);
         let mut near = self.in_rows(piece.row.saturating_sub(2), piece.row.saturating_add(2));
@@ -113,7 +113,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     }
 }
 
-/// Whether some of their columns are at most two apart.
+/// True if some of their columns are at most two apart.
 fn have_near_columns(a: &Piece, b: &Piece) -> bool {
     let first = a.column().min(b.column());
     let bits = |piece: &Piece| u64::from(piece.taxels).checked_shl((piece.column() - first).into());

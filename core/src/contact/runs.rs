@@ -1,16 +1,16 @@
-//! Rows of one word with several runs: which of them belong to which part.
+//! Rows of one word with several runs: assigns the runs to parts.
 
 use super::bits::{WORD, flood, is_run, lowest_run};
 use super::label::{Labels, Line};
 use super::part::{NONE, first_of, unite};
 use heapless::Vec;
 
-/// Runs of a row that belong to one part, and the part.
+/// Pairs of a part and its runs in a row, as bits.
 type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// The part that all runs of a row touch, if it is the only one.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Returns the part that all runs of a row touch, if there is only one.
+    #[inline(never)] // M0+: out of line
     fn only_part(&mut self, all: u32, line: &Line) -> Option<u16> {
         let above = self.pieces.get(line.above..).unwrap_or(&[]);
         if let [piece] = above
@@ -32,9 +32,9 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         (flood(all, touched) == all).then_some(part)
     }
 
-    /// Appends the runs of a row, as one piece for each part that they touch or begin; their part, if there
-    /// is but one.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Appends the runs of a row, as one piece for each part that they touch or begin. Returns the part if it
+    /// is the only one.
+    #[inline(never)] // M0+: out of line
     pub(super) fn scan_runs(&mut self, all: u32, values: &[u16], line: &Line) -> u16 {
         if let Some(part) = self.only_part(all, line) {
             return self.push_named(all, all, part, values, line);
@@ -51,8 +51,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         NONE
     }
 
-    /// Tells apart the runs of a row by their parts: first those that are known already, from the row above;
-    /// then new ones.
+    /// Sorts the runs of a row by their parts: first those that touch the row above, then new ones.
     #[inline(never)] // rarely called
     fn find_parts(&mut self, found: &mut Found, all: u32, line: &Line) {
         let mut free = all;
@@ -70,7 +69,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             free &= !runs;
             match found.iter_mut().find(|(_, other)| *other == part) {
                 Some((taken, _)) => *taken |= fresh,
-                // There are no more than runs.
+                // As many places as a row has runs.
                 None if fresh != 0 => drop(found.push((fresh, part))),
                 None => {}
             }

@@ -7,21 +7,21 @@ use super::piece::{Piece, key};
 use crate::garment::{Area, Stretch};
 use core::ops::Range;
 
-/// Taxels along a side of a panel that are asked for one after the other.
+/// Cursor over the taxels along a side of a panel.
 pub(super) struct Side<'a> {
     pieces: &'a [Piece],
     parts: &'a [Part],
     edge: &'a Stretch,
-    /// Of the panel.
+    /// First row of the panel, over all panels.
     first_row: u16,
     last_row: u16,
-    /// Whether each taxel is below the one before.
+    /// True if each taxel lies below the one before.
     is_down: bool,
-    /// What was found last: from the taxel `asked` on, the next that belong to one part, or [`NONE`].
+    /// Last result: from taxel `asked` on, the next `taxels` that belong to one part, or [`NONE`].
     asked: i32,
     part: u16,
     taxels: Range<i32>,
-    /// The number of a piece, before which there is none of the taxels that come after these.
+    /// Index of a piece; no piece before it holds a taxel that comes after `taxels`.
     near: usize,
 }
 
@@ -46,8 +46,9 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// The first taxels from one on that belong to one part, or to [`NONE`]: there may be more of it beside
-    /// them.
+    /// Returns the next part from `taxel` on, and its taxels; those before the range belong to none, those
+    /// after it may belong to the same part. Returns [`NONE`] if no taxel before the end of the range is
+    /// touched.
     #[inline(always)]
     pub fn from(&mut self, taxel: i32) -> (u16, Range<i32>) {
         if taxel < self.asked || taxel >= self.taxels.end {
@@ -56,7 +57,7 @@ impl<'a> Side<'a> {
         (self.part, self.taxels.clone())
     }
 
-    #[inline(never)] // the few registers of an M0+ are for this
+    #[inline(never)] // M0+: out of line
     fn look(&mut self, taxel: i32) {
         let (x, y) = self.edge.at(taxel);
         let (row, column) = (self.first_row.saturating_add(y as u16), x as u16);
@@ -76,7 +77,7 @@ impl<'a> Side<'a> {
             self.part = self.parts.get(usize::from(piece.part)).map_or(NONE, |part| part.parent);
             self.taxels.end = start + 1;
             if self.is_down {
-                // Where the next one has no taxel below, there is no need to look on.
+                // If the next piece does not hold the taxel below, the part ends here.
                 let next = self.pieces.get(self.near + 1);
                 let (passed, rows) = if next.is_some_and(|next| next.row == found || spot.is_in(next)) {
                     spot.pass(self.pieces.get(self.near..).unwrap_or(&[]), found, piece.part)
@@ -90,8 +91,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// The first piece from a place on, given one near it.
-#[inline(never)] // the few registers of an M0+ are for its loops
+/// Returns the first piece from the position `word` on, searching from piece `near`.
+#[inline(never)] // M0+: out of line
 fn seek(pieces: &[Piece], mut near: usize, word: u32) -> usize {
     let is_before = |number: usize| pieces.get(number).is_some_and(|piece| piece.key() < word);
     while is_before(near) {
@@ -103,12 +104,12 @@ fn seek(pieces: &[Piece], mut near: usize, word: u32) -> usize {
     near
 }
 
-/// A taxel of each row.
+/// A column of the panel.
 #[derive(Clone, Copy)]
 struct Spot {
-    /// of its word
+    /// First column of its word.
     column: u16,
-    /// of the word
+    /// Its bit in the word.
     taxel: u32,
 }
 
@@ -117,18 +118,18 @@ impl Spot {
         piece.column() == self.column && piece.taxels & self.taxel != 0
     }
 
-    /// How many pieces come before the next that has it, and the row of that: the one after the last if there
-    /// is none so far.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Returns the number of pieces before the next one that holds the taxel, and the row of that piece; the
+    /// row after `last` if there is none up to `last`.
+    #[inline(never)] // M0+: out of line
     fn skip(self, pieces: &[Piece], last: u16) -> (usize, u16) {
         let found = pieces.iter().position(|piece| piece.row > last || self.is_in(piece));
         let number = found.unwrap_or(pieces.len());
         (number, pieces.get(number).map_or(u16::MAX, |piece| piece.row).min(last.saturating_add(1)))
     }
 
-    /// From a row of a part on: how many pieces come before the next that has it but is of another part, or
-    /// beyond a row without it; and how many have it.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// From row `first` of a part on, returns the number of pieces before the next one that holds the taxel
+    /// but is of another part or follows a row without it; and the number of rows in which the part holds it.
+    #[inline(never)] // M0+: out of line
     fn pass(self, pieces: &[Piece], first: u16, part: u16) -> (usize, u16) {
         let mut row = first;
         let another = |piece: &Piece| {
@@ -151,8 +152,7 @@ mod tests {
     use crate::garment::{Edge, Garment, Layout, Seam, Side as Of};
     use std::vec;
 
-    /// Two panels of two words a row, sewn in all ways: taxels asked for from the first on, and then here and
-    /// there.
+    /// Two panels of two words a row, sewn in all ways. Asks for taxels in order, and then at random.
     #[test]
     fn the_parts_along_a_side_are_those_of_its_taxels() {
         let mut noise = 1u32;

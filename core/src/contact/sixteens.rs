@@ -10,9 +10,9 @@ use bytemuck::must_cast_slice;
 use core::ops::Range;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Appends the runs of rows that follow each other, as one piece for each part; their parts are not
-    /// weighed yet.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Appends the runs of consecutive rows, as one piece for each part of a row. Their sums are not added to
+    /// the parts yet.
+    #[inline(never)] // M0+: out of line
     pub(super) fn scan_sixteens(&mut self, rows: &[Sixteen], low: u16, line: &mut Line) {
         let mut all = 0;
         for sixteen in rows {
@@ -35,34 +35,34 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line.ends = line.ends.map(|end| end | all);
     }
 
-    /// Appends the one run of a row to the part that it touches, and returns that. If it touches several,
-    /// they belong together.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Appends the single run of a row to the part that it touches, and returns the part. Parts that it
+    /// connects are joined.
+    #[inline(never)] // M0+: out of line
     fn scan_run(&mut self, run: u32, values: &[u16], line: &Line) -> u16 {
         let part = if line.reach & run != 0 { line.part } else { self.meet(run, line) };
         self.push_run(run, run, part, values, line)
     }
 
-    /// Appends a run of a row that has `all` taxels.
+    /// Appends one run of a row; `all` is every touched taxel of the row.
     #[inline(always)]
     pub(super) fn push_run(&mut self, taxels: u32, all: u32, part: u16, values: &[u16], line: &Line) -> u16 {
         let Range { start, end } = run_of(taxels);
-        // There are as many.
+        // Always: the row has as many values.
         let Some(values) = values.get(start..end) else { return part };
         let (left, right, area) = (start as u16, end as u16 - 1, values.len() as u16);
         let (sums, peak) = (Sums::NONE, 0);
         let piece = Piece { taxels, all, row: line.row, part, left, right, area, peak, sums };
         let (part, piece) = self.push(piece, line.panel);
         if let Some(piece) = piece {
-            // Where it stays: nothing is copied.
+            // Summed in place: nothing is copied.
             piece.peak = piece.sums.take(values);
         }
         part
     }
 
-    /// The part that a run touches, of the pieces in the row above; or [`NONE`]. If there are several, they
-    /// belong together from now on.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Returns the part of the row above that a run touches, or [`NONE`]. If it touches several, they are
+    /// joined.
+    #[inline(never)] // M0+: out of line
     fn meet(&mut self, run: u32, line: &Line) -> u16 {
         let above = self.pieces.get(line.above..).unwrap_or(&[]);
         let mut part = NONE;
@@ -75,8 +75,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         part
     }
 
-    /// Appends runs of a row that has `all` taxels.
-    #[inline(never)] // the few registers of an M0+ are for this
+    /// Appends runs of a row as one piece; `all` is every touched taxel of the row.
+    #[inline(never)] // M0+: out of line
     pub(super) fn push_named(
         &mut self,
         taxels: u32,

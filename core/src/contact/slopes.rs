@@ -1,30 +1,30 @@
-//! How steep two small pictures are, and what has changed between them: row by row.
+//! Slopes of two small pictures, and the change between them, row by row.
 //!
-//! Each of its loops is one function, and reads what the one before left: none has more to keep than the
+//! Each loop is a function of its own that reads the output of the one before, so that its values fit in the
 //! registers of a Cortex-M0+.
 
-/// Rows and columns of a picture, at most.
+/// Greatest number of rows and columns of a picture.
 pub(super) const SIDE: usize = 12;
 
 /// One column of both pictures, over three rows.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Smooth {
-    /// Of both, smoothed.
+    /// Sum of both pictures, smoothed.
     sum: i32,
-    /// Of the sum of both, from the row above to the row below.
+    /// Difference of the row below and the row above, of both pictures together.
     slope: i32,
-    /// From the earlier to the later, smoothed.
+    /// Later picture minus earlier one, smoothed.
     change: i32,
 }
 
-/// A row of them.
+/// A row of columns.
 pub(super) type Line = [Smooth; SIDE];
 
-/// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, of the taxels of a line but the
-/// first and the last.
+/// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, for the taxels of a line
+/// without the first and the last.
 pub(super) type Terms = [[i32; 3]; SIDE - 2];
 
-/// Sums, slopes and changes of the middle one of three rows.
+/// Computes sums, slopes and changes of the middle one of three rows.
 #[inline(never)]
 pub(super) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Line) {
     let [above, here, below] = before;
@@ -34,13 +34,13 @@ pub(super) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Lin
     let three = |((above, here), below): ((&u16, &u16), &u16)| [*above, *here, *below].map(i32::from);
     for (out, (before, now)) in out.iter_mut().zip(before.zip(now)) {
         let ([a, h, b], [above, here, below]) = (three(before), three(now));
-        // Both together, and how much more the later has.
+        // Smoothed columns of both pictures: their sum, and the later minus the earlier.
         let (was, is) = (a + 4 * h + b, above + 4 * here + below);
         *out = Smooth { sum: was + is, slope: b - a + below - above, change: is - was };
     }
 }
 
-/// The terms of the marked taxels of a line, which are neither the first nor the last; 0 for all others.
+/// Computes the terms of the marked taxels of a line, never the first or the last; all others are 0.
 pub(super) fn differentiate(line: &Line, marked: u16, scale: u32, out: &mut Terms) {
     let half = 1 << scale >> 1;
     across(line, scale, half, out);
@@ -53,7 +53,7 @@ pub(super) fn differentiate(line: &Line, marked: u16, scale: u32, out: &mut Term
     }
 }
 
-/// Slopes x.
+/// Slopes along x.
 #[inline(never)]
 fn across(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     for ([left, _, right], out) in line.array_windows().zip(out) {
@@ -61,7 +61,7 @@ fn across(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     }
 }
 
-/// Slopes y.
+/// Slopes along y.
 #[inline(never)]
 fn along(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     for ([left, here, right], out) in line.array_windows().zip(out) {
@@ -69,7 +69,7 @@ fn along(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     }
 }
 
-/// Changes.
+/// Changes in time.
 #[inline(never)]
 fn change(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     for ([left, here, right], out) in line.array_windows().zip(out) {
@@ -77,7 +77,7 @@ fn change(line: &Line, scale: u32, half: i32, out: &mut Terms) {
     }
 }
 
-/// Sums of the terms number A, of their squares, and of their products with those number B.
+/// Returns the sums of term A, of its squares, and of its products with term B.
 #[inline(never)]
 pub(super) fn products<const A: usize, const B: usize>(terms: &Terms) -> [i32; 3] {
     let (mut sum, mut square, mut mixed) = (0, 0, 0i32);

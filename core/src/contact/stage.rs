@@ -1,4 +1,4 @@
-//! The stage.
+//! The stage: segmentation and tracking of a frame.
 
 use super::component::{Component, Components};
 use super::config::ContactConfig;
@@ -17,14 +17,13 @@ use crate::garment::Layout;
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Contacts {
     config: ContactConfig,
-    /// How many forms are looked at in a frame. It is no part of a scene.
+    /// Number of forms measured in a frame. Not part of a scene.
     pub forms: Forms,
 }
 
-/// What the stage remembers, and its work space, for at most CONTACTS contacts, RUNS runs of a row and PARTS
-/// parts, which are touched taxels of one panel that are connected (65534). Half as many runs as taxels
-/// suffice wherever the columns are even in number, and of parts one for each square of two by two taxels, or
-/// as many as runs.
+/// State and work space of the stage, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts
+/// (connected taxels of one panel; at most 65534). If the columns are even in number, half as many runs as
+/// taxels suffice. Parts never exceed the runs, nor the squares of two by two taxels.
 #[derive(Debug, Clone)]
 pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     labels: Labels<RUNS, PARTS>,
@@ -35,28 +34,29 @@ pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: u
     feedback: Feedback<CONTACTS>,
 }
 
-/// The contacts of a frame.
+/// Result of a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Touches<'a> {
-    /// Those present, in the order of their onset.
+    /// Contacts that are present, in the order of their onset.
     pub present: &'a [Contact],
-    /// Their moments, in the same order, in the frame of the home panel.
+    /// Their moments in the frame of the home panel, in the same order.
     pub moments: &'a [Moments],
-    /// How many frames old the form of each is, in the same order; 255: at least so many. See [`Contact`].
+    /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
-    /// Those that have gone since the last frame.
+    /// Contacts that ended with this frame.
     pub released: &'a [Contact],
-    /// Contacts that did not fit into this frame: those with the smallest totals.
+    /// Number of contacts that did not fit into this frame: those with the smallest totals.
     pub dropped: u16,
-    /// Panels in which something is nearly a contact, a bit each: its peak has three quarters of the high
-    /// threshold.
+    /// Panels with a component that is nearly a contact, one bit each: its peak is at least three quarters of
+    /// the high threshold.
     pub faint: u8,
-    /// Runs and joins across seams that did not fit: parts of contacts may be missing or apart.
+    /// Number of runs and of joins across seams that did not fit: parts of contacts may be missing or
+    /// separate.
     pub overflow: u16,
 }
 
 impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<CONTACTS, RUNS, PARTS> {
-    /// Nothing touches; the next id is 1.
+    /// No contacts; the next id is 1.
     pub const fn new() -> Self {
         ContactState {
             labels: Labels::new(),
@@ -68,24 +68,24 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<
         }
     }
 
-    /// Forgets all contacts without a release, as for another garment; ids go on.
+    /// Drops all contacts without a release, for example for another garment; ids go on.
     pub fn reset(&mut self) {
         self.labels.clear();
         self.tracks.clear();
         self.feedback = Feedback::new();
     }
 
-    /// What the next frame's conditioning is to be told.
+    /// The contacts' rectangles and peaks, for the conditioning of the next frame.
     pub fn feedback(&self) -> &Feedback<CONTACTS> {
         &self.feedback
     }
 
-    /// How many frames old the forms of the last frame's contacts are, in the order of their onset.
+    /// Age of the forms of the last frame's contacts, frames, in the order of their onset.
     pub fn form_ages(&self) -> &[u8] {
         self.tracks.ages()
     }
 
-    /// Index in [`Touches::present`] of the contact that a taxel belongs to, in the last frame.
+    /// Index in [`Touches::present`] of the last frame's contact at a taxel.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
         let area = layout.areas().get(usize::from(place.panel))?;
         self.tracks.index_of(self.labels.contact_at(area, place.row, place.column)?)
@@ -101,7 +101,7 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> Default
 }
 
 impl ContactConfig {
-    /// Checks the settings.
+    /// Checks the settings. Error if one is out of range.
     pub fn build(&self) -> Result<Contacts, Invalid> {
         let refuse = |parameter, must| Err(Invalid { parameter, must });
         if self.low == 0 {
@@ -126,7 +126,7 @@ impl Contacts {
         &self.config
     }
 
-    /// Takes in one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
+    /// Processes one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
     pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
         state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
@@ -138,9 +138,9 @@ impl Contacts {
         self.track(state, layout, image, now)
     }
 
-    /// The components of a frame that are contacts, measured, in the order of their first taxels. For whoever
-    /// needs no ids and no velocities, this is all; of contacts it follows only where they were, which keeps
-    /// faint ones.
+    /// Returns the components of a frame that are contacts, measured, in the order of their first taxels.
+    /// This suffices if you need no ids and no velocities. Of earlier contacts it uses only the positions,
+    /// which keep faint ones.
     pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
         &self,
         state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,

@@ -1,30 +1,30 @@
-//! Pieces of a part that follow each other.
+//! Strips: consecutive pieces of one part.
 
 use super::part::Part;
 use super::piece::Piece;
 use crate::condition::row_of;
 use crate::garment::{Area, Rect};
 
-/// Pieces of a part that follow each other, from row to row.
+/// Consecutive pieces of one part, from row to row.
 pub(super) struct Strip<'a> {
     pub pieces: &'a [Piece],
     pub part: &'a Part,
     pub area: &'a Area,
-    /// of all taxels
+    /// Values of all taxels.
     pub values: &'a [u16],
 }
 
 impl Strip<'_> {
-    /// Lets a rectangle of the panel hold them.
+    /// Widens a rectangle of the panel so that it holds the pieces.
     pub fn widen(&self, rect: &mut Rect) {
-        // The rows come one after the other.
+        // The rows are in ascending order.
         if let [first, ..] = self.pieces {
             rect.top = rect.top.min(first.row - self.area.first_row);
         }
         if let [.., last] = self.pieces {
             rect.bottom = last.row - self.area.first_row;
         }
-        // Unrolled, a loop over them would begin with a division, which an M0+ does not have.
+        // A `for` loop would be unrolled and begin with a division, which an M0+ does not have.
         let mut rest = self.pieces;
         while let [piece, after @ ..] = rest {
             rect.left = rect.left.min(piece.left);
@@ -34,13 +34,13 @@ impl Strip<'_> {
     }
 }
 
-/// The values from the first to the last taxel of a piece of a panel.
+/// Returns the values from the first to the last column of a piece.
 pub(super) fn values_of<'a>(piece: &Piece, area: &Area, values: &'a [u16]) -> &'a [u16] {
     let row = row_of(values, area, piece.row - area.first_row);
     row.get(piece.left.into()..=piece.right.into()).unwrap_or(&[])
 }
 
-/// Pieces that follow each other and were found as one part, as those of most parts are.
+/// Splits pieces into strips of equal label.
 pub(super) fn strips(pieces: &[Piece]) -> impl Iterator<Item = &[Piece]> {
     let mut rest = pieces;
     // (`chunk_by` splits where it might panic.)

@@ -1,12 +1,12 @@
-//! What the taxels of a piece add up to, before its place counts.
+//! Sums over the taxels of a piece, relative to its first column.
 
 use super::bits::WORD;
 
-/// Values up to this have squares of which a word's fit in 32 bits: 32 * 11585^2 < 2^32.
+/// Greatest value of which a word's squares fit in 32 bits: 32 * 11585^2 < 2^32.
 pub(super) const NARROW: u16 = 11585;
 
-/// Sums over taxels of a row, number `i` of which has the pressure f: of those of a word all but the squares
-/// fit in 32 bits, as 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
+/// Sums over taxels of a row; taxel number `i` has the pressure f. For one word, all sums but the squares fit
+/// in 32 bits, as 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Sums {
     /// sum f
@@ -15,17 +15,17 @@ pub(super) struct Sums {
     pub s1: u32,
     /// sum (i + 1)(i + 2) / 2 f
     pub s2: u32,
-    /// sum f^2, where no f is above [`NARROW`]; else modulo 2^32
+    /// sum f^2 if no f is above [`NARROW`]; else modulo 2^32
     pub squares: u32,
 }
 
 impl Sums {
-    /// Of no value.
+    /// Sums of no value.
     pub const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
 
-    /// Becomes those of at most [`WORD`] values; the greatest of them.
+    /// Becomes the sums of at most [`WORD`] values; returns the greatest value.
     #[cfg_attr(target_pointer_width = "64", inline)]
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for its loop
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
     pub fn take(&mut self, values: &[u16]) -> u16 {
         let (mut sums, mut greatest) = (Sums::NONE, 0);
         for value in values.iter().rev() {
@@ -33,7 +33,7 @@ impl Sums {
             if value > greatest {
                 greatest = value;
             }
-            // Three running sums, no multiplication by a coordinate for each taxel.
+            // Three running sums instead of a multiplication by a coordinate for each taxel.
             sums.s0 = sums.s0.wrapping_add(value);
             sums.s1 = sums.s1.wrapping_add(sums.s0);
             sums.s2 = sums.s2.wrapping_add(sums.s1);
@@ -43,11 +43,11 @@ impl Sums {
         greatest as u16
     }
 
-    /// Becomes those of the values that some bits name, of at most [`WORD`]: bit `i` for number `i`; the
-    /// greatest of them.
-    #[inline(never)] // the few registers of an M0+ are for its loop
+    /// Becomes the sums of the values whose bit is set, of at most [`WORD`]; bit `i` stands for value `i`.
+    /// Returns the greatest of them.
+    #[inline(never)] // M0+: out of line
     pub fn take_named(&mut self, values: &[u16], taxels: u32) -> u16 {
-        // The bit of the value that comes next is the highest.
+        // The highest bit belongs to the value that comes next.
         let mut taxels = taxels << u32::from(WORD).saturating_sub(values.len() as u32);
         let (mut sums, mut greatest) = (Sums::NONE, 0);
         for value in values.iter().rev() {
@@ -68,7 +68,7 @@ impl Sums {
     }
 }
 
-/// `sum f^2` of the values that bits name, where it may not fit in 32 bits.
+/// `sum f^2` of the values whose bit is set, for sums that may exceed 32 bits.
 #[cold]
 pub(super) fn squares(values: &[u16], taxels: u32) -> u64 {
     let squares = values.iter().map(|value| u64::from(*value).pow(2));
@@ -79,7 +79,7 @@ pub(super) fn squares(values: &[u16], taxels: u32) -> u64 {
 mod tests {
     use super::*;
 
-    /// Against the definition, and those that are not named are as if they were 0.
+    /// Compares with the definition; values without a bit count as 0.
     #[test]
     fn named_taxels_add_up_as_if_the_others_were_0() {
         let mut state = 5u32;

@@ -1,12 +1,12 @@
-//! Which taxels of a row are touched, as bits.
+//! Thresholds a row to bits.
 
 use bytemuck::pod_align_to;
 #[cfg(target_pointer_width = "64")]
 use wide::u16x16;
 
-/// Which of at most 32 values are not below a threshold, which is at least 1.
+/// Returns the bits of the values, at most 32, that are not below `low`, which is at least 1.
 #[cfg_attr(target_pointer_width = "64", inline(always))]
-#[cfg_attr(not(target_pointer_width = "64"), inline(never))] // the few registers of an M0+ are for its loop
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
 pub(super) fn touched(values: &[u16], low: u16) -> u32 {
     #[cfg(target_pointer_width = "64")]
     return touched_by_vectors(values, low);
@@ -14,15 +14,15 @@ pub(super) fn touched(values: &[u16], low: u16) -> u32 {
     touched_by_sums(values, low)
 }
 
-/// One after the other.
+/// One value after the other.
 #[cfg(any(test, not(target_pointer_width = "64")))]
 fn touched_by_sums(values: &[u16], low: u16) -> u32 {
-    // A sum carries into bit 16 from the threshold on, which costs less than a comparison.
+    // The sum carries into bit 16 if the value reaches the threshold; cheaper than a comparison.
     let rest = (1 << 16) - u32::from(low);
     values.iter().rev().fold(0, |taxels, value| taxels << 1 | (rest + u32::from(*value)) >> 16)
 }
 
-/// Sixteen at once.
+/// Sixteen values at once.
 #[cfg(target_pointer_width = "64")]
 #[inline(always)]
 fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
@@ -34,11 +34,11 @@ fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
     })
 }
 
-/// A row of sixteen taxels as it stands in memory: pairs of values.
+/// A row of sixteen taxels in memory: pairs of values.
 pub(super) type Sixteen = [u32; 8];
 
-/// The rows of a panel of sixteen columns; none if its values do not stand in pairs, or if the threshold has
-/// 16 bits.
+/// Returns the rows of a panel of sixteen columns; none if its values are not aligned to pairs, or if the
+/// threshold has 16 bits.
 pub(super) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
     match pod_align_to(values) {
         ([], pairs, []) if columns == 16 && low < 1 << 15 => pairs.as_chunks().0,
@@ -46,22 +46,24 @@ pub(super) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
     }
 }
 
-/// Which values of a row are not below a threshold of 15 bits.
-#[inline(never)] // the few registers of an M0+ are for this
+/// Returns the bits of the values of a row that are not below a threshold of 15 bits.
+#[inline(never)] // M0+: out of line
 pub(super) fn touched_of_sixteen([a, b, c, d, e, f, g, h]: &Sixteen, low: u16) -> u32 {
-    // Written out: a compiler would keep a loop.
+    // Unrolled by hand: the compiler would keep a loop.
     let low = u32::from(low) << 16 | u32::from(low);
     let four = two(two(two(two(0, *a, low), *b, low), *c, low), *d, low);
     two(two(two(two(four, *e, low), *f, low), *g, low), *h, low) >> 16
 }
 
-/// Puts two bits, which say whether the values of a pair are not below `low`, above those of the pairs
-/// before, which move down. Of eight pairs they fill the upper half; below them are others.
+/// Shifts the bits of earlier pairs down by two, and sets the two highest bits where the values of `pair` are
+/// not below `low`. After eight pairs, the upper half holds the bits of the row; the lower half is to be
+/// dropped.
 #[inline(always)]
 fn two(taxels: u32, pair: u32, low: u32) -> u32 {
     const HIGHEST: u32 = 1 << 31 | 1 << 15;
     let pair = u32::from_le(pair);
-    // The highest bit of a half stays where the others are not below; if a value has it, no threshold is above.
+    // SWAR compare: bit 15 of a half stays set if its other 15 bits are not below `low`. A value that has bit
+    // 15 itself is above any threshold of 15 bits.
     let high = ((pair | HIGHEST).wrapping_sub(low) | pair) & HIGHEST;
     taxels >> 2 | high | high << 15
 }

@@ -1,4 +1,4 @@
-//! Contacts over time: who goes on as whom.
+//! Track management: update, merge, split, release.
 
 use super::component::Component;
 use super::config::ContactConfig;
@@ -21,9 +21,9 @@ pub(super) struct Tracks<const CONTACTS: usize> {
     pub trails: Vec<Trail, CONTACTS>,
     moments: Vec<Moments, CONTACTS>,
     released: Vec<Contact, CONTACTS>,
-    /// How many frames old the form of each is; 255: at least so many.
+    /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
-    /// Whose turn it is to be looked at: the first of those who have it in this frame.
+    /// Index of the first contact whose form is measured in this frame.
     turn: usize,
     id: u32,
     pub clock: Clock,
@@ -67,14 +67,14 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         &self.ages
     }
 
-    /// Index of the contact that a component became.
+    /// Index of the contact that continues as `component`.
     pub fn index_of(&self, component: u16) -> Option<usize> {
         self.trails.iter().position(|trail| trail.component == component)
     }
 
-    /// Contacts that found no component, but whose last peak lies in one or beside it: they go on as it if
-    /// nobody else does, and where it is another's, whichever had the greater total; of equals the one that
-    /// is nearer.
+    /// Handles contacts that found no component. If the last peak of such a contact lies in a component or
+    /// beside it, the contact takes that component. If another contact has it already, the one with the
+    /// greater total keeps it, and if the totals are equal, the one that was matched by distance.
     pub fn merge<const RUNS: usize, const PARTS: usize>(
         &mut self,
         labels: &Labels<RUNS, PARTS>,
@@ -111,7 +111,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Brings all contacts up to date.
+    /// Updates all contacts: follows, releases and begins them.
     pub fn update<const RUNS: usize, const PARTS: usize>(
         &mut self,
         config: &ContactConfig,
@@ -136,7 +136,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 None => {
                     let duration_ms = now.millis_since(contact.onset);
                     let gone = Contact { phase: Phase::Released, total: 0, duration_ms, ..contact.clone() };
-                    // As many places as contacts.
+                    // Always room: as many places as contacts.
                     let _ = self.released.push(gone);
                 }
             }
@@ -163,8 +163,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Looks at the form of those that are new, and of as many of those that were `held` before them as are
-    /// asked for.
+    /// Measures the form of new contacts, and of as many of the `held` older ones as have their turn.
     fn look<const RUNS: usize, const PARTS: usize>(
         &mut self,
         held: usize,
@@ -178,7 +177,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
             let due = index.wrapping_sub(self.turn) < count || index >= held;
             trail.age = if due { 0 } else { trail.age.saturating_add(1) };
-            // As many places as contacts.
+            // Always room: as many places as contacts.
             let _ = self.ages.push(trail.age);
             let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
                 continue;
@@ -190,7 +189,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         }
     }
 
-    /// Components that a contact became.
+    /// Flags the components that are assigned to a contact.
     pub fn known(&self) -> [bool; CONTACTS] {
         let mut known = [false; CONTACTS];
         for trail in &self.trails {
@@ -201,7 +200,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         known
     }
 
-    /// Contacts of which a part begins a life of its own: it peaks where they were.
+    /// Marks the contacts that split: a new component peaks within their box.
     fn part(&mut self, config: &ContactConfig, components: &[Component], known: &[bool]) {
         for (index, component) in (0u16..).zip(components) {
             let Some(at) = component.peak_at.filter(|_| is_new(config, known, index, component)) else {
@@ -249,13 +248,13 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 }
 
-/// Whether a contact begins with a component. A faint one goes on as what it was, but begins nothing: it is a
-/// splinter of a contact that lifts.
+/// True if a new contact begins with a component. A faint component only continues a contact: it is a
+/// splinter of one that lifts.
 fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Component) -> bool {
     component.peak >= config.high && known.get(usize::from(index)) == Some(&false)
 }
 
-/// The contact that a place belongs to, or one of its eight neighbours in the panel.
+/// Returns the contact of a taxel or, if it has none, of one of its eight neighbours in the panel.
 fn beside<const RUNS: usize, const PARTS: usize>(
     labels: &Labels<RUNS, PARTS>,
     layout: &Layout,
@@ -270,7 +269,7 @@ fn beside<const RUNS: usize, const PARTS: usize>(
         .find_map(|(row, column)| labels.contact_at(area, row, column))
 }
 
-/// What the frame alone tells, but for the form.
+/// Copies the measures that need no history, without the form.
 fn describe(contact: &mut Contact, component: &Component) {
     contact.panel = component.bounds.panel;
     contact.total = component.total;

@@ -1,4 +1,4 @@
-//! What is remembered of a contact beside what is told, and how its motion follows from it.
+//! State of a track beside its public record, and the update of motion.
 
 use super::component::Component;
 use super::config::{ContactConfig, NO_SLIP};
@@ -10,22 +10,22 @@ use crate::condition::Image;
 use crate::format::{Fixed16, Inverse, Micros, signed_wide};
 use crate::garment::{Area, Layout, Transform};
 
-/// What is remembered of a contact.
+/// State of a track beside its [`Contact`].
 #[derive(Debug, Clone)]
 pub(super) struct Trail {
     /// Index of its component in this frame, or [`NONE`](super::part::NONE).
     pub component: u16,
-    /// It has merged or come apart in this frame: its centroid leaps, and that is no motion.
+    /// It has merged or split in this frame: the jump of its centroid is no motion.
     pub leaps: bool,
-    /// The greatest total with which its form was looked at.
+    /// Greatest total at which its form was measured.
     pub looked: u32,
-    /// Frames since its form was looked at; 255: at least so many.
+    /// Frames since its form was measured; saturates at 255.
     pub age: u8,
     pattern: Pattern,
     slip: Slip,
 }
 
-/// What the frame is.
+/// Per-frame inputs shared by all tracks.
 pub(super) struct Scenery<'a> {
     pub config: &'a ContactConfig,
     pub layout: &'a Layout,
@@ -38,8 +38,8 @@ impl Trail {
         Trail { component, leaps: false, looked: 0, age: 0, pattern: Pattern::new(), slip: Slip::new() }
     }
 
-    /// Carries a contact's way and velocity on to its component, of which the rest is still to be told.
-    #[inline(never)] // a stack frame of its own is near
+    /// Updates displacement, velocity and slip from the contact's component; the other measures follow later.
+    #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
         let Scenery { config, layout, image, pace } = scenery;
         let from = Point::of(contact.panel, contact.x, contact.y);
@@ -48,8 +48,8 @@ impl Trail {
             carry(contact, &way);
         }
         let step = [component.x.0.saturating_sub(contact.x.0), component.y.0.saturating_sub(contact.y.0)];
-        // Motion leaves the pressure as it is; what adds or takes a quarter of it at once, moves the centroid
-        // otherwise.
+        // Motion leaves the pressure as it is. A quarter more or less at once moves the centroid for another
+        // reason.
         let change = component.total.abs_diff(contact.total);
         let leaps = self.leaps || change > contact.total / 4;
         let step = if leaps { [0; 2] } else { step };
@@ -68,14 +68,13 @@ impl Trail {
         contact.dy = Fixed16(contact.dy.0.saturating_add(step[1]));
         contact.vx = pace.velocity(contact.vx, step[0]);
         contact.vy = pace.velocity(contact.vy, step[1]);
-        // Where the pressure rises or falls by a sixteenth, the outline does too, and its centroid wanders
-        // with it.
+        // If the pressure changes by more than a sixteenth, the outline changes too and moves the centroid.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
         let slides = |area| config.slip_speed != NO_SLIP && self.slips(contact, sliding, area, scenery);
         contact.slip = area.is_some_and(slides);
     }
 
-    /// A slip begins with its steps, and lasts as long as the contact is fast.
+    /// Returns true during a slip: it begins with three steps, and lasts as long as the contact is fast.
     fn slips(&mut self, contact: &Contact, step: Way, area: &Area, scenery: &Scenery) -> bool {
         let is_fast = || {
             let least = u64::from(area.taxels(scenery.config.slip_speed.into())).pow(2);
@@ -87,7 +86,7 @@ impl Trail {
     }
 }
 
-/// Takes what a contact has from one panel to another.
+/// Transforms position, displacement and velocity of a contact to another panel.
 fn carry(contact: &mut Contact, way: &Transform) {
     let carried = |x: &mut Fixed16, y: &mut Fixed16, one| {
         let moved = way.apply(x.0.into(), y.0.into(), one);
@@ -98,17 +97,17 @@ fn carry(contact: &mut Contact, way: &Transform) {
     carried(&mut contact.vx, &mut contact.vy, 0);
 }
 
-/// How a step becomes a velocity in this frame, and what counts as a slip.
+/// Coefficients of the velocity filter in this frame, and the limit of a slip.
 pub(super) struct Pace {
     /// Time constant, us; below 2^26.
     tau: u32,
-    /// Of `tau` and the time since the last frame; none where no time went by.
+    /// Inverse of `tau` plus the time since the last frame; none if no time has passed.
     inverse: Option<Inverse>,
-    /// Way of the slip speed in the time of [`SLIP_STEPS`] steps, in 2^-12 cm.
+    /// Distance at slip speed during [`SLIP_STEPS`] steps, in 2^-12 cm.
     limit: u32,
 }
 
-/// A longer way counts as 16 cm, 2^-12 cm: times the taxels in 10 mm it has 32 bits.
+/// Upper bound of that distance: 16 cm, in 2^-12 cm. Its product with the taxels in 10 mm fits in 32 bits.
 const LONGEST_WAY: u32 = 16 << 12;
 
 /// Times of the last frames.
@@ -125,7 +124,7 @@ impl Clock {
         self.0[0]
     }
 
-    /// A new frame.
+    /// Takes the time of a new frame, and derives its coefficients.
     pub fn tick(&mut self, config: &ContactConfig, now: Micros) -> Pace {
         let [last, second, third] = self.0;
         self.0 = [now, last, second];

@@ -9,7 +9,7 @@ use super::touched::touched;
 use core::ops::Range;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Appends the runs of a row, each of them as a piece, and weighs their parts.
+    /// Appends the runs of a row as one piece each, and adds their sums to their parts.
     pub(super) fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
         let here = self.pieces.len();
         let mut above = line.above;
@@ -28,9 +28,10 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line.above = here;
     }
 
-    /// Appends the runs of a word, given which pieces of the row above may touch them; the first that may
-    /// touch those of the next word. Both are in the order of their columns.
-    #[inline(never)] // the few registers are for its loop
+    /// Appends the runs of a word; `above` is the range of pieces in the row above that may touch them.
+    /// Returns the first of these that may touch runs of the next word. All pieces are in the order of their
+    /// columns.
+    #[inline(never)] // M0+: out of line
     fn scan_word(
         &mut self,
         all: u32,
@@ -40,7 +41,7 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line: &Line,
     ) -> usize {
         let Range { start: mut above, end: here } = above;
-        // The first may go on from the word before.
+        // The first run may continue one of the word before.
         let before = self.pieces.get(here..).and_then(<[Piece]>::last);
         let before = before.filter(|before| all & 1 == 1 && before.right.wrapping_add(1) == column);
         let mut part = before.map_or(NONE, |before| before.part);
@@ -63,13 +64,13 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
                         part => unite(&mut self.parts, piece.part, part),
                     };
                     if beyond >= end {
-                        // It may touch the next, too.
+                        // It may touch the next run, too.
                         break;
                     }
                 }
                 above += 1;
             }
-            // There are as many.
+            // Always: the word has as many values.
             let Some(values) = values.get(start.into()..(start + area).into()) else { break };
             let mut sums = Sums::NONE;
             let peak = sums.take(values);

@@ -1,21 +1,21 @@
-//! When a decision is announced: what leads on the edge of two classes does not flicker.
+//! When a decision is announced: a debounce, so that a touch between two classes does not flicker.
 
 use super::certainty::Certainty;
 use super::stage::Decision;
 use crate::format::Micros;
 
-/// What a decision must have to be announced.
+/// Conditions for the announcement of a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Demand {
-    /// The time for which the class has led in all decisions, us.
+    /// Time for which the class must have led in all decisions, us.
     pub onset_us: u64,
-    /// The lead that it takes to displace another class, Q18.
+    /// Lead that is needed to displace another class, Q18.
     pub lead: u32,
-    /// The confidence that it takes.
+    /// Confidence that is needed.
     pub certainty: Certainty,
 }
 
-/// What was announced of a touch, and what may follow it.
+/// The announced class of a touch, and the candidate to follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Announced {
     class: Option<u8>,
@@ -30,7 +30,7 @@ impl Default for Announced {
 }
 
 impl Announced {
-    /// Nothing yet.
+    /// State without an announcement.
     pub const fn new() -> Announced {
         Announced { class: None, candidate: u8::MAX, since: Micros(0) }
     }
@@ -40,7 +40,7 @@ impl Announced {
         self.class
     }
 
-    /// Takes a decision at `now`; the class, if it is announced with that.
+    /// Takes a decision at `now`. Returns the class if this decision is announced.
     pub fn take(&mut self, decision: &Decision, now: Micros, demand: &Demand) -> Option<u8> {
         let class = decision.class as u8;
         if class != self.candidate {
@@ -72,7 +72,7 @@ mod tests {
         };
         assert_eq!((take(2, 1, 0), take(2, 1, 199), take(2, 1, 200)), (None, None, Some(2)));
         assert_eq!(take(2, 1, 900), None, "it is announced already");
-        // To and fro within the time: nothing.
+        // A change back and forth within the onset time is not announced.
         for ms in (1000..3000).step_by(100) {
             assert_eq!(take(usize::from(ms % 200 == 0), 99, ms), None);
         }

@@ -1,18 +1,19 @@
-//! The rhythm of a touch: how much of the change of its total lies in which octave of time.
+//! Rhythm of a touch: the change of its total, by octaves of time.
 
 use super::log::log2;
 
-/// Octaves: time constants of 2 to 64 frames.
+/// Number of octaves: time constants of 2 to 64 frames.
 pub const BANDS: usize = 6;
 
-/// Fraction bits of a level: of a total of 22 bits.
+/// Fraction bits of a level: the total has 22 bits.
 const FRACTION: u32 = 8;
 
-/// A cascade of low-passes, each of the one before and of twice its time constant; between two lies an octave.
+/// Cascade of low-passes: each filters the output of the one before, at twice its time constant. The
+/// difference of the two is an octave.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bands {
     levels: [i32; BANDS],
-    /// Sums of what each low-pass takes away, Q4.
+    /// Sums of what each low-pass removes, Q4.
     sums: [u64; BANDS],
 }
 
@@ -23,13 +24,13 @@ impl Default for Bands {
 }
 
 impl Bands {
-    /// No frame yet.
+    /// State before the first frame.
     pub const fn new() -> Bands {
         Bands { levels: [0; BANDS], sums: [0; BANDS] }
     }
 
-    /// Adds the total of a frame, less than 2^22; `frame` is its number, from 0. Before the first the total
-    /// was the same.
+    /// Adds the total of a frame, less than 2^22; `frame` is its number, from 0. The first total counts as
+    /// that of all frames before.
     pub fn add(&mut self, total: u32, frame: u32) {
         let mut input = (total << FRACTION) as i32;
         if frame == 0 {
@@ -42,7 +43,7 @@ impl Bands {
         }
     }
 
-    /// For each octave, the fastest first, how far it is below the strongest: log2, Q8.
+    /// Ratio of the strongest octave to each octave, the fastest first: log2, Q8.
     pub fn features(&self) -> [u16; BANDS] {
         let logs = self.sums.map(log2);
         let most = logs.into_iter().max().unwrap_or(0);

@@ -1,16 +1,16 @@
-//! A sheet of any size as eight by eight cells.
+//! Reduction of a sheet of any size to eight by eight cells.
 
-/// Cells on a side.
+/// Number of cells on a side.
 pub const SIDE: usize = 8;
 
-/// Cells of a sheet.
+/// Number of cells of a sheet.
 pub const CELLS: usize = SIDE * SIDE;
 
-/// A frame of a sheet in cells, row after row. Each is the sum of its taxels, halved as often as it takes for
-/// eight taxels' worth to be the most; 65,535 at most.
+/// A frame of a sheet in cells, row after row. A cell is the sum of its taxels, halved as often as needed to
+/// stay within the sum of eight taxels; at most 65,535.
 pub type Cells = [u16; CELLS];
 
-/// How a sheet of rows and columns becomes cells. A side shorter than eight leaves cells empty.
+/// Mapping of a sheet of rows and columns to cells. A side shorter than eight leaves cells empty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sheet {
     rows: u16,
@@ -21,19 +21,20 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet of that many rows and columns.
+    /// Mapping of a sheet of that many rows and columns.
     pub const fn new(rows: u16, columns: u16) -> Sheet {
         let most = rows.div_ceil(SIDE as u16) as u32 * columns.div_ceil(SIDE as u16) as u32;
         let shift = if most > 8 { most.div_ceil(8).next_power_of_two().trailing_zeros() } else { 0 };
         Sheet { rows, columns, shift, gain: 256 }
     }
 
-    /// With cells times `gain`, Q8, at most 4096 (16.0).
+    /// Multiplies the cells by `gain`, Q8, at most 4096 (16.0).
     pub fn with_gain(self, gain: u16) -> Sheet {
         Sheet { gain: u32::from(gain.min(4096)), ..self }
     }
 
-    /// The cells of an image of rows of pressures; what is missing is 0, what is beyond is passed over.
+    /// Returns the cells of an image of rows of pressures. Missing values are 0, values beyond the sheet are
+    /// ignored.
     pub fn cells(&self, image: &[u16]) -> Cells {
         let mut cells = [0; CELLS];
         let rows = image.chunks(usize::from(self.columns).max(1)).zip(Side::new(self.rows));
@@ -44,13 +45,13 @@ impl Sheet {
                 }
             }
         }
-        // A cell holds eight taxels' worth: 19 bits.
+        // A cell holds at most eight taxels' worth: 19 bits.
         cells.map(|sum| (((sum >> self.shift) * self.gain) >> 8).min(u16::MAX.into()) as u16)
     }
 }
 
-/// For each taxel of a side the cell in which it lies, without a division: the cell advances as its share
-/// fills.
+/// Index of the cell of each taxel along a side. Without a division: the index advances whenever a cell's
+/// share is full.
 struct Side {
     size: usize,
     share: usize,

@@ -1,13 +1,13 @@
-//! How sure a decision must be to be announced.
+//! Confidence that a decision needs to be announced.
 
 use crate::format::{Invalid, Q15};
 
-/// Confidence that an announcement takes; 0 at first. What never gets so sure is told at the end of the touch.
+/// Confidence that an announcement needs; 0 by default. A touch that never reaches it is reported at its end.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Certainty(Q15);
 
 impl Certainty {
-    /// Of thousandths, at most 999.
+    /// From thousandths, at most 999. Error if there are more.
     pub const fn of(thousandths: u16) -> Result<Certainty, Invalid> {
         if thousandths > 999 {
             return Err(Invalid { parameter: "gestures.certainty", must: "must be at most 999 (0.999)" });
@@ -15,7 +15,7 @@ impl Certainty {
         Ok(Certainty(Q15::ratio(thousandths as u64, 1000)))
     }
 
-    /// Whether a decision is sure enough; one without a confidence is not sure at all.
+    /// True if a decision has enough confidence; an unknown confidence counts as 0.
     pub fn allows(self, confidence: Option<Q15>) -> bool {
         confidence.unwrap_or_default() >= self.0
     }

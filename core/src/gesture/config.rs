@@ -1,11 +1,11 @@
-//! Which model recognises the touches of a garment, and how its decisions are announced.
+//! Settings of the recognition of touches, and the models that come with the program.
 
 use super::model::{Model, ModelError};
 use crate::format::Invalid;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// A model that comes with the program; `docs/models.md` holds their cards. Variants are only appended.
+/// A model that comes with the program; `docs/models.md` has the model cards. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shipped {
@@ -17,7 +17,7 @@ pub enum Shipped {
 }
 
 impl Shipped {
-    /// The bytes of the model's file.
+    /// Bytes of the model's file.
     pub const fn bytes(self) -> &'static [u8] {
         match self {
             Shipped::Gestures => include_bytes!("../../models/gestures.model"),
@@ -26,24 +26,25 @@ impl Shipped {
     }
 }
 
-/// How touches are recognised.
+/// Settings of the recognition of touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GestureConfig {
     /// The model.
     pub model: Shipped,
-    /// Frames a second that the model is shown, as many as it was trained with, 1 ..= 200.
+    /// Frames a second that the model gets, equal to the rate of its training; 1 ..= 200.
     pub rate_hz: u16,
-    /// Counts of the model's sheet per count of the garment, Q8: 1 ..= 4096 (16.0). Levels are features.
+    /// Counts of the model's sheet per count of the garment, Q8: 1 ..= 4096 (16.0). Needed because levels are
+    /// features.
     pub gain: u16,
-    /// A panel that nothing touches for so long, in ms, has been let go.
+    /// Time without contact on the panel after which the touch has ended, ms.
     pub quiet_ms: u16,
-    /// Time between two decisions, ms, at least 50.
+    /// Time between two decisions, ms; at least 50.
     pub decide_ms: u16,
     /// Time that a class must lead before it is announced, ms.
     pub onset_ms: u16,
-    /// Lead over the second that another class needs to take the place of the announced one, in thousandths of
-    /// a score: a model is fitted to score 1 for what a touch is, and -1 for the others.
+    /// Lead over the second class that another class needs to displace the announced one, in thousandths of a
+    /// score. A model is fitted to score 1 for the class of a touch, and -1 for the others.
     pub lead: u16,
 }
 
@@ -61,12 +62,12 @@ impl Default for GestureConfig {
     }
 }
 
-/// Why touches cannot be recognised like that.
+/// Why settings are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GestureError {
     /// A parameter is out of its range.
     Invalid(Invalid),
-    /// The model is wrong.
+    /// The model cannot be read.
     Model(ModelError),
 }
 
@@ -94,12 +95,12 @@ impl From<ModelError> for GestureError {
 }
 
 impl GestureConfig {
-    /// The usual settings for a model.
+    /// The default settings for a model.
     pub fn of(model: Shipped) -> GestureConfig {
         GestureConfig { model, ..GestureConfig::default() }
     }
 
-    /// Checks the settings, and the model, which it gives.
+    /// Checks the settings and the model; returns the model.
     pub(super) fn check(&self) -> Result<Model<'static>, GestureError> {
         let refuse = |parameter, must| Err(Invalid { parameter, must }.into());
         if !(1..=200).contains(&self.rate_hz) {

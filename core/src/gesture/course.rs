@@ -1,22 +1,21 @@
-//! How one number of the frames ran.
+//! Statistics of one signal over the frames of a touch.
 
 use super::histogram::Histogram;
 use super::log::log2;
 use crate::format::{product, wide};
 
-/// The distances in time, in frames, over which change is measured. What changes fast changes over few frames
-/// already.
+/// Lags over which change is measured, frames. A fast signal changes within short lags already.
 pub const LAGS: [u8; 6] = [1, 2, 4, 8, 16, 32];
 
-/// Features of a course.
+/// Number of features of a course.
 pub const COURSE: usize = 6 + LAGS.len();
 
-/// Sums over the frames of a touch, of values in 0 ..= 4095.
+/// Sums over the frames of a touch, for values in 0 ..= 4095.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
     squares: u64,
     sum: u32,
-    /// Sum of the value times the number of its frame, from 0.
+    /// Sum of the value times its frame number, from 0.
     moment: u32,
     least: u16,
     most: u16,
@@ -32,14 +31,14 @@ impl Default for Course {
 }
 
 impl Course {
-    /// No frame yet.
+    /// State before the first frame.
     pub const fn new() -> Course {
         let changes = [0; LAGS.len()];
         Course { squares: 0, sum: 0, moment: 0, least: u16::MAX, most: 0, changes, spread: Histogram::new() }
     }
 
-    /// Adds the value of a frame, at most 4095. `frame` is its number, from 0; `back` are the values as many
-    /// frames before as [`LAGS`] says, of which those count that there were.
+    /// Adds the value of a frame, at most 4095. `frame` is its number, from 0. `back` gives the values
+    /// [`LAGS`] frames ago; those before the first frame are ignored.
     pub fn add(&mut self, value: u16, frame: u32, back: impl Iterator<Item = u16>) {
         let wide = u32::from(value);
         self.least = self.least.min(value);
@@ -55,15 +54,15 @@ impl Course {
         self.spread.add(value);
     }
 
-    /// The features of the `frames` so far, at least one and at most [`LONGEST`](super::LONGEST): mean, log2
-    /// of the variance (Q8), least and greatest value, trend (about 4096), median, log2 of the mean change
-    /// over each lag (Q8).
+    /// Returns the features of the `frames` so far, at least one and at most [`LONGEST`](super::LONGEST):
+    /// mean, log2 of the variance (Q8), least and greatest value, trend (offset 4096), median, log2 of the
+    /// mean change over each lag (Q8).
     pub fn features(&self, frames: u32) -> [u16; COURSE] {
         let count = frames.max(1);
         let variance = product(count.into(), self.squares).saturating_sub(wide(self.sum, self.sum));
         let log = log2(variance).saturating_sub(2 * log2(u64::from(count) - 1));
-        // The mean of value times time about the middle, of which the whole change of a straight line is six
-        // times. Both products are below 2^32 for values below 2^12 and times of up to 2^10.
+        // The mean of value times time about the middle: for a straight line, a sixth of its whole change.
+        // Both products are below 2^32 for values below 2^12 and times of up to 2^10.
         let (twice, middle) = (self.moment.wrapping_mul(2), self.sum.wrapping_mul(count - 1));
         let lean = (twice.abs_diff(middle) >> 8) / ((count * count) >> 8).max(1);
         let trend = if twice < middle { 4096u32.saturating_sub(lean) } else { lean.saturating_add(4096) };

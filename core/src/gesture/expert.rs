@@ -1,22 +1,22 @@
-//! One of a model's experts: the linear classifier of touches from an age on, and how sure it is.
+//! An expert of a model: the linear classifier of touches from an age on, and its table of confidence.
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 2 | the age from which it speaks, frames |
-//! | 2 | features that are used |
-//! | 2 | rows of the table of confidence |
+//! | 2 | age from which it is used, frames |
+//! | 2 | number of features it uses |
+//! | 2 | number of rows of the table of confidence |
 //! | 4 each | offsets of the classes, Q18, signed |
 //! | 6 + 2 c each | a feature: its index, its middle, its scale (65,536 / deviation), its weights, Q10, signed |
-//! | 20 each | a row: the age from which it holds, the confidence at leads of 0, 1/4 ..= 2, Q15 |
+//! | 20 each | a row: age from which it holds, confidence at leads of 0, 1/4 ..= 2, Q15 |
 
 use super::model::{LIMIT, ModelError, Scores};
 use super::state::{FEATURES, Features};
 use crate::format::Q15;
 
-/// Leads for which a row tells the confidence.
+/// Number of leads in a row of the table of confidence.
 pub const LEADS: usize = 9;
 
-/// Bits of the distance between two such leads, Q18: a quarter.
+/// Distance between two such leads as a power of two, Q18: a quarter.
 const STEP: u32 = 16;
 
 /// Bytes of a row.
@@ -31,7 +31,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// Of a model of version 2, which has one expert and knows no confidence.
+    /// Head of a model of version 2, which has one expert and no table of confidence.
     pub fn alone(features: u16) -> Head {
         Head { from: 0, features, rows: 0 }
     }
@@ -55,11 +55,11 @@ pub struct Expert<'a> {
 }
 
 impl<'a> Expert<'a> {
-    /// No classes, no features.
+    /// An expert without classes and features.
     pub(super) const NONE: Expert<'static> =
         Expert { from: 0, classes: 0, offsets: &[], features: &[], rows: &[] };
 
-    /// Splits what a head promises from what follows.
+    /// Splits the parts that the head announces from the bytes that follow.
     pub(super) fn split(head: Head, classes: u8, bytes: &'a [u8]) -> Option<(Expert<'a>, &'a [u8])> {
         let count = usize::from(classes);
         let (offsets, rest) = bytes.split_at_checked(4 * count)?;
@@ -68,7 +68,7 @@ impl<'a> Expert<'a> {
         Some((Expert { from: head.from, classes, offsets, features, rows }, rest))
     }
 
-    /// Refuses features out of order and weights whose sum may overflow.
+    /// Error if features are out of order or if the sum of the weights may overflow.
     pub(super) fn check(&self) -> Result<(), ModelError> {
         let mut next = 0;
         for (place, feature) in self.used().enumerate() {
@@ -89,12 +89,12 @@ impl<'a> Expert<'a> {
         })
     }
 
-    /// The age from which it speaks, frames.
+    /// Age from which it is used, frames.
     pub fn from(&self) -> u16 {
         self.from
     }
 
-    /// What each class scores for the features of a touch.
+    /// Returns the score of each class for the features of a touch.
     pub fn scores(&self, features: &Features) -> Scores {
         let mut scores: Scores = core::array::from_fn(|class| self.offset(class));
         for used in self.used() {
@@ -108,8 +108,8 @@ impl<'a> Expert<'a> {
         scores
     }
 
-    /// The share of touches of that age that are what is taken to lead by so much (Q18); none: the model does
-    /// not know.
+    /// Returns the confidence of a decision with this lead (Q18) at this age: the share of such touches that
+    /// are classified correctly. None if the model has no table.
     pub fn confidence(&self, lead: u32, frames: u32) -> Option<Q15> {
         let rows = || self.rows.chunks_exact(ROW).filter_map(|row| row.split_first_chunk::<2>());
         let old = rows().take_while(|(from, _)| u32::from(u16::from_le_bytes(**from)) <= frames).last();
@@ -123,7 +123,7 @@ impl<'a> Expert<'a> {
         Some(Q15(low + (((high - low) * within) >> 14)))
     }
 
-    /// Mean and standard deviation of a feature in training; none: it is not used.
+    /// Mean and standard deviation of a feature in training; none if it is not used.
     pub fn known(&self, index: usize) -> Option<(u16, u16)> {
         let used = self.used().find(|used| usize::from(used.index) == index)?;
         Some((used.middle, u16::MAX.checked_div(used.scale).unwrap_or(u16::MAX)))
@@ -143,7 +143,7 @@ impl<'a> Expert<'a> {
     }
 }
 
-/// A feature that is used.
+/// A feature that the expert uses.
 struct Used<'a> {
     index: u16,
     middle: u16,

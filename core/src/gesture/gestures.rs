@@ -1,4 +1,4 @@
-//! What goes on on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
+//! Recognition on a garment: the touch of one panel at a time, shown to the model at the model's own rate.
 
 use super::announce::{Announced, Demand};
 use super::certainty::Certainty;
@@ -22,42 +22,42 @@ pub struct Gestures {
     period_us: u32,
 }
 
-/// A touch of a garment so far.
+/// State of the present touch of a garment.
 #[derive(Debug, Clone)]
 pub struct GestureState {
     touch: TouchState,
     /// Number of the touch, from 1.
     number: u32,
-    /// Index of its panel; none: nobody touches.
+    /// Index of its panel; none without a touch.
     panel: Option<u8>,
     began: Micros,
-    /// Something touched the panel last.
+    /// Last time at which something touched the panel.
     touched: Micros,
-    /// The model is shown the first frame from then on.
+    /// Time from which the next frame is shown to the model.
     next: Micros,
-    /// The next decision.
+    /// Time of the next decision.
     due: Micros,
     announced: Announced,
 }
 
-/// What a touch is taken for.
+/// Classification of a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Gesture {
     /// Number of the touch, from 1.
     pub touch: u32,
     /// Index of its panel.
     pub panel: u8,
-    /// Class of the model.
+    /// Index of the class in the model.
     pub class: u8,
-    /// What the class scores, Q18.
+    /// Score of the class, Q18.
     pub score: i32,
-    /// By how much it scores more than the second, Q18.
+    /// Lead over the score of the second class, Q18.
     pub lead: u32,
-    /// The share of such touches that are of that class; none: the model does not know.
+    /// Share of such touches that are of that class; none if the model does not know.
     pub confidence: Option<Q15>,
-    /// For how long the touch was observed, ms.
+    /// Time for which the touch was observed, ms.
     pub observed_ms: u32,
-    /// The touch is over.
+    /// True if the touch is over.
     pub ended: bool,
 }
 
@@ -68,7 +68,7 @@ impl Default for GestureState {
 }
 
 impl GestureState {
-    /// Nobody has touched yet.
+    /// State before the first touch.
     pub const fn new() -> GestureState {
         GestureState {
             touch: TouchState::new(),
@@ -82,14 +82,14 @@ impl GestureState {
         }
     }
 
-    /// Nobody touches; touches are counted on.
+    /// Drops the present touch; numbers go on.
     pub fn forget(&mut self) {
         self.panel = None;
     }
 }
 
 impl Gestures {
-    /// Checks settings and prepares them.
+    /// Checks the settings and loads the model.
     pub fn build(config: &GestureConfig) -> Result<Gestures, GestureError> {
         let model = config.check()?;
         let period_us = 1_000_000 / NonZeroU32::new(config.rate_hz.into()).unwrap_or(NonZeroU32::MIN);
@@ -106,10 +106,10 @@ impl Gestures {
         self.model.name(class.into()).unwrap_or_default()
     }
 
-    /// Takes the frame of time `now` with the panels and totals of the contacts that are `present`; what is
-    /// new about the touch. A touch begins on the panel of the contact with the greatest total and has that
-    /// panel alone; it ends when nothing has touched the panel for a while. While it goes on, an announcement
-    /// takes that certainty.
+    /// Takes the frame of time `now`; `present` gives the panel and the total of each contact. Returns a new
+    /// announcement or the end of the touch. A touch begins on the panel of the contact with the greatest
+    /// total and covers that panel alone; it ends when nothing has touched the panel for a while. An
+    /// announcement before the end needs the confidence `certainty`.
     pub fn process(
         &self,
         state: &mut GestureState,
@@ -136,7 +136,7 @@ impl Gestures {
         if now < state.next {
             return None;
         }
-        // Frames that come too seldom for the model's rate are all shown, and none twice.
+        // If frames come more slowly than the model's rate, each is shown once.
         state.next = Micros(state.next.0.saturating_add(self.period_us.into()).max(now.0));
         let touches = self.touches(area);
         let start = usize::from(area.base);
@@ -164,7 +164,7 @@ impl Gestures {
         }
     }
 
-    /// A decision later than `now`.
+    /// Time of the decision after `now`.
     fn later(&self, now: Micros) -> Micros {
         Micros(now.0.saturating_add(1000 * u64::from(self.config.decide_ms)))
     }
@@ -178,8 +178,8 @@ impl Gestures {
         state.announced = Announced::new();
     }
 
-    /// The touch as a whole. It ended when something touched last: what was quiet since then is not observed,
-    /// but the model has seen it, as it has in training.
+    /// Concludes the touch. It ended with the last contact: the quiet time since then is not part of
+    /// `observed_ms`, but the model has seen it, as in training.
     fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
         let decision = self.touches(area).conclude(&state.touch);
         let panel = state.panel.take().unwrap_or_default();
@@ -210,10 +210,10 @@ mod tests {
     use crate::gesture::{Sheet, Shipped};
     use std::vec::Vec;
 
-    /// 195 frames a second.
+    /// Frames at 195 a second.
     const SCAN_US: u64 = 5_128;
 
-    /// A garment of two panels and what is shown on them.
+    /// A garment of two panels and its image.
     struct Shown {
         layout: Layout,
         stage: Gestures,
@@ -229,7 +229,8 @@ mod tests {
             Shown { layout, stage: Gestures::build(&config).unwrap(), state: GestureState::new(), frame: 0 }
         }
 
-        /// A hand, 16 by 8 taxels, at a column of a panel, with this pressure; nothing where it is 0.
+        /// Shows a hand of 16 by 8 taxels with this pressure, from a column of a panel on; shows nothing at
+        /// 0.
         fn show(&mut self, panel: u8, column: usize, pressure: u16) -> Option<Gesture> {
             let mut values = [0; 2048];
             let base = usize::from(self.layout.areas()[usize::from(panel)].base);
@@ -254,7 +255,7 @@ mod tests {
         }
     }
 
-    /// 0.2 s of five in 0.5 s.
+    /// Contact for 0.2 s of every 0.5 s, five times.
     fn pats(frame: u64) -> (usize, u16) {
         (4, if frame % 98 < 39 { 60 } else { 0 })
     }
@@ -283,7 +284,7 @@ mod tests {
             (config.decide_ms, config.onset_ms, config.lead, config.gain) = (50, 0, 0, 512)
         });
         let told = shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
-        // The same, frame by frame, without a garment: every frame from 1/54 s to 1/54 s.
+        // The same frames without a garment, one every 1/54 s.
         let model = Model::read(Shipped::Gestures.bytes()).unwrap();
         let (touches, mut state) = (Touches::new(model, 32, 16), TouchState::new());
         let (mut next, mut decisions) = (SCAN_US as f64, Vec::new());

@@ -1,20 +1,20 @@
-//! What each cell of the sheet felt.
+//! Statistics of each cell of the sheet over the frames of a touch.
 
 use super::cells::{CELLS, Cells};
 use super::histogram::Histogram;
 use super::log::log2;
 use crate::format::{product, wide};
 
-/// Features of a grid.
+/// Number of features of a grid.
 pub const GRID: usize = 4 * RANKED;
 
-/// Features of one kind of sums.
+/// Number of features of one kind of sums.
 const RANKED: usize = SHARES.len() + 1;
 
-/// Of 256: the shares of the cells below the ranks that are features; more of the high ones.
+/// Percentiles of the cells that are features, in 256ths; denser towards the top.
 const SHARES: [u16; 4] = [0, 172, 232, 252];
 
-/// Sums of each cell.
+/// Sums of each cell over the frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grid {
     cells: [Cell; CELLS],
@@ -35,12 +35,12 @@ impl Default for Grid {
 }
 
 impl Grid {
-    /// No frame yet.
+    /// State before the first frame.
     pub const fn new() -> Grid {
         Grid { cells: [Cell { squares: 0, sum: 0, change: 0, most: 0 }; CELLS] }
     }
 
-    /// Adds a frame after that of `before`, which for the first is itself.
+    /// Adds a frame that follows `before`; for the first frame both are the same.
     pub fn add(&mut self, now: &Cells, before: &Cells) {
         for ((cell, now), before) in self.cells.iter_mut().zip(now).zip(before) {
             let value = u32::from(*now);
@@ -51,8 +51,9 @@ impl Grid {
         }
     }
 
-    /// The features of the `frames` so far, for mean, variance, greatest value and change of the cells each:
-    /// log2 (Q8) of its ranks among the cells, and log2 (Q8) of the number of cells that share in it.
+    /// Returns the features of the `frames` so far. For each of mean, variance, greatest value and change of
+    /// the cells: log2 (Q8) of percentiles among the cells, and log2 (Q8) of the number of cells that share
+    /// in it.
     pub fn features(&self, frames: u32) -> [u16; GRID] {
         let count = u64::from(frames.max(1));
         let log = log2(count - 1);
@@ -74,7 +75,7 @@ impl Grid {
         for cell in &self.cells {
             let value = value(cell);
             ranks.add(log2(value).saturating_sub(scale));
-            // Variances have 50 bits; their squares, and the sum of these, shall fit, too.
+            // Variances have 50 bits: scaled down, so that their squares and the sum of these fit.
             let small = (value >> 8).min(u32::MAX.into()) as u32;
             sum = sum.wrapping_add(small.into());
             let square = if small >> 16 == 0 { (small * small).into() } else { wide(small, small) };

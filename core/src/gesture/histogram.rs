@@ -1,9 +1,9 @@
-//! Percentiles without keeping the values.
+//! Percentiles by a histogram, without keeping the values.
 
-/// Bins of a histogram.
+/// Number of bins of a histogram.
 const BINS: usize = 64;
 
-/// How often values were seen, in bins of `1 << SHIFT`; greater values fall into the last.
+/// Counts of values in bins of `1 << SHIFT`; greater values fall into the last bin.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Histogram<const SHIFT: u32> {
     bins: [u16; BINS],
@@ -16,7 +16,7 @@ impl<const SHIFT: u32> Default for Histogram<SHIFT> {
 }
 
 impl<const SHIFT: u32> Histogram<SHIFT> {
-    /// Nothing was seen yet.
+    /// Empty histogram.
     pub const fn new() -> Histogram<SHIFT> {
         Histogram { bins: [0; BINS] }
     }
@@ -28,8 +28,8 @@ impl<const SHIFT: u32> Histogram<SHIFT> {
         }
     }
 
-    /// The values below which the `shares` of 256 lie, which ascend, of `count` values: within their bin as
-    /// if these lay evenly in it.
+    /// Returns the percentiles of `count` values at `shares`, in 256ths and ascending. Values of a bin count
+    /// as evenly spread in it.
     pub fn percentiles<const N: usize>(&self, shares: &[u16; N], count: u32) -> [u16; N] {
         let mut bins = self.bins.iter().enumerate();
         let (mut below, mut bin, mut held) = (0u32, 0u32, 0u32);

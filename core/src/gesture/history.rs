@@ -1,16 +1,16 @@
-//! The numbers of the last frames.
+//! Signals of the last frames.
 
 use super::course::LAGS;
 use super::signal::{SIGNALS, Signals};
 
-/// Frames that are kept: the longest lag.
+/// Number of frames that are kept: the longest lag.
 const KEPT: usize = 32;
 
-/// A ring of the last frames' numbers.
+/// A ring of the last frames' signals.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct History {
     ring: [Signals; KEPT],
-    /// Where the next is written.
+    /// Index at which the next is written.
     next: usize,
 }
 
@@ -21,12 +21,12 @@ impl Default for History {
 }
 
 impl History {
-    /// Nothing was told yet.
+    /// Ring of zeros.
     pub const fn new() -> History {
         History { ring: [[0; SIGNALS]; KEPT], next: 0 }
     }
 
-    /// Adds the numbers of a frame.
+    /// Adds the signals of a frame.
     pub fn push(&mut self, signals: &Signals) {
         if let Some(place) = self.ring.get_mut(self.next) {
             *place = *signals;
@@ -34,7 +34,7 @@ impl History {
         self.next = (self.next + 1) % KEPT;
     }
 
-    /// The number `index` of the frames as many before the next as [`LAGS`] says.
+    /// Values of signal `index` as many frames before the next as [`LAGS`] gives.
     pub fn back(&self, index: usize) -> impl Iterator<Item = u16> {
         LAGS.into_iter().map(move |lag| {
             let place = (self.next + KEPT - usize::from(lag)) % KEPT;

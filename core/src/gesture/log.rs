@@ -1,28 +1,28 @@
 //! The binary logarithm in sixteen bits.
 
-/// log2(1 + value) in Q8, at most 16,384; 3 units off at most.
+/// Returns log2(1 + value) in Q8, at most 16,384; 3 units off at most.
 ///
-/// The logarithm of the mantissa is f + 0.3465 f (1 - f), which is right at 0, 1 and nearly so at 1/2.
+/// The logarithm of the mantissa 1 + f is f + 0.3465 f (1 - f): exact at f = 0 and 1, and nearly so at 1/2.
 #[inline]
 pub const fn log2(value: u64) -> u16 {
-    // In words of 32 bits, which a Cortex-M0+ shifts by as much as it likes.
+    // In 32-bit words, which a Cortex-M0+ shifts by any distance in one instruction.
     if value < u32::MAX as u64 { of_word(value as u32 + 1) } else { of_words(value.saturating_add(1)) }
 }
 
-/// The same of a word that is not 0.
+/// Returns log2 in Q8 of a word that is not 0.
 const fn of_word(above: u32) -> u16 {
     let zeros = above.leading_zeros();
     of(above << zeros, 31 - zeros)
 }
 
-/// The same of more than a word.
+/// Returns log2 in Q8 of a value of more than a word.
 const fn of_words(above: u64) -> u16 {
     let (high, low) = ((above >> 32) as u32, above as u32);
     let zeros = high.leading_zeros();
     of(high << zeros | (low >> 1) >> (31 - zeros), 63 - zeros)
 }
 
-/// The same of a mantissa whose first bit is set.
+/// Returns log2 in Q8 of `top * 2^(exponent - 31)`, where bit 31 of `top` is set.
 const fn of(top: u32, exponent: u32) -> u16 {
     let fraction = (top << 1) >> 16;
     let bend = ((fraction >> 4) * ((65_536 - fraction) >> 4)) >> 8;

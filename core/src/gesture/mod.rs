@@ -1,18 +1,18 @@
-//! Touch over time: what a touch is by how it goes on, recognised by a model that was trained on recordings.
+//! Touch over time: recognition of touches by a model that was trained on recordings.
 //!
-//! Each frame of a sheet of any size becomes eight by eight cells, these eight numbers; of each number, and of
-//! the cells, sums are kept while the touch goes on, from which 127 features follow: levels, rise and fall,
-//! change over six lags, how the cells share in that, how neighbours change together, and the octaves of its
-//! rhythm. A linear expert for touches of that age scores the classes, and a table of its leads tells how sure
-//! that is.
+//! Each frame of a sheet of any size becomes eight by eight cells, and the cells become eight signals. While
+//! the touch goes on, sums of each signal and of the cells are kept, from which 127 features follow: levels,
+//! rise and fall, change over six lags, the share of the cells in it, correlation of neighbours' changes, and
+//! the octaves of the touch's rhythm. A linear expert for touches of that age scores the classes, and its
+//! table gives the confidence for the lead of the best class.
 //!
 //! | | |
 //! |---|---|
 //! | input | images of rows of pressures, `u16` |
 //! | output | [`Decision`]: class, scores in Q18, confidence in Q15 |
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
-//! | latency | none: a decision can be had after every frame; a touch begins anew after [`LONGEST`] frames |
-//! | on a garment | [`Gestures`]: the panel that is touched becomes the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, a decision is announced when it has lasted |
+//! | latency | none: a decision is available after every frame; the sums start again after [`LONGEST`] frames |
+//! | on a garment | [`Gestures`]: the touched panel is mapped to the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, and a decision is announced once it has lasted |
 //! | RAM | [`TouchState`], at most 4 KiB |
 //! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.6 KB |
 

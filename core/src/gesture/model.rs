@@ -5,56 +5,57 @@
 //! |---|---|
 //! | 8 | `taxel-t` and the version, 3 |
 //! | 4 | length of the notes |
-//! | n | notes: the provenance as JSON, which the board passes over |
-//! | 2 | classes, 2 ..= 8 |
-//! | 2 | experts, 1 ..= 3 |
+//! | n | notes: the provenance as JSON, which the board skips |
+//! | 2 | number of classes, 2 ..= 8 |
+//! | 2 | number of experts, 1 ..= 3 |
 //! | 2 | a cell above this counts as touched |
-//! | 2 | 1: the last expert tells what a touch was, whatever its age; 0: the one of its age |
+//! | 2 | 1: the last expert classifies a finished touch, whatever its age; 0: the expert of its age does |
 //! | 16 each | names of the classes, padded with zeros |
 //! | | the experts, by age: see `expert.rs` |
-//! | 4 | CRC-32 of all before |
+//! | 4 | CRC-32 of all bytes before |
 //!
-//! All numbers are little-endian. Version 2, which is still read, has one expert: instead of the number of
-//! experts stands that of its features, and head, rows and the word on the last expert are missing.
+//! All numbers are little-endian. Version 2 can still be read. It has one expert: the field of the number of
+//! experts holds the number of its features, and the head, the rows, and the field on the last expert are
+//! missing.
 
 use super::expert::{Expert, Head};
 use super::state::FEATURES;
 use crate::format::{Name, name};
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
-/// Most classes of a model.
+/// Greatest number of classes of a model.
 pub const CLASSES: usize = 8;
 
-/// Most bytes of a model.
+/// Greatest number of bytes of a model.
 pub const LARGEST: usize = 48 << 10;
 
-/// Most experts of a model.
+/// Greatest number of experts of a model.
 pub const EXPERTS: usize = 3;
 
-/// How a model begins; the last byte is the version.
+/// First bytes of a model; the last of them is the version.
 pub const MAGIC: [u8; 8] = *b"taxel-t\x03";
 
-/// How a model of the version before begins.
+/// First bytes of a model of the previous version.
 const BEFORE: [u8; 8] = *b"taxel-t\x02";
 
-/// A feature lies within 2.5 deviations of its middle, Q8; what is beyond counts as that.
+/// Greatest distance of a feature from its middle: 2.5 deviations, Q8. Values beyond are clamped.
 pub const LIMIT: i32 = 640;
 
-/// What each class scores, Q18; classes that the model does not have score 0.
+/// Scores of the classes, Q18; 0 for classes that the model does not have.
 pub type Scores = [i32; CLASSES];
 
-/// Why bytes are no model.
+/// Error of a file that is not a valid model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelError {
     /// More than [`LARGEST`] bytes.
     Large(usize),
     /// The first bytes are not those of a model.
     Foreign,
-    /// Of a version that is not known.
+    /// The version is unknown.
     Version(u8),
     /// Fewer bytes than the head promises.
     Truncated(usize),
-    /// More bytes than the head promises, by so many.
+    /// More bytes than the head promises, by this many.
     Longer(usize),
     /// The checksum is not that of the bytes.
     Damaged,
@@ -62,13 +63,13 @@ pub enum ModelError {
     Classes(u16),
     /// Not 1 ..= 3 experts.
     Experts(u16),
-    /// The expert at a place does not speak from a later age than that before it, or the first not from 0.
+    /// The expert at this place does not begin at a later age than the one before it, or the first not at 0.
     Age(usize, u16),
     /// A class without a name, or with one that is not text.
     Nameless(usize),
-    /// The feature at a place has an index that is not above that before it, or that does not exist.
+    /// The feature at this place has an index that does not exist, or that is not above the one before.
     Feature(usize, u16),
-    /// The weights of a class may sum up to more than 31 bits.
+    /// The weights of a class may add up to more than 31 bits.
     Heavy(usize),
 }
 
@@ -104,7 +105,7 @@ impl core::fmt::Display for ModelError {
 
 impl core::error::Error for ModelError {}
 
-/// A model whose bytes were checked.
+/// A model whose bytes have been checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Model<'a> {
     notes: &'a [u8],
@@ -117,7 +118,7 @@ pub struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Reads a model; nothing is copied.
+    /// Reads and checks a model in place; nothing is copied.
     pub fn read(bytes: &'a [u8]) -> Result<Model<'a>, ModelError> {
         if bytes.len() > LARGEST {
             return Err(ModelError::Large(bytes.len()));
@@ -138,7 +139,7 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// The bytes as they lie, with lengths and checksum checked.
+    /// Splits the bytes into their fields; checks lengths and checksum.
     fn split(bytes: &'a [u8]) -> Result<Model<'a>, ModelError> {
         let short = ModelError::Truncated(bytes.len());
         let (magic, rest) = bytes.split_first_chunk::<8>().ok_or(short)?;
@@ -158,7 +159,7 @@ impl<'a> Model<'a> {
             return Err(ModelError::Classes(classes));
         }
         let classes = classes as u8;
-        // Of version 2 the number is that of the features of its one expert.
+        // In version 2 the number is that of the features of its one expert.
         let alone = (*magic == BEFORE).then(|| Head::alone(number));
         let count = if alone.is_some() { 1 } else { number };
         if !(1..=EXPERTS as u16).contains(&count) {
@@ -182,7 +183,7 @@ impl<'a> Model<'a> {
         Ok(Model { notes, classes, count: count as u8, concludes, pressed, names, experts })
     }
 
-    /// The provenance, as JSON.
+    /// Provenance, as JSON.
     pub fn notes(&self) -> &'a [u8] {
         self.notes
     }
@@ -192,7 +193,7 @@ impl<'a> Model<'a> {
         self.classes.into()
     }
 
-    /// A cell above this counts as touched.
+    /// Greatest value of a cell that counts as untouched.
     pub fn pressed(&self) -> u16 {
         self.pressed
     }
@@ -209,18 +210,18 @@ impl<'a> Model<'a> {
         self.experts.iter().take(self.count.into())
     }
 
-    /// The expert of touches that go on and have lasted so many frames.
+    /// The expert for a touch in progress that has lasted `frames`.
     pub fn expert(&self, frames: u32) -> Option<&Expert<'a>> {
         self.experts().take_while(|expert| u32::from(expert.from()) <= frames).last()
     }
 
-    /// The expert of touches that are over and have lasted so many frames.
+    /// The expert for a finished touch that has lasted `frames`.
     pub fn concluding(&self, frames: u32) -> Option<&Expert<'a>> {
         if self.concludes { self.experts().last() } else { self.expert(frames) }
     }
 }
 
-/// Nothing but a checksum, which is right, is left of a model.
+/// Checks that `rest` is the correct checksum and nothing else.
 fn check_end(bytes: &[u8], rest: &[u8]) -> Result<(), ModelError> {
     let short = ModelError::Truncated(bytes.len());
     let (sum, rest) = rest.split_first_chunk::<4>().ok_or(short)?;
@@ -231,7 +232,7 @@ fn check_end(bytes: &[u8], rest: &[u8]) -> Result<(), ModelError> {
     if checksum(summed) == u32::from_le_bytes(*sum) { Ok(()) } else { Err(ModelError::Damaged) }
 }
 
-/// The checksum that ends a model.
+/// Returns the checksum that ends a model.
 pub fn checksum(bytes: &[u8]) -> u32 {
     Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC).checksum(bytes)
 }

@@ -1,29 +1,30 @@
-//! Whether what changes moves on or comes and goes: how neighbouring cells change together, and how much of
-//! all change is left in the total.
+//! Motion of a touch: whether its changes travel across the sheet or come and go in place. Measured by the
+//! correlation of neighbouring cells' changes, and by the share of the changes that remains in the total.
 
 use super::cells::{CELLS, Cells, SIDE};
 use super::log::log2;
 use crate::format::wide;
 
-/// Features of motion.
+/// Number of features of motion.
 pub const MOTION: usize = 4;
 
-/// A cell's change beyond this counts as that, so that a frame's products sum up to 30 bits.
+/// Bound of a cell's change, so that the products of a frame sum up to 30 bits.
 const MOST: i32 = 4095;
 
-/// Counts that are added to sums before they are compared, so that a sheet at rest is no noise.
+/// Counts that are added to sums before they are compared, so that the noise of a sheet at rest does not
+/// show.
 const REST: u64 = 20;
 
 /// Sums over the frames of a touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Motion {
-    /// Of all cells' changes and of their squares.
+    /// Sums of all cells' changes and of their squares.
     change: u64,
     squares: u64,
-    /// Of the products of neighbours' changes, across and along the rows.
+    /// Sums of the products of neighbours' changes, across and along the rows.
     across: i64,
     along: i64,
-    /// Of the changes of the total and of their squares.
+    /// Sums of the changes of the total and of their squares.
     net: u64,
     common: u64,
 }
@@ -35,12 +36,12 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// No frame yet.
+    /// State before the first frame.
     pub const fn new() -> Motion {
         Motion { change: 0, squares: 0, across: 0, along: 0, net: 0, common: 0 }
     }
 
-    /// Adds a frame after that of `before`; the change of all its cells.
+    /// Adds a frame that follows `before`; returns the change of all its cells.
     pub fn add(&mut self, now: &Cells, before: &Cells) -> u32 {
         let (mut change, mut net, mut common) = (0, 0i32, 0i32);
         let (mut squares, mut across, mut along) = (0, 0, 0);
@@ -66,12 +67,12 @@ impl Motion {
         change
     }
 
-    /// Correlation of neighbours' changes across and along the rows (4096 is none, 8192 all), what of the
-    /// changes is common to the sheet (8192 all), how far the change of the total is below that of the cells
-    /// (log2, Q8).
+    /// Returns correlation of neighbours' changes across and along the rows (4096 is none, 8192 full), share
+    /// of the changes that is common to the whole sheet (8192 is all), and ratio of the cells' change to the
+    /// change of the total (log2, Q8).
     pub fn features(&self) -> [u16; MOTION] {
         let all = self.squares + REST / 2;
-        // With 18 bits of the squares.
+        // Scaled to 18 bits of the squares.
         let shift = (64 - all.leading_zeros()).saturating_sub(18);
         let scale = (all >> shift) as i32;
         let share = |sum: i64| (((sum >> shift) as i32) << 12).checked_div(scale).unwrap_or(0);
@@ -99,7 +100,7 @@ mod tests {
     fn a_press_is_common_and_leaves_all_in_the_total() {
         let have = of(200, |frame, _, _| if frame % 20 < 10 { 900 } else { 100 });
         assert_eq!(have[2..], [8192, 0]);
-        // Seven of eight neighbours.
+        // Seven of eight cells have a neighbour that changes alike.
         assert!(have[..2].iter().all(|f| f.abs_diff(4096 + 3584) <= 1), "{have:?}");
     }
 
@@ -107,7 +108,7 @@ mod tests {
     fn a_line_that_wanders_changes_along_itself_and_little_in_the_total() {
         let have = of(200, |frame, x, _| if x == frame / 4 % SIDE { 1000 } else { 0 });
         assert!(have[0].abs_diff(4096 + 3584) <= 1, "{have:?}");
-        // What one column loses the next one gets, six times of seven.
+        // What one column loses, the next one gains, six times out of seven.
         assert!(have[1] < 4096 - 1700 && have[2] < 300 && have[3] > 8 * 256, "{have:?}");
     }
 

@@ -1,21 +1,21 @@
-//! What is told of each frame: eight numbers.
+//! Reduction of a frame to eight signals.
 
 use super::cells::{Cells, SIDE};
 use super::log::log2;
 
-/// Numbers of a frame.
+/// Number of signals of a frame.
 pub const SIGNALS: usize = 8;
 
-/// Names of the numbers, in their order.
+/// Names of the signals, in their order.
 pub const NAMES: [&str; SIGNALS] = ["total", "peak", "area", "x", "y", "spread", "anisotropy", "change"];
 
-/// The numbers of a frame, each in 0 ..= 4095: log2 of total and of peak (Q8), cells above `pressed` (Q6),
+/// Signals of a frame, each in 0 ..= 4095: log2 of total and of peak (Q8), cells above `pressed` (Q6),
 /// centroid (cells, Q9 of eight), spread about it (cells squared, Q7), anisotropy (Q11), log2 of the change
 /// of all cells since the frame before (Q8).
 pub type Signals = [u16; SIGNALS];
 
-/// The total of a frame whose cells have changed by `change`, and its numbers; a cell above `pressed` counts
-/// as touched.
+/// Returns the total and the signals of a frame whose cells have changed by `change`; a cell above `pressed`
+/// counts as touched.
 pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
     let (mut peak, mut area) = (0, 0);
     for cell in cells {
@@ -30,7 +30,7 @@ pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
     (sums.m, all.map(|signal| signal.min(4095)))
 }
 
-/// Sums over the cells; at most 64 x 65,535 x 49, 28 bits.
+/// Sums over the cells; at most 64 x 65,535 x 49: 28 bits.
 struct Sums {
     m: u32,
     x: u32,
@@ -60,29 +60,29 @@ impl Sums {
         sums
     }
 
-    /// x, y, spread, anisotropy. Sixteen counts more, in the middle of the sheet, keep a sheet that nobody
-    /// touches from having a place that jumps.
+    /// Returns x, y, spread, anisotropy. Sixteen counts are added in the middle of the sheet, so that the
+    /// centroid of an untouched sheet does not jump.
     fn form(&self) -> [u16; 4] {
-        // The sums with 17 bits of mass, so that what follows fits 32 bits.
+        // The sums are scaled to 17 bits of mass, so that all that follows fits in 32 bits.
         let m = self.m + REST;
         let shift = (31 - m.leading_zeros()).saturating_sub(16);
         let rest = |sum: u32, share: u32| (sum + REST * share / 4) >> shift;
         let m = (m >> shift).max(1);
-        // Of the middle, 3.5: 14 / 4, and 3.5^2 = 49 / 4.
+        // The middle is 3.5: 14 / 4, and 3.5^2 = 49 / 4.
         let mean = |sum: u32| ((sum << 9) / m) as i32;
         let (x, y) = (mean(rest(self.x, 14)), mean(rest(self.y, 14)));
         let second = |sum: u32, a: i32, b: i32| mean(rest(sum, 49)) - ((a * b) >> 9);
         let (xx, yy, xy) = (second(self.xx, x, x), second(self.yy, y, y), second(self.xy, x, y));
         let spread = (xx + yy).max(0);
         let (lean, skew) = ((xx - yy).unsigned_abs(), 2 * xy.unsigned_abs());
-        // The longer of two legs and three eighths of the shorter: the hypotenuse to 7 %.
+        // The longer leg plus three eighths of the shorter: the hypotenuse to 7 %.
         let long = lean.max(skew) + lean.min(skew) * 3 / 8;
         let anisotropy = (long << 11) / (spread as u32 + 32);
         [x.max(0) as u16, y.max(0) as u16, (spread >> 2).min(4095) as u16, anisotropy.min(4095) as u16]
     }
 }
 
-/// Counts that rest in the middle of the sheet.
+/// Counts added in the middle of the sheet.
 const REST: u32 = 16;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What a touch is, while it goes on.
+//! Recognition of a touch on one sheet.
 
 use super::cells::Sheet;
 use super::expert::Expert;
@@ -13,27 +13,26 @@ pub struct Touches<'a> {
     sheet: Sheet,
 }
 
-/// What a touch is taken for.
+/// Classification of a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decision {
-    /// The class that scores most; of equals the first.
+    /// Class with the greatest score; of equal ones the first.
     pub class: usize,
-    /// What each class scores.
+    /// Scores of the classes.
     pub scores: Scores,
-    /// By how much it scores more than the second, Q18.
+    /// Lead over the score of the second class, Q18.
     pub lead: u32,
-    /// The share of touches of that age and lead that are what they are taken for; none: the model does not
-    /// know.
+    /// Share of touches of that age and lead that are classified correctly; none if the model does not know.
     pub confidence: Option<Q15>,
 }
 
 impl<'a> Touches<'a> {
-    /// For a sheet of that many rows and columns.
+    /// Recognises touches on a sheet of that many rows and columns.
     pub const fn new(model: Model<'a>, rows: u16, columns: u16) -> Touches<'a> {
         Touches { model, sheet: Sheet::new(rows, columns) }
     }
 
-    /// With pressures in another unit: as many counts of the model's sheet per count, Q8, at most 4096.
+    /// Sets the gain: counts of the model's sheet per count of the images, Q8, at most 4096.
     pub fn with_gain(self, gain: u16) -> Touches<'a> {
         Touches { sheet: self.sheet.with_gain(gain), ..self }
     }
@@ -43,18 +42,18 @@ impl<'a> Touches<'a> {
         &self.model
     }
 
-    /// Adds a frame: an image of rows of pressures. After [`LONGEST`](super::LONGEST) frames the touch begins
-    /// anew.
+    /// Adds a frame: an image of rows of pressures. After [`LONGEST`](super::LONGEST) frames the sums start
+    /// again.
     pub fn process(&self, state: &mut TouchState, image: &[u16]) {
         state.add(&self.sheet.cells(image), self.model.pressed());
     }
 
-    /// What the touch, which goes on, is taken for so far.
+    /// Classifies a touch in progress by its frames so far.
     pub fn decide(&self, state: &TouchState) -> Decision {
         self.by(self.model.expert(state.frames()), state)
     }
 
-    /// What the touch, which is over, is taken for.
+    /// Classifies a touch that is over.
     pub fn conclude(&self, state: &TouchState) -> Decision {
         self.by(self.model.concluding(state.frames()), state)
     }

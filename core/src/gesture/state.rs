@@ -1,4 +1,4 @@
-//! A touch so far, in sums that each frame is added to.
+//! State of a touch: sums over its frames.
 
 use super::bands::{BANDS, Bands};
 use super::cells::{CELLS, Cells};
@@ -9,17 +9,17 @@ use super::log::log2;
 use super::motion::{MOTION, Motion};
 use super::signal::{SIGNALS, signals};
 
-/// Features of a touch.
+/// Number of features of a touch.
 pub const FEATURES: usize = SIGNALS * COURSE + GRID + MOTION + BANDS + 1;
 
-/// The features of a touch: those of each course, of the grid, of motion and rhythm, log2 of the number of
-/// frames (Q8).
+/// Features of a touch: those of each course, of the grid, of motion and of rhythm, then log2 of the number
+/// of frames (Q8).
 pub type Features = [u16; FEATURES];
 
-/// Most frames of a touch; the sums have room for as many.
+/// Greatest number of frames of a touch; the sums have room for that many.
 pub const LONGEST: u32 = 1024;
 
-/// A touch so far.
+/// Sums over the frames of a touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TouchState {
     frames: u32,
@@ -38,7 +38,7 @@ impl Default for TouchState {
 }
 
 impl TouchState {
-    /// No frame yet.
+    /// State before the first frame.
     pub const fn new() -> TouchState {
         TouchState {
             frames: 0,
@@ -51,17 +51,17 @@ impl TouchState {
         }
     }
 
-    /// A touch begins.
+    /// Starts a new touch.
     pub fn reset(&mut self) {
         *self = const { TouchState::new() };
     }
 
-    /// Frames so far, at most [`LONGEST`].
+    /// Number of frames so far, at most [`LONGEST`].
     pub fn frames(&self) -> u32 {
         self.frames
     }
 
-    /// Adds a frame; a cell above `pressed` counts as touched. After [`LONGEST`] frames the touch begins anew.
+    /// Adds a frame; a cell above `pressed` counts as touched. After [`LONGEST`] frames the sums start again.
     pub fn add(&mut self, cells: &Cells, pressed: u16) {
         if self.frames >= LONGEST {
             self.reset();
@@ -81,7 +81,7 @@ impl TouchState {
         self.frames += 1;
     }
 
-    /// The features of the frames so far.
+    /// Returns the features of the frames so far.
     pub fn features(&self) -> Features {
         let mut features = [0; FEATURES];
         let mut places = features.iter_mut();

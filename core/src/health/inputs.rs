@@ -1,51 +1,52 @@
-//! Whether a converter input still shows its taxels. It cannot be told for sure from codes alone: what speaks
-//! against an input is for a self-test to confirm.
+//! Check of the converter inputs: does an input still show its taxels? Codes alone cannot prove it; a
+//! self-test must confirm a suspicion.
 //!
-//! In every fourth frame one input is looked at, by a quarter of a row of each of its blocks, every time of
-//! another row. A line that lies open shows what was converted before, or drifts: many taxels show less
-//! pressure than at rest, as no touch makes them. One that is connected to the supply shows the same
-//! everywhere. What an input at rest shows anyway is not told apart from that.
+//! In every fourth frame one input is checked, by a quarter of a row of each of its blocks, each time of
+//! another row. An open line shows what was converted before, or drifts: many taxels show less pressure than
+//! at rest, which no touch causes. A line that is connected to the supply shows the same code everywhere. If
+//! an input shows this at rest already, the fault is not found.
 
 use super::monitor::Codes;
 use crate::acquire::Plan;
 use crate::format::{Code, Extremes};
 use crate::garment::{Circuit, Site};
 
-/// Fewer taxels tell nothing.
+/// Smallest number of taxels that is evidence.
 const FEW: u32 = 8;
-/// A garment with fewer blocks is looked at in whole rows.
+/// A garment with fewer blocks than this is checked in whole rows.
 const BLOCKS: usize = 8;
-/// A code is so far from that at rest at least where that means something, counts.
+/// Least deviation from the code at rest that counts, counts.
 const FAR: u16 = 8;
 
-/// Which input is looked at next.
+/// Input that is checked next.
 #[derive(Debug, Clone)]
 pub(super) struct Inputs {
     input: u8,
     round: u8,
-    /// Counts frames.
+    /// Frame counter.
     turn: u8,
 }
 
 impl Inputs {
-    /// The first one.
+    /// Starts at the first input.
     pub const fn new() -> Inputs {
         Inputs { input: u8::MAX, round: 0, turn: 0 }
     }
 
-    /// Looks at an input in every fourth frame. `travel`: how far half of the codes travel while they are
-    /// watched.
+    /// Checks an input in every fourth frame; true if it seems faulty. `travel` is the median travel of a
+    /// code while it is watched.
     pub fn is_one_odd(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>, travel: u16) -> bool {
         self.turn = self.turn.wrapping_add(1);
         if self.turn & 3 == 2 {
-            // Which one it is to be is found in a frame of its own: no frame should cost more than another.
+            // The next input is chosen in another frame than the check, so that no frame costs more than the
+            // others.
             self.go_on(circuit);
         }
         let Some(rest) = shown.rest.filter(|_| self.turn & 3 == 0) else { return false };
-        // Ten steps of 1.13 times their noise: four times the noise, and more.
+        // Ten steps travel 1.13 times the noise each: `far` is at least four times the noise.
         let far = (travel / 8 * 3).max(plan.depth.step().saturating_mul(2)).max(FAR);
         let (first, shift) = if circuit.sites().len() < BLOCKS { (0, 0) } else { (self.round >> 2 & 3, 2) };
-        // 0.613 of a turn: near the golden ratio, whose multiples are spread evenly.
+        // 0.613 of a turn, near the golden ratio, whose multiples are spread evenly.
         let part = self.round.wrapping_mul(157);
         let sites = circuit.sites().iter();
         let lines = sites
@@ -61,7 +62,7 @@ impl Inputs {
             && (less * 8 >= tally.count || more == tally.count && are_alike(lines, shown.now, rest, far))
     }
 
-    /// The next input in order; after the last one the first, in another round.
+    /// Advances to the next input; after the last one, to the first in another round.
     fn go_on(&mut self, circuit: &Circuit) {
         let inputs = || circuit.sites().iter().map(|site| site.input);
         let next = inputs().filter(|input| *input > self.input).min();
@@ -72,23 +73,23 @@ impl Inputs {
     }
 }
 
-/// Some taxels of a wired row.
+/// Taxels at equal distances in a wired row.
 struct Line {
-    /// The next one.
+    /// The next taxel.
     taxel: usize,
-    /// From one to the next.
+    /// Distance from one taxel to the next.
     step: usize,
-    /// How many are left.
+    /// Number of taxels left.
     count: u32,
 }
 
 impl Line {
-    /// Of a block: in a row so many 256ths of its way down, every `2^shift`th taxel from the first one on.
+    /// Every `2^shift`th taxel of a block from `first` on, in the row at `part` / 256 of its height.
     fn of(site: &Site, part: u8, first: u8, shift: u32) -> Line {
-        // Without a division: this core has none.
+        // Without a division, which an M0+ does not have.
         let row = ((u16::from(part) * u16::from(site.rows)) >> 8) as u8;
         let count = (u32::from(site.columns.saturating_sub(first)) + (1 << shift) - 1) >> shift;
-        // A step may lead back: all numbers of taxels are taken round the end of a word.
+        // A negative step wraps: all additions to a taxel's number are modulo 2^32.
         Line { taxel: site.taxel(row, first), step: (site.column_step << shift) as usize, count }
     }
 }
@@ -104,10 +105,10 @@ impl Iterator for Line {
     }
 }
 
-/// How many taxels of an input show other codes than at rest.
+/// Counts the taxels of an input whose codes deviate from those at rest.
 #[derive(Default)]
 struct Tally {
-    /// By so much at least, counts.
+    /// Least deviation that counts, counts.
     far: u16,
     count: u32,
     below: u32,
@@ -115,7 +116,7 @@ struct Tally {
 }
 
 impl Tally {
-    /// Not inlined: on its own it has registers enough.
+    // M0+: out of line
     #[inline(never)]
     fn take(&mut self, line: Line, codes: &[Code], rest: &[u16]) {
         let (far, mut below, mut above) = (u32::from(self.far), 0, 0);
@@ -131,7 +132,7 @@ impl Tally {
     }
 }
 
-/// Whether the codes of all these taxels are nearly the same, and were not at rest.
+/// True if the codes of all these taxels are nearly equal, and were not at rest.
 #[cold]
 fn are_alike(lines: impl Iterator<Item = Line>, codes: &[Code], rest: &[u16], far: u16) -> bool {
     let (mut now, mut before) = (Extremes::NONE, Extremes::NONE);

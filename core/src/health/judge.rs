@@ -1,44 +1,43 @@
-//! What is to be thought of a taxel after it was watched.
+//! Judges a taxel by the codes that were seen of it.
 
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
 use super::walk::Spot;
 use crate::format::Code;
 
-/// So near to an end of the converter's range a code is at that end, counts: five times a noise of 3.
+/// Distance from an end of the converter's range that counts as that end, counts: five times a noise of 3.
 const RAIL: u16 = 16;
-/// A taxel that shows so much at rest has a signal; one that shows none later has lost it.
+/// Least pressure at rest that counts as a signal: a taxel that shows none later has lost it.
 const SIGNAL: u16 = 3 * RAIL;
-/// Taxels are pressed from here on, counts above rest.
+/// Least pressure above rest of a pressed taxel, counts.
 const PRESSED: i32 = 128;
-/// Where the codes of many taxels travel less than so many steps, one that does not move tells nothing: noise
-/// of 1.8 steps rms.
+/// Median travel, in steps, below which a code that does not move is no evidence: noise of 1.8 steps rms.
 const LIVELY: u16 = 20;
-/// A code that travels so much further than three times what is usual is not merely noisier than most, counts.
+/// Travel beyond three times the median that noise does not explain, counts.
 const LOUD: u16 = 52;
-/// Nor is one that goes to the next step and back in every frame.
+/// Travel of a code that goes to the next step and back in every frame, in steps.
 const STEPS: u16 = 12;
 
-/// Whether a code shows pressure beyond that at rest.
+/// True if a code shows pressure beyond that at rest.
 pub(super) const fn is_pressed(code: u16, rest: u16, falling: bool) -> bool {
     let (more, less) = if falling { (rest, code) } else { (code, rest) };
     more as i32 - less as i32 >= PRESSED
 }
 
-/// What tells some taxels from others.
+/// Limits of this frame, from the travel of all taxels.
 pub(super) struct Limits {
-    /// So many codes move that one which does not tells something.
+    /// Typical noise is high enough that a constant code is evidence.
     lively: bool,
-    /// Noise is to travel further.
+    /// Greatest travel that counts as usual noise.
     loud: u16,
-    /// How far the usual noise travels while something touches.
+    /// Travel of the usual noise while something touches.
     usual: u32,
-    /// A pressed taxel gets further from its code at rest.
+    /// Distance from the code at rest that a pressed taxel exceeds.
     idle: i32,
 }
 
 impl Limits {
-    /// Where the codes of half of the taxels travel further than `usual`, in steps of `step` counts.
+    /// Limits for a median travel of `usual` and codes in steps of `step` counts.
     pub fn of(usual: u16, step: u16) -> Limits {
         Limits {
             lively: usual >= LIVELY.saturating_mul(step),
@@ -49,24 +48,25 @@ impl Limits {
     }
 }
 
-/// What the taxels of a garment show now.
+/// Codes of a garment now, and those at rest.
 pub(super) struct Shown<'a> {
     pub codes: &'a [Code],
-    /// Codes at rest; none: not known.
+    /// Codes at rest; none if unknown.
     pub rest: Option<&'a [u16]>,
     pub full: u16,
     pub falling: bool,
     pub limits: Limits,
-    /// Something touches the garment: only then can a taxel be missed among its neighbours.
+    /// True if something touches the garment: only then can a dead taxel be found among its neighbours.
     pub touched: bool,
 }
 
-/// Whether some noise may not show in a code: four of the RP2040's are nine codes wide (erratum E11).
+/// True for codes that may hide noise: four codes of the RP2040's converter are nine codes wide (erratum
+/// E11).
 const fn is_wide(code: u16) -> bool {
     code % 1024 == 512
 }
 
-/// The first 32 answers, the first one in the lowest bit.
+/// Packs the first 32 answers, the first one in the lowest bit.
 fn bits(answers: impl Iterator<Item = bool>) -> u32 {
     let (mut bits, mut bit) = (0, 1);
     for answer in answers {
@@ -78,28 +78,26 @@ fn bits(answers: impl Iterator<Item = bool>) -> u32 {
     bits
 }
 
-/// Which of some taxels, from the first one in the lowest bit on, are to be judged. Most are not; bits past
-/// the last taxel mean nothing.
+/// Taxels of a group that are to be judged, the first one in the lowest bit. Most are not; bits past the last
+/// taxel have no meaning.
 pub(super) struct Doubtful {
-    /// They show other noise than most, or have come to an end of the range.
+    /// Their noise differs from that of most, or they have come to an end of the range.
     pub odd: u32,
-    /// They are beside a taxel that is pressed, and not pressed themselves: nothing but what covers them can
-    /// speak against them.
+    /// They lie beside a pressed taxel and are not pressed themselves: only a touch that covers them can be
+    /// evidence against them.
     pub beside: u32,
 }
 
-/// Which of the first so many taxels are far from their code at rest, the first one in the lowest bit.
-///
-/// Not inlined: on its own it has registers enough.
+/// Returns the first `count` taxels that are far from their code at rest, the first one in the lowest bit.
+// M0+: out of line
 #[inline(never)]
 fn pressed(codes: &[Code], rest: &[u16], count: usize) -> u32 {
     let pairs = codes.iter().zip(rest).take(count);
     bits(pairs.map(|(code, rest)| code.0.abs_diff(*rest) >= PRESSED as u16))
 }
 
-/// How many of some taxels are not pressed.
-///
-/// Not inlined: on its own it has registers enough.
+/// Returns the number of taxels that are not pressed.
+// M0+: out of line
 #[inline(never)]
 fn idle(codes: &[Code], rest: &[u16], falling: bool) -> usize {
     codes.iter().zip(rest).filter(|(code, rest)| !is_pressed(code.0, **rest, falling)).count()
@@ -120,9 +118,8 @@ impl Shown<'_> {
         self.codes.get(taxel).zip(rest).is_some_and(|(code, rest)| is_pressed(code.0, *rest, self.falling))
     }
 
-    /// Counts those taxels that are well at a distance from a taxel, in rows or columns, whichever is larger:
-    /// how many there are, and how many of them are pressed. Counts no further than past so many that are
-    /// not.
+    /// Counts the healthy taxels at a distance from a taxel, in rows or columns, whichever is larger, and how
+    /// many of them are pressed. Stops once more than `missing` are not.
     fn around(
         &self,
         spot: &Spot<'_>,
@@ -135,7 +132,7 @@ impl Shown<'_> {
         let (rows, columns) = (i32::from(area.rows), i32::from(area.columns));
         let (row, column, distance) = (i32::from(row), i32::from(column), i32::from(distance));
         for y in (row - distance).max(0)..=(row + distance).min(rows - 1) {
-            // Of the rows between the first and the last one only the ends.
+            // All columns of the first and the last row, only the ends of those between.
             let step = if (y - row).abs() == distance { 1 } else { 2 * distance };
             let begin = i32::from(area.base) + y * columns;
             let mut x = column - distance;
@@ -156,8 +153,8 @@ impl Shown<'_> {
         (there, pressed)
     }
 
-    /// Whether what presses all around a taxel should press it, too: all neighbours but one, and four fifths
-    /// of those around them. A ring with a hole of one taxel and a wall of one or two reaches less far.
+    /// True if what presses around a taxel should press it too: all neighbours but one, and four fifths of
+    /// those around them. A ring with a hole of one taxel and a wall of one or two does not reach that far.
     fn is_covered(&self, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> bool {
         let (there, pressed) = self.around(spot, 1, 1, &is_ill);
         if pressed < 3 || there > pressed + 1 {
@@ -167,7 +164,7 @@ impl Shown<'_> {
         pressed >= 3 && (there - pressed) * 5 <= there
     }
 
-    /// Whether anything beside a taxel is pressed.
+    /// True if a neighbour of a taxel is pressed.
     fn is_near_pressure(&self, spot: &Spot<'_>) -> bool {
         let Spot { area, row, column, .. } = *spot;
         (row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1))).any(|y| {
@@ -181,9 +178,8 @@ impl Shown<'_> {
         })
     }
 
-    /// Which of some taxels are to be judged.
-    ///
-    /// Not inlined: it is short, and on its own it has registers enough.
+    /// Returns the taxels of a group that are to be judged.
+    // M0+: out of line
     #[inline(never)]
     pub fn doubtful(&self, first: usize, seen: &[Seen]) -> Doubtful {
         let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
@@ -191,7 +187,7 @@ impl Shown<'_> {
             |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
         let odd = bits(seen.iter().map(|seen| !plain(seen)));
         let Some(rest) = self.rest.filter(|_| self.touched) else { return Doubtful { odd, beside: 0 } };
-        // From the taxel before the first one on, where there is one.
+        // From one taxel before the first on, if there is one.
         let before = usize::from(first > 0);
         let from = first - before;
         let (codes, rest) = self.codes.get(from..).zip(rest.get(from..)).unwrap_or((&[], &[]));
@@ -200,10 +196,9 @@ impl Shown<'_> {
         Doubtful { odd, beside: (left | itself >> 1) & !itself }
     }
 
-    /// Whether a taxel that is not odd need not be judged: around it there are more that are not pressed than
-    /// the one that may be missed, and those that are ill.
-    ///
-    /// Not inlined: on its own it has registers enough.
+    /// True if a taxel that is not odd need not be judged: around it, more taxels are not pressed than the
+    /// faulty ones and the one that [`Shown::is_covered`] allows.
+    // M0+: out of line
     #[inline(never)]
     pub fn is_bare(&self, spot: &Spot<'_>, ill: usize) -> bool {
         let Spot { area, row, column, .. } = *spot;
@@ -212,7 +207,7 @@ impl Shown<'_> {
         let width = usize::from(column.saturating_add(2).min(area.columns) - left);
         let mut first = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
         let rest = self.rest.unwrap_or(&[]);
-        // Itself among them.
+        // Counts the taxel itself, too.
         let mut count = 0;
         for _ in top..row.saturating_add(2).min(area.rows) {
             let range = first..first + width;
@@ -226,12 +221,12 @@ impl Shown<'_> {
         false
     }
 
-    /// Judges a taxel by what was seen of it, and by its neighbours that are not ill.
+    /// Judges a taxel by its codes while it was watched, and by its healthy neighbours.
     pub fn judge(&self, seen: &Seen, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> TaxelHealth {
         let taxel = spot.taxel;
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
         if low >= self.full.saturating_sub(RAIL) {
-            // What presses one taxel to full scale presses those beside it, too.
+            // An object that presses a taxel to full scale presses its neighbours, too.
             let alone = self.rest.is_some() && !self.is_near_pressure(spot);
             return if alone { TaxelHealth::Shorted } else { TaxelHealth::Good };
         }
@@ -245,7 +240,7 @@ impl Shown<'_> {
         if high <= RAIL && rest >= i32::from(SIGNAL) {
             return TaxelHealth::Open;
         }
-        // The frame in which it is judged counts, too: a touch may have begun since.
+        // The present frame counts, too: a touch may have begun in it.
         let now = self.codes.get(taxel).map_or(0, |code| self.pressure(code.0));
         if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
@@ -256,13 +251,13 @@ impl Shown<'_> {
         if high <= RAIL { TaxelHealth::Open } else { TaxelHealth::Dead }
     }
 
-    /// Whether a code got to both sides of that at rest, as what touches or shakes a taxel does not take it.
+    /// True if the code got to both sides of that at rest; neither touch nor shaking does that.
     pub fn is_around_rest(&self, seen: &Seen, taxel: usize) -> bool {
         self.rest.and_then(|rest| rest.get(taxel)).is_some_and(|rest| seen.is_around(*rest, RAIL))
     }
 
-    /// Whether a code travelled further than a touch takes it: there and back. What is pressed may shake in
-    /// proportion, by a fifth of its signal; the usual noise comes on top.
+    /// True if a code travelled further than a touch takes it, there and back. A pressed taxel may shake in
+    /// proportion, by a fifth of its signal; the usual noise is added.
     fn is_restless(&self, seen: &Seen, taxel: usize) -> bool {
         let reach = seen.reach(self.rest.and_then(|rest| rest.get(taxel)).copied());
         let touch = u32::from(reach) * 9 / 4 + self.limits.usual;
@@ -292,7 +287,7 @@ mod tests {
         Shown { codes, rest: Some(rest), full: 4095, falling: false, limits, touched: true }
     }
 
-    /// Codes of a garment where three quarters of the taxels are pressed, and those at rest.
+    /// Codes of a garment with three quarters of its taxels pressed, and codes at rest.
     fn images(layout: &Layout, random: &mut Random) -> (Vec<Code>, Vec<u16>) {
         let codes = (0..layout.taxels()).map(|_| Code(if random.below(4) > 0 { 900 } else { 310 }));
         (codes.collect(), (0..layout.taxels()).map(|_| 200 + random.below(200) as u16).collect())

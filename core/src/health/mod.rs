@@ -1,33 +1,33 @@
 //! The health of every taxel, found while the garment is used.
 //!
-//! In every frame 23 taxels begin to be watched, over 11 frames: lowest and highest code of each, and how far
-//! its code has travelled. Then they are judged: each of 2,048 once in 90 frames, and what befalls it within
-//! 100. What is found stays, though the taxel may recover (but see below for a dead and a shorted one), until
-//! the garment is changed or a [`SelfTest`](crate::wire::Request::SelfTest) is asked for: then every taxel
-//! counts as good again, with the gain of its good days, until it is found anew. `Start` only begins the
-//! watch anew.
+//! In every frame a group of 23 taxels begins to be watched, for 11 frames: lowest and highest code of each,
+//! and the distance that its code has travelled. Then the group is judged. So each of 2,048 taxels is judged
+//! once in 90 frames, and a new fault is found within 100. A finding stays, though the taxel may recover
+//! (except a dead and a shorted one, see below), until the garment is changed or a
+//! [`SelfTest`](crate::wire::Request::SelfTest) is requested. Then every taxel counts as good again, with the
+//! gain it had before, until a fault is found anew. `Start` only restarts the watch.
 //!
-//! | class | what shows it |
+//! | class | evidence |
 //! |---|---|
-//! | dead | it rests while what surrounds it is pressed, to a distance of two taxels |
+//! | dead | it stays at rest while the taxels around it are pressed, to a distance of two taxels |
 //! | stuck | its code does not even show noise, while its neighbours' do |
-//! | open | no signal: below what it showed at rest, or dead there |
+//! | open | no signal: below its code at rest, or dead there |
 //! | shorted | full scale, and nothing beside it is pressed |
-//! | noisy | its code goes to and fro, further than a touch of that size takes it, and those beside it do not |
+//! | noisy | its code goes back and forth, further than a touch of that size takes it, and its neighbours' do not |
 //!
-//! What is pressed around one taxel alone may be a ring: a cup, a hollow finger. A ring whose hole is one
-//! taxel and whose wall is three or more cannot be told from what covers a dead taxel. So a dead taxel that
-//! answers to pressure later is taken back. A needle that fills one taxel alone cannot be told from a short
-//! circuit. So a shorted taxel that rests later is taken back.
+//! What presses around a single taxel may be a ring: a cup, a hollow finger. A ring whose hole is one taxel
+//! and whose wall is three or more cannot be distinguished from an object that covers a dead taxel. So a dead
+//! taxel is cleared when it later responds to pressure. A needle that fills a single taxel cannot be
+//! distinguished from a short circuit. So a shorted taxel is cleared when it later rests.
 //!
-//! Where the codes are too quiet to tell (noise under 1.8 counts rms, or codes of 8 bits), nothing is called
-//! stuck. A pressed taxel is called noisy only where its noise is over a fifth of its signal: how a cloth
-//! lies changes under what moves.
+//! Where the codes are too quiet (noise under 1.8 counts rms, or codes of 8 bits), no taxel is called stuck.
+//! A pressed taxel is called noisy only if its noise is over a fifth of its signal: a moving object changes
+//! how the cloth lies.
 //!
 //! | | |
 //! |---|---|
 //! | input | [`Code`](crate::format::Code) by taxel number, codes at rest |
-//! | output | at most [`ILL`] ill taxels |
+//! | output | at most [`ILL`] faulty taxels |
 //! | RAM | 2.9 KB |
 
 mod inputs;

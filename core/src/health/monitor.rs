@@ -1,4 +1,4 @@
-//! Watches the taxels, some at a time.
+//! The monitor: watches the taxels group by group, and keeps the faulty ones.
 
 use super::inputs::Inputs;
 use super::judge::{Doubtful, Limits, Shown, is_pressed};
@@ -11,43 +11,43 @@ use crate::format::Code;
 use crate::garment::{Circuit, Layout};
 use heapless::Vec;
 
-/// A code that travels further is touched, and tells as much of the usual noise as one that travels so far.
+/// Greatest travel that counts in the median: a code that travels further is touched.
 const TOUCHED: u16 = 256;
 
-/// Most ill taxels that are remembered.
+/// Greatest number of faulty taxels that are remembered.
 pub const ILL: usize = 128;
-/// Most neighbours that fall ill together. Where more seem to, it is not the taxels that are: none is called
-/// so.
+/// Greatest number of neighbours that may fail together. If more seem to, the cause is not the taxels, and
+/// none is called faulty.
 const FOUND: usize = 16;
 
-/// A taxel that is ill.
+/// A faulty taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IllTaxel {
-    /// Its number.
+    /// Number of the taxel.
     pub taxel: u16,
-    /// What is wrong with it.
+    /// Kind of fault.
     pub health: TaxelHealth,
-    /// Its gain when it is well, Q4.12.
+    /// Gain from before it was found, Q4.12.
     pub gain: u16,
 }
 
-/// What a garment shows.
+/// Codes of a frame, with their context.
 #[derive(Debug, Clone, Copy)]
 pub struct Codes<'a> {
     /// The codes of a frame.
     pub now: &'a [Code],
-    /// Codes at rest; none: not known.
+    /// Codes at rest; none if unknown.
     pub rest: Option<&'a [u16]>,
-    /// The largest code there is.
+    /// Largest possible code.
     pub full: u16,
-    /// Something touches the garment.
+    /// True if something touches the garment.
     pub touched: bool,
 }
 
-/// Taxels that were found to be ill in a frame.
+/// Taxels that were found to be faulty in a frame.
 pub type Found = Vec<(u16, TaxelHealth), FOUND>;
 
-/// The garment, and what of it is read.
+/// The garment, and the part of it that is read.
 struct Worn<'a> {
     layout: &'a Layout,
     circuit: &'a Circuit,
@@ -55,31 +55,31 @@ struct Worn<'a> {
 }
 
 impl Worn<'_> {
-    /// Whether the panel of a taxel is read.
+    /// True if the panel of a taxel is read.
     fn is_read(&self, taxel: usize) -> bool {
-        // The taxels of a panel follow those of the one before.
+        // Panels are numbered in the order of their taxels.
         let panel = self.layout.areas().iter().rposition(|area| usize::from(area.base) <= taxel);
         taxel < self.layout.taxels() && panel.is_some_and(|panel| self.plan.reads_panel(panel as u8))
     }
 }
 
-/// The health of a garment.
+/// Health of the taxels of a garment.
 #[derive(Debug, Clone)]
 pub struct Monitor {
-    /// By number.
+    /// In the order of their numbers.
     ill: Vec<IllTaxel, ILL>,
     watch: Watch,
-    /// How far the code of half of the taxels travels while it is watched, eighths.
+    /// Median travel of a code while it is watched, eighths of a count.
     usual: u16,
-    /// Too many neighbours seemed to be ill, up to the last one that was judged.
+    /// True if too many neighbours seemed to be faulty, up to the group judged last.
     crowd: bool,
-    /// Which of the ill taxels is looked at next: does it answer?
+    /// Index of the faulty taxel that is checked next for recovery.
     asked: u8,
     inputs: Inputs,
 }
 
 impl Monitor {
-    /// Nothing is known against any taxel.
+    /// State without findings.
     pub const fn new() -> Self {
         Monitor {
             ill: Vec::new(),
@@ -91,40 +91,40 @@ impl Monitor {
         }
     }
 
-    /// Forgets everything.
+    /// Forgets all findings, and restarts the watch.
     pub fn reset(&mut self) {
         self.ill.clear();
         self.again();
     }
 
-    /// Watches anew; what was found stays.
+    /// Restarts the watch; findings stay.
     pub fn again(&mut self) {
         self.watch.again();
         (self.usual, self.crowd) = (0, false);
     }
 
-    /// The ill taxels by number.
+    /// Faulty taxels in the order of their numbers.
     pub fn ill(&self) -> &[IllTaxel] {
         &self.ill
     }
 
-    /// What is known of a taxel, if it is ill.
+    /// Entry of a taxel, if it is faulty.
     pub fn ill_mut(&mut self, taxel: usize) -> Option<&mut IllTaxel> {
         self.ill.iter_mut().find(|ill| usize::from(ill.taxel) == taxel)
     }
 
-    /// The class of a taxel.
+    /// Health of a taxel.
     pub fn health(&self, taxel: usize) -> TaxelHealth {
         let ill = self.ill.iter().find(|ill| usize::from(ill.taxel) == taxel);
         ill.map_or(TaxelHealth::Good, |ill| ill.health)
     }
 
-    /// Takes down that a taxel is ill. `false`: too many are.
+    /// Adds a faulty taxel. Returns `false` if there are too many.
     pub fn add(&mut self, ill: IllTaxel) -> bool {
         if self.ill.push(ill).is_err() {
             return false;
         }
-        // Down to its place; the library's own insertion panics where there is none.
+        // Sorts it in by swaps, because `Vec::insert` has a panic path.
         for at in (1..self.ill.len()).rev() {
             if let Some([a, b, ..]) = self.ill.get_mut(at - 1..)
                 && b.taxel < a.taxel
@@ -135,8 +135,8 @@ impl Monitor {
         true
     }
 
-    /// Looks at one of the ill taxels, and gives it back if it was called dead and answers to pressure, or if
-    /// it was called shorted and rests: a needle had filled it alone.
+    /// Checks one faulty taxel per call. Clears and returns it if it was called dead and responds to
+    /// pressure, or was called shorted and rests: a needle had filled it alone.
     pub fn acquit(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<IllTaxel> {
         let ill = self.ill.get(usize::from(self.asked)).copied();
         self.asked = ill.map_or(0, |_| self.asked + 1);
@@ -150,12 +150,13 @@ impl Monitor {
         Some(ill)
     }
 
-    /// Whether something speaks against a converter input in this frame.
+    /// True if a converter input seems faulty in this frame.
     pub fn doubts(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>) -> bool {
         self.inputs.is_one_odd(circuit, plan, shown, self.usual / 8)
     }
 
-    /// Takes a frame; what seems to be ill is added to `found`, for the caller to [`Monitor::add`].
+    /// Takes a frame. Adds taxels that seem to be faulty to `found`; the caller passes them to
+    /// [`Monitor::add`].
     pub fn watch(
         &mut self,
         layout: &Layout,
@@ -169,16 +170,16 @@ impl Monitor {
         }
     }
 
-    /// Judges the group that has been seen for long enough.
+    /// Judges the group that has been watched for long enough.
     fn judge(&mut self, worn: &Worn<'_>, shown: Codes<'_>, found: &mut Found) {
         let Codes { now: codes, rest, full, touched } = shown;
         let (first, seen) = self.watch.group(FRAMES - 1);
         let seen = seen.get(..worn.layout.taxels().saturating_sub(first)).unwrap_or(seen);
-        // What is not read tells nothing.
+        // The codes of a panel that is not read are no evidence.
         if worn.is_read(first) {
             self.usual = nearer(self.usual, seen);
         }
-        // Codes of 8 bits repeat their upper bits below: they do not show their step.
+        // 8-bit codes repeat their upper bits in the lower ones, which hides their step.
         let step = step(seen).max(worn.plan.depth.step());
         let limits = Limits::of(self.usual / 8, step);
         let falling = worn.circuit.falling();
@@ -188,7 +189,8 @@ impl Monitor {
             self.crowd = false;
             return;
         }
-        // What makes many ill at once may begin with the last ones of these, and end with the first ones.
+        // A common cause may begin with the last taxels of this group, and end with the first ones of the
+        // next.
         let mut next = Found::new();
         let apart = bounded.and_then(|()| self.suspect(worn, &shown, FRAMES - 2, &mut next));
         self.crowd |= apart.is_none() || found.len() + next.len() > FOUND;
@@ -197,9 +199,9 @@ impl Monitor {
         }
     }
 
-    /// Whether the codes of the taxels beside, above and below one travelled less than half as far as its
-    /// own: what touches or shakes it would move them, too. Another noisy one may be among them where the
-    /// code goes to both sides of that at rest.
+    /// True if the codes of the taxels beside, above and below travelled less than half as far as its own: a
+    /// touch or a shock would move them, too. One other noisy taxel is allowed among them if the code goes to
+    /// both sides of that at rest.
     fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> bool {
         let Spot { taxel, area, column, .. } = *spot;
         let columns = usize::from(area.columns);
@@ -212,7 +214,7 @@ impl Monitor {
         moved.count() <= usize::from(shown.is_around_rest(seen, taxel))
     }
 
-    /// Finds what is to be said against the taxels of a group that is watched; none where that is too much.
+    /// Finds the faulty taxels of a group; none if there are too many.
     fn suspect(&self, worn: &Worn<'_>, shown: &Shown<'_>, age: usize, found: &mut Found) -> Option<()> {
         let (first, seen) = self.watch.group(age);
         let Doubtful { mut odd, mut beside } = shown.doubtful(first, seen);
@@ -232,8 +234,8 @@ impl Monitor {
         Some(())
     }
 
-    /// What is to be said against a taxel that was not known to be ill. Whatever is not there, or not read,
-    /// shows nothing.
+    /// Returns the fault of a taxel that was not known to be faulty. A taxel that is absent or not read has
+    /// none.
     #[inline(never)]
     fn fault(&self, worn: &Worn<'_>, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> Option<TaxelHealth> {
         let Worn { layout, circuit, plan } = *worn;
@@ -258,8 +260,7 @@ impl Default for Monitor {
     }
 }
 
-/// A step towards how far the code of half of the taxels travels, from what some of them show; the first ones
-/// tell it alone.
+/// Moves the median travel a step towards the travels of a group; the first group sets it.
 fn nearer(usual: u16, seen: &[Seen]) -> u16 {
     let travels = || seen.iter().map(|seen| seen.travel().min(TOUCHED));
     let count = seen.len() as u16;
@@ -271,7 +272,7 @@ fn nearer(usual: u16, seen: &[Seen]) -> u16 {
     (usual + step * above).saturating_sub(step * (count - above))
 }
 
-/// The power of two that all their codes are multiples of: 16 where a converter gives 8 bits of 12.
+/// Greatest power of two that divides all codes: 16 where a converter gives 8 bits of 12.
 fn step(watched: &[Seen]) -> u16 {
     let bits = watched.iter().fold(0, |bits, seen| bits | seen.bits());
     (bits & bits.wrapping_neg()).max(1)

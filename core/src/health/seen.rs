@@ -1,12 +1,13 @@
-//! What was seen of one taxel while it was watched.
+//! Statistics of one taxel's codes while it is watched.
 
 use crate::format::Code;
 
-/// Its last, lowest and highest code, and how far the code went from frame to frame.
+/// Last, lowest and highest code of a taxel, and the distance that its code has travelled from frame to
+/// frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    /// The last code, and above its 16 bits how far the code has travelled: one word is read and written
-    /// where two halves would be.
+    /// Last code in the lower 16 bits, travel in the upper 16: one word is loaded and stored instead of two
+    /// halves.
     course: u32,
     low: u16,
     high: u16,
@@ -15,17 +16,18 @@ pub(super) struct Seen {
 impl Seen {
     pub const NOTHING: Seen = Seen { course: 0, low: u16::MAX, high: 0 };
 
-    /// The first code.
+    /// Takes the first code.
     pub fn begin(&mut self, Code(code): Code) {
         *self = Seen { course: code.into(), low: code, high: code };
     }
 
-    /// The next one. Every frame has some hundred of these: a code that rises is not the lowest one.
+    /// Takes the next code. This runs some hundred times a frame, so a rising code is not compared with the
+    /// lowest.
     #[inline]
     pub fn see(&mut self, Code(code): Code) {
         let (code_now, last) = (u32::from(code), self.course & 0xffff);
-        // With codes of 16 bits the travel may pass its end: it is told too short then, and the taxel less
-        // noisy than it is.
+        // With codes of 16 bits the travel may wrap: it is then too small, and the taxel seems less noisy
+        // than it is.
         if code_now >= last {
             let way = code_now - last;
             self.course = self.course.wrapping_add(way << 16).wrapping_add(way);
@@ -41,40 +43,40 @@ impl Seen {
         }
     }
 
-    /// Whether the code never changed.
+    /// True if the code never changed.
     pub fn is_still(&self) -> bool {
         self.low == self.high
     }
 
-    /// Whether all codes lay within these.
+    /// True if all codes lay within `low ..= high`.
     pub fn is_within(&self, low: u16, high: u16) -> bool {
         self.low >= low && self.high <= high
     }
 
-    /// Bits that are set in its lowest or its highest code.
+    /// Bits that are set in the lowest or the highest code.
     pub fn bits(&self) -> u16 {
         self.low | self.high
     }
 
-    /// Sum of the distances from code to code.
+    /// Sum of the distances from code to code, counts.
     pub fn travel(&self) -> u16 {
         (self.course >> 16) as u16
     }
 
-    /// How far the code got from that at rest; less where it got to both sides, as a touch does not take it.
-    /// Without a code at rest: the distance of the lowest from the highest code.
+    /// Distance of the code from that at rest; reduced if the code got to both sides, which a touch does not
+    /// cause. Without a code at rest: distance of the lowest from the highest code.
     pub fn reach(&self, rest: Option<u16>) -> u16 {
         let Some(rest) = rest else { return self.high.saturating_sub(self.low) };
         let (below, above) = (rest.saturating_sub(self.low), self.high.saturating_sub(rest));
         below.max(above) - below.min(above) / 2
     }
 
-    /// Whether the code got to both sides of that at rest, by so much at least.
+    /// True if the code got to both sides of that at rest, by at least `by` counts.
     pub fn is_around(&self, rest: u16, by: u16) -> bool {
         rest.saturating_sub(self.low) >= by && self.high.saturating_sub(rest) >= by
     }
 
-    /// Lowest and highest pressure, where pressure lowers the code from `full`.
+    /// Lowest and highest pressure; `falling` is full scale where pressure lowers the code.
     pub fn pressure(&self, falling: Option<u16>) -> (u16, u16) {
         match falling {
             None => (self.low, self.high),

@@ -1,24 +1,24 @@
-//! What may be wrong with a taxel.
+//! Classes of taxel health.
 
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// The class of a taxel.
+/// Health of a taxel.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum TaxelHealth {
-    /// nothing is known against it
+    /// No fault is known.
     #[default]
     Good = 0,
-    /// it does not answer to pressure
+    /// Does not respond to pressure.
     Dead = 1,
-    /// it gives one code, without noise
+    /// Constant code, without noise.
     Stuck = 2,
-    /// its line is broken: no signal
+    /// Broken line: no signal.
     Open = 3,
-    /// its line has a short circuit: full signal
+    /// Short circuit: full signal.
     Shorted = 4,
-    /// its noise is many times that of the others
+    /// Its noise is many times that of the others.
     Noisy = 5,
 }
 

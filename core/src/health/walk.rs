@@ -1,8 +1,8 @@
-//! Where the taxels of a group are.
+//! Positions of the taxels of a group.
 
 use crate::garment::{Area, Layout};
 
-/// A taxel and where it is.
+/// A taxel and its position.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot<'a> {
     pub taxel: usize,
@@ -13,24 +13,24 @@ pub(super) struct Spot<'a> {
     pub column: u16,
 }
 
-/// Goes from row to row, for taxels that are asked for in their order: a place by its number takes a
-/// division, and this core has none.
+/// Cursor over the rows, for taxels in ascending order: a position from a number takes a division, which an
+/// M0+ does not have.
 pub(super) struct Walk<'a> {
-    /// The panel that was reached, and those after it.
+    /// Areas of the present panel and of those after it.
     areas: &'a [Area],
     panel: u8,
     row: u16,
-    /// First taxel of that row.
+    /// First taxel of the row.
     begin: usize,
 }
 
 impl<'a> Walk<'a> {
-    /// Before the first taxel.
+    /// Starts at the first taxel.
     pub fn new(layout: &'a Layout) -> Walk<'a> {
         Walk { areas: layout.areas(), panel: 0, row: 0, begin: 0 }
     }
 
-    /// To a taxel that is not before the last one; none past the last of all.
+    /// Advances to `taxel`, which is not before the last one. None past the last taxel of the garment.
     pub fn to(&mut self, taxel: usize) -> Option<Spot<'a>> {
         while let [_, rest @ ..] = self.areas
             && let [next, ..] = rest

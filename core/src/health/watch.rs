@@ -1,39 +1,39 @@
-//! Which taxels are watched when: some begin in every frame, and those that began [`FRAMES`] frames ago have
-//! been seen for long enough. So no frame costs more than another.
+//! Schedule of the watch: a group of taxels begins in every frame, and the one that began [`FRAMES`] frames
+//! ago is complete. So no frame costs more than another.
 
 use super::seen::Seen;
 use crate::format::Code;
 
-/// Frames in which a taxel is seen before it is judged.
+/// Number of frames in which a taxel is seen before it is judged.
 pub(super) const FRAMES: usize = 11;
-/// Taxels that begin together: a group.
+/// Number of taxels that begin together: a group.
 pub(super) const GROUP: usize = 23;
 
-/// The groups that are watched, the last one to begin in `slot`, the one before it in the slot before.
+/// The watched groups in a ring; the last to begin is in `slot`, the one before it in the slot before.
 #[derive(Debug, Clone)]
 pub(super) struct Watch {
     seen: [Seen; GROUP * FRAMES],
     /// Number of the group that began last.
     group: u16,
     slot: u8,
-    /// Groups that have begun since the watch did, at most [`FRAMES`].
+    /// Number of groups that have begun since the watch did, at most [`FRAMES`].
     begun: u8,
-    /// Groups there are, and those that are waited for where there are fewer than [`FRAMES`].
+    /// Number of groups, padded with empty ones to at least [`FRAMES`].
     groups: u16,
 }
 
 impl Watch {
-    /// Nothing has been seen.
+    /// State before the first frame.
     pub const fn new() -> Self {
         Watch { seen: [Seen::NOTHING; GROUP * FRAMES], group: 0, slot: 0, begun: 0, groups: 0 }
     }
 
-    /// Begins anew with the next frame.
+    /// Restarts the watch with the next frame.
     pub fn again(&mut self) {
         self.begun = 0;
     }
 
-    /// Takes a frame of that many taxels. Whether a group has now been seen for long enough: that of age
+    /// Takes a frame of that many taxels. Returns true if a group is now complete: the one of age
     /// `FRAMES - 1`.
     pub fn take(&mut self, codes: &[Code], taxels: usize) -> bool {
         if self.begun == 0 {
@@ -49,15 +49,15 @@ impl Watch {
             let codes = codes.get(usize::from(self.group) * GROUP..).unwrap_or(&[]);
             seen.iter_mut().zip(codes).for_each(|(seen, code)| seen.begin(*code));
         }
-        // Those that have not begun yet are seen, too, and begin later.
+        // Groups that have not begun yet are updated, too; their beginning resets them.
         self.go_on(codes, 0, slot, slot);
         self.go_on(codes, slot + 1, FRAMES, FRAMES - 1);
         self.begun = (self.begun + 1).min(FRAMES as u8);
         usize::from(self.begun) == FRAMES
     }
 
-    /// Takes the codes of the groups in some slots, the first of which began so many frames ago. Their taxels
-    /// follow each other, but for the last group of all, which the first one follows.
+    /// Takes the codes of the groups in slots `from .. to`; the first of them began `age` frames ago. Their
+    /// taxels are consecutive, except that the first group follows the last of all.
     fn go_on(&mut self, codes: &[Code], mut from: usize, to: usize, age: usize) {
         let mut group = self.at(age).0;
         while from < to {
@@ -68,7 +68,7 @@ impl Watch {
         }
     }
 
-    /// Number and slot of the group that began so many frames ago, fewer than [`FRAMES`].
+    /// Number and slot of the group that began `age` frames ago, fewer than [`FRAMES`].
     fn at(&self, age: usize) -> (usize, usize) {
         let group = (usize::from(self.group) + usize::from(self.groups)).saturating_sub(age);
         let group = group.checked_sub(usize::from(self.groups)).unwrap_or(group);
@@ -76,13 +76,13 @@ impl Watch {
         (group, if slot < age { slot + FRAMES - age } else { slot - age })
     }
 
-    /// First taxel of the group of that age, and what was seen of it; past the last taxel nothing was.
+    /// First taxel of the group of that age, and its statistics; those past the last taxel are empty.
     pub fn group(&self, age: usize) -> (usize, &[Seen]) {
         let (group, slot) = self.at(age);
         (group * GROUP, self.seen.get(slot * GROUP..(slot + 1) * GROUP).unwrap_or(&[]))
     }
 
-    /// What was seen of a taxel in at least half as many frames as it is to be.
+    /// Statistics of a taxel, if it was seen in at least half of its frames.
     pub fn seen(&self, taxel: usize) -> Option<&Seen> {
         (FRAMES / 2..FRAMES).map(|age| self.group(age)).find_map(|(first, seen)| {
             let index = taxel.checked_sub(first)?;
@@ -91,9 +91,8 @@ impl Watch {
     }
 }
 
-/// Takes the next code of each taxel. Some hundred in every frame: four at a time.
-///
-/// Not inlined: on its own it has registers enough.
+/// Takes the next code of each taxel: some hundred in every frame, four at a time.
+// M0+: out of line
 #[inline(never)]
 fn see(seen: &mut [Seen], codes: &[Code]) {
     let count = seen.len().min(codes.len());

@@ -1,5 +1,5 @@
-//! A map from its configuration: every number is checked before it is used, and the map is made where it is
-//! kept, because the stack of a microcontroller has no room for a second one.
+//! Building a map from its configuration. Every number is checked before it is used. The map is built in
+//! place, because the stack of a microcontroller has no room for a second one.
 
 use super::config::{DECIMALS, MapConfig, Rule};
 use super::error::MapError;
@@ -9,14 +9,14 @@ use super::transfer::{Gain, Transfer};
 use crate::format::{Name, Q15};
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// Checks `config` and prepares it. Every error names the concept, edge or parameter and its value.
+    /// Checks `config` and builds its map. Every error names the concept, edge or parameter and its value.
     pub fn build<const C: usize, const D: usize>(config: &MapConfig<C, D>) -> Result<Self, MapError> {
         let mut map = Map::new();
         map.fill(config)?;
         Ok(map)
     }
 
-    /// As [`Map::build`], in the place of what this map was; after an error it is empty.
+    /// Replaces this map by that of `config`, like [`Map::build`]; after an error the map is empty.
     pub fn fill<const C: usize, const D: usize>(&mut self, config: &MapConfig<C, D>) -> Result<(), MapError> {
         self.clear();
         let done = self.take(config);
@@ -91,8 +91,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         Ok(())
     }
 
-    /// Chooses `shift` so that no partial sum of any row can leave 32 bits, whatever the state. For threshold
-    /// maps a shift would break ties, so a map that needs one is refused.
+    /// Chooses `shift` so that no partial sum of any row can exceed 32 bits, whatever the state. For
+    /// threshold maps a shift would break ties, so a map that needs one is refused.
     fn set_shift(&mut self) -> Result<(), MapError> {
         // |x| <= one, hence |2 x - one| <= 3 one.
         let largest = i64::from(self.one) * if self.rule == Rule::Rescaled { 3 } else { 1 };
@@ -100,7 +100,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         for (row, concept) in self.rows.iter().zip(&self.concepts) {
             let weights: i64 =
                 causes.by_ref().take(row.causes.into()).map(|c| i64::from(c.weight.unsigned_abs())).sum();
-            // + one step for y_j itself and one for the threshold.
+            // One step more for y_j itself, and one for the threshold.
             let bound = (weights + 2 * i64::from(self.step)) * largest;
             let fits = |shift: u32| (bound >> shift) + i64::from(row.causes) + 2 <= i64::from(i32::MAX);
             while !fits(self.shift) {
@@ -118,7 +118,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         config: &MapConfig<C, D>,
     ) -> Result<(), MapError> {
         let (scale, shift, step, decimals) = (self.one, self.shift, self.step, config.decimals);
-        // Checked below before it is used: within -1 ..= 1 the product is at most one * step < 2^29.
+        // Checked below before use: within -1 ..= 1 the product is at most one * step < 2^29.
         let bias = |value: i16| -(i32::from(value).wrapping_mul(scale) >> shift);
         let outside = |value: i16| i32::from(value).abs() > step;
         if outside(config.threshold) {

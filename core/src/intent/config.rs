@@ -1,4 +1,4 @@
-//! What the author of a map writes, in decimal steps: the form that travels in a scene.
+//! Configuration of a map as its author writes it, in decimal steps. A scene contains this form.
 
 use super::input::Input;
 use super::transfer::Transfer;
@@ -6,24 +6,24 @@ use crate::format::Name;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Concepts of a map on the board, unless a type says otherwise.
+/// Default capacity for the concepts of a map.
 pub const CONCEPTS: usize = 64;
-/// Edges of a map on the board, unless a type says otherwise.
+/// Default capacity for the edges of a map.
 pub const EDGES: usize = 256;
-/// The finest decimal step is 10^-4: products of weight and state then fit 32 bits.
+/// Greatest number of decimals: with steps of 10^-4, products of weight and state fit in 32 bits.
 pub const DECIMALS: u8 = 4;
 
-/// What is summed for a concept. Variants are only appended.
+/// The sum from which a concept's activation follows. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rule {
-    /// Its causes only: z_j = sum W\[i\]\[j\] x_i.
+    /// Sum over its causes: z_j = sum W\[i\]\[j\] x_i.
     #[default]
     Kosko,
-    /// Its causes and itself: z_j = sum W\[i\]\[j\] x_i + x_j.
+    /// Sum over its causes and itself: z_j = sum W\[i\]\[j\] x_i + x_j.
     #[serde(alias = "mKosko")]
     Mkosko,
-    /// As mkosko with 2 x - 1 in the place of every x, so that an activation of 1/2 means "not known".
+    /// Like mkosko with 2 x - 1 instead of every x, so that an activation of 1/2 means "not known".
     Rescaled,
 }
 
@@ -39,7 +39,7 @@ pub struct Edge {
     pub weight: i16,
 }
 
-/// A threshold that one concept has for itself.
+/// Threshold of a single concept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Threshold {
@@ -53,53 +53,54 @@ pub struct Threshold {
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
-    /// What the map is called.
+    /// Name of the map.
     pub name: Name,
-    /// Names of the concepts, all different; their order is the order of every state.
+    /// Names of the concepts, all different; every state has their order.
     pub concepts: Vec<Name, N>,
     /// The decimal step is 10^-decimals, 0 ..= 4.
     pub decimals: u8,
     /// Causal edges, each pair once.
     pub edges: Vec<Edge, E>,
-    /// What is summed.
+    /// Rule of the sum.
     pub rule: Rule,
-    /// What the sum becomes.
+    /// Function of the sum that gives the activation.
     pub transfer: Transfer,
-    /// Steepness of the smooth transfer functions in 1/1000, not 0; without effect on the others.
+    /// Steepness of the smooth transfer functions in 1/1000, not 0; no effect on the others.
     pub lambda: u16,
     /// T of every concept, in steps, -1 ..= 1.
     pub threshold: i16,
-    /// T of single concepts, in the place of `threshold`.
+    /// T of single concepts; overrides `threshold`.
     pub thresholds: Vec<Threshold, N>,
-    /// Whether concepts without an incoming edge keep their value (usual) or follow the rule like the others.
+    /// True if concepts without an incoming edge keep their value (usual); false if they follow the rule like
+    /// all others.
     pub held: bool,
-    /// Which concepts are fed from the touch or the host, and how.
+    /// Inputs: the concepts that the touch or the host sets, with their ramps.
     pub inputs: Vec<Input, N>,
 }
 
-/// What the stage is to do.
+/// Configuration of the stage.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct IntentConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
     /// The map.
     pub map: MapConfig<N, E>,
-    /// Time that an intention must lead before it is announced, in ms.
+    /// Time that an intention must lead before it is announced, ms.
     pub onset_ms: u16,
     /// Activation from which an intention may lead, in thousandths.
     pub level: u16,
     /// Lead over the other two that it needs, in thousandths.
     pub margin: u16,
-    /// Time after the release for which the touch still counts, in ms.
+    /// Time after the release for which the touch still counts, ms.
     pub hold_ms: u16,
-    /// Shortest time between two inferences of one touch, in ms; its beginning and its end are never waited
-    /// for.
+    /// Shortest time between two inferences of one touch, ms. The beginning and the end of a touch do not
+    /// wait for it.
     pub period_ms: u16,
-    /// Largest number of steps of an inference.
+    /// Greatest number of steps of an inference.
     pub steps: u16,
 }
 
 impl<const N: usize, const E: usize> IntentConfig<N, E> {
-    /// The usual settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 20 ms period, 16 steps.
+    /// Default settings with a map: 30 ms onset, level 0.5, margin 0.1, 600 ms hold, 20 ms period, 16 steps.
     pub fn new(map: MapConfig<N, E>) -> Self {
         IntentConfig { map, onset_ms: 30, level: 500, margin: 100, hold_ms: 600, period_ms: 20, steps: 16 }
     }

@@ -1,20 +1,21 @@
-//! The start of an inference: what was measured, as activations of the input concepts.
+//! Initial state of an inference: measures encoded as activations of the input concepts.
 
 use super::input::{Source, Touch};
 use super::map::Map;
 use crate::format::Q15;
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// The start of an inference: each input concept encoded, every other concept 0. Inputs of one concept
-    /// add up, and the sum is held within -1 ..= 1 after each of them. `host` holds the values the host
-    /// feeds, by slot. Total: every measure is held within its ramp, and a slot that is not there reads 0.
+    /// Returns the initial state of an inference: each input concept encoded, every other concept 0. Inputs
+    /// of one concept add up, and the sum is clamped to -1 ..= 1 after each of them. `host` holds the values
+    /// that the host feeds, by slot. Does not panic: every measure is clamped to its ramp, and a missing slot
+    /// reads 0.
     pub fn encode(&self, touch: Option<&Touch>, host: &[Q15]) -> [i32; N] {
         let mut state = [0; N];
         self.encode_into(touch, host, &mut state);
         state
     }
 
-    /// As [`Map::encode`], into a state whose concepts are 0.
+    /// Encodes like [`Map::encode`], into a state whose concepts are 0.
     pub(super) fn encode_into(&self, touch: Option<&Touch>, host: &[Q15], state: &mut [i32]) {
         for input in &self.inputs {
             let measured =

@@ -1,4 +1,4 @@
-//! Why a map was refused: every error names the concept, the edge or the parameter, and its value.
+//! Errors of a map's configuration: each names the concept, the edge or the parameter, and its value.
 
 use crate::format::Name;
 use core::fmt;
@@ -25,13 +25,13 @@ pub enum MapError {
     DuplicateEdge { from: Name, to: Name },
     /// lambda is 0.
     Lambda,
-    /// A threshold is outside -1 ..= 1; without a concept it is the threshold of all.
+    /// A threshold is outside -1 ..= 1; without a concept it is the common one.
     Threshold { concept: Option<Name>, value: i16, decimals: u8 },
     /// A threshold belongs to a concept that does not exist.
     ThresholdConcept { concept: u8, concepts: usize },
     /// A concept has two thresholds.
     DuplicateThreshold { concept: Name },
-    /// The causes of a concept of a threshold map may sum to more than 32 bits hold: fewer decimals are needed.
+    /// The causes of a concept of a threshold map may sum to more than 32 bits: it needs fewer decimals.
     TooLarge { concept: Name },
     /// An input belongs to a concept that does not exist.
     InputConcept { input: usize, concept: u8, concepts: usize },
@@ -45,11 +45,11 @@ pub enum MapError {
     NoIntention,
     /// `level` or `margin`, in thousandths, is above 1.
     Fraction { parameter: &'static str, thousandths: u16 },
-    /// An inference of no step has no result.
+    /// `steps` is 0: such an inference has no result.
     NoSteps,
 }
 
-/// A number of decimal steps, written as a decimal number: `Steps(-35, 2)` is -0.35.
+/// A number of decimal steps that prints as a decimal number: `Steps(-35, 2)` is -0.35.
 #[derive(Debug, Clone, Copy)]
 pub struct Steps(pub i16, pub u8);
 

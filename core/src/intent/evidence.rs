@@ -1,42 +1,42 @@
-//! What is remembered of the frames of a touch: how suddenly it came, its beats, how long it has lain still.
+//! Measures over the frames of a touch: how suddenly it came, its beats, how long it has been still.
 //!
 //! | | |
 //! |---|---|
 //! | input | [`Felt`] of each frame, the time |
-//! | output | [`Evidence`]'s fields |
+//! | output | the measures of [`Evidence`] |
 //! | saturation | at the ends of their types |
 //! | latency | none |
-//! | RAM | 150 bytes |
+//! | RAM | about 220 bytes |
 //!
-//! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) over
-//! the youngest earlier frame that is at least [`WINDOW_US`] older: where frames are slower than that, over
-//! one frame. It is that of one region, and at most that of the whole garment: a contact that crosses a
-//! border takes its pressure from one region to another, and nothing has come.
+//! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) since
+//! the latest earlier frame that is at least [`WINDOW_US`] older; if frames are further apart, since the
+//! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
+//! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 
 use super::felt::Felt;
 use crate::format::{Inverse, Micros, wide};
 use core::num::NonZeroU32;
 
-/// A rise is measured over this time at least, us: two frames of the reference board, a quarter of the time
+/// Shortest time over which a rise is measured, us: two frames of the reference board, a quarter of the time
 /// in which a hand closes.
 pub const WINDOW_US: u64 = 9_000;
-/// Beats that are closer than this are none of a hand, us.
+/// Shortest time between two beats of a hand, us.
 const FASTEST_BEAT_US: u64 = 120_000;
-/// Without a beat for this time the rhythm is over, us.
+/// Time without a beat after which the rhythm is over, us.
 const SLOWEST_BEAT_US: u64 = 2_000_000;
 
-/// When less than half of what lay there is left for so long, it was taken away, us: what remains flickers
-/// while it goes.
+/// Time with less than half of the pressure left after which the object counts as taken away, us: the rest
+/// flickers while it goes.
 const TAKEN_US: u64 = 200_000;
 
-/// Certain pressure at a time.
+/// Certain pressure at some time.
 #[derive(Debug, Default, Clone)]
 struct Anchor {
     at: Micros,
     felt: Felt,
 }
 
-/// The greatest of the last time.
+/// Greatest recent value.
 #[derive(Debug, Default, Clone, Copy)]
 struct Recent {
     value: u32,
@@ -44,7 +44,7 @@ struct Recent {
 }
 
 impl Recent {
-    /// Takes the value of this frame; what is older than `memory_us` is forgotten.
+    /// Takes the value of this frame; a greatest value older than `memory_us` is forgotten.
     fn take(&mut self, value: u32, now: Micros, memory_us: u64) {
         if value >= self.value || now.since(self.at) >= memory_us {
             *self = Recent { value, at: now };
@@ -52,11 +52,11 @@ impl Recent {
     }
 }
 
-/// Falls and rises of the force.
+/// Counter of falls and rises of the force.
 #[derive(Debug, Default, Clone)]
 struct Beats {
     count: u32,
-    /// Greatest since the last rise, then the least since the fall.
+    /// Greatest load since the last rise; then least load since the fall.
     high: u32,
     low: u32,
     falling: bool,
@@ -64,7 +64,7 @@ struct Beats {
 }
 
 impl Beats {
-    /// A fall by a fifth of the greatest, and a rise by as much, are a beat.
+    /// A fall by a fifth of the greatest load and a rise by the same amount are a beat.
     fn take(&mut self, load: u32, now: Micros) {
         let swing = self.high / 5;
         if !self.falling {
@@ -85,7 +85,7 @@ impl Beats {
     }
 }
 
-/// What is remembered of the frames of a touch.
+/// State of the measures.
 #[derive(Debug, Default, Clone)]
 pub struct Evidence {
     anchors: [Anchor; 2],
@@ -97,24 +97,24 @@ pub struct Evidence {
     peak: Recent,
     cover_mm2: u32,
     beats: Beats,
-    /// What lay there when it began to lie still, counts; and since when.
+    /// Load when it began to be still, counts; and time of that.
     rest: u32,
     since: Micros,
-    /// When at least half of it was there last.
+    /// Last time at which at least half of that load was there.
     whole: Micros,
     still_ms: u32,
 }
 
 impl Evidence {
-    /// Takes a frame. `counts`: a touch counts, else what belongs to the last one is forgotten; `memory_us`:
-    /// for how long a touch counts after its end.
+    /// Takes a frame. `counts` is true while a touch counts; otherwise the measures of the last one are
+    /// forgotten. `memory_us` is the time for which a touch counts after its end.
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
         self.rise = self.rise_of(felt, now);
         if !counts {
             (self.blow, self.load, self.peak) = Default::default();
             (self.beats, self.cover_mm2, self.rest, self.still_ms) = (Beats::default(), 0, 0, 0);
         }
-        // What nothing touches any more counts on as it was.
+        // A touch that has ended keeps its values as long as it counts.
         if felt.load > 0 {
             self.blow.take(self.rise, now, memory_us);
             self.load.take(felt.load, now, memory_us);
@@ -127,10 +127,10 @@ impl Evidence {
         self.rests(felt.load, now);
     }
 
-    /// Counts/ms.
+    /// Returns the rise of this frame, counts/ms.
     fn rise_of(&mut self, felt: &Felt, now: Micros) -> u32 {
         if !self.begun {
-            // Nobody saw the onset of what was there in the first frame.
+            // The onset of what touches in the first frame was not seen.
             self.begun = true;
             self.anchors = [Anchor { at: now, felt: *felt }, Anchor { at: now, felt: *felt }];
         }
@@ -151,8 +151,8 @@ impl Evidence {
         rise
     }
 
-    /// What lies there rests as long as no more than a tenth is added: taking something away is none of its
-    /// doing.
+    /// Updates the time of being still: a load is still as long as no more than a tenth is added. Removal of
+    /// a part does not end it.
     fn rests(&mut self, load: u32, now: Micros) {
         if load > self.rest.saturating_add(self.rest / 10) {
             (self.rest, self.since, self.whole) = (load, now, now);
@@ -166,32 +166,32 @@ impl Evidence {
         }
     }
 
-    /// Steepest rise of the last time, counts/ms.
+    /// Steepest recent rise, counts/ms.
     pub fn blow(&self) -> u32 {
         self.blow.value
     }
 
-    /// Greatest total pressure of the last time, counts.
+    /// Greatest recent total pressure, counts.
     pub fn load(&self) -> u32 {
         self.load.value
     }
 
-    /// Greatest pressure of a taxel of the last time, counts.
+    /// Greatest recent pressure of a taxel, counts.
     pub fn peak(&self) -> u32 {
         self.peak.value
     }
 
-    /// Largest area that was touched at once, mm2.
+    /// Largest area touched at once, mm2.
     pub fn cover_mm2(&self) -> u32 {
         self.cover_mm2
     }
 
-    /// How often the force fell and rose again at the tempo of a hand.
+    /// Number of falls and rises of the force at the tempo of a hand.
     pub fn beats(&self) -> u32 {
         self.beats.count
     }
 
-    /// How long nothing has been added, ms.
+    /// Time since force was last added, ms.
     pub fn still_ms(&self) -> u32 {
         self.still_ms
     }
@@ -211,7 +211,7 @@ mod tests {
         felt
     }
 
-    /// The steepest rise of a course of (total, area) over seconds, seen so often.
+    /// Steepest rise of a course of (total, area) over seconds, sampled that often.
     fn steepest(period_us: u64, course: impl Fn(f64) -> (u32, u16)) -> u32 {
         let mut evidence = Evidence::default();
         (0..1_000_000 / period_us).for_each(|frame| {
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn what_has_its_whole_area_at_once_did_not_come_at_once() {
-        // 30 N in 0.5 s on 300 taxels: it is seen when each has 40 counts, 12 N at once.
+        // 30 N in 0.5 s on 300 taxels: it shows when each taxel has 40 counts, 12 N at once.
         let hug = |t: f64| {
             let total = (60_000.0 * (t - 0.2)).clamp(0.0, 30_000.0) as u32;
             if total >= 12_000 { (total, 300) } else { (0, 0) }
@@ -242,7 +242,7 @@ mod tests {
             let rise = steepest(period_us, slap);
             assert!((2_000..=3_000).contains(&rise), "{rise} at {period_us} us");
         }
-        // Within 40 ms it may have come slowly.
+        // Within a frame of 40 ms it may have come slowly.
         assert!(steepest(40_000, slap) <= 1_000);
     }
 

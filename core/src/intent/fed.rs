@@ -1,11 +1,11 @@
-//! Concepts that the host feeds (what a camera sees, how warm the skin is), each with an age after which it
-//! no longer counts.
+//! Values that the host feeds to concepts (what a camera sees, how warm the skin is), each with an age after
+//! which it no longer counts.
 //!
 //! | | |
 //! |---|---|
-//! | input | [`Feed`]s, by the concept's name; or a value for a slot, which holds until the next |
+//! | input | [`Feed`]s, by name of the concept; or a value for a slot, which holds until the next one |
 //! | output | a value for each slot of [`Source::Host`](super::input::Source::Host) |
-//! | saturation | none: what is outside -1 ..= 1 is refused |
+//! | saturation | none: values outside -1 ..= 1 are refused |
 //! | latency | none |
 //! | RAM | 24 bytes a slot |
 
@@ -13,41 +13,41 @@ use super::map::Map;
 use crate::format::{Invalid, Micros, Name, Q15};
 use serde::{Deserialize, Serialize};
 
-/// Concept values that the host may feed.
+/// Number of concepts that the host may feed.
 pub const SLOTS: usize = 8;
 
-/// A value for a concept, as the host knows it.
+/// A value for a concept, from the host.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Feed {
-    /// The concept: one whose input is a slot of the host.
+    /// The concept; its input must be a slot of the host.
     pub concept: Name,
-    /// -1 ..= 1
+    /// The value, -1 ..= 1.
     pub value: Q15,
-    /// How old the value is already, ms.
+    /// Age of the value on arrival, ms.
     pub age_ms: u32,
-    /// Age from which the value no longer counts, ms; 0: it holds until the next.
+    /// Age from which the value no longer counts, ms; 0: it holds until the next one.
     pub lasts_ms: u32,
-    /// What counts then, -1 ..= 1.
+    /// Value that counts from then on, -1 ..= 1.
     pub otherwise: Q15,
 }
 
-/// What a slot holds.
+/// Content of a slot.
 #[derive(Debug, Default, Clone, Copy)]
 struct Held {
     value: Q15,
-    /// Until then; none: until the next value.
+    /// Time until which `value` counts; none: until the next value.
     until: Option<Micros>,
     otherwise: Q15,
 }
 
-/// What the host has fed.
+/// Values that the host has fed.
 #[derive(Debug, Default, Clone)]
 pub struct Fed {
     slots: [Held; SLOTS],
 }
 
 impl Fed {
-    /// Puts a value into a slot until the next one; nothing counts otherwise. A refused value changes nothing.
+    /// Puts a value into a slot until the next one. A refused value changes nothing.
     pub fn set(&mut self, slot: u8, value: Q15) -> Result<(), Invalid> {
         let value = fraction(value, "value")?;
         let must = "must be less than 8";
@@ -56,7 +56,8 @@ impl Fed {
         Ok(())
     }
 
-    /// Takes a value that arrived at `now` for a concept of `map`. A refused value changes nothing.
+    /// Takes a value that arrived at `now` for a concept of `map`. Error if the host does not feed the
+    /// concept or a value is outside -1 ..= 1; then nothing changes.
     pub fn accept<const N: usize, const E: usize>(
         &mut self,
         feed: &Feed,
@@ -75,12 +76,12 @@ impl Fed {
         Ok(())
     }
 
-    /// Nobody feeds any more: what was fed with what counts otherwise is that, and all else 0.
+    /// Called when no host feeds any more: each slot falls back to its `otherwise`, 0 if none was given.
     pub fn let_go(&mut self) {
         self.slots.iter_mut().for_each(|held| *held = Held { value: held.otherwise, until: None, ..*held });
     }
 
-    /// What counts at `now`, by slot; 0 where nothing was fed.
+    /// Values that count at `now`, by slot; 0 if nothing was fed.
     pub fn values(&self, now: Micros) -> [Q15; SLOTS] {
         let mut values = [Q15(0); SLOTS];
         for (value, held) in values.iter_mut().zip(&self.slots) {
@@ -93,7 +94,7 @@ impl Fed {
     }
 }
 
-/// A value within -1 ..= 1.
+/// Returns the value. Error if it is outside -1 ..= 1.
 fn fraction(value: Q15, parameter: &'static str) -> Result<Q15, Invalid> {
     if value < Q15(-Q15::ONE.0) || value > Q15::ONE {
         return Err(Invalid { parameter, must: "must be -1 to 1" });

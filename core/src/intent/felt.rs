@@ -1,4 +1,4 @@
-//! What lies on the whole garment in one frame: a hug, a strap and a blow are more than their strongest
+//! Sums over the whole garment in one frame: an embrace, a strap and a blow are more than their strongest
 //! contact.
 
 use crate::garment::PANELS;
@@ -12,26 +12,26 @@ pub struct Felt {
     pub cover_mm2: u32,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
-    /// By region: the pressure that has come for certain since nothing touched, counts. A taxel may have held
-    /// up to the high threshold of contacts before anything was announced; only what is above that counts.
+    /// By region: certain pressure since nothing touched, counts. A taxel may have held up to the high
+    /// threshold of contacts before anything was announced; only pressure above that is certain.
     pub certain: [u32; PANELS],
 }
 
 impl Felt {
-    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; below `high` counts of a taxel
-    /// nothing begins.
+    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; `high` is the high threshold of
+    /// contacts, counts.
     pub fn add(&mut self, region: u8, total: u32, peak: u16, area: u16, cell_mm2: u32, high: u16) {
         let area = u32::from(area);
         self.load = self.load.saturating_add(total);
         self.cover_mm2 = self.cover_mm2.saturating_add(area.saturating_mul(cell_mm2));
         self.peak = self.peak.max(peak);
         if let Some(certain) = self.certain.get_mut(usize::from(region)) {
-            // 16 + 16 bits.
+            // The product has 16 + 16 bits.
             *certain = certain.saturating_add(total.saturating_sub(area * u32::from(high)));
         }
     }
 
-    /// The pressure that has come for certain, on the whole garment, counts.
+    /// Certain pressure on the whole garment, counts.
     pub(super) fn whole(&self) -> u32 {
         self.certain.iter().fold(0, |sum, certain| sum.saturating_add(*certain))
     }

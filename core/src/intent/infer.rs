@@ -7,7 +7,7 @@
 //! | saturation | none inside: `build` proves that every sum fits 32 bits |
 //! | error | one step: sigmoid 0.8, tanh 1.1 steps of 2^-15, thresholds none; settled, the shipped map: 4e-4 |
 //! | latency | within the call |
-//! | RAM | 3 states of 4 N bytes on the stack, of which those of the concepts that the map has are written |
+//! | RAM | 3 states of 4 N bytes on the stack, written only for the concepts that the map has |
 //! | M0+ cycles | one step about 12 for each pair of a free concept and a cause, 100 for each free concept, 400 (read off the disassembly, not measured): the shipped map under 2,000, settled within six steps |
 
 use super::config::Rule;
@@ -15,23 +15,24 @@ use super::map::Map;
 use super::transfer::{Transfer, sigmoid_of_twice, tanh};
 use heapless::Vec;
 
-/// Extent in units of 2^-15 up to which a cycle of a smooth map counts as a fixed point: 4.9e-4. Rounding to
-/// Q15 is noise of half a unit at every step, which a map that settles slowly amplifies; fcmpy8 of the
-/// reference set (kosko, tanh, lambda 1) ends in a cycle of period 24 within 8 units of its fixed point.
+/// Greatest extent of a cycle of a smooth map that counts as a fixed point, in units of 2^-15: 4.9e-4.
+/// Rounding to Q15 is noise of half a unit at every step, which a map that settles slowly amplifies; fcmpy8
+/// of the reference set (kosko, tanh, lambda 1) ends in a cycle of period 24 within 8 units of its fixed
+/// point.
 pub const ROUNDING: i32 = 16;
 
-/// How a trajectory ended.
+/// End of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Outcome {
-    /// The state reproduces itself. For smooth maps this includes a cycle that keeps within [`ROUNDING`] of
-    /// where it was noticed: a fixed point that rounding does not let come to rest. Its steps are below the
-    /// resolution of 2^-15, which need not mean that the limit is near: a map that creeps towards it ever
-    /// more slowly rests on the way (1.2e-2 from the exact state after as many steps, and 0.22 from that
+    /// The state reproduces itself. For smooth maps this includes a cycle that stays within [`ROUNDING`] of
+    /// the state where it was noticed: a fixed point that rounding does not let come to rest. Its steps are
+    /// below the resolution of 2^-15. This need not mean that the limit is near: a map that creeps towards it
+    /// ever more slowly stops on the way (1.2e-2 from the exact state after as many steps, and 0.22 from that
     /// after 100,000, in one of the 48 smooth reference trajectories).
     Fixed,
     /// The state returns after this many steps, and not earlier; at least 2.
     Cycle(u16),
-    /// Neither was seen within the steps allowed.
+    /// Neither was found within the allowed steps.
     Unsettled,
 }
 
@@ -42,29 +43,29 @@ pub struct Inference<const N: usize> {
     pub state: [i32; N],
     /// Steps taken. For a fixed point the last of them changed nothing: state 3 = state 4 are 4 steps.
     pub steps: u16,
-    /// How it ended.
+    /// End of the trajectory.
     pub outcome: Outcome,
 }
 
 impl<const N: usize, const E: usize> Map<N, E> {
     /// Runs the map from `start` (the first of the N + 1 states of a trajectory) for at most `steps` steps,
-    /// and stops where it settles. Total and bounded: memory does not depend on `steps`; after no step it is
-    /// unsettled.
+    /// and stops where it settles. Bounded, and never panics: memory does not depend on `steps`; with 0 steps
+    /// the outcome is unsettled.
     ///
     /// Cycles are found by Brent's algorithm: one remembered state, moved ahead at every power of two. The
-    /// period is exact; a cycle is noticed after at most three times the steps it took to enter and go round
-    /// it once.
+    /// period is exact; a cycle is noticed after at most three times the steps it took to enter it and to run
+    /// through it once.
     pub fn infer(&self, start: &[i32; N], steps: u16) -> Inference<N> {
         let mut run = Inference { state: [0; N], steps, outcome: Outcome::Unsettled };
         self.infer_into(start, steps, &mut run);
         run
     }
 
-    /// As [`Map::infer`], in the place of another result; `start` has a value for each concept of the map.
-    /// What is beyond these stays as it was.
+    /// Runs like [`Map::infer`], in place of an earlier result. `start` has a value for each concept of the
+    /// map; the rest of the state stays as it was.
     pub fn infer_into(&self, start: &[i32], steps: u16, run: &mut Inference<N>) {
-        // Lists, because they need not be filled with zeros first: a small map must not cost what a large one
-        // does.
+        // Lists instead of arrays: they need not be filled with zeros, so a small map does not cost as much
+        // as a large one.
         let (mut next, mut mark) = (Vec::new(), Vec::new());
         self.clamp(start, &mut run.state);
         (run.steps, run.outcome) = (steps, Outcome::Unsettled);
@@ -92,7 +93,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
     }
 
-    /// One step from any state; values beyond -1 ..= 1 are clamped first. Total.
+    /// Returns the state after one step from any state; values beyond -1 ..= 1 are clamped first. Never
+    /// panics.
     pub fn step(&self, state: &[i32; N]) -> [i32; N] {
         let (mut out, mut next) = ([0; N], Vec::new());
         self.clamp(state, &mut out);
@@ -101,8 +103,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         out
     }
 
-    /// One step from a state within -1 ..= 1, which is what `build` proved the sums for; `next` are as many
-    /// as there are concepts.
+    /// Computes one step from a state within -1 ..= 1, for which `build` proved that the sums fit. `next`
+    /// gets one value per concept.
     fn advance(&self, state: &[i32; N], next: &mut Vec<i32, N>) {
         let rescaled = self.rule == Rule::Rescaled;
         let own = if self.rule == Rule::Kosko { 0 } else { self.step };
@@ -116,11 +118,11 @@ impl<const N: usize, const E: usize> Map<N, E> {
             }
             let mut sum = row.bias + ((own * y(*x)) >> self.shift);
             for cause in causes.by_ref().take(row.causes.into()) {
-                // `build` proved that the cause is there.
+                // `build` proved that the cause exists.
                 let x = state.get(usize::from(cause.from)).copied().unwrap_or(0);
                 sum += (i32::from(cause.weight) * y(x)) >> self.shift;
             }
-            // As many as rows.
+            // Always room: one value per row.
             let _ = next.push(self.transferred(sum));
         }
     }
@@ -135,22 +137,22 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
     }
 
-    /// The concepts of the map, held within -1 ..= 1.
+    /// Clamps the concepts of the map to -1 ..= 1.
     fn clamp(&self, state: &[i32], out: &mut [i32; N]) {
         for (to, from) in out.iter_mut().zip(state).take(self.concepts.len()) {
-            // `clamp` of numbers would panic on an empty range, which the compiler cannot exclude.
+            // `clamp` of integers would panic on an empty range, which the compiler cannot exclude.
             *to = (*from).max(-self.one).min(self.one);
         }
     }
 
-    /// Keeps the concepts of the map.
+    /// Copies the concepts of the map.
     fn keep(&self, state: &[i32; N], to: &mut Vec<i32, N>) {
         to.clear();
         state.iter().take(self.concepts.len()).for_each(|value| _ = to.push(*value));
     }
 }
 
-/// The largest difference between concepts.
+/// Greatest difference between two concepts of the same index.
 fn distance(a: &[i32], b: &[i32]) -> i32 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).max().unwrap_or(0)
 }

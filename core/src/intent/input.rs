@@ -2,21 +2,21 @@
 //!
 //! A ramp: `at_low` up to `low`, `at_high` from `high` on, and a straight line between. The result is rounded
 //! to the nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source
-//! that describes one gives 0, which is not the same as the ramp's value for a measurement of 0.
+//! that describes one gives 0, which is not the ramp's value for a measurement of 0.
 //!
-//! The inputs of one concept add up. A ramp from 0 to 1 and one further on from 0 to -1 are together a
-//! trapezoid, and a triangle where the second begins as the first ends: fuzzy memberships need no other form.
+//! The inputs of one concept add up. A ramp from 0 to 1 and a later one from 0 to -1 are together a
+//! trapezoid, and a triangle if the second begins where the first ends: fuzzy memberships need no other form.
 
 use super::error::MapError;
 use crate::format::{Name, wide};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
-/// What is known of one touch when its meaning is asked for.
+/// Measures of a touch for the inference.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Touch {
-    /// Total pressure in counts: the peak over the touch so far, because a lash is judged by its peak. It
-    /// therefore never falls while the touch lasts.
+    /// Total pressure in counts: the peak over the touch so far, because a lash is judged by its peak. So it
+    /// never falls while the touch lasts.
     pub press: u32,
     /// Equivalent width of the contact across its major axis, in 0.1 mm.
     pub breadth: u32,
@@ -26,38 +26,37 @@ pub struct Touch {
     pub duration_ms: u32,
     /// Speed of the contact over the surface, in 0.1 mm/s.
     pub speed: u32,
-    /// How steeply the force came, in counts/ms: the steepest rise since the onset. The stage finds it
-    /// itself, as all that follows up to `own`.
+    /// Steepest rise of the force since the onset, in counts/ms. The stage computes this field and those
+    /// below, up to `still_ms`.
     pub rise: u32,
-    /// Steepest rise of the last time, in counts/ms: that of a blow is forgotten while what hit still lies
-    /// there.
+    /// Steepest recent rise, in counts/ms: a blow is forgotten while the object that hit is still there.
     pub blow: u32,
-    /// Greatest total pressure of all contacts of the last time, in counts.
+    /// Greatest recent total pressure of all contacts, in counts.
     pub load: u32,
     /// Largest area that all contacts touched at once, in mm2.
     pub cover_mm2: u32,
-    /// Greatest pressure of a taxel of the last time, in counts.
+    /// Greatest recent pressure of a taxel, in counts.
     pub peak: u32,
-    /// Time since the onset, in ms; unlike the duration, it goes on after the release.
+    /// Time since the onset, in ms; unlike the duration, it continues after the release.
     pub age_ms: u32,
-    /// How often the force fell and rose again at the tempo of a hand.
+    /// Number of falls and rises of the force at the tempo of a hand.
     pub beats: u32,
-    /// How long nothing has been added to the force, in ms.
+    /// Time since force was last added, in ms.
     pub still_ms: u32,
-    /// It began while the robot itself moved: told by whoever gives the touch.
+    /// True if it began while the robot itself moved; the caller sets it.
     pub own: bool,
     /// Total pressure now, in counts.
     pub force: u32,
-    /// Taxels that are touched now.
+    /// Number of taxels touched now.
     pub area: u16,
-    /// Area of one of them, in mm2; may be 0 where no input is [`Source::Hardness`].
+    /// Area of a taxel, in mm2; may be 0 if no input is [`Source::Hardness`].
     pub cell_mm2: u32,
-    /// How hard what touches seems, in counts per cm2: see [`hardness`](crate::contact::hardness). The stage
-    /// finds it itself, and only where an input asks for it.
+    /// Apparent hardness of the object, in counts per cm2: see [`hardness`](crate::contact::hardness). The
+    /// stage computes it, and only if an input needs it.
     pub hardness: Option<u32>,
 }
 
-/// Where an input concept takes its value from. Variants are only appended.
+/// Source of an input concept's value. Variants are only appended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
@@ -75,21 +74,21 @@ pub enum Source {
     Host(u8),
     /// [`Touch::rise`], counts/ms: with the duration the concept *time*, sudden to slow.
     Rise,
-    /// [`Touch::hardness`], counts per cm2, soft to hard; gives 0 before it is known.
+    /// [`Touch::hardness`], counts per cm2, soft to hard; gives 0 while it is unknown.
     Hardness,
-    /// [`Touch::blow`], counts/ms: a blow, as long as it has just happened.
+    /// [`Touch::blow`], counts/ms: a blow that has just happened.
     Blow,
-    /// [`Touch::load`], counts: of all contacts together.
+    /// [`Touch::load`], counts: all contacts together.
     Load,
     /// [`Touch::cover_mm2`], mm2: an embrace covers more than a hand.
     Cover,
-    /// [`Touch::peak`], counts: what is sharp fills a taxel.
+    /// [`Touch::peak`], counts: a sharp object loads a single taxel.
     Peak,
     /// [`Touch::age_ms`], ms.
     Age,
     /// [`Touch::beats`]: the rhythm of a shaken hand, of pats, of a massage.
     Beats,
-    /// [`Touch::still_ms`], ms: what lies there.
+    /// [`Touch::still_ms`], ms: an object that lies on the garment.
     Still,
     /// [`Touch::own`]: 1 if it began while the robot itself moved, else 0.
     Own,
@@ -101,7 +100,7 @@ pub enum Source {
 pub struct Input {
     /// Index of the concept; it must not have an incoming edge.
     pub concept: u8,
-    /// Where the value comes from.
+    /// Source of the value.
     pub source: Source,
     /// Start of the ramp, in the unit of the source.
     pub low: i32,
@@ -135,7 +134,7 @@ impl Encoder {
             if i64::from(steps).abs() > step {
                 return Err(MapError::InputValue { concept: concept.clone(), value: steps, decimals });
             }
-            // Half away from zero, so that +-0.3 become +-9830 both.
+            // Half away from zero, so that +-0.3 both become +-9830.
             let twice = 2 * i64::from(steps) * i64::from(one) + i64::from(steps.signum()) * step;
             Ok(twice.checked_div(2 * step).unwrap_or(0) as i32)
         };
@@ -150,9 +149,9 @@ impl Encoder {
         })
     }
 
-    /// The ramp at `value`. Total.
+    /// Value of the ramp at `value`. Never panics.
     pub(super) fn ramp(&self, value: i32) -> i32 {
-        // Most values are at an end of their ramp, and take no division.
+        // Most values are at an end of their ramp and need no division.
         if value <= self.low {
             return self.at_low;
         }
@@ -165,9 +164,9 @@ impl Encoder {
         } else {
             (self.at_high, self.high.abs_diff(value))
         };
-        // `build` has checked that it is not 0.
+        // `build` has checked that the span is not 0.
         let span = NonZeroU32::new(self.high.abs_diff(self.low)).unwrap_or(NonZeroU32::MIN);
-        // run <= span < 2^32 and rise <= 2^16: the product fits 49 bits.
+        // run <= span < 2^32 and rise <= 2^16: the product fits in 49 bits.
         let product = wide(run, self.at_high.abs_diff(self.at_low)) + u64::from(span.get() / 2);
         let rise = match u32::try_from(product) {
             Ok(product) => product / span, // the usual case, and four times cheaper on a Cortex-M0+

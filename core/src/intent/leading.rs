@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Leading {
-    /// None of the three clearly.
+    /// No clear lead of any of the three.
     #[default]
     None,
     /// The concept *kindness*.
@@ -21,7 +21,7 @@ impl Leading {
     /// The three intentions, in the order in which the stage keeps them.
     pub const INTENTIONS: [Leading; 3] = [Leading::Kindness, Leading::Threat, Leading::Attack];
 
-    /// The word for it, which is also the name of its concept.
+    /// Name in lower case; it is also the name of its concept.
     pub const fn as_str(self) -> &'static str {
         match self {
             Leading::None => "none",

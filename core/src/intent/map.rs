@@ -5,9 +5,9 @@
 //! value of the source's edge i -> j: positive increases, negative decreases. Concepts without an incoming
 //! edge (an all-zero column of W) keep their value while `held` is true.
 //!
-//! [`MapConfig`](super::MapConfig) is what a message says, in decimal steps; [`Map`] is what inference reads:
-//! the causes of each concept one after the other, thresholds folded into a bias, the transfer's gain as one
-//! multiplication.
+//! [`MapConfig`](super::MapConfig) is the form of a message, in decimal steps. [`Map`] is the form for
+//! inference: the causes of each concept one after the other, thresholds folded into a bias, the transfer's
+//! gain as one multiplication.
 
 use super::config::{CONCEPTS, EDGES, Rule};
 use super::input::{Encoder, Source};
@@ -15,14 +15,14 @@ use super::transfer::{Gain, Transfer};
 use crate::format::{Name, Q15};
 use heapless::Vec;
 
-/// All that inference needs to know of one concept.
+/// A concept as inference needs it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Row {
-    /// Keeps its value.
+    /// True if it keeps its value.
     pub held: bool,
     /// -T in the unit of the sum.
     pub bias: i32,
-    /// Number of its causes: one for each concept at most.
+    /// Number of its causes, at most one per concept.
     pub causes: u16,
 }
 
@@ -35,8 +35,8 @@ pub(crate) struct CauseOf {
     pub weight: i16,
 }
 
-/// A checked map, ready for inference. States are arrays of `N` numbers of which the first `len()` count, in
-/// units of 1 / [`Map::one`].
+/// A checked map, ready for inference. States are arrays of `N` numbers in units of 1 / [`Map::one`], of
+/// which the first `len()` count.
 #[derive(Debug, Clone)]
 pub struct Map<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub(crate) concepts: Vec<Name, N>,
@@ -51,12 +51,12 @@ pub struct Map<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub(crate) one: i32,
     /// 1.0 of a weight: 10^decimals.
     pub(crate) step: i32,
-    /// Products are shifted right by this so that the sum fits 32 bits; 0 wherever weights have few decimals.
+    /// Right shift of products so that sums fit in 32 bits; 0 if the weights have few decimals.
     pub(crate) shift: u32,
 }
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// A map without a concept, to be filled.
+    /// A map without concepts, to be filled.
     pub const fn new() -> Self {
         Map {
             concepts: Vec::new(),
@@ -77,12 +77,12 @@ impl<const N: usize, const E: usize> Map<N, E> {
         self.concepts.len()
     }
 
-    /// Whether the map has no concept: it was not filled, or what it was to be filled with was refused.
+    /// True if the map has no concept: it was not filled, or its configuration was refused.
     pub fn is_empty(&self) -> bool {
         self.concepts.is_empty()
     }
 
-    /// 1.0 of a state: 32768 for smooth maps, 10^decimals for threshold maps, where sums and ties are then
+    /// 1.0 of a state: 32768 for smooth maps; 10^decimals for threshold maps, whose sums and ties are then
     /// exact.
     pub fn one(&self) -> i32 {
         self.one
@@ -98,7 +98,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         self.concepts.iter().position(|name| name == concept)
     }
 
-    /// The slot that feeds a concept; none if the host does not feed it.
+    /// Slot that feeds a concept; none if the host does not feed it.
     pub fn slot(&self, concept: &str) -> Option<u8> {
         let at = self.find(concept)?;
         self.inputs.iter().filter(|input| usize::from(input.concept) == at).find_map(|input| {
@@ -109,8 +109,8 @@ impl<const N: usize, const E: usize> Map<N, E> {
         })
     }
 
-    /// A value of a state, which is within +-[`Map::one`], as Q15, rounded to the nearest. Total: beyond
-    /// that, a smooth map gives the value as it is, a threshold map its nearer end.
+    /// Returns a value of a state as Q15, rounded to the nearest; values are within +-[`Map::one`]. Never
+    /// panics: beyond that range, a smooth map returns the value unchanged, a threshold map clamps it.
     pub fn q15(&self, value: i32) -> Q15 {
         match core::num::NonZeroU32::new(self.one.unsigned_abs()) {
             Some(one) if self.one != Q15::ONE.0 => {

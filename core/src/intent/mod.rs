@@ -1,9 +1,9 @@
-//! Intent: what a touch means, by a fuzzy cognitive map over what was measured of it.
+//! Intent: the meaning of a touch, by a fuzzy cognitive map over its measures.
 //!
-//! [`config`] is what the author of a map writes, [`map`] the map with its checks, [`transfer`] the transfer
-//! functions, [`infer`] the inference, [`input`] the encoding of a touch, [`felt`] what lies on the whole
-//! garment, [`evidence`] what is remembered of it, [`fed`] what the host feeds, [`stage`] the decision with
-//! its debounce, [`why`] the reason for it, [`mod@tactile`] the map that ships.
+//! [`config`] is the configuration of a map, [`map`] the checked map, [`transfer`] the transfer functions,
+//! [`infer`] the inference, [`input`] the encoding of a touch, [`felt`] sums over the whole garment,
+//! [`evidence`] measures over the frames, [`fed`] the host's values, [`stage`] the decision with its
+//! debounce, [`why`] the explanation, [`mod@tactile`] the map that ships.
 
 mod build;
 pub mod config;

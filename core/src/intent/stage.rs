@@ -1,11 +1,11 @@
-//! The stage: which touch counts, when to infer, and when a leading intention has lasted long enough to be
-//! announced.
+//! The stage: selects the touch that counts, decides when to infer, and announces an intention once it has
+//! led for long enough.
 //!
 //! | | |
 //! |---|---|
-//! | input | [`Touch`]es of this frame, values of the host, the time |
-//! | output | [`Meaning`], when there is a new one |
-//! | saturation | as [`Map::encode`] and [`Map::infer`] |
+//! | input | [`Touch`]es of this frame, values of the host, time |
+//! | output | [`Meaning`], if there is a new one |
+//! | saturation | that of [`Map::encode`] and [`Map::infer`] |
 //! | latency | `onset_ms` from the first inference in favour of an intention |
 //! | RAM | [`IntentState`]: 4 N bytes three times and about 450 |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
@@ -23,26 +23,26 @@ use crate::contact::Growth;
 use crate::format::{Micros, Q15};
 use heapless::Vec;
 
-/// A new result: after every inference, and when the announced intention changes.
+/// A result: new after every inference, and when the announced intention changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Meaning<const N: usize = CONCEPTS> {
     /// The announced intention.
     pub leading: Leading,
-    /// Whether `leading` is new with this result.
+    /// True if `leading` is new with this result.
     pub changed: bool,
     /// Activation of every concept of the map, in its order.
     pub activations: Vec<Q15, N>,
     /// Steps of the inference.
     pub steps: u16,
-    /// How the inference ended.
+    /// End of the inference.
     pub outcome: Outcome,
 }
 
-/// What the stage remembers between frames.
+/// State of the stage between frames.
 #[derive(Debug, Clone)]
 pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
-    /// How it grew.
+    /// Growth of the touch, for its hardness.
     growth: Growth,
     evidence: Evidence,
     released: Option<Micros>,
@@ -93,14 +93,14 @@ pub struct Intent<const N: usize = CONCEPTS> {
     map: Map<N>,
     /// Indices of kindness, threat and attack.
     intentions: [Option<usize>; 3],
-    /// In units of the state.
+    /// Level and margin in units of the state.
     level: i32,
     margin: i32,
     onset_us: u64,
     hold_us: u64,
     period_us: u64,
     steps: u16,
-    /// An input asks how hard things are.
+    /// True if an input is [`Source::Hardness`].
     feels: bool,
 }
 
@@ -120,14 +120,14 @@ impl<const N: usize> Intent<N> {
         }
     }
 
-    /// Checks `config` and prepares it.
+    /// Checks `config` and builds its stage. Error if the map or a setting is invalid.
     pub fn build<const C: usize, const E: usize>(config: &IntentConfig<C, E>) -> Result<Self, MapError> {
         let mut stage = Intent::new();
         stage.fill(config)?;
         Ok(stage)
     }
 
-    /// As [`Intent::build`], in the place of what this stage was; after an error it is of no use.
+    /// Replaces this stage by that of `config`, like [`Intent::build`]; after an error it must not be used.
     pub fn fill<const C: usize, const E: usize>(
         &mut self,
         config: &IntentConfig<C, E>,
@@ -153,7 +153,7 @@ impl<const N: usize> Intent<N> {
         Ok(())
     }
 
-    /// Whether an input asks how hard things are; else [`Touch::cell_mm2`] is not looked at.
+    /// True if an input is [`Source::Hardness`]; otherwise [`Touch::cell_mm2`] is not read.
     pub const fn feels(&self) -> bool {
         self.feels
     }
@@ -163,12 +163,12 @@ impl<const N: usize> Intent<N> {
         &self.map
     }
 
-    /// Takes the touches of one frame. Of several, the one with the greatest press counts; a released one
-    /// counts on for `hold_ms`, also beside weaker ones that still last. `felt` sums up all contacts of the
-    /// frame; `host` holds the values the host feeds, by slot.
+    /// Takes the touches of one frame. The one with the greatest press counts; a released one counts on for
+    /// `hold_ms`, even beside weaker ones that still last. `felt` sums up all contacts of the frame; `host`
+    /// holds the values that the host feeds, by slot.
     ///
-    /// The inference starts from the inputs alone, not from its last result: one touch has one meaning,
-    /// whatever was before. It runs only when the inputs have changed. Total.
+    /// The inference starts from the inputs alone, not from its last result: a touch has one meaning,
+    /// whatever was before. It runs only when the inputs have changed. Never panics.
     pub fn process<'s>(
         &self,
         state: &'s mut IntentState<N>,
@@ -190,23 +190,23 @@ impl<const N: usize> Intent<N> {
         (meaning.leading, meaning.changed) = (state.leading, changed);
         meaning.activations.clear();
         for value in state.inference.state.iter().take(self.map.len()) {
-            // N values of N. (`collect` would check that with a panic.)
+            // Always room: both have N places. (`collect` would check that with a panic.)
             let _ = meaning.activations.push(self.map.q15(*value));
         }
         (meaning.steps, meaning.outcome) = (state.inference.steps, state.inference.outcome);
         Some(meaning)
     }
 
-    /// What each cause contributed to the announced intention; none while there is none.
+    /// Contribution of each cause to the announced intention; none if there is none.
     pub fn why(&self, state: &IntentState<N>) -> Option<Why<N>> {
         let at = Leading::INTENTIONS.iter().position(|leading| *leading == state.leading)?;
         self.map.why(&state.inference.state, (*self.intentions.get(at)?)?)
     }
 
-    /// Chooses the touch that counts; true if a touch begins or ceases to count.
+    /// Selects the touch that counts; true if a touch begins or ceases to count.
     ///
-    /// A touch has no id here. Its press is a peak and never falls, so the touch that counted has been released
-    /// exactly when all present ones are weaker.
+    /// Touches have no id here. The press of a touch is a peak and never falls, so the touch that counted has
+    /// been released exactly when all present ones are weaker.
     fn select(&self, state: &mut IntentState<N>, touches: &[Touch], now: Micros) -> bool {
         let before = state.touch.is_some();
         let strongest = touches.iter().reduce(|best, t| if t.press > best.press { t } else { best }).copied();
@@ -214,7 +214,7 @@ impl<const N: usize> Intent<N> {
             (held, Some(present)) if held.is_none_or(|held| present.press >= held.press) => {
                 let same = |held: &Touch| state.released.is_none() && held.duration_ms <= present.duration_ms;
                 let before = held.filter(same);
-                // What has just come is its own; from then on what comes while it is the one that counts.
+                // A new touch takes the recent rise as its own; later it takes the rises of its own frames.
                 let rise = before.map_or(state.evidence.blow(), |held| held.rise.max(state.evidence.rise));
                 let own = before.map_or(present.own, |held| held.own);
                 let hardness = self.feel(&mut state.growth, before.is_some(), &present);
@@ -231,7 +231,7 @@ impl<const N: usize> Intent<N> {
         state.touch.is_some() != before
     }
 
-    /// Tells the touch that counts what the frames have shown.
+    /// Fills in the measures of the frames for the touch that counts.
     fn weigh(&self, state: &mut IntentState<N>, now: Micros) {
         let evidence = &state.evidence;
         if let Some(touch) = &mut state.touch {
@@ -243,7 +243,7 @@ impl<const N: usize> Intent<N> {
         }
     }
 
-    /// How hard the touch seems by now; `known`: it has been there before.
+    /// Returns the hardness of the touch so far; `known` is false in its first frame.
     fn feel(&self, growth: &mut Growth, known: bool, touch: &Touch) -> Option<u32> {
         if !self.feels {
             return None;
@@ -270,7 +270,7 @@ impl<const N: usize> Intent<N> {
         true
     }
 
-    /// Announces what has led for `onset_ms`; true if that is new.
+    /// Announces the intention that has led for `onset_ms`; true if it is new.
     fn debounce(&self, state: &mut IntentState<N>, now: Micros) -> bool {
         let candidate = self.candidate(state);
         if candidate != state.candidate {
@@ -284,8 +284,8 @@ impl<const N: usize> Intent<N> {
         changed
     }
 
-    /// The intention that reaches the level and leads by the margin. The announced one keeps its place with one
-    /// margin less of both, so that a value on the edge does not flicker.
+    /// Returns the intention that reaches the level and leads by the margin. For the announced one, level and
+    /// margin are lower by one margin (hysteresis), so that a value at the limit does not flicker.
     fn candidate(&self, state: &IntentState<N>) -> Leading {
         let value = |at: &Option<usize>| at.and_then(|at| state.inference.state.get(at).copied());
         for (at, leading) in self.intentions.iter().zip(Leading::INTENTIONS) {

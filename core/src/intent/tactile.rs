@@ -1,13 +1,13 @@
-//! The map that ships: what is measured of a touch causes kindness, threat and attack; those cause happiness,
-//! anger and politeness. The source prints ten concepts and the matrix with all entries zero: the other ten,
-//! which are all measured, and the weights, in steps of 0.05, are ours. They follow what a person who looks
-//! on would say of forty families of touches (`host/tests/library/meaning`) and of twenty people
+//! The map that ships: measures of a touch cause kindness, threat and attack; these cause happiness, anger
+//! and politeness. The source prints ten concepts and the matrix with all entries zero. The other ten
+//! concepts, all of them measures, and the weights, in steps of 0.05, are ours. They follow the judgement of
+//! an observer of forty families of touches (`host/tests/library/meaning`) and of twenty people
 //! (`host/tests/library/people`).
 //!
-//! Nothing causes an input and no edge closes a loop: the map settles within six steps, whatever is put in.
-//! Without a touch every input is 0, and so is every other concept, exactly. What does not hold is 0 and not
-//! its opposite ([`Transfer::Positive`]), so that the absence of an attack pleases nobody, and feelings
-//! follow meanings: where a threat or an attack leads, happiness and politeness are 0.
+//! Inputs have no causes, and the edges have no cycle: the map settles within six steps for any input.
+//! Without a touch every input is exactly 0, and so is every other concept. A concept that does not hold is
+//! 0, not negative ([`Transfer::Positive`]), so that the absence of an attack causes no happiness. Feelings
+//! follow meanings: if a threat or an attack leads, happiness and politeness are 0.
 
 use super::config::{Edge, MapConfig, Rule};
 use super::input::{Input, Source};
@@ -15,47 +15,47 @@ use super::transfer::Transfer;
 use crate::format::name;
 
 /// Counts of total pressure per newton with the reference garment's usual gain. A scene for another garment
-/// writes its own limit into the input `press`.
+/// sets its own limit in the input `press`.
 pub const PRESS_PER_NEWTON: i32 = 1000;
-/// Force at which press is 1, hard, in newtons; it begins at -1, light.
+/// Force in newtons at which press is 1, hard; at 0 N it is -1, light.
 pub const FULL_PRESS_NEWTON: i32 = 30;
-/// Rise up to which time is 0, in counts/ms (N/s): a hand that closes takes at least a tenth of a second.
+/// Rise up to which time is 0, in counts/ms (N/s): a hand takes at least a tenth of a second to close.
 pub const SLOW_RISE: i32 = 400;
-/// Rise from which time is -1: a blow is over in a few hundredths.
+/// Rise from which time is -1: a blow takes a few hundredths of a second.
 pub const SUDDEN_RISE: i32 = 1000;
-/// Rise up to which a touch comes too slowly for a grip or a stab (slow is -1), and from which it does not,
-/// in counts/ms.
+/// Rise up to which a touch is too slow for a grip or a stab (slow is -1), and rise from which it is not
+/// (slow is 0), in counts/ms.
 pub const CREEPING_RISE: [i32; 2] = [90, 130];
-/// Rises at which a blow is -1 and 1, in counts/ms: hearty pats of 25 N stay below 900, slaps of 30 N are
-/// above 1,600.
+/// Rises at which blow is -1 and 1, in counts/ms: hearty pats of 25 N stay below 900, slaps of 30 N exceed
+/// 1,600.
 pub const BLOW_RISE: [i32; 2] = [600, 1400];
 /// Width up to which a contact is narrow (shape 0, edge 1), in 0.1 mm: straps, sticks, fingers, the edge of a
 /// hand.
 pub const NARROW: i32 = 300;
-/// Width from which it is no edge, in 0.1 mm.
+/// Width from which a contact is no edge (edge 0), in 0.1 mm.
 pub const EDGE: i32 = 450;
-/// Width from which it is broad (shape 1), in 0.1 mm: a palm.
+/// Width from which a contact is broad (shape 1), in 0.1 mm: a palm.
 pub const BROAD: i32 = 600;
-/// Pressures of a taxel between which a thing becomes sharp, in counts: a palm that holds with 70 N stays
+/// Pressures of a taxel between which an object becomes sharp, in counts: a palm that holds with 70 N stays
 /// below 2,200.
 pub const SHARP: [i32; 2] = [2600, 3400];
 /// Loads between which a grip becomes firm, in counts.
 pub const FIRM: [i32; 2] = [18_000, 25_000];
-/// Loads between which it becomes heavy, in counts.
+/// Loads between which a grip becomes heavy, in counts.
 pub const HEAVY: [i32; 2] = [40_000, 60_000];
-/// Durations between which a touch becomes a grip, in ms: it is no pat.
+/// Durations between which a touch becomes a grip, in ms: longer than a pat.
 pub const GRIP_MS: [i32; 2] = [250, 400];
-/// Ages between which a grip is told from the first beat of a shaken hand, in ms.
+/// Ages between which a grip becomes distinct from the first beat of a handshake, in ms.
 pub const SETTLED_MS: [i32; 2] = [450, 550];
-/// Areas between which a touch becomes an embrace, in mm2: more than the largest hand.
+/// Areas between which a touch becomes an embrace, in mm2: larger than the largest hand.
 pub const EMBRACE_MM2: [i32; 2] = [13_800, 16_500];
-/// Loads between which a touch is noticed, in counts: drops stay below.
+/// Loads between which a touch is noticed, in counts: rain drops stay below.
 pub const NOTICED: [i32; 2] = [400, 600];
-/// Times between which what lies still is no longer noticed, in ms.
+/// Times between which a still object is no longer noticed, in ms.
 pub const STILL_MS: [i32; 2] = [2000, 2100];
 
-/// The concepts: the ten of the source in the order of its matrix, with the inputs by their meaning, then
-/// further inputs.
+/// Names of the concepts: the ten of the source in the order of its matrix, then further inputs. The inputs
+/// are named by what they mean.
 const CONCEPTS: [&str; 20] = [
     "press",
     "shape",
@@ -102,49 +102,49 @@ const OWN: u8 = 19;
 
 /// The edges: cause, effect, weight in hundredths.
 const EDGES: [(u8, u8, i16); 36] = [
-    // what the touch says
-    (PRESS, KINDNESS, -70),      // kindness spares force: what is light is kind
-    (SHAPE, KINDNESS, 35),       // a flat hand may press more, the oldest sign of good will
-    (LOCATION, KINDNESS, 5),     // a friendly place tips a close call; it must not excuse a blow
-    (TIME, KINDNESS, 20),        // what comes at once is hardly kind
-    (RHYTHM, KINDNESS, 70),      // who shakes, pats or kneads means well
-    (EMBRACE, KINDNESS, 70),     // and so does who embraces
-    (SHARPNESS, KINDNESS, -100), // what is sharp is not kind
-    (NOTICE, KINDNESS, 100),     // what is hardly felt, or only lies there, means nothing
-    (OWN, KINDNESS, -100),       // nor does the garment that folds as the robot bends
+    // from the measures
+    (PRESS, KINDNESS, -70),      // a light touch is kind
+    (SHAPE, KINDNESS, 35),       // a flat hand may press more: it is a sign of good will
+    (LOCATION, KINDNESS, 5),     // decides close cases only: a friendly place must not excuse a blow
+    (TIME, KINDNESS, 20),        // a sudden touch is hardly kind
+    (RHYTHM, KINDNESS, 70),      // shaking hands, pats and a massage are kind
+    (EMBRACE, KINDNESS, 70),     // an embrace is kind
+    (SHARPNESS, KINDNESS, -100), // a sharp object is not kind
+    (NOTICE, KINDNESS, 100),     // a touch that is hardly felt, or an object that lies still, has no meaning
+    (OWN, KINDNESS, -100),       // nor has a fold of the garment when the robot bends
     (FIRMNESS, THREAT, 90),      // a threat has force
-    (LASTING, THREAT, 100),      // it holds, the longer the graver
-    (TIME, THREAT, 50),          // what fell and lies holds nobody
-    (SLOW, THREAT, 70),          // nor does what leans
-    (EMBRACE, THREAT, -100),     // nor who embraces
-    (RHYTHM, THREAT, -100),      // nor who shakes a hand
-    (LOCATION, THREAT, -5),      // less so where touching is usual
-    (OWN, THREAT, -50),          // the robot's own motion threatens nobody
-    (BLOW, ATTACK, 100),         // a blow comes at once
-    (EDGED, ATTACK, 90),         // on a narrow surface, which hurts
-    (SHARPNESS, ATTACK, 60),     // the more so where it is sharp
-    (SLOW, ATTACK, 90),          // but not if it comes slowly
-    (EMBRACE, ATTACK, -50),      // nor if it is soft and large
+    (LASTING, THREAT, 100),      // a threat lasts: a grip, not a pat
+    (TIME, THREAT, 50),          // an object that fell and lies there is no grip
+    (SLOW, THREAT, 70),          // nor is something that leans
+    (EMBRACE, THREAT, -100),     // nor an embrace
+    (RHYTHM, THREAT, -100),      // nor a handshake
+    (LOCATION, THREAT, -5),      // less so where touch is usual
+    (OWN, THREAT, -50),          // a touch by the robot's own motion is no threat
+    (BLOW, ATTACK, 100),         // a blow is an attack
+    (EDGED, ATTACK, 90),         // a narrow object hurts
+    (SHARPNESS, ATTACK, 60),     // a sharp one hurts more
+    (SLOW, ATTACK, 90),          // not if it comes slowly
+    (EMBRACE, ATTACK, -50),      // nor if it is an embrace
     (LOCATION, ATTACK, -5),      // a friendly place excuses little
-    // how the three compete
-    (ATTACK, THREAT, -100),   // who hits no longer threatens
-    (ATTACK, KINDNESS, -100), // nor is kind
-    (THREAT, KINDNESS, -100), // nor is who threatens
-    // what the robot feels about it
+    // competition of the three
+    (ATTACK, THREAT, -100),   // an attack is no mere threat
+    (ATTACK, KINDNESS, -100), // an attack is not kind
+    (THREAT, KINDNESS, -100), // a threat is not kind
+    // feelings of the robot
     (KINDNESS, HAPPINESS, 50),   // kindness pleases
-    (THREAT, HAPPINESS, -100),   // a threat spoils it
-    (ATTACK, HAPPINESS, -100),   // and so does an attack
+    (THREAT, HAPPINESS, -100),   // a threat does not
+    (ATTACK, HAPPINESS, -100),   // nor does an attack
     (KINDNESS, ANGER, -50),      // kindness calms
     (THREAT, ANGER, 30),         // a threat annoys
     (ATTACK, ANGER, 80),         // an attack angers
     (KINDNESS, POLITENESS, 40),  // kindness is answered politely
-    (HAPPINESS, POLITENESS, 10), // the more so in a good mood
-    (THREAT, POLITENESS, -100),  // a threat is not
-    (ATTACK, POLITENESS, -100),  // nor is an attack
+    (HAPPINESS, POLITENESS, 10), // more so in a good mood
+    (THREAT, POLITENESS, -100),  // a threat is not answered politely
+    (ATTACK, POLITENESS, -100),  // an attack is not answered politely
 ];
 
-/// The ramps: concept, source, range, and the activation at both ends. Where both sides of a measure say
-/// something, they differ in sign: light and hard. Where one side alone does, the other is 0.
+/// The ramps: concept, source, range, and the activation at both ends. If both ends of a measure are evidence
+/// (light and hard), they differ in sign. If only one is, the other is 0.
 const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 18] = [
     (PRESS, Source::Press, [0, FULL_PRESS_NEWTON * PRESS_PER_NEWTON], [-100, 100]),
     (SHAPE, Source::Breadth, [NARROW, BROAD], [0, 100]),
@@ -166,7 +166,8 @@ const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 18] = [
     (OWN, Source::Own, [0, 1], [0, 100]),
 ];
 
-/// The shipped map: kosko, tanh above 0, lambda 3.5 (activations then use most of their range), inputs held.
+/// Returns the shipped map: kosko, tanh above 0, lambda 3.5 (activations then use most of their range),
+/// inputs held.
 pub fn tactile() -> MapConfig {
     let mut map = MapConfig {
         name: name("tactile"),
@@ -177,7 +178,7 @@ pub fn tactile() -> MapConfig {
         held: true,
         ..MapConfig::default()
     };
-    // Each list fits by far; a test counts them.
+    // Each list fits with room to spare; a test counts them.
     for concept in CONCEPTS {
         let _ = map.concepts.push(name(concept));
     }

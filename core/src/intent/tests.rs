@@ -8,7 +8,7 @@ use std::string::ToString;
 use std::vec::Vec as List;
 use std::{format, println};
 
-/// A touch of one contact, whose force came with that many newtons per second.
+/// A touch of one contact, whose force rose by that many newtons per second.
 fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8, rise: u32) -> Touch {
     let press = (newton * f64::from(PRESS_PER_NEWTON)) as u32;
     Touch {
@@ -27,7 +27,7 @@ fn touch(newton: f64, mm: f64, ms: u32, friendliness: i8, rise: u32) -> Touch {
     }
 }
 
-/// What is felt of such touches, each on a region of its own.
+/// Sums of such touches, each on a region of its own.
 fn felt(touches: &[Touch]) -> Felt {
     let mut felt = Felt::default();
     for (region, touch) in (0u8..).zip(touches) {
@@ -36,14 +36,14 @@ fn felt(touches: &[Touch]) -> Felt {
     felt
 }
 
-/// kindness, threat, attack of a touch, and the steps of the inference.
+/// Kindness, threat and attack of a touch, and the steps of the inference.
 fn judged(map: &Map, touch: &Touch) -> ([f64; 3], u16) {
     let run = map.infer(&map.encode(Some(touch), &[]), 16);
     assert_eq!(run.outcome, Outcome::Fixed);
     (Leading::INTENTIONS.map(|i| map.q15(run.state[map.find(i.as_str()).unwrap()]).to_f64()), run.steps)
 }
 
-/// The smallest lead of `intention` over the other two, and the smallest activation, over a grid of touches.
+/// The least lead of `intention` over the other two, and its least activation, over a grid of touches.
 fn worst(intention: usize, newtons: &[f64], widths: &[f64], times: &[u32], rises: &[u32]) -> (f64, f64) {
     let map = Map::build(&tactile()).unwrap();
     let (mut lead, mut level) = (f64::MAX, f64::MAX);
@@ -112,7 +112,7 @@ fn light_touches_are_no_attack() {
     assert!(most.iter().all(|value| *value < 0.4), "{most:?}");
 }
 
-/// Feelings follow meanings, whatever is measured: nobody is glad of a threat.
+/// Feelings follow meanings, whatever the measures: a threat causes no happiness.
 #[test]
 fn feelings_follow_meanings_whatever_is_measured() {
     let map = Map::<CONCEPTS>::build(&tactile()).unwrap();
@@ -126,7 +126,7 @@ fn feelings_follow_meanings_whatever_is_measured() {
     let mut led = [0; 3];
     for _ in 0..100_000 {
         let mut start = [0; CONCEPTS];
-        // Half of them beyond the ends, which are then taken.
+        // Half of the values are beyond the ends of the ramp, and are clamped.
         inputs.iter().for_each(|input| start[*input] = random());
         let run = map.infer(&start, 16);
         let value = |name: &str| map.q15(run.state[at(name)]).to_f64();
@@ -283,7 +283,7 @@ fn thresholds_are_the_level_that_sums_are_measured_from() {
         (config.transfer, config.threshold) = (transfer, threshold);
         let map = Map::<2>::build(&config).unwrap();
         assert_eq!(map.step(&[map.one(), 0])[1], expected, "{transfer:?} {threshold}");
-        // The same for this concept alone, the other way round for all others.
+        // This threshold for one concept alone, and its negative for all others.
         config.thresholds.push(Threshold { concept: 1, value: threshold }).unwrap();
         config.threshold = -threshold;
         assert_eq!(Map::<2>::build(&config).unwrap().step(&[map.one(), 0])[1], expected);
@@ -307,7 +307,7 @@ fn the_parts_of_a_reason_add_up() {
     assert_eq!(map.why(&run.state, 99), None);
 }
 
-/// Feeds touches, one list per 5 ms frame, and lists what was announced: (ms, intention).
+/// Feeds touches, one list per 5 ms frame, and lists the announcements: (ms, intention).
 fn announced(frames: impl IntoIterator<Item = List<Touch>>) -> List<(u64, Leading)> {
     let stage = Intent::<CONCEPTS>::build(&IntentConfig::new(tactile())).unwrap();
     let mut state = IntentState::default();
@@ -350,7 +350,7 @@ fn of_several_touches_the_strongest_counts() {
     assert_eq!(heard, [Leading::Kindness, Leading::Attack]);
 }
 
-/// The same force in the same time, once at once and once little by little.
+/// The same force in the same time, applied at once or gradually.
 #[test]
 fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
     let came = |rise_ms: u32| {
@@ -367,7 +367,7 @@ fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
     assert_eq!(words(came(200)), [Leading::Kindness, Leading::None, Leading::Threat, Leading::None]);
 }
 
-/// A garment that is not tared yet seems to be pressed all over.
+/// A garment before its tare seems to be pressed all over.
 #[test]
 fn what_was_there_in_the_first_frame_did_not_come_suddenly() {
     let heard = announced((0..100u32).map(|at| std::vec![touch(200.0, 200.0, 5 * at, 30, 0)]));

@@ -1,4 +1,4 @@
-//! Transfer functions: what an activation becomes after the weighted sum.
+//! Transfer functions: from the weighted sum of a concept to its activation.
 //!
 //! | transfer | f(z), after the threshold T was subtracted from z | range |
 //! |---|---|---|
@@ -8,15 +8,15 @@
 //! | tanh | tanh(lambda z) | -1 ..= 1 |
 //! | positive | tanh(lambda z) if z > 0, else 0 | 0 ..= 1 |
 //!
-//! T enters all five in the same way, as the level that z is measured from. The trivalent function with T =
-//! 0.2 is therefore the sign of z - 0.2, not a dead zone of +-0.2 (which would have no meaning for T < 0).
+//! All five subtract T from the sum before the function. The trivalent function with T = 0.2 is therefore the
+//! sign of z - 0.2, not a dead zone of +-0.2 (which would have no meaning for T < 0).
 //!
-//! Smooth functions are read from one table of 513 points with linear interpolation. Largest errors, asserted
-//! by the tests: tanh 0.9 steps of 2^-15, sigmoid 0.75 steps.
+//! Smooth functions use one table of 513 points with linear interpolation. Largest errors, asserted by the
+//! tests: tanh 0.9 steps of 2^-15, sigmoid 0.75 steps.
 
 use serde::{Deserialize, Serialize};
 
-/// What turns the weighted sum of a concept into its next activation. Variants are only appended.
+/// Function from the weighted sum of a concept to its next activation. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transfer {
@@ -29,13 +29,14 @@ pub enum Transfer {
     /// The hyperbolic tangent, -1 ..= 1: 0 stays 0, so a quiet map is silent.
     #[default]
     Tanh,
-    /// The hyperbolic tangent above 0, else 0: what does not hold is 0, and its absence speaks for nothing
-    /// else.
+    /// The hyperbolic tangent above 0, else 0: a concept that does not hold is 0, and its absence causes
+    /// nothing.
     Positive,
 }
 
 impl Transfer {
-    /// Whether the output is one of two or three values; such maps run on the decimal steps of their file.
+    /// True if the output is one of two or three values; such maps run on the decimal steps of their
+    /// configuration.
     pub const fn is_threshold(self) -> bool {
         matches!(self, Transfer::Bivalent | Transfer::Trivalent)
     }
@@ -47,10 +48,10 @@ static TANH: [u32; 513] = include!(concat!(env!("OUT_DIR"), "/tanh.rs"));
 /// Fraction bits of the argument of [`tanh`]: 8 is 2^29.
 pub const ARGUMENT_BITS: u32 = 26;
 
-/// The largest argument of the table, 8; tanh(8) is 1 - 2.3e-7, which is 1 in Q15.
+/// The greatest argument of the table, 8; tanh(8) is 1 - 2.3e-7, which is 1 in Q15.
 const LIMIT: i32 = 8 << ARGUMENT_BITS;
 
-/// tanh of |u| (Q26) in Q23. Total: beyond 8 the result is 1.
+/// Returns tanh of |u| (Q26) in Q23; 1 beyond 8. Never panics.
 fn tanh_q23(u: i32) -> u32 {
     const ONE: u32 = 1 << 23;
     // A step of the table is 1/64 = 2^20 units; 14 of its 20 fraction bits are used. Neighbours differ by at
@@ -62,14 +63,14 @@ fn tanh_q23(u: i32) -> u32 {
     low + ((high.saturating_sub(low) * fraction) >> 14)
 }
 
-/// tanh of `u` (Q26) in Q15. Total: beyond +-8 the result is +-32768. Odd exactly. Error: 0.9 steps.
+/// Returns tanh of `u` (Q26) in Q15; +-32768 beyond +-8. Exactly odd. Error: 0.9 steps. Never panics.
 pub fn tanh(u: i32) -> i32 {
     let value = ((tanh_q23(u) + (1 << 7)) >> 8) as i32;
     if u < 0 { -value } else { value }
 }
 
-/// The logistic function of 2 `u` (`u` in Q26) in Q15: the same table as [`tanh`], 0 ..= 32768. Error: 0.75
-/// steps. sigmoid(-u) = 32768 - sigmoid(u) exactly.
+/// Returns the logistic function of 2 `u` (`u` in Q26) in Q15, 0 ..= 32768, from the same table as [`tanh`].
+/// Error: 0.75 steps. sigmoid(-u) = 32768 - sigmoid(u) exactly.
 pub fn sigmoid_of_twice(u: i32) -> i32 {
     let positive = (((1 << 23) + tanh_q23(u) + (1 << 8)) >> 9) as i32;
     if u < 0 { 32768 - positive } else { positive }
@@ -82,20 +83,20 @@ pub struct Gain {
     factor: u16,
     /// Positive: shift left before the multiplication; negative: shift right after it.
     shift: i8,
-    /// Sums are clamped here first: beyond it the argument is past the end of the table.
+    /// Sums are clamped to this first: beyond it, the argument is past the end of the table.
     limit: i32,
 }
 
 impl Gain {
-    /// The gain of a map that has none yet: everything becomes 0.
+    /// The gain of an empty map: everything becomes 0.
     pub(crate) const NONE: Gain = Gain { factor: 0, shift: 0, limit: 0 };
 
-    /// The gain nearest to `numerator / denominator`, relative error below 2^-16. Both below 2^60; 0 / x is
-    /// no gain and is built as the smallest one. Only called by `build`, hence 128-bit arithmetic.
+    /// Returns the gain nearest to `numerator / denominator`, relative error below 2^-16. Both are below
+    /// 2^60. A numerator of 0 counts as 1. Only `build` calls this, hence the 128-bit arithmetic.
     pub(crate) fn new(numerator: u64, denominator: u64) -> Gain {
         let (n, d) = (u128::from(numerator.max(1)), u128::from(denominator.max(1)));
         let rounded = |n: u128, d: u128| (n + d / 2).checked_div(d).unwrap_or(u128::MAX);
-        // n / d * 2^(16 - shift), which is to be in [2^15, 2^16).
+        // n / d * 2^(16 - shift), which must be in [2^15, 2^16).
         let scaled = |shift: i8| {
             let up = 16 - i32::from(shift);
             if up >= 0 { rounded(n << up.min(63), d) } else { rounded(n, d << (-up).min(63)) }
@@ -112,12 +113,12 @@ impl Gain {
         }
     }
 
-    /// `sum` times the gain, clamped to the range of the table. Total.
+    /// Returns `sum` times the gain, clamped to the range of the table. Never panics.
     pub fn apply(self, sum: i32) -> i32 {
         // Not `clamp`, which panics on an empty range: the compiler cannot know that `limit` is positive.
         let sum = sum.max(-self.limit).min(self.limit);
-        // With shift > 0: |sum| << shift <= 2^29 * 2^16 / factor <= 2^30 by the choice of `limit` (rounded up
-        // by less than one unit, hence wrapping rather than a proof to the last bit).
+        // With shift > 0: |sum| << shift <= 2^29 * 2^16 / factor <= 2^30 by the choice of `limit`. That is
+        // rounded up by less than one unit, hence wrapping instead of a proof to the last bit.
         let sum = if self.shift > 0 { sum.wrapping_shl(self.shift.unsigned_abs().into()) } else { sum };
         let factor = i32::from(self.factor);
         let high = (sum >> 16).wrapping_mul(factor);

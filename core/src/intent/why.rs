@@ -1,11 +1,11 @@
-//! The reason for an activation: what each cause contributed to its sum.
+//! Explanation of an activation: the contribution of each cause to its sum.
 
 use super::config::Rule;
 use super::map::Map;
 use crate::format::Q15;
 use heapless::Vec;
 
-/// What one cause contributed.
+/// Contribution of one cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
     /// Index of the cause; the concept itself under the rules mkosko and rescaled.
@@ -14,13 +14,13 @@ pub struct Part {
     pub value: Q15,
 }
 
-/// Why a concept has the activation it is given by a state: `sum` = the parts - `threshold`, exactly as listed.
+/// Explanation of a concept's activation in a state: `sum` = the parts - `threshold`, exactly as listed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Why<const N: usize> {
     /// Index of the concept.
     pub concept: u8,
-    /// One part for each incoming edge, in the order of the map; then for itself, unless the rule is kosko
-    /// (an edge from itself is in that part).
+    /// One part for each incoming edge, in the order of the map; then one for the concept itself, unless the
+    /// rule is kosko (an edge from the concept to itself is included in that part).
     pub parts: Vec<Part, N>,
     /// T of this concept.
     pub threshold: Q15,
@@ -29,8 +29,8 @@ pub struct Why<const N: usize> {
 }
 
 impl<const N: usize, const E: usize> Map<N, E> {
-    /// The contributions to `concept` in `state`; none where there is no such concept or it keeps its value.
-    /// Total. A few divisions: for the moment of an announcement, not for each frame.
+    /// Returns the contributions to `concept` in `state`; none if there is no such concept or if it keeps its
+    /// value. Never panics. Needs a few divisions: use it for an announcement, not for each frame.
     pub fn why(&self, state: &[i32; N], concept: usize) -> Option<Why<N>> {
         let row = self.rows.get(concept).filter(|row| concept < self.len() && !row.held)?;
         let before = self.rows.iter().take(concept).map(|row| usize::from(row.causes)).sum();
@@ -58,12 +58,12 @@ impl<const N: usize, const E: usize> Map<N, E> {
         let y = if self.rule == Rule::Rescaled { 2 * x - self.one } else { x };
         let value = self.product_q15(i64::from(weight) * i64::from(y));
         why.sum = Q15(why.sum.0.saturating_add(value.0));
-        // There are at most N parts: one for each concept.
+        // Always room: at most N parts, one for each concept.
         let _ = why.parts.push(Part { from, value });
     }
 
-    /// A product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest, halves away
-    /// from 0.
+    /// Returns the product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest,
+    /// halves away from 0.
     fn product_q15(&self, product: i64) -> Q15 {
         let unit = u64::from(self.one.unsigned_abs()) * u64::from(self.step.unsigned_abs());
         let scaled = product.unsigned_abs() << 15; // |product| <= 2^15 * 3 * 2^15: 47 bits with the shift

@@ -1,4 +1,4 @@
-//! The table of reactions, as a scene has it.
+//! The table of reactions in a scene.
 
 use crate::format::{Invalid, Name};
 use crate::garment::Line;
@@ -6,10 +6,10 @@ use crate::intent::Leading;
 use crate::reflex::{Agree, ROWS};
 use serde::{Deserialize, Serialize};
 
-/// Most reactions of a scene.
+/// Greatest number of reactions of a scene.
 pub const REACTIONS: usize = ROWS;
 
-/// What a reaction looks at. Variants are only appended.
+/// Cause of a reaction: the value that is compared with its level. Variants are only appended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cause {
@@ -19,25 +19,25 @@ pub enum Cause {
     Force,
     /// Number of contacts.
     Contacts,
-    /// A contact slides: 1.
+    /// 1 while a contact slides.
     Moving,
     /// Activation of a concept of the map, Q15 (32768 is 1.0).
     Concept(Name),
-    /// This intention leads: 1.
+    /// 1 while this intention leads.
     Leading(Leading),
-    /// Greatest pressure of a taxel, counts, as of `Pressure`; and it begins before the frame is complete, as
-    /// soon as so many taxels agree. Needs an interlaced scan.
+    /// Greatest pressure of a taxel, counts, like `Pressure`; but it begins before the frame is complete, as
+    /// soon as enough taxels agree. Needs an interlaced scan.
     Reflex(Agree),
-    /// What is wrong with the board: faults of lines and inputs, and 1 where the last scan failed.
+    /// Number of faults of lines and inputs, plus 1 if the last scan failed.
     Fault,
-    /// Time since a frame was perceived, ms; as long as none was, a save is about to stop the scan or a tare
-    /// runs, 2147483647.
+    /// Time since a frame was perceived, ms; 2147483647 before the first one, when a save is about to stop
+    /// the scan, and during a tare.
     Blind,
-    /// Number of ill taxels.
+    /// Number of faulty taxels.
     Ill,
     /// Time since the last message of a host, ms.
     Silent,
-    /// Nothing: its pin changes each `level` perceived frames, and stands still where none are.
+    /// No value: its pin toggles every `level` perceived frames, and stands still if there are none.
     Watching,
 }
 
@@ -45,44 +45,44 @@ pub enum Cause {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReactionConfig {
-    /// What the host is told.
+    /// Name in messages to the host.
     pub name: Name,
-    /// What is looked at.
+    /// Value that is compared with `level`.
     pub cause: Cause,
-    /// Only in this region of the body; empty: anywhere. Only pressure, force, contacts, slip, reflexes and
-    /// ill taxels have one.
+    /// Region of the body to which it is limited; empty: anywhere. Only pressure, force, contacts, slip,
+    /// reflexes and faulty taxels have one.
     #[serde(default)]
     pub region: Name,
-    /// It begins when the value reaches this, in the unit of the cause.
+    /// Value at which it begins, in the unit of the cause.
     pub level: i32,
     /// It can end when the value is below `level - hysteresis`.
     #[serde(default)]
     pub hysteresis: i32,
-    /// Shortest time that it lasts, and time for which the value must stay below before it ends, ms.
+    /// Shortest duration, and time for which the value must stay below before it ends, ms.
     #[serde(default)]
     pub hold_ms: u32,
-    /// A pin that is asserted while it lasts. Several rows may assert the same one.
+    /// Pin that is asserted while it lasts. Several rows may assert the same pin.
     #[serde(default)]
     pub output: Option<Line>,
 }
 
-/// Longest time for which a board may be blind, or a host silent, before a reaction begins, ms.
+/// Longest time in `level` of a blind board or a silent host, ms.
 const LONGEST_MS: i32 = 3_600_000;
 
 impl Cause {
-    /// Whether it is how the board itself is, not what touches it.
+    /// True for causes in the board itself, not in what touches it.
     pub fn is_of_board(&self) -> bool {
         matches!(self, Cause::Fault | Cause::Blind | Cause::Ill | Cause::Silent | Cause::Watching)
     }
 
-    /// Whether a board that has just started cannot rule it out.
+    /// True for causes that a board cannot rule out when it has just started.
     pub fn is_open_at_start(&self) -> bool {
         matches!(self, Cause::Fault | Cause::Blind)
     }
 }
 
 impl ReactionConfig {
-    /// Checks a row that looks at the board itself.
+    /// Checks a row with a cause in the board itself.
     pub(super) fn check_of_board(&self) -> Result<(), Invalid> {
         let refuse = |parameter, must| Err(Invalid { parameter, must });
         let (most, must) = match self.cause {

@@ -1,19 +1,19 @@
-//! Where the outputs stand before anything is known: while a board starts, and has not perceived a frame yet.
+//! Initial levels of the outputs: while a board starts, before its first perceived frame.
 
 use super::config::ReactionConfig;
 
 /// Levels of pins. Bit `i`: GPIO `i`.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Levels {
-    /// The pins that are driven.
+    /// Pins that are driven.
     pub pins: u32,
-    /// Those of them that are high.
+    /// Pins that are high.
     pub high: u32,
 }
 
 impl Levels {
-    /// Of all outputs of a table: asserted where a reaction to a fault or to blindness asserts them, for a
-    /// board that starts rules out neither; else at rest.
+    /// Levels of all outputs of a table. A pin is asserted if a reaction to a fault or to blindness asserts
+    /// it, because a board that starts can rule out neither; otherwise it is at rest.
     pub fn of(rows: &[ReactionConfig]) -> Levels {
         let mut levels = Levels::default();
         for row in rows {

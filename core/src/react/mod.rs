@@ -1,16 +1,16 @@
-//! Reactions: what the garment does by itself, without a host.
+//! Reactions: what the garment does without a host.
 //!
 //! | | |
 //! |---|---|
-//! | input | region states, the meaning of the touch; how the board itself is |
+//! | input | region states, meaning of the touch, state of the board itself |
 //! | output | changes of named reactions, in the frame that shows their cause |
 //! | latency | none |
-//! | RAM | [`ReactState`]: 16 bytes a reaction |
+//! | RAM | [`ReactState`]: about 620 bytes: 44 for each of 8 reactions, 260 for the activations of the map |
 //!
 //! | file | what |
 //! |---|---|
-//! | `config.rs` | the table of reactions, as a scene has it |
-//! | `levels.rs` | where the outputs stand before anything is known |
+//! | `config.rs` | table of reactions in a scene |
+//! | `levels.rs` | initial levels of the outputs |
 
 mod config;
 mod levels;
@@ -33,19 +33,19 @@ pub struct Reaction {
     pub index: u8,
     /// Its name.
     pub name: Name,
-    /// It began, else it ended.
+    /// True if it began, false if it ended.
     pub active: bool,
-    /// The value that decided, in the unit of the cause.
+    /// Value at that moment, in the unit of the cause.
     pub value: i32,
 }
 
-/// Causes resolved against the layout and the map.
+/// A cause, resolved against the layout and the map.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Watch {
     Region(Cause, Option<u8>),
     Concept(usize),
     Leading(Leading),
-    /// Judged by whoever knows how the board is.
+    /// Judged by the board, by [`Reactions::judge`].
     Board(Cause, Option<u8>),
 }
 
@@ -56,10 +56,10 @@ pub struct Reactions {
     reflexes: Reflexes,
 }
 
-/// What the stage remembers.
+/// State of the stage.
 #[derive(Debug, Default, Clone)]
 pub struct ReactState {
-    /// Time at which the value last reached the level, for those that last.
+    /// Time at which the value of each active row last reached the level.
     active: [Option<Micros>; REACTIONS],
     activations: Vec<Q15, { crate::intent::CONCEPTS }>,
     leading: Leading,
@@ -67,31 +67,32 @@ pub struct ReactState {
 }
 
 impl ReactState {
-    /// What began or ended in the last frame.
+    /// Reactions that began or ended in the last frame.
     pub fn changes(&self) -> &[Reaction] {
         &self.changes
     }
 
-    /// Time at which the value of each row last reached its level, for those that last.
+    /// Time at which the value of each active row last reached its level.
     pub(crate) fn since(&self) -> &[Option<Micros>; REACTIONS] {
         &self.active
     }
 
-    /// A row lasts that began before it was in this table.
+    /// Marks a row as active, for a reaction that began before it was in this table.
     pub(crate) fn go_on(&mut self, row: usize, since: Micros) {
         if let Some(active) = self.active.get_mut(row) {
             *active = Some(since);
         }
     }
 
-    /// The rows that last, a bit each.
+    /// Active rows, one bit each.
     pub fn active(&self) -> u8 {
         (0..).zip(&self.active).fold(0, |mask, (index, since)| mask | u8::from(since.is_some()) << index)
     }
 }
 
 impl Reactions {
-    /// Checks the table against the regions of a garment and the concepts of a map.
+    /// Checks the table against the regions of a garment and the concepts of a map. Error if a row is
+    /// invalid.
     pub fn build(
         rows: &[ReactionConfig],
         layout: &Layout,
@@ -131,7 +132,7 @@ impl Reactions {
         Err(Invalid { parameter: "region", must: "must not be that of another reflex" })
     }
 
-    /// Takes one frame: the state of the regions and the meaning, if there is a new one.
+    /// Takes one frame: the state of the regions, and the meaning if there is a new one.
     pub fn process(
         &self,
         state: &mut ReactState,
@@ -154,12 +155,12 @@ impl Reactions {
                 Watch::Leading(wanted) => i32::from(wanted == leading),
                 Watch::Board(..) => continue,
             };
-            // As many places as rows.
+            // Always room: as many places as rows.
             follow(index, row, since, value, now).into_iter().for_each(|change| _ = changes.push(change));
         }
     }
 
-    /// The rows that look at the board itself: row, cause, region.
+    /// Rows with a cause in the board itself: index, cause, region.
     pub fn alarms(&self) -> impl Iterator<Item = (u8, &Cause, Option<u8>)> {
         (0..).zip(&self.rows).filter_map(|(index, (_, watch))| match watch {
             Watch::Board(cause, region) => Some((index, cause, *region)),
@@ -167,13 +168,14 @@ impl Reactions {
         })
     }
 
-    /// Takes what a row looks at now, if it looks at the board itself; whether that began or ended it.
+    /// Takes the present value of a row with a cause in the board itself. Returns the reaction if it began or
+    /// ended.
     pub fn judge(&self, state: &mut ReactState, index: u8, value: i32, now: Micros) -> Option<Reaction> {
         let (row, _) = self.rows.get(usize::from(index))?;
         follow(index, row, state.active.get_mut(usize::from(index))?, value, now)
     }
 
-    /// A row has begun by reflex, at that pressure (counts); none if it lasts already or is no reflex.
+    /// Begins a row by reflex, at pressure `value` (counts). None if it is active already or is no reflex.
     pub fn begin(&self, state: &mut ReactState, index: u8, value: u16, now: Micros) -> Option<Reaction> {
         let (row, _) = self.rows.get(usize::from(index))?;
         let since = state.active.get_mut(usize::from(index))?;
@@ -184,22 +186,22 @@ impl Reactions {
         Some(Reaction { index, name: row.name.clone(), active: true, value: value.into() })
     }
 
-    /// The rows that begin by reflex.
+    /// Rows that begin by reflex.
     pub fn reflexes(&self) -> &Reflexes {
         &self.reflexes
     }
 
-    /// The pin that a row asserts.
+    /// Pin of a row.
     pub fn output(&self, index: u8) -> Option<Line> {
         self.rows.get(usize::from(index))?.0.output
     }
 
-    /// All pins that rows assert.
+    /// Pins of all rows.
     pub fn outputs(&self) -> impl Iterator<Item = Line> + '_ {
         self.rows.iter().filter_map(|(row, _)| row.output)
     }
 
-    /// The pin of a row and the level at which it is to stand: asserted while one of its rows lasts.
+    /// Pin of a row and its level: asserted while any row with this pin is active.
     pub fn pin(&self, state: &ReactState, index: u8) -> Option<(u8, bool)> {
         let line = self.output(index)?;
         let lasts = |((row, _), since): (&(ReactionConfig, Watch), &Option<Micros>)| {
@@ -209,7 +211,7 @@ impl Reactions {
         Some((line.pin, asserted != line.inverted))
     }
 
-    /// The pins that show that frames are perceived, each at its level after so many of them.
+    /// Pins that show that frames are perceived, each with its level after that many frames.
     pub fn watching(&self, frames: u32) -> impl Iterator<Item = (u8, bool)> + '_ {
         self.rows.iter().filter_map(move |(row, watch)| {
             let Watch::Board(Cause::Watching, _) = watch else { return None };
@@ -219,7 +221,7 @@ impl Reactions {
     }
 }
 
-/// Takes the value that a row looks at now.
+/// Updates a row with its present value.
 fn follow(
     index: u8,
     row: &ReactionConfig,
@@ -236,7 +238,7 @@ fn follow(
     (since.is_some() != was).then(|| Reaction { index, name: row.name.clone(), active: !was, value })
 }
 
-/// What a checked row looks at.
+/// Checks a row and resolves its cause.
 fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<Watch, Invalid> {
     let refuse = |parameter, must| Err(Invalid { parameter, must });
     if row.hysteresis < 0 || row.hysteresis > row.level.max(0) {

@@ -3,28 +3,28 @@
 //! The prototypes are learned, not measured: 16 per class, placed by k-means and moved by generalised
 //! learning vector quantisation (GLVQ) in the space of [`features`](super::features). The examples were the
 //! rectangles, discs and fingers of the project's reference set `shapes.npz` (grids 4 x 16, 16 x 16 and 32 x
-//! 64; gain 0.2 to 0.9; as they are, and blurred, median-filtered and with noise of 0, 1 and 3 % of the full
+//! 64; gain 0.2 to 0.9; unchanged, and blurred, median-filtered and with noise of 0, 1 and 3 % of the full
 //! scale: the sets B_n0, C_n0, C_n1, C_n3 and D_n3; 840 images), and 1,800 drawn ones: discs, rotated
 //! rectangles with sides of 1 : 1 to 1 : 1.8, and fingers (capsules with a pressure that falls off towards
 //! the rim and one end), in the same grids and gains, blurred by 0 to 0.8 taxel, with noise of 0 and 1 %, and
 //! the conservative filter.
 //!
-//! Right answers among three classes, by the nearest prototype (chance is 33 %):
+//! Accuracy among three classes, by the nearest prototype (chance is 33 %):
 //!
 //! | | 4 x 16 | 16 x 16 | 32 x 64 |
 //! |---|--:|--:|--:|
 //! | reference set, learned from (in five folds by shape: 71, 77, 89 %) | 71 % | 79 % | 89 % |
 //! | drawn by `host/tests/library/shapes.rs`, from codes to class | 86 % | 96 % | 89 % |
 //!
-//! On a grid of 4 x 16 a shape is some 12 taxels, and what goes wrong is mostly square against round; on
-//! finer grids, short fingers against rectangles.
+//! On a grid of 4 x 16 a shape has some 12 taxels, and most errors confuse square and round; on finer grids,
+//! short fingers and rectangles.
 
 use super::features::Features;
 use super::knn::{Base, Class, Prototype};
 use crate::format::name;
 use heapless::Vec;
 
-/// Prototypes of the built-in base.
+/// Number of prototypes of the built-in base.
 pub const BUILT_IN: usize = 48;
 
 const RECTANGLE: [Features; 16] = [
@@ -85,7 +85,7 @@ const FINGER: [Features; 16] = [
 ];
 
 impl<const PROTOTYPES: usize> Base<PROTOTYPES> {
-    /// Rectangle, round and finger; cut to the capacity, which should be at least [`BUILT_IN`].
+    /// Rectangle, round and finger; truncated to the capacity, which should be at least [`BUILT_IN`].
     pub fn built_in() -> Self {
         let classes = [(Class::RECTANGLE, &RECTANGLE), (Class::ROUND, &ROUND), (Class::FINGER, &FINGER)];
         let mut base = Base { names: Vec::new(), prototypes: Vec::new() };

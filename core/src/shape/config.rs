@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How shapes are recognised.
+/// Settings of shape recognition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ShapeConfig {
-    /// Neighbours that vote: 1 to 9, and not more than the base has prototypes.
+    /// Number of neighbours that vote: 1 to 9, and at most the number of prototypes.
     pub k: u8,
-    /// A contact farther than this from every prototype is unknown; in the units of [`super::Features`], at
-    /// least 1.
+    /// Greatest distance from the nearest prototype at which a contact is recognised, at least 1; in the
+    /// units of [`super::Features`].
     pub reject: u16,
 }
 

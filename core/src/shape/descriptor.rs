@@ -1,4 +1,4 @@
-//! The measures that describe a touch to a [`Gallery`](super::Gallery).
+//! The descriptor: measures of a touch for a [`Gallery`](super::Gallery).
 
 use super::nmi::sheppard;
 use super::outline::Outline;
@@ -7,7 +7,7 @@ use super::spread::{Spread, length};
 use crate::contact::{Moments, axis};
 use crate::format::{Q15, Scaled};
 
-/// Measures of a descriptor.
+/// Number of measures of a descriptor.
 pub const MEASURES: usize = 24;
 
 /// Names of the measures, in their order.
@@ -38,11 +38,11 @@ pub const MEASURE_NAMES: [&str; MEASURES] = [
     "euler",
 ];
 
-/// What a touch is like, in numbers; see [`descriptor`].
+/// Measures of a touch, in the order of [`MEASURE_NAMES`]; see [`descriptor`].
 pub type Descriptor = [i16; MEASURES];
 
-/// Describes a touch. Logarithms are to base 2 in 1/1024, ratios in 1/4096; J is the moment of inertia about
-/// the centroid, and "area" counts taxels.
+/// Computes the descriptor of a touch. Logarithms are to base 2 in 1/1024, ratios in 1/4096; J is the moment
+/// of inertia about the centroid, and "area" counts taxels.
 ///
 /// | | | |
 /// |---|---|---|
@@ -66,9 +66,9 @@ pub type Descriptor = [i16; MEASURES];
 /// | summits | log of 1 + taxels not below any neighbour | |
 /// | euler | log of 1 + the Euler number, with its sign: parts less holes | |
 ///
-/// Total; all 0 where there is no pressure. The moments are exact, what they lead to is rounded to the
-/// nearest step; sums of higher order have coordinates rounded as in [`Spread`]. What that makes of a measure
-/// is tested against floats.
+/// Never panics; all measures are 0 without pressure. The moments are exact, and values derived from them are
+/// rounded to the nearest step. Sums of higher order use coordinates rounded as in [`Spread`]. The resulting
+/// errors are tested against floats.
 pub fn descriptor(patch: &Patch) -> Descriptor {
     let moments = Moments::of_image(patch.values(), patch.columns());
     let peak = patch.values().iter().copied().max().unwrap_or(0);
@@ -117,13 +117,13 @@ fn saturated(value: i32) -> i16 {
     value.clamp(i16::MIN.into(), i16::MAX.into()) as i16
 }
 
-/// In 1/4096, at most just below 8.
+/// Converts to 1/4096, at most just below 8.
 fn ratio(value: Q15) -> i16 {
     saturated((value.0 + 4) >> 3)
 }
 
-/// Logarithms of `J m` with Sheppard's correction and without; of a single taxel the moment of its square,
-/// `m^2 / 12` after correction.
+/// Logarithms of `J m` with Sheppard's correction and without; at least that of a single taxel, whose square
+/// has `m^2 / 12` after correction.
 fn inertia(moments: &Moments) -> [i32; 2] {
     let (m, jm) = (Scaled::from_u64(moments.m), moments.jm());
     let pixel = m.times(m).times(TWELFTH).log2();
@@ -141,17 +141,17 @@ fn kurtosis(spread: &Spread) -> i32 {
     log(spread.m) + log(spread.r4) + (8 << 10) - 2 * log(spread.r2)
 }
 
-/// Lean, three, four, offset.
+/// Returns lean, three, four and offset.
 fn directions(moments: &Moments, cover: &Moments, spread: &Spread) -> [i16; 4] {
     let (m, r2, r4) = (Scaled::from_u64(spread.m), Scaled::from_u64(spread.r2), Scaled::from_u64(spread.r4));
     if spread.r2 == 0 {
         return [0; 4];
     }
-    // Hoelder: not below sum r^3 f.
+    // By Hoelder's inequality, not below sum r^3 f.
     let third = m.times(r4.times(r4).times(r4)).shifted(24).sqrt().sqrt();
     let own = r2.times(r2.over(m).sqrt());
     let by = |vector: [i64; 2], size: Scaled| ratio(length(vector).over(size).to_q15());
-    // Times both masses, in which it is exact; J / m = J m / m^2.
+    // The difference of the centroids times both masses is exact; J / m = J m / m^2.
     let between = [(moments.sx, cover.sx), (moments.sy, cover.sy)].map(|(sum, covered)| {
         let (there, here) = (sum.wrapping_mul(cover.m as i64), covered.wrapping_mul(moments.m as i64));
         there.wrapping_sub(here)
@@ -160,7 +160,7 @@ fn directions(moments: &Moments, cover: &Moments, spread: &Spread) -> [i16; 4] {
     [by(spread.lean, own), by(spread.three, third), by(spread.four, r4), by(between, radius)]
 }
 
-/// Logarithm of 1/64 + mean slope of the rim by the peak.
+/// Logarithm of 1/64 + the mean slope of the rim divided by the peak.
 fn slope(outline: &Outline, peak: u16) -> i16 {
     let steepness = Scaled::from_u64(outline.rim.into()).times(Scaled::from_u64(peak.into()));
     let mean = Scaled::from_u64(outline.slope).over(steepness).to_fixed(16);

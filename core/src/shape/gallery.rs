@@ -1,4 +1,4 @@
-//! A gallery: examples of the shapes that a user taught, and the nearest of them.
+//! A gallery: examples of the shapes that a user taught, and k-NN among them.
 
 use super::descriptor::{Descriptor, MEASURES};
 use super::space::{Point, Space, distance2};
@@ -7,11 +7,11 @@ use crate::format::{Invalid, Name, Q15, root};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Most classes of a gallery.
+/// Greatest number of classes of a gallery.
 pub const GALLERY_CLASSES: usize = 32;
-/// Most prototypes of a gallery on a board.
+/// Greatest number of prototypes of a gallery on a board.
 pub const GALLERY_PROTOTYPES: usize = 200;
-/// Most neighbours that vote.
+/// Greatest number of neighbours that vote.
 const VOTERS: usize = 9;
 
 /// An example of a class.
@@ -20,38 +20,38 @@ const VOTERS: usize = 9;
 pub struct Exemplar {
     /// Index of its class.
     pub class: u8,
-    /// Where it lies.
+    /// Its position in the space.
     pub at: Point,
 }
 
-/// What is known, and how it is compared.
+/// Examples of taught shapes, and the settings of their comparison.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gallery<const PROTOTYPES: usize> {
     /// Names of the classes.
     pub names: Vec<Name, GALLERY_CLASSES>,
-    /// Where prototypes and touches lie.
+    /// Projection of a descriptor to a position.
     pub space: Space,
-    /// Neighbours that vote, 1 to 9.
+    /// Number of neighbours that vote, 1 to 9.
     pub k: u8,
-    /// A touch farther than this from every prototype is none of them; in units of a [`Point`].
+    /// Greatest distance from the nearest prototype at which a touch is recognised; in units of a [`Point`].
     pub reject: u16,
-    /// What a vote is worth.
+    /// Confidence of a vote.
     pub sureness: Sureness,
-    /// The examples; those that go before win a tie.
+    /// The examples; ties go to the earlier one.
     pub prototypes: Vec<Exemplar, PROTOTYPES>,
 }
 
-/// What a touch was found to be.
+/// Result of the recognition of a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recognised {
-    /// Index of the class; none: it is none of them.
+    /// Index of the class; none if the touch is of no class.
     pub class: Option<u8>,
-    /// How often such a vote is right, see [`Sureness`]; 0 where the class is none.
+    /// Accuracy of such votes, see [`Sureness`]; 0 without a class.
     pub confidence: Q15,
-    /// Share of the votes of the class, each weighed by 1 / distance.
+    /// The class's share of the votes, each weighted by 1 / distance.
     pub share: Q15,
-    /// To the nearest prototype.
+    /// Distance to the nearest prototype.
     pub distance: u16,
 }
 
@@ -62,7 +62,7 @@ impl<const PROTOTYPES: usize> Default for Gallery<PROTOTYPES> {
 }
 
 impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
-    /// Nothing is known, and nothing is like it.
+    /// An empty gallery, which recognises nothing.
     pub const fn new() -> Self {
         let space = Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 };
         let sureness =
@@ -70,7 +70,7 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         Gallery { names: Vec::new(), space, k: 1, reject: 0, sureness, prototypes: Vec::new() }
     }
 
-    /// Checks a gallery that came from outside.
+    /// Checks a gallery from outside. Error if a parameter is out of range.
     pub fn check(&self) -> Result<(), Invalid> {
         let refuse = |parameter, must| Err(Invalid { parameter, must });
         if self.prototypes.is_empty() {
@@ -96,7 +96,8 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         self.recognise_at(&self.space.place(descriptor))
     }
 
-    /// Recognises a touch by its place. Of classes with equal votes, the one with the nearest prototype.
+    /// Recognises a touch by its position. Among classes with equal votes, that of the nearest prototype
+    /// wins.
     pub fn recognise_at(&self, point: &Point) -> Recognised {
         let nearest = self.nearest(point);
         let distance = nearest[0].0;
@@ -118,7 +119,8 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         Recognised { class, confidence, share, distance: distance.min(u16::MAX.into()) as u16 }
     }
 
-    /// Distances and classes of the nearest, in order; none where there are fewer.
+    /// Returns distances and classes of the nearest prototypes in ascending order; class none beyond the
+    /// last.
     fn nearest(&self, point: &Point) -> [(u32, Option<u8>); VOTERS] {
         let mut nearest = [(u32::MAX, None); VOTERS];
         for prototype in &self.prototypes {
@@ -133,7 +135,7 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
     }
 }
 
-/// The weight of a vote: 1 / distance, and not more than that of 1/16 of a class's spread.
+/// Weight of a vote: 1 / distance, limited to that at 1/16 of a class's spread.
 fn weight(distance: u32) -> u64 {
     u64::from(u32::MAX / distance.saturating_add(16))
 }

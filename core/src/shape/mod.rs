@@ -1,4 +1,4 @@
-//! Shape: the normalised moment of inertia, and the nearest of the shapes that are known.
+//! Shape: the normalised moment of inertia, and the nearest of the known shapes.
 //!
 //! | | |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | saturation | forms just below 256 |
 //! | latency | none; there is no state |
 //! | RAM | 10 bytes per prototype and 180 bytes |
-//! | M0+ cycles | 5.3 k with the built-in base of 48 prototypes, for each contact whose form is looked at: the new ones, and one of the others |
+//! | M0+ cycles | 5.3 k with the built-in base of 48 prototypes, for each contact whose form is measured: the new ones, and one of the others |
 
 mod base;
 mod config;

@@ -1,4 +1,4 @@
-//! What a touch looks like from taxel to taxel: its outline, its holes, its slopes.
+//! Measures of neighbouring taxels of a touch: outline, holes, slopes.
 
 use super::patch::Patch;
 use crate::format::root;
@@ -6,30 +6,30 @@ use crate::format::root;
 /// Counts over the taxels of a patch.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Outline {
-    /// Taxels above 0.
+    /// Number of taxels above 0.
     pub area: u32,
-    /// Sides between a taxel above 0 and one of 0.
+    /// Number of sides between a taxel above 0 and one of 0.
     pub sides: u32,
-    /// Taxels from half of the peak on.
+    /// Number of taxels of at least half of the peak.
     pub half_area: u32,
-    /// Sides between a taxel from half of the peak on, and one below.
+    /// Number of sides between a taxel of at least half of the peak and one below.
     pub half_sides: u32,
-    /// Taxels from three quarters of the peak on.
+    /// Number of taxels of at least three quarters of the peak.
     pub top_area: u32,
-    /// Taxels not below any of the eight around them.
+    /// Number of taxels not below any of their eight neighbours.
     pub summits: u32,
-    /// Twelve times the Euler number (parts, which corners join, less holes).
+    /// Twelve times the Euler number: parts, joined over corners, minus holes.
     pub euler12: i32,
-    /// Taxels with a side between them and one of 0.
+    /// Number of taxels with a side to one of 0.
     pub rim: u32,
-    /// Sum of the Sobel magnitudes on the rim, in eighths: counts per taxel.
+    /// Sum of the Sobel magnitudes / 8 on the rim, counts per taxel.
     pub slope: u64,
-    /// Sum of the differences over all sides, those to the 0 around included.
+    /// Sum of the differences over all sides, including those to the 0 beyond the border.
     pub variation: u64,
 }
 
 impl Outline {
-    /// Of a patch whose greatest value is `peak`.
+    /// Returns the outline of a patch whose greatest value is `peak`.
     pub fn of(patch: &Patch, peak: u16) -> Outline {
         let half = peak / 2 + peak % 2;
         let top = (u32::from(peak) * 3).div_ceil(4) as u16;
@@ -55,15 +55,15 @@ impl Outline {
             self.rim += 1;
             self.slope += u64::from(magnitude(around) / 8);
         }
-        // Each side once from its higher end.
+        // Counts each side once, from its higher end.
         let falls = beside.iter().map(|value| u64::from(f.saturating_sub(*value)));
         self.variation += falls.sum::<u64>();
     }
 }
 
-/// What a taxel that is touched adds to twelve times the Euler number for the square of four at one of its
-/// corners. Gray's sum counts a square 1 if one of the four is touched, -1 if three are, -2 if two across
-/// are, and is four times the number; here all that are touched share it, in thirds.
+/// Returns what a touched taxel adds to twelve times the Euler number, for the square of four taxels at one
+/// of its corners. Gray's sum is four times the Euler number: a square counts 1 if one of the four is
+/// touched, -1 if three are, -2 if two diagonal ones are. Here the touched ones share it, in thirds.
 fn corner([beside, across, other]: &[u16; 3]) -> i32 {
     match (*beside > 0, *across > 0, *other > 0) {
         (false, false, false) => 3,
@@ -73,7 +73,7 @@ fn corner([beside, across, other]: &[u16; 3]) -> i32 {
     }
 }
 
-/// Of the Sobel gradient, rounded down.
+/// Magnitude of the Sobel gradient, rounded down.
 fn magnitude(around: &[[u16; 3]; 3]) -> u32 {
     let [[a, b, c], [d, _, g], [h, i, j]] = around.map(|row| row.map(i64::from));
     let (x, y) = (c + 2 * g + j - a - 2 * d - h, h + 2 * i + j - a - 2 * b - c);

@@ -1,9 +1,9 @@
-//! The taxels of one touch by themselves.
+//! The taxels of a single touch.
 
 use crate::contact::Moments;
 
-/// A rectangle of values: those of a touch, and 0 elsewhere. Row after row; what is missing of the last row
-/// counts as 0.
+/// A rectangle of values, row after row: those of a touch, and 0 elsewhere. Values missing in the last row
+/// count as 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Patch<'a> {
     values: &'a [u16],
@@ -11,7 +11,7 @@ pub struct Patch<'a> {
 }
 
 impl<'a> Patch<'a> {
-    /// Of rows of `columns` values (at least 1).
+    /// A patch with rows of `columns` values (at least 1).
     pub fn new(values: &'a [u16], columns: usize) -> Patch<'a> {
         Patch { values, columns: columns.max(1) }
     }
@@ -21,9 +21,9 @@ impl<'a> Patch<'a> {
         self.values
     }
 
-    /// Values of a row.
+    /// Number of values in a row.
     pub fn columns(&self) -> usize {
-        // It is, and here the compiler sees it: a division by 0 would panic.
+        // Always at least 1, but only here the compiler sees it: a division by 0 would panic.
         self.columns.max(1)
     }
 
@@ -32,7 +32,7 @@ impl<'a> Patch<'a> {
         self.values.chunks(self.columns())
     }
 
-    /// Columns or rows, whichever are more.
+    /// Number of columns or of rows, whichever is greater.
     pub fn extent(&self) -> usize {
         self.columns().max(self.values.len().div_ceil(self.columns()))
     }

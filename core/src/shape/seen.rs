@@ -1,4 +1,4 @@
-//! What a gallery sees of a contact.
+//! The descriptor of a contact, from the taxels of an image.
 
 use super::descriptor::{Descriptor, descriptor};
 use super::patch::Patch;
@@ -6,12 +6,12 @@ use crate::condition::Image;
 use crate::contact::{Contact, ContactState};
 use crate::garment::{Layout, Place};
 
-/// Taxels of the rectangle around a contact; of a larger one the last rows are left out.
+/// Capacity for the taxels of a contact's box; of a larger one, the last rows are left out.
 const PATCH: usize = 2048;
 
-/// Describes a contact, which is number `index` of those that `contacts` holds, by the taxels that are its
-/// own. Of one that crosses a seam, what lies on its home panel is seen. None: there is no such panel.
-#[inline(never)] // it needs stack only meanwhile
+/// Returns the descriptor of a contact, number `index` of those in `contacts`, from its own taxels. Of one
+/// that crosses a seam, only the part on its home panel counts. None if there is no such panel.
+#[inline(never)] // its buffer of 4 KB is on the stack only during the call
 pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
     contacts: &ContactState<CONTACTS, RUNS, PARTS>,
     layout: &Layout,

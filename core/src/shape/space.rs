@@ -4,32 +4,32 @@ use super::descriptor::{Descriptor, MEASURES};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Most dimensions of a space.
+/// Greatest number of dimensions of a space.
 pub const DIMENSIONS: usize = 12;
 
-/// A place in a space, in 1/256 of the spread that the trainer found within a class; 0 in dimensions that it
-/// does not have.
+/// A position in a space, in 1/256 of the spread that the trainer found within a class; 0 in unused
+/// dimensions.
 pub type Point = [i16; DIMENSIONS];
 
-/// `point = weights (descriptor - origin) / 2^shift`, rounded to the nearest; saturates at the ends of an
-/// `i16`.
+/// The projection `point = weights (descriptor - origin) / 2^shift`, rounded to the nearest; saturates at the
+/// ends of `i16`.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Space {
-    /// The descriptor that lies at 0.
+    /// The descriptor whose position is 0.
     pub origin: Descriptor,
-    /// A row for each dimension; a measure that is not used has 0 in all of them.
+    /// A row for each dimension; an unused measure has 0 in all of them.
     pub weights: Vec<[i16; MEASURES], DIMENSIONS>,
-    /// 0 ..= 30
+    /// Right shift, 0 ..= 30.
     pub shift: u8,
 }
 
 impl Space {
-    /// Where a touch lies.
+    /// Returns the position of a touch.
     pub fn place(&self, descriptor: &Descriptor) -> Point {
         let mut point = [0; DIMENSIONS];
         for (at, row) in point.iter_mut().zip(&self.weights) {
-            // Nothing is too large: 24 products of 33 bits.
+            // Fits: 24 products of 33 bits.
             let terms = row.iter().zip(descriptor.iter().zip(&self.origin));
             let sum: i64 = terms
                 .filter(|(weight, _)| **weight != 0)
@@ -43,7 +43,8 @@ impl Space {
     }
 }
 
-/// The squared distance; each dimension counts for at most 16383 apart, so that twelve squares fit.
+/// Returns the squared distance. The difference in each dimension is limited to 16383, so that twelve squares
+/// fit.
 pub fn distance2(a: &Point, b: &Point) -> u32 {
     let square = |(a, b): (&i16, &i16)| u32::from(a.abs_diff(*b).min(16_383)).pow(2);
     a.iter().zip(b).map(square).sum()

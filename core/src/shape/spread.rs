@@ -1,15 +1,14 @@
-//! How the pressure of a touch lies about its centroid: sums of the third and fourth order, and those of its
-//! area.
+//! Distribution of the pressure of a touch about its centroid: sums of the third and fourth order.
 
 use super::patch::Patch;
 use crate::contact::Moments;
 use crate::format::{Scaled, product};
 
 /// Sums over a patch, in coordinates (x, y) from the centroid in units of `2^-bits` taxel, rounded to the
-/// nearest; r is the distance. Values of more than 14 bits lose the rest.
+/// nearest; r is the distance. Values of more than 14 bits are truncated to 14.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Spread {
-    /// Fraction bits of the coordinates: as many as keep all sums in 63 bits for 4,096 taxels.
+    /// Fraction bits of the coordinates: the most that keep all sums in 63 bits for 4,096 taxels.
     pub bits: i16,
     /// sum f
     pub m: u64,
@@ -17,7 +16,7 @@ pub struct Spread {
     pub r2: u64,
     /// sum r^4 f / 256
     pub r4: u64,
-    /// sum (x, y) r^2 f: where it leans
+    /// sum (x, y) r^2 f: lean to one side
     pub lean: [i64; 2],
     /// sum (x + iy)^3 f: three corners
     pub three: [i64; 2],
@@ -26,16 +25,16 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of a patch with its moments (coordinates from its first taxel) and its peak.
+    /// Returns the sums of a patch, from its moments (coordinates from its first taxel) and its peak.
     pub fn of(patch: &Patch, moments: &Moments, peak: u16) -> Spread {
-        // Two taxels are at most 1.42 times the extent apart: below 2^11 units; f < 2^14, and there are 2^12
+        // Two taxels are at most 1.42 times the extent apart, below 2^11 units; f < 2^14, and there are 2^12
         // taxels.
         let down = (0..24).find(|down| (patch.extent() << 8) >> down <= 1446).unwrap_or(24);
         let mut spread = Spread { bits: 8 - down as i16, ..Spread::default() };
         let mass = Scaled::from_u64(moments.m);
         let [x0, y0] = [moments.sx, moments.sy].map(|sum| {
             let place = Scaled::from_u64(sum.unsigned_abs()).over(mass).to_fixed(16);
-            // Half a unit less: what follows is rounded to the nearest.
+            // Minus half a unit, so that the shifts below round to the nearest.
             i64::from(place) - (1 << (7 + down))
         });
         let dim = u16::from(peak >= 1 << 14) * 2;
@@ -54,7 +53,7 @@ impl Spread {
         let r2f = u64::from(r2) * u64::from(f);
         self.m += u64::from(f);
         self.r2 = self.r2.wrapping_add(r2f);
-        // Of what is squared once more, 18 bits are left.
+        // Factors that are squared once more are cut to 18 bits.
         self.r4 = self.r4.wrapping_add(product(product((r2 >> 4).into(), (r2 >> 4).into()), f.into()));
         let add = |sum: &mut i64, term: i64| *sum = sum.wrapping_add(term);
         add(&mut self.lean[0], i64::from(x).wrapping_mul(r2f as i64));
@@ -70,7 +69,7 @@ impl Spread {
     }
 }
 
-/// Length of a vector, 2^-30 of it off at most.
+/// Length of a vector, at most 2^-30 of it off.
 pub(super) fn length([x, y]: [i64; 2]) -> Scaled {
     let (x, y) = (x.unsigned_abs(), y.unsigned_abs());
     let spare = (x | y).leading_zeros();

@@ -1,4 +1,4 @@
-//! The stage.
+//! The stage: recognises the shape of a contact.
 
 use super::config::ShapeConfig;
 use super::features::features;
@@ -8,10 +8,10 @@ use crate::contact::{Contact, Moments};
 use crate::format::{Fixed24, Invalid, Q15};
 use serde::{Deserialize, Serialize};
 
-/// What a contact is shaped like.
+/// Shape of a contact.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shape {
-    /// sqrt(J) / m, eq. 4: follows pressure, see [`Nmi`](super::Nmi)
+    /// sqrt(J) / m, eq. 4: depends on pressure, see [`Nmi`](super::Nmi)
     pub nmi: Fixed24,
     /// NMI sqrt(peak)
     pub nmi_peak: Fixed24,
@@ -19,13 +19,13 @@ pub struct Shape {
     pub nmi_s2: Fixed24,
     /// Class in the base of shapes.
     pub class: Class,
-    /// Of a known class: its share of the neighbours' votes, the nearer ones counting more. Of an unknown
-    /// one: how far beyond the limit it is, from 0 at the limit to 1.
+    /// For a known class, its share of the neighbours' votes, weighted by nearness. For an unknown one, the
+    /// excess over the limit, from 0 at the limit to 1.
     pub confidence: Q15,
 }
 
 impl Shape {
-    /// Another base is in force: the class of the former one has no name in it.
+    /// Resets the class, because another base is in force that does not have its name.
     pub const fn forget_class(&mut self) {
         (self.class, self.confidence) = (Class::UNKNOWN, Q15(0));
     }
@@ -39,7 +39,7 @@ pub struct Shapes<const PROTOTYPES: usize> {
 }
 
 impl ShapeConfig {
-    /// Checks the settings and a base.
+    /// Checks the settings and a base. Error if a parameter is out of range.
     pub fn build<const PROTOTYPES: usize>(
         &self,
         base: Base<PROTOTYPES>,
@@ -63,12 +63,12 @@ impl ShapeConfig {
 }
 
 impl<const PROTOTYPES: usize> Shapes<PROTOTYPES> {
-    /// The base it recognises.
+    /// The base of shapes.
     pub const fn base(&self) -> &Base<PROTOTYPES> {
         &self.base
     }
 
-    /// Recognises one contact, given with its moments.
+    /// Recognises one contact from its moments.
     pub fn process(&self, moments: &Moments, contact: &Contact) -> Shape {
         let nmi = nmi(moments, contact.peak);
         let features = features(&nmi, contact);

@@ -1,25 +1,26 @@
-//! What a vote is worth: how often votes like it were right.
+//! Confidence of a vote: the accuracy of similar votes.
 
 use crate::format::{Invalid, Q15};
 use serde::{Deserialize, Serialize};
 
-/// Steps of each of the two things that a vote is judged by.
+/// Number of steps of the share, and of the distance.
 pub const STEPS: usize = 4;
 
-/// A table of accuracies, counted by the trainer on examples that were left out of training.
+/// A table of accuracies, measured by the trainer on examples that were left out of training.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sureness {
-    /// Where the steps of the share of the votes begin, from the second on; rising.
+    /// Lower limits of the steps of the share of votes, from the second step on; ascending.
     pub shares: [u16; STEPS - 1],
-    /// Where the steps of the distance to the nearest prototype begin, from the second on; rising.
+    /// Lower limits of the steps of the distance to the nearest prototype, from the second step on;
+    /// ascending.
     pub distances: [u16; STEPS - 1],
-    /// Right answers, Q15, by step of the share and step of the distance.
+    /// Accuracy, Q15, by step of the share and step of the distance.
     pub right: [[u16; STEPS]; STEPS],
 }
 
 impl Sureness {
-    /// Checks a table that came from outside.
+    /// Checks a table from outside. Error if an accuracy exceeds 1.0.
     pub fn check(&self) -> Result<(), Invalid> {
         if self.right.iter().flatten().any(|right| *right > 32_768) {
             return Err(Invalid { parameter: "shapes.sureness", must: "must be at most 32768 (1.0)" });
@@ -33,7 +34,7 @@ impl Sureness {
         (row, self.distances.iter().filter(|from| distance >= u32::from(**from)).count())
     }
 
-    /// Of a share of votes and a distance.
+    /// Confidence for a share of votes and a distance.
     pub fn of(&self, share: Q15, distance: u32) -> Q15 {
         let (row, column) = self.cell(share, distance);
         let right = self.right.get(row).and_then(|row| row.get(column));

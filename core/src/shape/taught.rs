@@ -1,10 +1,9 @@
-//! Shapes that the host taught the board while it runs, in the place of those that are built in.
+//! Shapes that the host teaches the board at run time, in place of the built-in ones.
 //!
-//! A gallery arrives in parts: its head first, then its prototypes, some at a time. From the head on the
-//! built-in base is in force again, and the gallery from its last prototype on, if it is right.
+//! A gallery arrives in parts: first its head, then its prototypes, some at a time. With the head the
+//! built-in base takes over again; with the last prototype the gallery is in force, if it is valid.
 //!
-//! One contact is looked at in a frame, those that nobody has looked at first: a description takes as long as
-//! everything else.
+//! One contact is described per frame, new ones first: a description takes as long as everything else.
 
 use super::gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery};
 use super::knn::Class;
@@ -22,21 +21,21 @@ use serde::{Deserialize, Serialize};
 /// A gallery without its prototypes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GalleryHead {
-    /// As [`Gallery::names`].
+    /// See [`Gallery::names`].
     pub names: Vec<Name, GALLERY_CLASSES>,
-    /// As [`Gallery::space`].
+    /// See [`Gallery::space`].
     pub space: Space,
-    /// As [`Gallery::k`].
+    /// See [`Gallery::k`].
     pub k: u8,
-    /// As [`Gallery::reject`].
+    /// See [`Gallery::reject`].
     pub reject: u16,
-    /// As [`Gallery::sureness`].
+    /// See [`Gallery::sureness`].
     pub sureness: Sureness,
-    /// How many prototypes follow, 1 ..= [`GALLERY_PROTOTYPES`].
+    /// Number of prototypes that follow, 1 ..= [`GALLERY_PROTOTYPES`].
     pub prototypes: u16,
 }
 
-/// What a contact was found to be.
+/// Result for a contact.
 #[derive(Debug, Clone, Copy)]
 struct Known {
     contact: u32,
@@ -44,11 +43,11 @@ struct Known {
     confidence: Q15,
 }
 
-/// A gallery on the board, and what was found with it.
+/// A gallery on the board, and its results.
 #[derive(Debug, Clone)]
 pub struct Taught<const CONTACTS: usize> {
     gallery: Gallery<GALLERY_PROTOTYPES>,
-    /// Prototypes that it is to have; 0: there is none.
+    /// Number of prototypes that are to arrive; 0 without a gallery.
     wanted: u16,
     in_force: bool,
     known: Vec<Known, CONTACTS>,
@@ -62,23 +61,23 @@ impl<const CONTACTS: usize> Default for Taught<CONTACTS> {
 }
 
 impl<const CONTACTS: usize> Taught<CONTACTS> {
-    /// Nothing was taught.
+    /// State without a gallery.
     pub const fn new() -> Self {
         Taught { gallery: Gallery::new(), wanted: 0, in_force: false, known: Vec::new(), turn: 0 }
     }
 
-    /// The gallery in force.
+    /// The gallery, if it is in force.
     pub fn gallery(&self) -> Option<&Gallery<GALLERY_PROTOTYPES>> {
         self.in_force.then_some(&self.gallery)
     }
 
-    /// The built-in base is in force.
+    /// Drops the gallery: the built-in base is in force.
     pub fn clear(&mut self) {
         (self.wanted, self.in_force) = (0, false);
         self.known.clear();
     }
 
-    /// A gallery begins to arrive.
+    /// Takes the head of a new gallery. Error if the number of prototypes is out of range.
     #[inline(never)]
     pub fn begin(&mut self, head: GalleryHead) -> Result<(), Invalid> {
         self.clear();
@@ -93,7 +92,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         Ok(())
     }
 
-    /// More prototypes arrive. With the last of them the gallery is checked, and forgotten where it is wrong.
+    /// Adds prototypes. With the last one the gallery is checked, and dropped if it is invalid.
     pub fn add(&mut self, prototypes: &[Exemplar]) -> Result<(), Invalid> {
         let done = self.take(prototypes);
         if done.is_err() {
@@ -117,8 +116,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         Ok(())
     }
 
-    /// Which of the contacts, given by their ids, is to be looked at: the first that is not known yet, else
-    /// each in turn.
+    /// Chooses the contact to describe, given their ids: the first without a result, else each in turn.
     pub fn choose(&mut self, contacts: impl ExactSizeIterator<Item = u32> + Clone) -> Option<usize> {
         self.known.retain(|known| contacts.clone().any(|id| id == known.contact));
         let new = contacts.clone().position(|id| self.known.iter().all(|known| known.contact != id));
@@ -126,7 +124,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         new.or((contacts.len() > 0).then_some(self.turn))
     }
 
-    /// Looks at a contact, which is number `index` of those that `contacts` holds; see [`seen`].
+    /// Describes and recognises a contact, number `index` of those in `contacts`; see [`seen`].
     pub fn look<const RUNS: usize, const PARTS: usize>(
         &mut self,
         contacts: &ContactState<CONTACTS, RUNS, PARTS>,
@@ -140,13 +138,13 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
         let known = Known { contact: contact.id, class, confidence: found.confidence };
         match self.known.iter_mut().find(|known| known.contact == contact.id) {
             Some(before) => *before = known,
-            // As many as there can be contacts.
+            // Always room: as many places as contacts.
             None => _ = self.known.push(known),
         }
     }
 
-    /// Puts what is known of a contact in the place of what the built-in base says: its class, 1 + that of
-    /// the gallery, and how often such a vote is right.
+    /// Replaces the built-in base's result in `shape` by that of the gallery: class, 1 + that of the gallery,
+    /// and accuracy of such votes. Unknown if the contact has no result yet.
     pub fn tell(&self, contact: &Contact, shape: &mut Shape) {
         let known = self.known.iter().find(|known| known.contact == contact.id);
         (shape.class, shape.confidence) =

@@ -1,4 +1,4 @@
-//! The descriptor against floats and the definitions, and what a gallery makes of it.
+//! Compares the descriptor with floats and definitions, and tests the recognition by a gallery.
 
 extern crate std;
 
@@ -43,7 +43,7 @@ fn sum(taxels: &[(f64, f64, f64)], term: impl Fn(f64, f64, f64) -> f64) -> f64 {
     taxels.iter().map(|(x, y, f)| term(*x, *y, *f)).sum()
 }
 
-/// Mass, centroid, J, and the share of the axis, of taxels.
+/// Mass, centroid, J, and anisotropy of taxels.
 fn central(taxels: &[(f64, f64, f64)]) -> (f64, f64, f64, f64, f64) {
     let m = sum(taxels, |_, _, f| f);
     let (cx, cy) = (sum(taxels, |x, _, f| x * f) / m, sum(taxels, |_, y, f| y * f) / m);
@@ -131,7 +131,7 @@ fn reference(values: &[u16], columns: usize) -> [f64; MEASURES] {
     ]
 }
 
-/// Parts (over corners) less holes (over sides), by filling.
+/// Parts (joined over corners) minus holes (joined over sides), by flood fill.
 fn euler(values: &[u16], columns: usize) -> i32 {
     let (wide, high) = (columns + 2, values.len() / columns + 2);
     let mut left: Vec<u8> = (0..wide * high)
@@ -141,7 +141,7 @@ fn euler(values: &[u16], columns: usize) -> i32 {
             u8::from(inside && values[(y - 1) * columns + x - 1] > 0)
         })
         .collect();
-    // 0 and 1 are not yet filled, 2 is.
+    // 0 and 1 are not filled yet, 2 is.
     let (mut parts, mut holes) = (0, -1);
     for start in 0..left.len() {
         let kind = left[start];
@@ -169,9 +169,8 @@ fn euler(values: &[u16], columns: usize) -> i32 {
     parts - holes
 }
 
-/// Steps that a measure may be off: what is made of exact sums by logarithms alone, two; a Sobel magnitude
-/// loses up to an eighth of a count; what needs rounded coordinates is 1/32 off for a small touch in a patch
-/// of 64 columns.
+/// Steps that a measure may be off: two for logarithms of exact sums; a Sobel magnitude loses up to an eighth
+/// of a count; measures with rounded coordinates are 1/32 off for a small touch in a patch of 64 columns.
 fn bound(measure: &str) -> f64 {
     match measure {
         "anisotropy" | "anisotropy_area" | "offset" => 1.0,
@@ -220,7 +219,7 @@ fn a_touch_is_itself_wherever_and_however_it_is_turned() {
             assert!(a.abs_diff(b) <= 40, "{a} {b}");
         }
     }
-    // Empty margins say nothing but coarser coordinates.
+    // Empty margins change nothing but the rounding of coordinates.
     let framed: Vec<u16> = (0..13 * 14)
         .map(|at| {
             let (x, y) = (at % 14, at / 14);
@@ -309,7 +308,7 @@ fn a_wrong_gallery_is_refused() {
     assert_eq!(refused(|g| g.k = 0), "shapes.k");
     assert_eq!(refused(|g| g.reject = 0), "shapes.reject");
     assert_eq!(refused(|g| g.sureness.right[3][3] = 32769), "shapes.sureness");
-    // Whatever it holds, it answers.
+    // Any gallery gives a result without a panic.
     let mut odd = gallery();
     odd.k = 255;
     odd.space.shift = 255;

@@ -1,14 +1,15 @@
-//! Symbols: what touched where, how hard, how large, how long, moving or still.
+//! Symbols: words for each contact (how hard, how large, how long, moving or still), and the state of each
+//! region.
 //!
 //! | | |
 //! |---|---|
-//! | input | the placed contacts of a frame, present and released |
+//! | input | placed contacts of a frame, present and released |
 //! | output | an event for each onset, change of a word, and release; a state per region |
 //! | latency | none |
-//! | RAM | [`SymbolState`]: about 24 bytes a contact, 20 a region |
+//! | RAM | [`SymbolState`]: 12 bytes a contact, 24 a region, and 640 for events |
 //!
-//! Words do not flicker. A measure has to pass its limit by an eighth; a shape has to outweigh what spoke for
-//! the one that was said; and what slid is said to move for a while longer.
+//! Words do not flicker. A measure must pass its limit by an eighth; another shape must outweigh the evidence
+//! for the present one; and the word for moving holds for a while after a slide.
 
 mod config;
 mod said;

@@ -1,4 +1,4 @@
-//! What was said of a contact, and when that changes.
+//! The current words of a contact, and their hysteresis.
 
 use super::config::SymbolConfig;
 use super::words::{Extent, SHARP, Span, Strength, Words};
@@ -6,33 +6,33 @@ use crate::body::Placed;
 use crate::format::Q15;
 use crate::shape::Class;
 
-/// What was said of a contact.
+/// Current words of a contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Said {
-    /// Its id.
+    /// Id of the contact.
     pub contact: u32,
-    /// What was said last.
+    /// The words reported last.
     pub words: Words,
-    /// What speaks for the class that was said: milliseconds with full confidence.
+    /// Evidence for the present class: milliseconds with full confidence.
     evidence: u16,
-    /// Time since it slid, ms; saturates.
+    /// Time since it last slid, ms; saturates.
     still_ms: u8,
 }
 
-/// Evidence for the class of an onset, ms: the form of a touch that just begins changes soon.
+/// Initial evidence for the class of an onset, ms; low, because the form of a new touch changes soon.
 const FIRST: u16 = 20;
 
-/// Evidence for a class that another has given way to, ms.
+/// Initial evidence for a class that has replaced another, ms.
 const CHANGED: u16 = 200;
 
-/// The most evidence that is held, ms: another class needs at most so long.
+/// Limit of the evidence, ms, which bounds the time until another class wins.
 const MOST: u16 = 400;
 
-/// What slid is said to move for so long, ms.
+/// Time for which a contact counts as moving after it slid, ms.
 const STILL: u8 = 250;
 
 impl Said {
-    /// What is said of a contact at first.
+    /// Words of a new contact.
     pub fn new(config: &SymbolConfig, placed: &Placed, area_mm2: u32) -> Said {
         let mut said =
             Said { contact: placed.contact.id, words: Words::default(), evidence: FIRST, still_ms: u8::MAX };
@@ -42,7 +42,7 @@ impl Said {
         said
     }
 
-    /// What is to be said `ms` later; whether that is something else.
+    /// Updates the words after `ms`; true if they have changed.
     pub fn follow(&mut self, config: &SymbolConfig, placed: &Placed, area_mm2: u32, ms: u8) -> bool {
         let before = self.words;
         self.measure(config, placed, area_mm2, Some(before));
@@ -53,12 +53,12 @@ impl Said {
         self.words != before
     }
 
-    /// Another base of shapes is in force: the class that was said has no name in it.
+    /// Resets the class, because another base of shapes is in force that does not have its name.
     pub fn forget_class(&mut self) {
         (self.words.class, self.evidence) = (Class::UNKNOWN, 0);
     }
 
-    /// Words for how hard, how large and how long.
+    /// Chooses the words for strength, extent and span.
     fn measure(&mut self, config: &SymbolConfig, placed: &Placed, area_mm2: u32, before: Option<Words>) {
         let contact = &placed.contact;
         let limits = config.extent.map(|cm2| u32::from(cm2) * 100);
@@ -85,16 +85,16 @@ impl Said {
         };
     }
 
-    /// Whether it moves, given whether it slides now.
+    /// Updates whether it moves; `slides` is true if it slides now.
     fn slide(&mut self, slides: bool, ms: u8) {
         self.still_ms = if slides { 0 } else { self.still_ms.saturating_add(ms) };
         self.words.moving = self.still_ms < STILL;
     }
 
-    /// A class was seen for some time with this confidence (Q15): a vote of the majority, whose lead is held
-    /// between bounds.
+    /// Updates the class by a class seen for `ms` with this confidence (Q15): a majority vote whose lead is
+    /// limited.
     fn weigh(&mut self, class: Class, confidence: Q15, ms: u8) {
-        // 16 + 8 bits, rounded up, so that any class gets through in the end.
+        // 16 + 8 bits; rounded up, so that any class wins in the end.
         let weight = (confidence.0.clamp(0, 1 << 15) as u32 * u32::from(ms)).div_ceil(1 << 15) as u16;
         if class == self.words.class {
             self.evidence = self.evidence.saturating_add(weight).min(MOST);
@@ -106,8 +106,8 @@ impl Said {
     }
 }
 
-/// What was said of a contact. Those present are in the order in which they came, as what was said of them:
-/// it is mostly at `at`, after what was said of the one before.
+/// Finds the words of contact `id`. Contacts and words have the same order, so it is mostly at `at`, which
+/// then advances.
 pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Option<&'a mut Said> {
     if said.get(*at).is_none_or(|said| said.contact != id) {
         *at = said.iter().position(|said| said.contact == id)?;
@@ -117,8 +117,8 @@ pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Opti
     found
 }
 
-/// Index of the word for `measure` among rising `limits`; from the word said before it moves only when a
-/// limit is passed by an eighth.
+/// Index of the word for `measure` among ascending limits. From `before`, the present word, it changes only
+/// if a limit is passed by an eighth (hysteresis).
 fn word(measure: u32, limits: &[u32], before: Option<usize>) -> usize {
     let plain = limits.iter().take_while(|limit| measure >= **limit).count();
     match before {
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(course(&[5000, 75, 0]), [2, 1, 0]);
     }
 
-    /// Of a contact of which nothing but its id is known.
+    /// A contact of which only the id is set.
     fn of(contact: u32) -> Said {
         Said { contact, words: Words::default(), evidence: FIRST, still_ms: u8::MAX }
     }
@@ -171,7 +171,7 @@ mod tests {
         }
     }
 
-    /// How often the class changes, and the last one.
+    /// Number of changes of the class, and the last class.
     fn classes(seen: impl Iterator<Item = Class>, ms: u8) -> (usize, Class) {
         let (mut said, mut changes) = (of(1), 0);
         for class in seen {
@@ -189,7 +189,7 @@ mod tests {
             let frames = 4000 / usize::from(ms);
             let each = |frame: usize| if frame.is_multiple_of(2) { round } else { rectangle };
             assert!(classes((0..frames).map(each), ms).0 <= 2, "two in turn, {ms} ms");
-            // A second of the one, then the other: it is said within half a second.
+            // A second of one class, then the other: it wins within half a second.
             let (first, second) = (1000 / usize::from(ms), 500 / usize::from(ms));
             let changed = core::iter::repeat_n(round, first).chain(core::iter::repeat_n(rectangle, second));
             assert_eq!(classes(changed, ms), (2, rectangle), "{ms} ms");

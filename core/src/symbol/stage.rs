@@ -1,4 +1,4 @@
-//! The stage.
+//! The stage: words and events of a frame.
 
 use super::config::SymbolConfig;
 use super::said::{Said, said_of};
@@ -10,12 +10,12 @@ use crate::garment::{Layout, PANELS};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Something that was said of a contact.
+/// Event: the words of a contact at its onset, at a change, or at its release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Symbol {
     /// Id of the contact.
     pub contact: u32,
-    /// Held stands for a change of words.
+    /// Onset or release; `Held` stands for a change of words.
     pub phase: Phase,
     /// Index into the layout's regions.
     pub region: u8,
@@ -27,7 +27,7 @@ pub struct Symbol {
     pub duration_ms: u32,
 }
 
-/// What happens in one region of the body.
+/// State of one region of the body.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionState {
     /// Index into the layout's regions.
@@ -38,13 +38,13 @@ pub struct RegionState {
     pub total: u32,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
-    /// A contact slides.
+    /// True if a contact slides.
     pub moving: bool,
-    /// Since when the region has been touched, or left alone.
+    /// Time since which the region has been touched, or untouched.
     pub since: Micros,
 }
 
-/// What the stage remembers.
+/// State of the stage.
 #[derive(Debug, Clone)]
 pub struct SymbolState<const CONTACTS: usize> {
     said: Vec<Said, CONTACTS>,
@@ -54,7 +54,7 @@ pub struct SymbolState<const CONTACTS: usize> {
     regions: [RegionState; PANELS],
 }
 
-/// Most events of one frame, and of one message; those beyond are not said.
+/// Greatest number of events of one frame, and of one message; further ones are dropped.
 pub const EVENTS: usize = 32;
 
 impl<const CONTACTS: usize> Default for SymbolState<CONTACTS> {
@@ -74,7 +74,8 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
         &self.events
     }
 
-    /// Another base of shapes is in force: classes that were said have no name in it.
+    /// Resets the classes of all contacts, because another base of shapes is in force that does not have
+    /// their names.
     pub(crate) fn forget_classes(&mut self) {
         self.said.iter_mut().for_each(Said::forget_class);
     }
@@ -85,7 +86,7 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
     }
 }
 
-/// A frame speaks for what it shows as if it came at most so long after the one before, ms.
+/// Greatest time since the last frame that counts as evidence, ms.
 const MOST_MS: u32 = 100;
 
 /// The checked stage.
@@ -95,7 +96,7 @@ pub struct Symbols {
 }
 
 impl SymbolConfig {
-    /// Checks the limits.
+    /// Checks the limits. Error if a list does not ascend.
     pub fn build(&self) -> Result<Symbols, Invalid> {
         let must = "must rise";
         if !self.strength.is_sorted_by(|a, b| a < b) {
@@ -112,7 +113,7 @@ impl SymbolConfig {
 }
 
 impl Symbols {
-    /// Takes the contacts of the frame of time `now`: those `present`, then those `released`.
+    /// Processes the contacts of the frame of time `now`: those `present`, then those `released`.
     pub fn process<const CONTACTS: usize>(
         &self,
         state: &mut SymbolState<CONTACTS>,
@@ -123,7 +124,7 @@ impl Symbols {
     ) {
         state.events.clear();
         let ms = now.millis_since(state.last);
-        // What is left of a millisecond counts with the next frame.
+        // The rest of a millisecond counts with the next frame.
         state.last = if ms > MOST_MS { now } else { Micros(state.last.0 + u64::from(ms) * 1000) };
         let ms = ms.min(MOST_MS) as u8;
         let mut at = 0;
@@ -150,7 +151,7 @@ impl Symbols {
             );
             let _ = state.events.push(symbol(placed, Phase::Released, words));
         }
-        // Each contact is released before it is gone.
+        // A contact is reported as released before it disappears.
         if !released.is_empty() {
             state.said.retain(|said| released.iter().all(|gone| gone.contact.id != said.contact));
         }
@@ -158,7 +159,7 @@ impl Symbols {
     }
 }
 
-#[inline(always)] // twice
+#[inline(always)] // has two callers
 fn area_mm2(layout: &Layout, placed: &Placed) -> u32 {
     let area = layout.areas().get(usize::from(placed.contact.panel));
     // 16 bits each: no taxel is a quarter of a metre wide.
@@ -178,13 +179,13 @@ fn symbol(placed: &Placed, phase: Phase, words: Words) -> Symbol {
 
 fn regions(states: &mut [RegionState; PANELS], present: &[Placed], now: Micros) {
     const { assert!(PANELS <= 32) };
-    // A bit for each region that was touched.
+    // One bit for each region that was touched.
     let mut touched = 0u32;
     for (region, state) in (0u8..).zip(&mut *states) {
         touched |= u32::from(state.contacts > 0) << region;
         *state = RegionState { region, since: state.since, ..RegionState::default() };
     }
-    // One by one: a loop over two at a time would divide.
+    // One by one: a loop over two at a time would need a division.
     let mut left = present;
     while let [placed, rest @ ..] = left {
         left = rest;

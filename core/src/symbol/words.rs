@@ -3,41 +3,42 @@
 use crate::shape::Class;
 use serde::{Deserialize, Serialize};
 
-/// How hard.
+/// Strength: total pressure.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Strength {
-    /// below the first limit
+    /// Below the first limit.
     #[default]
     Faint,
-    /// from the first limit
+    /// From the first limit on.
     Light,
-    /// from the second
+    /// From the second limit on.
     Firm,
-    /// from the third
+    /// From the third limit on.
     Hard,
 }
 
-/// How large. Variants are only appended.
+/// Extent: touched area. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Extent {
-    /// below the first limit
+    /// Below the first limit.
     #[default]
     Point,
-    /// from the first limit
+    /// From the first limit on.
     Patch,
-    /// from the second
+    /// From the second limit on.
     Wide,
-    /// a point with [`SHARP`] counts on a taxel: a needle, a pen, the edge of a key
+    /// A point with [`SHARP`] counts on a taxel: a needle, a pen, the edge of a key.
     Sharp,
 }
 
-/// A taxel is as good as full, counts: the middle of what is sharp to the shipped map.
+/// Pressure at which a taxel is nearly full, counts: the middle of the range in which the shipped map's
+/// `sharp` rises.
 pub const SHARP: u16 = 3_000;
 
 impl Extent {
-    /// Its place among the sizes.
+    /// Rank of the size.
     pub(super) const fn size(self) -> usize {
         match self {
             Extent::Point | Extent::Sharp => 0,
@@ -47,31 +48,31 @@ impl Extent {
     }
 }
 
-/// How long.
+/// Span: duration.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Span {
-    /// below the first limit
+    /// Below the first limit.
     #[default]
     Brief,
-    /// from the first limit
+    /// From the first limit on.
     Short,
-    /// from the second
+    /// From the second limit on.
     Long,
 }
 
 /// The words for one contact.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Words {
-    /// How hard, at its hardest so far.
+    /// Strength, at its greatest so far.
     pub strength: Strength,
-    /// How large, at its largest so far; a point that was sharp stays so.
+    /// Extent, at its largest so far; a point that was sharp stays so.
     pub extent: Extent,
-    /// How long so far.
+    /// Span so far.
     pub span: Span,
-    /// It slides over the surface, or did within the last quarter of a second.
+    /// True if it slides over the surface, or did within the last quarter of a second.
     pub moving: bool,
-    /// What shape, by the evidence of the last 0.4 s in which it pressed with at least half of its greatest
-    /// total: what is left of it later has another.
+    /// Shape, by the evidence of the last 0.4 s in which it pressed with at least half of its greatest total:
+    /// the remainder of a touch later has another shape.
     pub class: Class,
 }

@@ -1,28 +1,26 @@
-//! COBS: a group is a code byte, which tells where the next group begins, and bytes that are not 0; a 0 of
-//! the data is where the next one begins.
+//! COBS, encoded in place. A group is a code byte, which gives the distance to the next group, and bytes that
+//! are not 0. Each 0 of the data becomes the code byte of the next group, and all other bytes stay. Only a
+//! full group of 254 bytes needs an extra code byte behind it; then the bytes before it move.
 //!
-//! It is coded where the data are: a 0 becomes a code byte, and what is not 0 stays. Only a full group of 254
-//! bytes, behind which a code byte comes in between, moves what stands before it.
-//!
-//! COBS is coded here and not by the crate `cobs` (0.3): that one walks its buffers by plain indices, whose
-//! checks are panics in the image unless the optimiser proves every one of them away, and it takes a zero
-//! inside a frame for the frame's end. The test below compares the two.
+//! This module replaces the crate `cobs` (0.3): that one walks its buffers by plain indices, whose checks are
+//! panics in the image unless the optimiser removes every one of them, and it takes a zero inside a frame for
+//! the frame's end. The test below compares the two.
 
 use bytemuck::pod_align_to;
 use core::mem::replace;
 use core::ops::Range;
 use core::ptr;
 
-/// Most bytes of a group.
+/// Greatest number of data bytes of a group.
 const GROUP: usize = 254;
 
-/// Most code bytes that come in between some data.
+/// Greatest number of extra code bytes for `data` bytes.
 pub(super) const fn between(data: usize) -> usize {
     data / GROUP
 }
 
-/// Codes what stands in `data` there, with [`between`] bytes and one before, and one behind, which gets a
-/// 0x00. Where the code stands, with its 0x00; `None` if there is no room.
+/// Encodes the range `data` of `place` in place. It needs [`between`] bytes and one more before the data, and
+/// one byte behind them for a 0x00. Returns the range of the code with its 0x00; `None` if there is no room.
 ///
 /// Data that end with a full group end with it: no empty group follows.
 pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>> {
@@ -34,9 +32,9 @@ pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>
     }
 }
 
-/// Makes code bytes of the first of some bytes and of all zeros but the last. An error: where a code byte
-/// would have to tell more than it can; what is before it is coded.
-#[inline(never)] // the few registers of an M0+ are for its loop
+/// Turns the first byte and all zeros but the last into code bytes. Error if a code byte would exceed its
+/// range: the index of that byte. All before it is encoded.
+#[inline(never)] // M0+: out of line
 fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let start = bytes.as_ptr().addr();
     let Some((first, data)) = bytes.split_first_mut() else { return Ok(()) };
@@ -46,23 +44,23 @@ fn link(bytes: &mut [u8]) -> Result<(), usize> {
     linked.and_then(|()| group.end_in(last)).map_err(|Long| ptr::from_ref(group.head).addr() - start)
 }
 
-/// Bytes that are looked at in a turn, each by code of its own: 5 cycles of an M0+ for each, and 10 more for
-/// a zero. By words four bytes without a zero would take 15, but those with one 50.
+/// Bytes of an unrolled step: 5 cycles of an M0+ for each byte, and 10 more for a zero. Word by word, four
+/// bytes without a zero would take 15, but those with one 50.
 const BLOCK: usize = 16;
 
-/// A group that has not ended.
+/// A group whose end is not found yet.
 struct Group<'a> {
     head: &'a mut u8,
-    /// Its code byte if the first byte of the block is a zero. Within a block in which it began this is that
-    /// much less, modulo 2^32.
+    /// Value of its code byte if the block at hand began with a zero. In the block in which the group begins,
+    /// it is smaller by the position of the group, modulo 2^32.
     code: u32,
 }
 
-/// The group is too long.
+/// Error: the group is too long.
 struct Long;
 
 impl<'a> Group<'a> {
-    /// Ends at each zero of some bytes that follow; the next group begins there.
+    /// Ends the group at each zero of the bytes that follow, and begins the next one there.
     #[inline(always)]
     fn end_in(&mut self, bytes: &'a mut [u8]) -> Result<(), Long> {
         let count = bytes.len() as u32;
@@ -81,18 +79,18 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Whether one of the bytes of some words is 0: it borrows and its highest bit is not set.
+/// True if a byte of the words is 0: such a byte borrows while its highest bit is not set.
 #[inline(always)]
 fn has_zero<const WORDS: usize>(words: &[u32; WORDS]) -> bool {
     const ONES: u32 = 0x0101_0101;
     words.iter().fold(0, |zeros, word| zeros | word.wrapping_sub(ONES) & !word) & ONES << 7 != 0
 }
 
-/// As [`stuff`] from the code byte at `head` on, where a full group may begin; what stands before it moves
-/// out of its way.
+/// Encodes like [`stuff`], from the code byte at `head` on, where a full group may begin. The bytes before it
+/// move to make room.
 ///
-/// It moves by as much as could come in between. Where that is not all needed, what follows moves too, and
-/// ends earlier.
+/// They move by the greatest number of extra code bytes. If fewer are needed, the rest moves too, and ends
+/// earlier.
 #[inline(never)]
 fn apart(place: &mut [u8], data: Range<usize>, head: usize) -> Option<Range<usize>> {
     let most = between(data.end - head - 1);
@@ -120,13 +118,13 @@ fn apart(place: &mut [u8], data: Range<usize>, head: usize) -> Option<Range<usiz
     Some(first..head + 1)
 }
 
-/// Code bytes that come in between those from `head` to the zero at `next`; at the end a full group has none
-/// behind it.
+/// Number of full groups from the code byte at `head` to the zero at `next`. At the end of the data, a full
+/// group has no code byte behind it.
 const fn full(head: usize, next: usize, end: usize) -> usize {
     (next - head).saturating_sub(if next == end { 2 } else { 1 }) / GROUP
 }
 
-/// Where the next zero is, from `at` on.
+/// Index of the next zero, from `at` on.
 fn zero(place: &[u8], at: usize) -> Option<usize> {
     let bytes = place.get(at..)?;
     let (first, words, _) = pod_align_to(bytes);
@@ -138,14 +136,14 @@ fn zero(place: &[u8], at: usize) -> Option<usize> {
     bytes.get(passed..)?.iter().position(is_zero).map(|behind| at + passed + behind)
 }
 
-/// How many words from the first on hold no zero.
+/// Number of words before the first that holds a zero.
 fn without_zero(words: &[u32]) -> usize {
     let far = 4 * words.as_chunks::<4>().0.iter().take_while(|words| !has_zero(words)).count();
     let near = words.get(far..).unwrap_or(&[]).as_chunks::<1>().0;
     far + near.iter().take_while(|word| !has_zero(word)).count()
 }
 
-/// Moves some bytes to the front.
+/// Moves bytes towards the front, to `to`.
 fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
     let by = from.start.checked_sub(to)?;
     let place = place.get_mut(to..from.end)?;
@@ -155,7 +153,7 @@ fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
     Some(())
 }
 
-/// Undoes COBS in place; the length of the data, or `None` if `frame` is not COBS.
+/// Decodes COBS in place. Returns the length of the data, or `None` if `frame` is not COBS.
 pub(super) fn unstuff(frame: &mut [u8]) -> Option<usize> {
     let (mut from, mut to) = (0, 0);
     while let Some(code) = frame.get(from).copied() {
@@ -168,7 +166,7 @@ pub(super) fn unstuff(frame: &mut [u8]) -> Option<usize> {
             *frame.get_mut(to)? = byte;
             to += 1;
         }
-        // A group shorter than 255 stands for its bytes and a zero, but for the last one.
+        // A group with a code below 255 stands for its bytes and a zero, except the last one.
         if code != 255 && next < frame.len() {
             *frame.get_mut(to)? = 0;
             to += 1;
@@ -185,8 +183,8 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Lengths around the group of 254, with zeros in every place that matters, among bytes of all sorts and
-    /// among 0x80, of which a borrow would make what a zero leaves; and many zeros behind a full group.
+    /// Lengths around the group of 254, with zeros in every place that matters, among random bytes and among
+    /// 0x80, for which a borrow would look like a zero; and many zeros behind a full group.
     fn data() -> impl Iterator<Item = Vec<u8>> {
         let lengths = [1, 2, 5, 252, 253, 254, 255, 256, 507, 508, 509, 510, 762, 763, 1200];
         let zeros = [usize::MAX, 0, 1, 7, 252, 253, 254, 255, 507, 508, 509, 762];
@@ -232,7 +230,7 @@ mod tests {
         for frame in [&mut [0][..], &mut [2], &mut [3, 1], &mut [3, 1, 0], &mut [1, 0, 1], &mut [255; 254]] {
             assert_eq!(unstuff(frame), None);
         }
-        // Other encoders append an empty group to a full one; it means the same.
+        // Other encoders append an empty group to a full one; the meaning is the same.
         let mut frame = [255; 256];
         frame[255] = 1;
         assert_eq!(unstuff(&mut frame), Some(254));

@@ -1,10 +1,10 @@
-//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Four bytes are loaded together: 7 cycles
-//! of an M0+ for each.
+//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Loads four bytes at a time: 7 cycles of an
+//! M0+ for each byte.
 
 use bytemuck::pod_align_to;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
-/// Bytes of the CRC.
+/// Number of bytes of the CRC.
 pub(super) const BYTES: usize = 4;
 
 /// A `static`: a `const` would copy the table to the stack of each user.
@@ -13,8 +13,8 @@ static TABLE: [u32; 256] = {
     table
 };
 
-/// The CRC of some bytes.
-#[inline(never)] // the few registers of an M0+ are for its loop
+/// Returns the CRC of the bytes.
+#[inline(never)] // M0+: out of line
 pub(super) fn of(bytes: &[u8]) -> u32 {
     let (first, words, last) = pod_align_to(bytes);
     let crc = first.iter().fold(u32::MAX, byte);
@@ -26,7 +26,7 @@ fn byte(crc: u32, byte: &u8) -> u32 {
     shift(crc ^ u32::from(*byte))
 }
 
-/// Takes in the lowest byte.
+/// Processes the lowest byte.
 #[inline(always)]
 fn shift(crc: u32) -> u32 {
     TABLE[usize::from(crc as u8)] ^ crc >> 8

@@ -1,26 +1,27 @@
-//! Writes the code of an image; the [module of its reader](super::image) says what it is.
+//! Encodes images; the [decoder's module](super::image) describes the code.
 //!
 //! Runs with one unchanged taxel between them are joined: a new run costs at least 2 bytes, an unchanged
-//! taxel within one costs 1 (alone: 2 for the first after a value above 63). 2 would cost as much, 0 costs 6
-//! % more on a pressed image that does not move.
+//! taxel within one costs 1 (alone: 2 for the first after a value above 63). Joining over 2 taxels would cost
+//! the same, joining over none costs 6 % more on a pressed image that does not move.
 //!
-//! Quiet taxels far from a run are looked at 8 at a time: 30 cycles of an M0+ for 8 of them, 41 with a base,
-//! counted in its instructions. What is near a run is told by [stretches](super::stretch), with about 80 for
-//! each.
+//! Unchanged taxels far from a run are compared 8 at a time: 30 cycles of an M0+ for 8 of them, 41 with a
+//! base, counted in its instructions. Taxels near a run are encoded by [stretches](super::stretch), with
+//! about 80 cycles for each stretch.
 
 use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
 use bytemuck::pod_align_to;
 use core::mem::take;
 use core::ops::Range;
 
-/// Most taxels of a run: its length has one byte, which is left free and written at its end.
+/// Greatest number of taxels of a run: its length takes one byte, which is reserved and filled in at the end
+/// of the run.
 pub(super) const RUN: usize = 127;
 
-/// No varint of an image is as large: 3 bytes hold 21 bits.
+/// Greatest varint of an image, plus one: 3 bytes hold 21 bits.
 const LIMIT: usize = 1 << 21;
 
-/// Codes `values` into `out` and returns the length. `None`: no room, or a base of another length, or 2^21
-/// taxels.
+/// Encodes `values` into `out` and returns the length. `None` if there is no room, if the base has another
+/// length, or for 2^21 taxels or more.
 pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Option<usize> {
     if values.len() >= LIMIT || base.is_some_and(|base| base.len() != values.len()) {
         return None;
@@ -31,20 +32,20 @@ pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Opt
     Some(room - encoder.room())
 }
 
-/// How many taxels from the first on are 0: this is the loop that sees all quiet taxels of an image that
-/// stands alone.
+/// Returns the number of taxels before the first that is not 0. This loop reads all unchanged taxels of an
+/// image without a base.
 fn zeros(values: &[u16]) -> usize {
     let whole = values.as_chunks::<8>().0.iter().take_while(|block| zero(block)).count() * 8;
     whole + values.iter().skip(whole).take_while(|value| **value == 0).count()
 }
 
-/// Written out, because a compiler that optimises for size keeps a loop.
+/// Unrolled by hand, because a compiler that optimises for size keeps a loop.
 fn zero([a, b, c, d, e, f, g, h]: &[u16; 8]) -> bool {
     a | b | c | d | e | f | g | h == 0
 }
 
-/// How many taxels from the first on are those of the base: this is the loop that sees most quiet taxels of a
-/// difference.
+/// Returns the number of taxels before the first that differs from the base. This loop reads most unchanged
+/// taxels of a difference.
 #[inline(never)]
 fn same(values: &[u16], base: &[u16]) -> usize {
     let far = same_blocks(values, base);
@@ -52,7 +53,7 @@ fn same(values: &[u16], base: &[u16]) -> usize {
     far + near.iter().zip(base).take_while(|(value, base)| value == base).count()
 }
 
-/// As [`same`], two by two where both stand alike in memory, and as many as stand in whole blocks.
+/// Compares like [`same`], word by word if both are aligned alike, and only in whole blocks.
 fn same_blocks(values: &[u16], base: &[u16]) -> usize {
     let ((odd, words, _), (base_odd, base_words, _)) = (pod_align_to(values), pod_align_to(base));
     if odd.first() != base_odd.first() {
@@ -66,11 +67,10 @@ fn equal([a, b, c, d]: &[u32; 4], [e, f, g, h]: &[u32; 4]) -> bool {
     (a ^ e) | (b ^ f) | (c ^ g) | (d ^ h) == 0
 }
 
-/// Writes the code of an image part by part, in the order of the taxels; those between two parts keep the
-/// reference.
+/// Encodes an image part by part, in the order of the taxels. Taxels between two parts keep the reference.
 pub(super) struct Encoder<'a> {
     out: &'a mut [u8],
-    /// First taxel that is not told yet.
+    /// First taxel that is not encoded yet.
     told: usize,
 }
 
@@ -79,14 +79,15 @@ impl<'a> Encoder<'a> {
         Encoder { out, told: 0 }
     }
 
-    /// Bytes that are left.
+    /// Number of bytes left.
     pub fn room(&self) -> usize {
         self.out.len()
     }
 
-    /// Codes a part of the taxels. `values`, and the base, may go on behind it: two at least keep the
-    /// reference there, and what begins behind them is told here or with the next part. `None`: no room.
-    #[inline(always)] // what it hands on needs no place on the stack then
+    /// Encodes a part of the taxels. `values` and the base may extend beyond it: at least two taxels keep the
+    /// reference there, and a run that begins behind those is encoded here or with the next part. `None` if
+    /// there is no room.
+    #[inline(always)] // so that its arguments need no place on the stack
     pub fn part(&mut self, part: Range<usize>, values: &[u16], base: Option<&[u16]>) -> Option<()> {
         match base {
             None => self.alone(part.start, values.get(part)?),
@@ -111,7 +112,7 @@ impl<'a> Encoder<'a> {
         Some(())
     }
 
-    /// Begins a run; where its length is written when it is known: it has one byte.
+    /// Begins a run. Returns the place of its length, one byte, which is filled in when the run ends.
     #[inline(always)]
     fn begin(&mut self, start: usize) -> Option<&'a mut u8> {
         let out = varint(take(&mut self.out), (start - self.told) as u32)?;
@@ -140,15 +141,15 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Codes taxels by stretches, as far as those follow each other closely; the first taxel that was not
-    /// looked at.
-    #[inline(never)] // with little else in its loop
+    /// Encodes taxels by stretches, as long as these are close together. Returns the first taxel that was not
+    /// read.
+    #[inline(never)] // M0+: out of line
     fn stretches(&mut self, taxels: Range<usize>, values: &[u16], base: &[u16]) -> Option<usize> {
         let base = base.get(..values.len())?;
         let mut out = take(&mut self.out);
         let (mut at, mut skip) = (taxels.start, taxels.start - self.told);
         while at < taxels.end {
-            // One by one: of conditions that are joined a compiler makes numbers first.
+            // One by one: a compiler turns joined conditions into numbers first.
             let (now, last) = (values.get(at..)?, base.get(at..)?);
             let Some(now) = now.first_chunk() else { break };
             let Some(last) = last.first_chunk() else { break };
@@ -165,7 +166,7 @@ impl<'a> Encoder<'a> {
             let used = seen.end - out.as_ptr().addr();
             at += seen.next();
             if seen.ends() {
-                // The two that end it need no second look.
+                // The two that end the run need no second comparison.
                 (at, skip) = (at + 2, 2);
                 out = out.get_mut(used..)?;
             } else {
@@ -183,16 +184,16 @@ impl<'a> Encoder<'a> {
     }
 }
 
-/// Unchanged taxels before a stretch, if all before its run surely are told by one byte.
+/// Number of unchanged taxels up to which the distance of the next run surely fits in one byte.
 const NEAR: usize = 128 - LANES;
-/// From 128 on up to here they surely are by two.
+/// From 128 on, number of unchanged taxels up to which it surely fits in two bytes.
 const FAR: usize = (1 << 14) - LANES;
 
-/// Where a stretch is written, with the head of its run.
+/// Room for a stretch and the head of its run.
 type Place = [u8; 3 + ROOM];
 
-/// Tells a stretch and writes the head of its run, behind `skip` unchanged taxels; nothing that counts where
-/// it has no run.
+/// Encodes a stretch and the head of its run, behind `skip` unchanged taxels. Without a run the bytes have no
+/// meaning.
 #[inline(always)]
 fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, length, room @ .., _] = place;
@@ -202,8 +203,8 @@ fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> To
     seen
 }
 
-/// As [`begin_near`], behind more taxels.
-#[inline(never)] // seldom
+/// Encodes like [`begin_near`], behind more taxels.
+#[inline(never)] // rarely called
 fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, second, length, room @ ..] = place;
     let seen = tell_by_call(room, now, base);
@@ -213,13 +214,13 @@ fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Tol
     seen
 }
 
-/// Taxels of a run that are told, and the room behind them.
+/// Number of encoded taxels of a run, and the room that is left.
 struct More<'a> {
     taxels: usize,
     out: &'a mut [u8],
 }
 
-/// Writes what is left of a run, at most so many taxels. `ALONE`: of an image without a base, where `base`
+/// Encodes the rest of a run, at most `most` taxels. `ALONE` stands for an image without a base; `base` then
 /// begins with the taxel before.
 #[inline(never)]
 fn rest<'a, const ALONE: bool>(
@@ -242,7 +243,7 @@ fn rest<'a, const ALONE: bool>(
         if seen.ends() {
             break;
         }
-        // A difference that no stretch tells.
+        // A difference of three bytes, which a stretch does not encode.
         if seen.next() < LANES {
             let (value, last) = (now.get(taxels)?, base.get(taxels)?);
             out = varint(out, zigzag(i32::from(*value) - i32::from(*last)))?;
@@ -268,7 +269,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Number of taxels that each run of a code skips, and that it tells.
+    /// Number of taxels that each run of a code skips, and number that it contains.
     fn runs(code: &[u8]) -> Vec<(usize, usize)> {
         let mut bytes = code.iter();
         let number = |bytes: &mut core::slice::Iter<u8>| {

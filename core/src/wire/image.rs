@@ -1,9 +1,9 @@
 //! Lossless coding of the conditioned image, alone or as the difference to a base image.
 //!
 //! The code is a sequence of runs: `varint(skip) varint(count)`, then `count` zigzag varints. `skip` taxels
-//! keep the reference (the base; alone: 0), then `count` taxels are given; what follows the last run keeps
-//! the reference. With a base each number is `value - base`; alone it is the value less the one before it in
-//! the run (the first: less 0). Varints are those of postcard (7 bits a byte, the lowest first), at most 3
+//! keep the reference (the base; alone: 0), then `count` taxels are given; all taxels after the last run keep
+//! the reference. With a base each number is `value - base`; alone it is the value minus the one before it in
+//! the run (the first: minus 0). Varints are those of postcard (7 bits a byte, the lowest first), at most 3
 //! bytes and never longer than needed.
 //!
 //! | 2,048 taxels, 12 bits | bytes |
@@ -18,9 +18,10 @@
 use super::encoder::RUN;
 use core::{fmt, slice};
 
-/// The longest code of an image of `taxels` taxels of `bits` bits: the numbers and the heads of the runs.
+/// Greatest length of the code of an image of `taxels` taxels of `bits` bits: the numbers and the heads of
+/// the runs.
 ///
-/// A run of fewer taxels than a run can have is followed by at least 2 unchanged taxels, which cost nothing;
+/// A run that ends before its greatest length is followed by at least 2 unchanged taxels, which cost nothing;
 /// the head of the next has at most 4 bytes.
 pub const fn image_bound(taxels: usize, bits: u32) -> usize {
     // A difference has one bit more than a value.
@@ -32,7 +33,7 @@ pub const fn image_bound(taxels: usize, bits: u32) -> usize {
     taxels.saturating_mul(each).saturating_add(2 * (taxels / RUN)).saturating_add(4)
 }
 
-/// The checksum of an image: the sum of `(i + 1) * value`, modulo 2^32. It tells that a base is the one meant.
+/// Checksum of an image: the sum of `(i + 1) * value`, modulo 2^32. It proves that a base is the right one.
 pub fn image_sum(values: &[u16]) -> u32 {
     let mut place = 0u32;
     values.iter().fold(0, |sum: u32, value| {
@@ -41,16 +42,16 @@ pub fn image_sum(values: &[u16]) -> u32 {
     })
 }
 
-/// What is wrong with the code of an image, and where.
+/// Error in the code of an image, with its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImageError {
-    /// Bytes that had been read.
+    /// Number of bytes that had been read.
     pub byte: usize,
-    /// What is wrong.
+    /// Kind of error.
     pub fault: ImageFault,
 }
 
-/// What can be wrong with the code of an image.
+/// Kind of error in the code of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImageFault {
     /// The base has another number of taxels than the image.
@@ -83,8 +84,7 @@ impl fmt::Display for ImageError {
 
 impl core::error::Error for ImageError {}
 
-/// Decodes `data` into all of `out`. After an error `out` is part of one image and part of another: not to be
-/// used.
+/// Decodes `data` into all of `out`. After an error `out` mixes two images and must not be used.
 pub fn decode_image(data: &[u8], base: Option<&[u16]>, out: &mut [u16]) -> Result<(), ImageError> {
     let mut bytes = data.iter();
     let done = start(base, out).and_then(|()| runs(&mut bytes, base.is_none(), out));

@@ -1,4 +1,4 @@
-//! The two enums of the wire.
+//! The messages of the wire: reports from the board, requests to it.
 
 use crate::body::Placed;
 use crate::boot::Boot;
@@ -21,17 +21,17 @@ use serde::{Deserialize, Serialize};
 pub const MAGIC: [u8; 4] = *b"TAXL";
 /// Version of the protocol.
 pub const PROTOCOL: u16 = 1;
-/// Longest message of a host: a garment, and its frame around it.
+/// Greatest length of a host's message: a garment, and its frame around it.
 pub const LONGEST_REQUEST: usize = 3072;
 
-/// Most prototypes of an `AddShapes`.
+/// Greatest number of prototypes of an `AddShapes`.
 pub const SHAPES_ADDED: usize = 64;
 
-/// What the board tells the host; numbered as in the [module's](super) table.
+/// A message from the board; numbers as in the [module's](super) table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[allow(clippy::large_enum_variant)] // read where it is used, never stored
+#[allow(clippy::large_enum_variant)] // used where it is decoded, never stored
 pub enum Report<'a> {
-    /// Who is there.
+    /// Identity and settings of the board.
     #[serde(borrow)]
     Hello(Hello<'a>),
     /// A conditioned image.
@@ -41,11 +41,11 @@ pub enum Report<'a> {
     Contacts(ContactList),
     /// Symbols.
     Symbols(SymbolList),
-    /// What the touch means.
+    /// Meaning of the touch.
     Intent(IntentReport),
-    /// Something the garment did by itself.
+    /// A reaction that began or ended.
     Reaction(ReactionReport),
-    /// How the board is.
+    /// Counters of the board.
     Health(Health),
     /// A sentence for people.
     #[serde(borrow)]
@@ -58,80 +58,80 @@ pub enum Report<'a> {
     /// Raw codes.
     #[serde(borrow)]
     Raw(Raw<'a>),
-    /// Where the time goes.
+    /// Time spent on frames.
     Budget(Budget),
-    /// Which taxels are ill.
+    /// Faulty taxels.
     HealthMap(HealthMap),
-    /// How warm it is.
+    /// Temperature of the converter.
     Temperature(Temperature),
-    /// How lines and inputs are.
+    /// Findings about lines and inputs.
     SelfTest(SelfTestReport),
-    /// Which gesture goes on.
+    /// Recognised gesture.
     Gesture(GestureReport),
-    /// Which shapes the board was taught.
+    /// Taught shapes.
     Shapes(ShapesReport),
-    /// A reaction began within a frame.
+    /// A reaction that began within a frame.
     Reflex(ReflexReport),
-    /// How sure the gesture is that is told next.
+    /// Confidence of the next gesture report.
     Confidence(ConfidenceReport),
-    /// How the board came to start.
+    /// Cause of the last reset.
     Boot(Boot),
-    /// Which contacts may be drift.
+    /// Contacts that may be drift.
     Unsure(UnsureReport),
-    /// How old the forms of the contacts are that are told next.
+    /// Ages of the forms in the next list of contacts.
     Forms(FormsReport),
 }
 
-/// Numbers of the variants. postcard writes `(number, &body)` as it writes the variant, and nothing large is
-/// moved into one.
+/// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
+/// body.
 impl Report<'_> {
-    /// Of `Hello`.
+    /// Number of `Hello`.
     pub const HELLO: u32 = 0;
-    /// Of `Frame`.
+    /// Number of `Frame`.
     pub const FRAME: u32 = 1;
-    /// Of `Contacts`.
+    /// Number of `Contacts`.
     pub const CONTACTS: u32 = 2;
-    /// Of `Symbols`.
+    /// Number of `Symbols`.
     pub const SYMBOLS: u32 = 3;
-    /// Of `Intent`.
+    /// Number of `Intent`.
     pub const INTENT: u32 = 4;
-    /// Of `Reaction`.
+    /// Number of `Reaction`.
     pub const REACTION: u32 = 5;
-    /// Of `Health`.
+    /// Number of `Health`.
     pub const HEALTH: u32 = 6;
-    /// Of `Log`.
+    /// Number of `Log`.
     pub const LOG: u32 = 7;
-    /// Of `Sync`.
+    /// Number of `Sync`.
     pub const SYNC: u32 = 8;
-    /// Of `Answer`.
+    /// Number of `Answer`.
     pub const ANSWER: u32 = 9;
-    /// Of `Raw`.
+    /// Number of `Raw`.
     pub const RAW: u32 = 10;
-    /// Of `Budget`.
+    /// Number of `Budget`.
     pub const BUDGET: u32 = 11;
-    /// Of `HealthMap`.
+    /// Number of `HealthMap`.
     pub const HEALTH_MAP: u32 = 12;
-    /// Of `Temperature`.
+    /// Number of `Temperature`.
     pub const TEMPERATURE: u32 = 13;
-    /// Of `SelfTest`.
+    /// Number of `SelfTest`.
     pub const SELF_TEST: u32 = 14;
-    /// Of `Gesture`.
+    /// Number of `Gesture`.
     pub const GESTURE: u32 = 15;
-    /// Of `Shapes`.
+    /// Number of `Shapes`.
     pub const SHAPES: u32 = 16;
-    /// Of `Reflex`.
+    /// Number of `Reflex`.
     pub const REFLEX: u32 = 17;
-    /// Of `Confidence`.
+    /// Number of `Confidence`.
     pub const CONFIDENCE: u32 = 18;
-    /// Of `Boot`.
+    /// Number of `Boot`.
     pub const BOOT: u32 = 19;
-    /// Of `Unsure`.
+    /// Number of `Unsure`.
     pub const UNSURE: u32 = 20;
-    /// Of `Forms`.
+    /// Number of `Forms`.
     pub const FORMS: u32 = 21;
 }
 
-/// Frozen.
+/// Identity and settings of the board. This layout is frozen.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello<'a> {
     /// [`MAGIC`]
@@ -146,7 +146,7 @@ pub struct Hello<'a> {
     pub clock: &'a [u8],
     /// postcard of the [`Scene`](crate::scene::Scene)
     pub scene: &'a [u8],
-    /// UTF-8: id, date, fit error of the calibration in force; empty: counts
+    /// UTF-8: id, date, fit error of the calibration in force; empty without one: values are counts
     pub calibration: &'a [u8],
 }
 
@@ -157,7 +157,7 @@ pub struct Frame<'a> {
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// Frame that it differs from; none: it stands alone.
+    /// Number of the frame that it differs from; none: it stands alone.
     pub base: Option<u32>,
     /// [`image_sum`](super::image_sum) of the image.
     pub sum: u32,
@@ -172,27 +172,27 @@ pub struct Raw<'a> {
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// The codes, coded as an image alone.
+    /// The codes, encoded as an image alone.
     pub data: &'a [u8],
 }
 
 /// Contacts of a frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ContactList {
-    /// Number of the scan that the newest state is of.
+    /// Number of the scan of the newest state.
     pub frame: u32,
     /// Start of that scan.
     pub time: Micros,
-    /// Contacts that did not fit.
+    /// Number of contacts that did not fit.
     pub dropped: u16,
-    /// Present contacts, and all that have gone since the last list.
+    /// Present contacts, and all that ended since the last list.
     pub contacts: Vec<Placed, LISTED>,
 }
 
-/// Most contacts of a list: all that can be present, and as many that have gone.
+/// Greatest number of contacts of a list: all that can be present, and as many that have ended.
 pub const LISTED: usize = 2 * CONTACTS;
 
-/// What was said of contacts.
+/// Events and regions of a frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SymbolList {
     /// Number of the scan.
@@ -201,11 +201,11 @@ pub struct SymbolList {
     pub time: Micros,
     /// Onsets, changes of words, releases.
     pub events: Vec<Symbol, EVENTS>,
-    /// Regions that are touched.
+    /// Touched regions.
     pub regions: Vec<RegionState, PANELS>,
 }
 
-/// What the touch means.
+/// Meaning of the touch.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct IntentReport {
     /// Number of the scan.
@@ -214,26 +214,26 @@ pub struct IntentReport {
     pub time: Micros,
     /// The announced intention.
     pub leading: Leading,
-    /// How the inference ended.
+    /// End of the inference.
     pub outcome: Outcome,
-    /// Its steps.
+    /// Steps of the inference.
     pub steps: u16,
     /// Activation of each concept of the scene's map.
     pub concepts: Vec<Q15, CONCEPTS>,
 }
 
-/// Something the garment did by itself.
+/// A reaction that began or ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReactionReport {
     /// Number of the scan.
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// What.
+    /// The reaction.
     pub reaction: Reaction,
 }
 
-/// How the board is. Counters start with the board.
+/// Counters of the board, from its start on.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Health {
     /// The board's time.
@@ -242,13 +242,13 @@ pub struct Health {
     pub scans: u32,
     /// Scans that failed.
     pub failed: u32,
-    /// Frames that the converter produced and nobody fetched.
+    /// Complete frames that were never read.
     pub overruns: u32,
     /// Images that were due and not sent, because the link had no room.
     pub thinned_frames: u32,
     /// Contact updates that were due and not sent.
     pub thinned_contacts: u32,
-    /// Guaranteed messages that found no place to wait.
+    /// Guaranteed messages that did not fit in the queue.
     pub lost: u32,
     /// Received frames that were refused.
     pub refused: u32,
@@ -258,73 +258,73 @@ pub struct Health {
     pub process_us: u32,
 }
 
-/// Where the time of frames went: of each kind the most that any of them took, all that was done until the
-/// next frame included.
+/// Time spent on frames: per part, the most that any of the frames took, including all work until the next
+/// frame.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Budget {
-    /// Number of the last scan of these.
+    /// Number of the last of these scans.
     pub frame: u32,
     /// Start of that scan.
     pub time: Micros,
-    /// How many they are: 1, or all since the last such report.
+    /// Number of frames: 1, or all since the last such report.
     pub frames: u16,
-    /// Duration of the scan, us. The next one goes on meanwhile.
+    /// Duration of the scan, us. The next scan runs meanwhile.
     pub scan_us: u32,
-    /// From the codes to the reactions, us.
+    /// Time from the codes to the reactions, us.
     pub process_us: u32,
-    /// Messages were encoded and handed to the link, us.
+    /// Time of encoding messages and handing them to the link, us.
     pub encode_us: u32,
-    /// A message waited for room on the link, us. The processor was not held up by that.
+    /// Time for which a message waited for room on the link, us. The processor does not wait.
     pub send_us: u32,
-    /// As in [`Health`].
+    /// See [`Health`].
     pub overruns: u32,
-    /// As in [`Health`].
+    /// See [`Health`].
     pub thinned_frames: u32,
 }
 
-/// How warm the converter is, which a sheet beside it follows slowly.
+/// Temperature of the converter; a sheet beside it follows slowly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Temperature {
     /// Start of the scan in which it was measured.
     pub time: Micros,
-    /// One sample of the converter's thermometer, which may be several degrees off but tells changes.
+    /// One sample of the converter's thermometer: may be several degrees off, but shows changes.
     pub celsius: Celsius,
 }
 
-/// Which taxels are ill, of some that follow each other; those that are not named are good.
+/// Faulty taxels in a range of numbers; all others in it are good.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HealthMap {
     /// The board's time.
     pub time: Micros,
-    /// First taxel that this message speaks of.
+    /// First taxel of the range.
     pub first: u16,
-    /// Taxel after the last of them: the garment has no more, or another message goes on there.
+    /// Taxel after the last of the range: the garment ends there, or another message continues.
     pub end: u16,
-    /// The ill ones, ascending.
+    /// Faulty taxels, ascending.
     pub taxels: Vec<Ill, 64>,
 }
 
-/// Taxels with following numbers that are ill of the same.
+/// Consecutive taxels with the same fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ill {
     /// Number of the first.
     pub first: u16,
-    /// How many, at least 1.
+    /// Number of taxels, at least 1.
     pub count: u16,
-    /// What is wrong with them.
+    /// The fault.
     pub health: TaxelHealth,
 }
 
-/// How lines and inputs are.
+/// Result of a self-test of lines and inputs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SelfTestReport {
     /// The board's time at the end of the self-test.
     pub time: Micros,
-    /// What it has found.
+    /// Its findings.
     pub findings: Findings,
 }
 
-/// Which gesture goes on, as the model says that was asked for with `SetGestures`.
+/// Recognised gesture, by the model that `SetGestures` has chosen.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GestureReport {
     /// Number of the scan.
@@ -333,24 +333,24 @@ pub struct GestureReport {
     pub time: Micros,
     /// Number of the touch, from 1.
     pub touch: u32,
-    /// Index of the panel that is touched.
+    /// Index of the touched panel.
     pub panel: u8,
     /// Class of the model, from 0.
     pub class: u8,
-    /// Its name.
+    /// Name of the class.
     pub name: Name,
-    /// What it scores, Q18.
+    /// Score of the class, Q18.
     pub score: i32,
-    /// By how much it scores more than the second, Q18.
+    /// Lead over the score of the second class, Q18.
     pub lead: u32,
-    /// For how long the touch was observed, ms.
+    /// Time for which the touch was observed, ms.
     pub observed_ms: u32,
-    /// The touch is over, and this is what it was as a whole.
+    /// True if the touch is over; then the result is for all of it.
     pub ended: bool,
 }
 
-/// How sure the [`GestureReport`] is that follows, which is of the same frame and touch. Not told where the
-/// model does not know.
+/// Confidence of the [`GestureReport`] that follows, for the same frame and touch. Not sent if the model
+/// gives none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ConfidenceReport {
     /// Number of the scan.
@@ -359,7 +359,7 @@ pub struct ConfidenceReport {
     pub time: Micros,
     /// Number of the touch, from 1.
     pub touch: u32,
-    /// The share of touches of that age and lead that are of that class.
+    /// Share of touches of that age and lead that are of that class.
     pub confidence: Q15,
 }
 
@@ -371,39 +371,38 @@ pub struct UnsureReport {
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// Ids of those that are unsure now; one that is not among them is sure, or has gone.
+    /// Ids of the contacts that are unsure now; any other is sure, or has ended.
     pub contacts: Vec<u32, CONTACTS>,
 }
 
-/// How old the forms of contacts are, if [`Request::SetForms`] asked for it; told before the [`ContactList`]
-/// of that frame, where one of them is not of it.
+/// Ages of the forms of contacts, if [`Request::SetForms`] asked for them. Sent before the [`ContactList`] of
+/// that frame if one of the forms is older.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FormsReport {
     /// Number of the scan.
     pub frame: u32,
     /// Start of the scan.
     pub time: Micros,
-    /// Ids of those whose form is not of this frame, with the frames since it was looked at; 255: at least so
-    /// many.
+    /// Ids of contacts whose form is older than this frame, with its age in frames; saturates at 255.
     pub ages: Vec<(u32, u8), LISTED>,
 }
 
-/// Which shapes the board was taught: the class of a contact is 1 + its place among these names.
+/// Shapes that the board was taught. The class of a contact is 1 + its index in these names.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapesReport {
-    /// Prototypes of the gallery in force; 0: the built-in base is.
+    /// Number of prototypes of the gallery in force; 0: the built-in base is in force.
     pub prototypes: u16,
-    /// Names of its classes.
+    /// Names of the gallery's classes.
     pub names: Vec<Name, GALLERY_CLASSES>,
 }
 
-/// A reaction began before its frame was complete. The `Reaction` itself follows it, or was told with a frame
+/// A reaction began before its frame was complete. The `Reaction` itself follows, or was sent with a frame
 /// that showed the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReflexReport {
     /// Number of the scan in which it began.
     pub frame: u32,
-    /// When the sub-field had been read that decided: the pin was asserted at once.
+    /// Time at which the deciding sub-field had been read; the pin was asserted at once.
     pub time: Micros,
     /// Row of the scene's table.
     pub index: u8,
@@ -411,18 +410,18 @@ pub struct ReflexReport {
     pub taxel: u16,
     /// Its pressure, counts.
     pub value: u16,
-    /// The taxel that agrees, where two have to.
+    /// Number of the taxel that agrees, if two must.
     pub other: Option<u16>,
 }
 
-/// How grave a sentence is.
+/// Severity of a log message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
-    /// good to know
+    /// For information.
     Info,
-    /// something does not work as asked
+    /// Something does not work as requested.
     Warn,
-    /// something does not work
+    /// Something does not work.
     Error,
 }
 
@@ -431,7 +430,7 @@ pub enum Level {
 pub struct Log<'a> {
     /// The board's time.
     pub time: Micros,
-    /// How grave.
+    /// Severity.
     pub level: Level,
     /// The sentence.
     pub text: &'a str,
@@ -440,7 +439,7 @@ pub struct Log<'a> {
 /// Answer to `Sync`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SyncReport {
-    /// As in the request.
+    /// Token of the request.
     pub token: u32,
     /// The board's time when the request was read.
     pub received: Micros,
@@ -451,15 +450,15 @@ pub struct SyncReport {
 /// Answer to a request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Answer<'a> {
-    /// Number of the request's variant; 255: it could not be read.
+    /// Number of the request's variant; 255: the request could not be read.
     pub request: u8,
-    /// It was done; else why not.
+    /// None if the request was carried out; otherwise the reason for its refusal.
     pub refusal: Option<&'a str>,
 }
 
-/// What the host asks of the board. Variants are only appended.
+/// A message to the board. Variants are only appended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(clippy::large_enum_variant)] // read where it is obeyed, never stored
+#[allow(clippy::large_enum_variant)] // used where it is decoded, never stored
 pub enum Request<'a> {
     /// postcard of a [`Garment`](crate::garment::Garment)
     SetGarment(&'a [u8]),
@@ -470,79 +469,78 @@ pub enum Request<'a> {
         /// 1 ..= 4096
         frames: u16,
     },
-    /// Stream.
+    /// Start streaming.
     Start,
     /// Stop streaming.
     Stop,
-    /// Tell the time.
+    /// Report the board's time.
     Sync {
-        /// comes back
+        /// Returned in the answer.
         token: u32,
     },
-    /// How the robot's joints stand.
+    /// Positions of the robot's joints.
     Posture(Posture),
-    /// Value of a concept that the host feeds, until the next one, or until the host says nothing for 3 s: 0
-    /// then.
+    /// Set a concept that the host feeds, until the next value, or until the host has been silent for 3 s:
+    /// then 0.
     Concept {
-        /// slot of the map's input
+        /// Slot of the map's input.
         slot: u8,
         /// -1 ..= 1
         value: Q15,
     },
-    /// The next image is to stand alone.
+    /// Send the next image alone.
     KeyFrame,
-    /// Examine lines and inputs, and judge all taxels anew: those that were ill count as good until they are
-    /// found again.
+    /// Examine lines and inputs, and judge all taxels anew: faulty ones count as good until a fault is found
+    /// again.
     SelfTest,
     /// Store garment, scene and calibration.
     Save,
-    /// Gains of taxels from number `first` on, Q4.12 (4096 is 1.0).
+    /// Set the gains of taxels from number `first` on, Q4.12 (4096 is 1.0).
     SetGain {
-        /// number of the first taxel
+        /// Number of the first taxel.
         first: u16,
-        /// the gains
+        /// The gains.
         gains: Vec<u16, 64>,
     },
-    /// How often `Budget` is reported.
+    /// Set the rate of `Budget` reports.
     Budget {
-        /// a second; 0: never, 65535: for each frame
+        /// Rate per second; 0: never, 65535: with each frame.
         hz: u16,
     },
-    /// Value of a concept that the host feeds, with its age and what counts when it is too old, or the host
-    /// has said nothing for 3 s.
+    /// Set a concept that the host feeds, with the age of the value and the value to use when that is too
+    /// old, or when the host has been silent for 3 s.
     Feed(Feed),
-    /// How gestures are recognised from now on; none: not at all, as at the start. Not a part of the scene.
+    /// Set the recognition of gestures; none turns it off, as at the start. Not a part of the scene.
     SetGestures(Option<GestureConfig>),
-    /// Which calibration the gains that were set belong to; `Hello` names it until a gain or the garment
-    /// changes.
+    /// Name the calibration of the gains that were set. `Hello` has it until a gain or the garment changes.
     SetCalibration(Certificate),
-    /// postcard of a [`GalleryHead`](crate::shape::GalleryHead), whose prototypes follow; empty: the built-in
-    /// base is in force again
+    /// postcard of a [`GalleryHead`](crate::shape::GalleryHead), whose prototypes follow; empty: back to the
+    /// built-in base
     SetShapes(&'a [u8]),
-    /// postcard of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery, a list.
-    /// With the last of them the gallery is in force, or refused and forgotten.
+    /// postcard of a list of at most [`SHAPES_ADDED`] [`Exemplar`](crate::shape::Exemplar)s of that gallery.
+    /// With the last one the gallery is in force, or refused and dropped.
     AddShapes(&'a [u8]),
-    /// Confidence that an announcement of a gesture takes from now on, in thousandths, at most 999; 0 at the
-    /// start. Not a part of the scene; it stays when `SetGestures` comes.
+    /// Set the confidence that the announcement of a gesture needs, in thousandths, at most 999; 0 at the
+    /// start. Not a part of the scene; `SetGestures` does not change it.
     SetCertainty(u16),
-    /// Put the stored settings aside, or take them up again; the board starts anew as soon as it has answered.
-    /// What is put aside is kept until the next `Save`.
+    /// Set the stored settings aside, or restore them; the board restarts once it has answered. Settings that
+    /// are set aside are kept until the next `Save`.
     ResetSettings {
-        /// take them up again
+        /// True: restore them.
         undo: bool,
     },
-    /// How many forms are looked at in a frame from now on. Not a part of the scene; it stays when `SetScene`
-    /// comes.
+    /// Set the number of forms that are measured in a frame. Not a part of the scene; `SetScene` does not
+    /// change it.
     SetForms {
-        /// Of contacts that were there before, in turn; 0: all; 1 at the start.
+        /// Number of held contacts that have their turn in a frame; 0: all; 1 at the start.
         in_frame: u8,
-        /// Whether [`FormsReport`]s are told.
+        /// True: send [`FormsReport`]s.
         ages: bool,
     },
-    /// Raw codes a second, beside those that the scene streams, until the next such request. Nothing else
+    /// Set the rate of raw codes beside those of the scene, until the next such request. Nothing else
     /// changes.
     SetRaw {
-        /// 0: as the scene says; 65535: with every scan
+        /// Rate per second; 0: that of the scene; 65535: with every scan.
         hz: u16,
     },
 }

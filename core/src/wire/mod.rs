@@ -14,7 +14,7 @@
 //! | 0 | [`Hello`] | at start, each second until `Start`, in answer to `Start` |
 //! | 1 | [`Frame`] | at the scene's rate, when the link has room |
 //! | 2 | [`ContactList`] | at the scene's rate; onsets and releases always |
-//! | 3 | [`SymbolList`] | when something was said; a state per touched region |
+//! | 3 | [`SymbolList`] | when there is an event; a state per touched region |
 //! | 4 | [`IntentReport`] | with each inference; changes of the leading intention always |
 //! | 5 | [`ReactionReport`] | always |
 //! | 6 | [`Health`] | each second |
@@ -22,24 +22,24 @@
 //! | 8 | [`SyncReport`] | in answer to `Sync` |
 //! | 9 | [`Answer`] | in answer to every other request |
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
-//! | 11 | [`Budget`] | each second, or as often as was asked for |
-//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel has fallen ill or counts as good again; in as many parts as it needs |
-//! | 13 | [`Temperature`] | each second, of a board that has a thermometer |
+//! | 11 | [`Budget`] | each second, or at the requested rate |
+//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel becomes faulty or good again; in as many parts as needed |
+//! | 13 | [`Temperature`] | each second, from a board with a thermometer |
 //! | 14 | [`SelfTestReport`] | in answer to `Start`, if lines and inputs were examined; after each `SelfTest`, before its answer |
 //! | 15 | [`GestureReport`] | after `SetGestures`: when another class is announced for a touch, and at the end of a touch; always |
-//! | 16 | [`ShapesReport`] | when a gallery was taught or given up; in answer to `Start` where one is in force |
+//! | 16 | [`ShapesReport`] | when a gallery was taught or dropped; in answer to `Start` if one is in force |
 //! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
-//! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model knows how sure it is; always |
-//! | 19 | [`Boot`](crate::boot::Boot) | after each `Hello`, by a board that knows what reset it |
-//! | 20 | [`UnsureReport`] | when a contact is found to be perhaps nothing but drift, or to be more; the newest state |
-//! | 21 | [`FormsReport`] | if asked for: before a `Contacts` in which a form is older than its frame |
+//! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model gives a confidence; always |
+//! | 19 | [`Boot`](crate::boot::Boot) | after each `Hello`, from a board that knows the cause of its reset |
+//! | 20 | [`UnsureReport`] | when a contact becomes unsure or sure; the newest state |
+//! | 21 | [`FormsReport`] | if requested: before a `Contacts` in which a form is older than its frame |
 //!
-//! Every link carries these bytes alone. A board with several talks over one of them at a time, by whole
-//! messages: over USB while a program there has opened its port, else over the UART.
+//! A link carries nothing but these bytes. A board with several links uses one at a time, by whole messages:
+//! USB while a program there has opened its port, else the UART.
 //!
 //! The body of a [`Frame`] is the conditioned image (before fold; background zero), lossless, see
-//! [`encode_image`]: alone where `base` is none, else the difference to the frame of that number, which is
-//! the last `Frame` before it. `Raw` has the same coding, always alone.
+//! [`encode_image`]: alone if `base` is none, else the difference to the frame of that number, which is the
+//! last `Frame` before it. `Raw` has this code, too, always alone.
 
 mod cobs;
 mod codec;

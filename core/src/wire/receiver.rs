@@ -1,19 +1,19 @@
-//! Bytes in any split to frames: whatever comes, the next 0x00 starts anew.
+//! Receiver: turns bytes, in any split, into messages. Whatever came before, it starts anew after each 0x00.
 
 use super::codec::{WireError, open};
 
 /// Collects the bytes of a link until a 0x00 and opens the frame before it.
 ///
-/// A frame that has a 0x00 on both sides is received, whatever came before the first of them; only garbage
-/// that is directly followed by a frame, without a 0x00 between, takes that frame with it. A sender that
-/// starts therefore sends a 0x00 first: frames of no bytes are nothing.
+/// A frame with a 0x00 on both sides is received, whatever came before the first of them. Only garbage that
+/// is directly followed by a frame, without a 0x00 between, destroys that frame. So a sender should begin
+/// with a 0x00: empty frames are ignored.
 ///
-/// `N` is the longest frame without its 0x00; [`frame_bound`](super::frame_bound) gives it for a message. A
-/// longer one is dropped up to its 0x00 and reported there as [`WireError::TooLong`], once.
+/// `N` is the greatest length of a frame without its 0x00; [`frame_bound`](super::frame_bound) gives it for a
+/// message. A longer frame is dropped up to its 0x00, and reported there once as [`WireError::TooLong`].
 #[derive(Debug, Clone)]
 pub struct Receiver<const N: usize> {
     frame: [u8; N],
-    /// Bytes of the frame so far; more than `N` means that it is too long.
+    /// Number of bytes of the frame so far; `N + 1` if it is too long.
     length: usize,
 }
 
@@ -23,8 +23,8 @@ impl<const N: usize> Receiver<N> {
         Receiver { frame: [0; N], length: 0 }
     }
 
-    /// Takes one byte; at a 0x00 that ends a frame, returns the bytes of its message (for
-    /// [`decode`](super::decode)) or what is wrong with it.
+    /// Takes one byte. At a 0x00 that ends a frame, returns the bytes of its message (for
+    /// [`decode`](super::decode)), or the error.
     pub fn push(&mut self, byte: u8) -> Option<Result<&[u8], WireError>> {
         if byte != 0 {
             match self.frame.get_mut(self.length) {
@@ -44,17 +44,17 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
-    /// The first byte of the message whose frame has not ended yet, if that is known; garbage has one, too.
+    /// First byte of the message whose frame has not ended yet, if it has arrived; garbage has one, too.
     pub fn first(&self) -> Option<u8> {
         match self.frame.get(..self.length)? {
-            // COBS: what stands after no other byte is a zero.
+            // COBS: a group without data bytes stands for a zero.
             [1, ..] => Some(0),
             [_, first, ..] => Some(*first),
             _ => None,
         }
     }
 
-    /// Forgets the bytes of an unfinished frame: after the link was closed.
+    /// Drops the bytes of an unfinished frame, for example after the link was closed.
     pub const fn reset(&mut self) {
         self.length = 0;
     }
@@ -70,7 +70,7 @@ impl<const N: usize> Default for Receiver<N> {
 mod tests {
     use super::*;
 
-    /// What comes out at each 0x00.
+    /// Results at each 0x00.
     fn ends<const N: usize>(receiver: &mut Receiver<N>, bytes: &[u8], want: &[WireError]) {
         let mut want = want.iter();
         for byte in bytes {

@@ -1,4 +1,4 @@
-//! The image that was sent last.
+//! The reference: the image that was sent last.
 
 use super::encoder::Encoder;
 use crate::condition::{Held, Image};
@@ -6,11 +6,11 @@ use crate::garment::Layout;
 use bytemuck::{try_cast_slice, try_cast_slice_mut};
 use core::ops::Range;
 
-/// The image that was sent last, which the next one is told by its difference to. Only rows in which one of
-/// them may hold something are looked at.
+/// The image that was sent last, to which the next one is encoded as a difference. Only rows in which either
+/// of them may hold something are read.
 pub(crate) struct Reference<const TAXELS: usize> {
     values: [u16; TAXELS],
-    /// Rows of `values` that may hold something.
+    /// Rows of `values` that may not be 0.
     rows: Held,
     /// [`image_sum`](super::image_sum) of `values`.
     sum: u32,
@@ -22,7 +22,8 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         Reference { values: [0; TAXELS], rows: Held::NONE, sum: 0 }
     }
 
-    /// Forgets it, for an image without pressure: before another layout, and when it was kept only in part.
+    /// Resets it to an image without pressure: before another layout, and when an image was stored only in
+    /// part.
     pub fn clear(&mut self) {
         self.values.fill(0);
         (self.rows, self.sum) = (Held::NONE, 0);
@@ -33,8 +34,8 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         self.sum
     }
 
-    /// Writes the code of `image` into `out`, `alone` or as the difference, and keeps it; the length of the
-    /// code. `None`: no room, and what is kept is part of one image and part of another.
+    /// Encodes `image` into `out`, `alone` or as a difference, and makes it the reference; returns the length
+    /// of the code. `None` if there is no room; the reference then mixes two images.
     pub fn advance(
         &mut self,
         layout: &Layout,
@@ -44,7 +45,8 @@ impl<const TAXELS: usize> Reference<TAXELS> {
     ) -> Option<usize> {
         let room = out.len();
         let rows = image.rows.held().with(&self.rows);
-        // One taxel that keeps the reference does not end a run: there it must not be seen what follows a part.
+        // A single taxel that keeps the reference does not end a run: in a panel of one column, a part must
+        // not see what follows it.
         let narrow = layout.areas().iter().any(|area| area.columns == 1);
         let taxels = image.values.len().min(TAXELS);
         let mut step = Step {
@@ -75,21 +77,21 @@ impl<const TAXELS: usize> Reference<TAXELS> {
     }
 }
 
-/// One image on the way into the reference.
+/// Work space of [`Reference::advance`].
 struct Step<'a> {
     encoder: Encoder<'a>,
     now: &'a [u16],
     kept: &'a mut [u16],
-    /// Of what is kept by now.
+    /// Checksum of the part that is stored so far.
     sum: u32,
     alone: bool,
-    /// No part may see what follows it.
+    /// True if no part may see what follows it.
     narrow: bool,
 }
 
 impl Step<'_> {
-    /// Rows that follow each other, as one: a run does not end where a row does.
-    #[inline(never)] // in the loop over the rows its values would have no registers
+    /// Encodes and stores consecutive rows as one part: a run does not end where a row does.
+    #[inline(never)] // M0+: out of line
     fn tell(&mut self, part: Range<usize>) -> Option<()> {
         if part.is_empty() {
             return Some(());
@@ -104,7 +106,7 @@ impl Step<'_> {
     }
 }
 
-/// Copies taxels, in blocks where both stand on words.
+/// Copies taxels, in blocks if both slices are aligned to words.
 fn keep(kept: &mut [u16], values: &[u16]) {
     let mut done = 0;
     if let (Ok(words), Ok(kept)) = (try_cast_slice(values), try_cast_slice_mut(kept)) {
@@ -125,19 +127,19 @@ fn keep(kept: &mut [u16], values: &[u16]) {
     }
 }
 
-/// Words of a small block: a row of sixteen taxels.
+/// Number of words of a small block: a row of sixteen taxels.
 const BLOCK: usize = 8;
 
-/// By itself it is a few instructions that move many words each; of all blocks together a compiler would make
-/// a call of `memcpy`, which takes twice as long.
+/// Copies a block by a few instructions that move many words each. Inlined into the loop, it would become a
+/// call of `memcpy`, which takes twice as long.
 #[inline(never)]
 fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS]) {
     *kept = *block;
 }
 
-/// What taxels from number `start` on have in the [`image_sum`](super::image_sum).
+/// Returns the contribution of the taxels from number `start` on to [`image_sum`](super::image_sum).
 ///
-/// The sum of the sums of all values up to each of `count` taxels holds `sum (count - i) value`, and costs no
+/// The sum of the sums of all values up to each of `count` taxels is `sum (count - i) value`, and needs no
 /// multiplication.
 #[inline(never)]
 fn sum_of(start: usize, values: &[u16]) -> u32 {

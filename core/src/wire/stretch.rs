@@ -1,74 +1,75 @@
-//! A stretch of taxels of a difference: what is unchanged first, then a run, as far as both go. Within the
-//! run of an image that stands alone each taxel differs from the one before it.
+//! Encodes a stretch of up to 24 taxels of a difference: a skip over unchanged taxels, then the differences
+//! of a run. In an image without a base each taxel of a run is encoded as the difference to the one before
+//! it.
 //!
-//! A taxel that has changed takes a Cortex-M0+ 16 cycles here, an unchanged one before a run 7, within one
-//! 19, counted in its instructions: each place has its own code, and the few registers hold all it needs.
+//! A changed taxel takes a Cortex-M0+ 16 cycles here, an unchanged one before a run 7, within one 19, counted
+//! in its instructions: each position has code of its own, and all values stay in the few registers.
 
 use core::hint::cold_path;
 
-/// Taxels of a stretch.
+/// Number of taxels of a stretch.
 pub(super) const LANES: usize = 24;
 
-/// Bytes for their differences, each of which has two at most.
+/// Bytes for their differences, at most two each.
 pub(super) const ROOM: usize = 2 * LANES;
 
-/// The taxels of a stretch, and the one behind them: a run is not known to go on before the next taxel is seen.
+/// The taxels of a stretch and the one behind them, which is needed to know whether a run goes on.
 pub(super) type Taxels = [u16; LANES + 1];
 
-/// What was seen and written: two numbers, which are returned in registers.
+/// Result of a stretch: two numbers, which are returned in registers.
 pub(super) struct Told {
-    /// Taxels before the run, 65536 times those before the first that is not told, and [`ENDS`].
+    /// Bits 0 to 15: [`Told::quiet`]; bits 16 to 30: [`Told::next`]; bit 31: [`ENDS`].
     taxels: u32,
-    /// Where the bytes that were written end: an address.
+    /// Address of the end of the written bytes.
     pub end: usize,
 }
 
 impl Told {
-    /// Taxels before the run: all of them where there is none.
+    /// Number of unchanged taxels before the run; all of them without a run.
     #[inline(always)]
     pub fn quiet(&self) -> usize {
         (self.taxels & 0xffff) as usize
     }
 
-    /// First taxel that is not told: the first of two unchanged ones, or one whose difference needs three
-    /// bytes, or the one behind the stretch.
+    /// Index of the first taxel that is not encoded: the first of two unchanged ones, one whose difference
+    /// needs three bytes, or the one behind the stretch.
     #[inline(always)]
     pub fn next(&self) -> usize {
         (self.taxels << 1 >> 17) as usize
     }
 
-    /// Whether the run is known to end there.
+    /// True if the run is known to end there.
     #[inline(always)]
     pub fn ends(&self) -> bool {
         self.taxels & ENDS != 0
     }
 }
 
-/// Two unchanged taxels follow.
+/// Flag: two unchanged taxels follow.
 const ENDS: u32 = 1 << 31;
 
-/// Writes the differences of a run, which begins at the first taxel that has changed.
+/// Encodes the differences of a run, which begins at the first changed taxel.
 #[inline(always)]
 pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
     let state = State { out, within: false, quiet: LANES as u32 };
     lanes::<false>(state, now, base).unwrap_or_else(|told| told)
 }
 
-/// As [`tell`], for all who do it seldom: it is a long piece of code.
+/// Out-of-line [`tell`], for rare callers: it is a long piece of code.
 #[inline(never)]
 pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
     tell(out, now, base)
 }
 
-/// As [`tell`] within a run, which goes on with the first taxel. `ALONE`: each differs from the one before
-/// it, `base` begins with that of the first, and a taxel need not be told if it is 0.
+/// Encodes like [`tell`], within a run that continues with the first taxel. With `ALONE`, each taxel differs
+/// from the one before it, `base` begins with that of the first, and a taxel is unchanged if it is 0.
 #[inline(never)]
 fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
     let state = State { out, within: true, quiet: 0 };
     lanes::<ALONE>(state, now, base).unwrap_or_else(|told| told)
 }
 
-/// As [`tell`] within a run, at most so many taxels. `None`: no room.
+/// Encodes at most `most` taxels like [`tell_within`]. `None` if there is no room.
 #[inline(always)]
 pub(super) fn go_on<const ALONE: bool>(
     out: &mut [u8],
@@ -85,7 +86,7 @@ pub(super) fn go_on<const ALONE: bool>(
     edge::<ALONE>(out, now, base, most)
 }
 
-/// As [`go_on`], where there are fewer taxels or less room: behind them nothing changes.
+/// Encodes like [`go_on`], with fewer taxels or less room: the missing taxels count as unchanged.
 #[inline(never)]
 fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> {
     let (mut near, mut base_near): (Taxels, Taxels) = ([0; LANES + 1], [0; LANES + 1]);
@@ -101,14 +102,14 @@ fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usiz
     Some(Told { end: place.as_ptr_range().end.addr(), ..seen })
 }
 
-/// What is left of the room, and whether a run has begun, and where.
+/// Remaining room, whether a run has begun, and number of unchanged taxels before it.
 struct State<'a> {
     out: &'a mut [u8],
     within: bool,
     quiet: u32,
 }
 
-/// Each lane by itself: a compiler keeps a loop of as many.
+/// Unrolled by hand: the compiler would keep a loop.
 #[inline(always)]
 fn lanes<const ALONE: bool>(state: State<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
     let state = lane::<ALONE, 0>(state, now, base)?;
@@ -151,7 +152,7 @@ impl State<'_> {
     }
 }
 
-/// Takes a taxel. An error: the run ends before it, or its difference is too long.
+/// Encodes one taxel. Error: the run ends before it, or its difference is too long.
 #[inline(always)]
 fn lane<'a, const ALONE: bool, const LANE: usize>(
     mut state: State<'a>,
@@ -164,7 +165,7 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
         }
         (state.within, state.quiet) = (true, LANE as u32);
     }
-    // The first of two that need not be told ends a run.
+    // The first of two unchanged taxels ends a run.
     let last = if ALONE {
         if now[LANE] == 0 {
             cold_path();
@@ -187,7 +188,7 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
     }
 }
 
-/// Writes a number of one or two bytes.
+/// Writes a number of one or two bytes; `None` if it needs more.
 #[inline(always)]
 fn write(out: &mut [u8], number: i32) -> Option<&mut [u8]> {
     let number = zigzag(number);

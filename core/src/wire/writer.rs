@@ -1,15 +1,14 @@
-//! Writes messages as postcard does, a number at a time and without a buffer in between: what the crate
-//! `postcard` (1.1) does with a slice costs an M0+ a call of `memcpy` for each number. The test below
-//! compares the two.
+//! A postcard serializer that writes number by number, without a buffer in between: with a slice, the crate
+//! `postcard` (1.1) costs an M0+ a call of `memcpy` for each number. The test below compares the two.
 //!
-//! The place that is left goes from number to number by value, so that it stays in registers.
+//! The remaining slice is passed by value from number to number, so that it stays in registers.
 
 use super::codec::WireError;
 use core::fmt;
 use core::mem::take;
 use serde::{Serialize, ser};
 
-/// Writes a value into `out`; how many bytes.
+/// Writes a value into `out`; returns the number of bytes.
 pub(crate) fn write<T: Serialize + ?Sized>(value: &T, out: &mut [u8]) -> Result<usize, WireError> {
     let room = out.len();
     match value.serialize(Writer { out }) {
@@ -23,7 +22,7 @@ pub(crate) fn write<T: Serialize + ?Sized>(value: &T, out: &mut [u8]) -> Result<
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Fault {
     NoRoom,
-    /// No message has such a value.
+    /// Messages have no values of this kind.
     Unknown,
 }
 
@@ -41,7 +40,7 @@ impl ser::Error for Fault {
     }
 }
 
-/// What is left of the place where the message is written.
+/// Remaining room for the message.
 #[derive(Default)]
 struct Writer<'a> {
     out: &'a mut [u8],
@@ -55,13 +54,13 @@ impl<'a> Writer<'a> {
         self.bytes([byte]).ok_or(Fault::NoRoom)
     }
 
-    /// A varint: 7 bits a byte, the lowest first.
+    /// Writes a varint: 7 bits a byte, the lowest first.
     #[inline(always)]
     fn number(self, number: u32) -> Done<'a> {
         if number < 128 { self.byte(number as u8) } else { self.long(number).ok_or(Fault::NoRoom) }
     }
 
-    /// An option is returned in registers, unlike [`Done`].
+    /// Writes a varint of two bytes or more. Returns an option, which unlike [`Done`] fits in registers.
     #[inline(never)]
     fn long(self, number: u32) -> Option<Self> {
         let more = |from: u32| (number >> from) as u8 | 128;
@@ -84,7 +83,7 @@ impl<'a> Writer<'a> {
         Some(Writer { out })
     }
 
-    /// A varint, word by word: this processor shifts no more at once.
+    /// Writes a varint in two words: an M0+ has no shifts of 64 bits.
     #[inline(always)]
     fn wide(self, number: u64) -> Done<'a> {
         let (low, high) = (number as u32, (number >> 32) as u32);
@@ -223,7 +222,7 @@ impl<'a> ser::Serializer for Writer<'a> {
     }
 }
 
-/// Elements and fields stand one behind the other, with nothing between or behind them.
+/// Elements and fields follow each other, with nothing between or behind them.
 macro_rules! one_by_one {
     ($($of:ident :: $element:ident ($($name:ident)?)),*) => {$(
         impl<'a> ser::$of for Writer<'a> {

@@ -1,6 +1,6 @@
-//! The image that measures (`cargo xtask cycles`): the board's perception without pins and link, driven
-//! through a mailbox in memory. The harness waits until `command` is [`READY`], puts bytes or codes into the
-//! mailbox and a command behind them, and reads what the board said.
+//! The measuring image (`cargo xtask cycles`): the board's perception without pins and link, driven through a
+//! mailbox in memory. The harness waits until `command` is [`READY`], writes bytes or codes and then a
+//! command, and reads the board's output.
 #![no_std]
 #![no_main]
 #![deny(unsafe_code)]
@@ -20,30 +20,29 @@ use taxel_suite::chain::{Chain, Said, TAXELS};
 use taxel_suite::kernel::{Bench, Kernel};
 use {defmt_rtt as _, embassy_rp as _};
 
-/// What the harness and this image tell each other; the order of the fields is a part of
-/// tests/emulator/bench.mjs.
+/// Interface to the harness; tests/emulator/bench.mjs depends on the order of the fields.
 #[repr(C)]
 struct Mailbox {
     command: AtomicU32,
-    /// Halves of `content` that count, or bytes of it.
+    /// Number of valid halves of `content`, or of bytes in it.
     length: AtomicU32,
     bytes: AtomicU32,
     digest: AtomicU32,
     content: [AtomicU16; TAXELS],
 }
 
-/// The image has started, or has done what it was told.
+/// The image has started, or has finished the command.
 const READY: u32 = 0;
 /// The image has not started yet.
 const STARTING: u32 = u32::MAX;
-/// `content` holds bytes of a host, two in each half.
+/// `content` holds bytes from a host, two in each half.
 const RECEIVE: u32 = 1;
 /// `content` holds the codes of a scan.
 const SCAN: u32 = 2;
-/// This and what follows are kernels; `content` holds what they take.
+/// First of the numbers of kernels; `content` holds their input.
 const KERNELS: u32 = 16;
 
-// The harness finds it by its name.
+// The harness finds the mailbox by its name.
 #[allow(unsafe_code)] // SAFETY: no other symbol has this name
 #[unsafe(no_mangle)]
 static TAXEL_MAILBOX: Mailbox = Mailbox {
@@ -56,7 +55,7 @@ static TAXEL_MAILBOX: Mailbox = Mailbox {
 
 static CODES: ConstStaticCell<[Code; TAXELS]> = ConstStaticCell::new([Code(0); TAXELS]);
 
-/// Tells the harness which stage begins.
+/// Tells the harness when a stage begins.
 struct Marks;
 
 impl Probe for Marks {
@@ -67,8 +66,7 @@ impl Probe for Marks {
 
 #[entry]
 fn main() -> ! {
-    // Made where it stays: the stack has no room for a second one. The harness counts the stack below this
-    // frame.
+    // Built in place: the stack has no room for a second one. The harness counts the stack below this frame.
     let chain = &mut Chain::bare();
     ship(chain);
     let bench = &mut Bench::default();
@@ -93,7 +91,7 @@ fn main() -> ! {
     }
 }
 
-/// Gives the board what ships. A function of its own: what it needs of the stack it needs only here.
+/// Sets the shipped garment and scene. Out of line, so that its stack is freed afterwards.
 #[inline(never)]
 fn ship(chain: &mut Chain) {
     if chain.ship().is_err() {
@@ -101,7 +99,7 @@ fn ship(chain: &mut Chain) {
     }
 }
 
-/// The codes in the mailbox.
+/// Copies the codes out of the mailbox.
 fn taken<'a>(codes: &'a mut [Code; TAXELS], mailbox: &Mailbox) -> &'a [Code; TAXELS] {
     for (code, sent) in codes.iter_mut().zip(&mailbox.content) {
         code.0 = sent.load(Relaxed);
@@ -109,7 +107,7 @@ fn taken<'a>(codes: &'a mut [Code; TAXELS], mailbox: &Mailbox) -> &'a [Code; TAX
     codes
 }
 
-/// Hands the bytes of a host over, a few at a time.
+/// Passes the bytes from a host on, one at a time.
 fn receive(chain: &mut Chain, mailbox: &Mailbox) -> Said {
     let mut said = Said::default();
     for index in 0..mailbox.length.load(Relaxed) as usize {
@@ -121,7 +119,7 @@ fn receive(chain: &mut Chain, mailbox: &Mailbox) -> Said {
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
-    // The harness ends the run here and says where.
+    // The harness ends the run at this breakpoint and reports the place.
     cortex_m::asm::bkpt();
     loop {
         cortex_m::asm::nop();

@@ -1,12 +1,12 @@
-//! Adafruit Feather RP2040, and boards with the same use of pins such as the Waveshare RP2040-Zero.
+//! Adafruit Feather RP2040, and boards with the same pinout such as the Waveshare RP2040-Zero.
 //!
 //! | pin | use |
 //! |---|---|
 //! | USB | link to the host |
 //! | GP0, GP1 | UART, the other link to the host: transmit, receive |
-//! | GP2, GP3, GP6 - GP12 | select lines (the Feather brings out no GP4 and GP5) |
+//! | GP2, GP3, GP6 - GP12 | select lines (the Feather does not bring out GP4 and GP5) |
 //! | GP18 - GP20, GP24, GP25 | further select lines, or outputs of reactions |
-//! | GP13 | heartbeat LED; to ground at power-up: the board begins with what ships |
+//! | GP13 | heartbeat LED; grounded at power-up: the board starts with the shipped settings |
 //! | GP26 - GP29 | converter inputs |
 
 use super::Parts;
@@ -29,16 +29,16 @@ use embassy_rp::{
 use static_cell::ConstStaticCell;
 use taxel_core::board::BoardInfo;
 
-/// What garments and scenes are checked against, on the board as on a host.
+/// Limits for garments and scenes, equal on the board and on a host.
 pub const INFO: BoardInfo = BoardInfo::feather(concat!("taxel ", env!("CARGO_PKG_VERSION")));
 
-/// Converter inputs, from GP26 on.
+/// Number of converter inputs, from GP26 on.
 pub const INPUTS: usize = INFO.pins.inputs.count_ones() as usize;
 
-/// Pins for select lines and reactions.
+/// Number of pins for select lines and reactions.
 pub const LINES: usize = INFO.pins.outputs.count_ones() as usize;
 
-/// Takes pins as lines. They are those that garments are checked against, or it does not compile.
+/// Takes pins as lines. Fails to compile unless they are the pins of [`INFO`].
 macro_rules! lines {
     ($p:ident: $($pin:ident = $gpio:literal),* $(,)?) => {{
         const { assert!(INFO.pins.outputs == 0 $(| 1 << $gpio)*) };
@@ -52,10 +52,10 @@ bind_interrupts!(struct Interrupts {
     USBCTRL_IRQ => usb::InterruptHandler<USB>;
 });
 
-/// Starts the clocks (125 MHz) and takes the board apart. Must be called once.
+/// Starts the clocks (125 MHz) and returns the board's parts. Must be called once.
 pub fn take() -> Parts {
     let p = embassy_rp::init(Default::default());
-    // That has reset the pads.
+    // `init` has reset the pads.
     levels::drive();
     Parts {
         lines: lines!(p:

@@ -1,4 +1,4 @@
-//! Boards: a file each, which says what is soldered where. Nothing else of the firmware knows a pin.
+//! Boards: one file each with its pin assignment. No other part of the firmware names a pin.
 
 mod feather;
 
@@ -7,9 +7,9 @@ pub use feather::{INFO, INPUTS, LINES, take};
 use crate::{adc::Converter, led::Led, link::Wire, pins::Line, scan::Chain, store::Flash};
 use embassy_rp::watchdog::Watchdog;
 
-/// What a board hands to the firmware.
+/// Parts of a board for the firmware.
 pub struct Parts {
-    /// Pins that garments may use as select lines and scenes for reactions, with their GPIO numbers.
+    /// Pins for select lines of garments and reactions of scenes, with their GPIO numbers.
     pub lines: [(u8, Line); LINES],
     /// The converter inputs from GPIO 26 on.
     pub converter: Converter<INPUTS>,

@@ -1,5 +1,5 @@
-//! The board as a USB device: a serial port (CDC-ACM). Its tasks run at the priority of an interrupt, the
-//! lowest one, and interrupt nothing but perception.
+//! The board as a USB device: a serial port (CDC-ACM). Its tasks run in an interrupt of the lowest priority,
+//! so that they interrupt only perception.
 
 use super::usb::{OPENED, PACKETS, RECEIVED, SENT};
 use core::sync::atomic::Ordering;
@@ -11,15 +11,15 @@ use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, Sender,
 use embassy_usb::{Builder, Config};
 use static_cell::{ConstStaticCell, StaticCell};
 
-/// Vendor and product by which a host knows the board: from the range of <https://pid.codes> that is for
-/// tests, so the product's name counts, too. Whoever sells boards takes numbers of their own.
+/// Vendor and product by which a host finds the board, from the test range of <https://pid.codes>; so the
+/// product's name counts, too. Products for sale need numbers of their own.
 const ID: (u16, u16) = (0x1209, 0x0001);
-/// The product's name.
+/// Name of the product.
 const PRODUCT: &str = "taxel";
 
-/// Bytes of a packet.
+/// Number of bytes of a packet.
 const PACKET: usize = 64;
-/// What the board may draw from the bus, mA.
+/// Greatest current that the board draws from the bus, mA.
 const MILLIAMPERES: u16 = 250;
 
 type Bus = Driver<'static, USB>;
@@ -30,11 +30,11 @@ bind_interrupts!(struct Interrupts {
     SWI_IRQ_1 => Turn;
 });
 
-/// The interrupt that gives the tasks their turn; nothing else raises it.
+/// The interrupt in which the tasks run; nothing else raises it.
 struct Turn;
 
 impl Handler<SWI_IRQ_1> for Turn {
-    #[allow(unsafe_code)] // SAFETY: it is called by the executor's own interrupt alone
+    #[allow(unsafe_code)] // SAFETY: only the executor's own interrupt calls it
     unsafe fn on_interrupt() {
         unsafe { EXECUTOR.on_interrupt() }
     }
@@ -46,12 +46,12 @@ pub fn start(driver: Bus) {
     EXECUTOR.start(interrupt::SWI_IRQ_1).spawn(once(attach(driver)));
 }
 
-/// A task of which there is one.
+/// Token of a task with a single instance.
 fn once<S>(token: Result<SpawnToken<S>, SpawnError>) -> SpawnToken<S> {
     token.unwrap_or_else(|_| defmt::panic!("the USB device was started twice"))
 }
 
-/// Serves the bus, once all other tasks have begun: at this priority, too.
+/// Runs the device and spawns its other tasks at this priority.
 #[embassy_executor::task]
 async fn attach(driver: Bus) {
     static DESCRIPTORS: ConstStaticCell<[u8; 128]> = ConstStaticCell::new([0; 128]);
@@ -77,7 +77,7 @@ async fn attach(driver: Bus) {
     builder.build().run().await;
 }
 
-/// Hears whether anything moves on the bus.
+/// Watches for suspension of the bus.
 struct Sleep;
 
 impl embassy_usb::Handler for Sleep {
@@ -103,11 +103,11 @@ async fn send(mut port: Sender<'static, Bus>) {
     let mut packet = [0; PACKET];
     let mut full = false;
     loop {
-        // The host takes packets for one piece until it meets one that is not full: an empty one, if need be.
+        // A transfer ends with a packet that is not full: an empty one after a full one.
         let count = if full { SENT.try_read(&mut packet).unwrap_or(0) } else { SENT.read(&mut packet).await };
         let sent = port.write_packet(packet.get(..count).unwrap_or(&[])).await;
         full = sent.is_ok() && count == PACKET;
-        // Nobody else writes it.
+        // This task is its only writer.
         PACKETS.store(PACKETS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
     }
 }

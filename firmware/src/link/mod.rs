@@ -1,11 +1,11 @@
-//! The links to the host. The board talks, and listens, over USB while a program there has opened its port
-//! and reads, else over the UART; both carry the same bytes.
+//! The links to the host. The board uses USB while a program there has opened its port and reads, else the
+//! UART; both carry the same bytes.
 //!
 //! | file | what |
 //! |---|---|
-//! | `uart.rs` | the UART behind its rings |
-//! | `usb.rs` | the rings of the USB port |
-//! | `device.rs` | the USB device, and the tasks that move bytes between its endpoints and the rings |
+//! | `uart.rs` | UART with two rings |
+//! | `usb.rs` | rings of the USB port |
+//! | `device.rs` | USB device, and the tasks that move bytes between its endpoints and the rings |
 
 mod device;
 pub mod uart;
@@ -20,35 +20,35 @@ use taxel_core::run::Link;
 pub struct Wire {
     usb: Usb,
     uart: Uart,
-    /// The board talks over USB.
+    /// True while USB is in use.
     over_usb: bool,
-    /// The last byte that was sent is the last one of a message.
+    /// True if the last byte sent ended a message.
     ended: bool,
-    /// What comes next is the rest of a message whose beginning went over the other link.
+    /// True while the rest of a message follows whose beginning went over the other link.
     cut: bool,
 }
 
-/// Ends each message.
+/// Byte that ends each message.
 const END: u8 = 0;
 
 impl Wire {
-    /// Over these two.
+    /// Joins the two links.
     pub fn new(usb: Usb, uart: Uart) -> Wire {
         Wire { usb, uart, over_usb: false, ended: true, cut: false }
     }
 
-    /// Looks which link is to be used.
+    /// Chooses the link to use.
     fn choose(&mut self) {
         let read = self.usb.is_read();
         if self.over_usb == read {
             return;
         }
         if !read {
-            // What waits for a host that has gone is not for the next one.
+            // Bytes queued for a host that has gone must not reach the next one.
             self.usb.forget();
         }
         (self.over_usb, self.cut) = (read, !self.ended);
-        // Ends what was cut off when the board went from this link.
+        // Ends the message that was cut off when the board last left this link.
         self.send(&[END]);
     }
 
@@ -60,8 +60,7 @@ impl Wire {
 impl Link for Wire {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
         self.choose();
-        // What comes over the UART meanwhile is taken from its ring, too, and heard by nobody: later it would
-        // be out of date.
+        // Bytes from the UART are read and dropped while USB is in use: later they would be out of date.
         let count = self.uart.try_read(buffer);
         if self.over_usb { self.usb.try_read(buffer) } else { count }
     }

@@ -1,5 +1,5 @@
-//! A UART behind two rings. Interrupts move the bytes, so nothing here ever waits, and a scan that keeps the
-//! processor for several milliseconds loses none.
+//! The UART with two rings. Interrupts move the bytes, so nothing here waits, and no byte is lost while a
+//! scan occupies the processor for several milliseconds.
 
 use core::task::Poll;
 use embassy_futures::poll_once;
@@ -10,7 +10,7 @@ use taxel_core::run::Link;
 /// Bits per second of the link, 8N1: 92,160 bytes a second each way.
 pub const BAUD: u32 = 921_600;
 
-/// Bytes of each ring: what the line carries in 11 ms, more than two scans take.
+/// Number of bytes of each ring: 11 ms of the line, more than two scans.
 pub const RING: usize = 1024;
 
 /// The port.
@@ -20,7 +20,7 @@ pub struct Uart {
 }
 
 impl Uart {
-    /// Over a UART that is already configured.
+    /// Takes a configured UART.
     pub fn new(uart: BufferedUart) -> Uart {
         let (tx, rx) = uart.split();
         Uart { tx, rx }
@@ -29,12 +29,12 @@ impl Uart {
 
 impl Link for Uart {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
-        // A ring hands out what lies before its end in one piece, hence two rounds.
+        // The ring returns only the bytes up to its end, hence two rounds.
         let mut taken = 0;
         for _ in 0..2 {
             match poll_once(self.rx.read(buffer.get_mut(taken..).unwrap_or(&mut []))) {
                 Poll::Ready(Ok(count)) => taken += count,
-                // The bytes around the fault are lost; the frame check at the other end of the ring finds out.
+                // Bytes around the fault are lost; the CRC of the frame detects it.
                 Poll::Ready(Err(error)) => defmt::warn!("link: {}", error),
                 Poll::Pending => break,
             }

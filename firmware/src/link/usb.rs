@@ -1,5 +1,5 @@
-//! The port that the board is for a host on USB: two rings, which tasks of a higher priority fill and empty,
-//! so that perception does not hold up the bus.
+//! The rings of the USB port. Tasks of a higher priority fill and empty them, so that perception does not
+//! delay the bus.
 
 use super::device;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -8,11 +8,11 @@ use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, pipe::Pipe};
 use embassy_time::Instant;
 use taxel_core::run::Link;
 
-/// Bytes to the host that may wait: what the bus carries in 2 ms, and what a frame of 40 contacts takes.
+/// Number of bytes queued for the host: 2 ms of the bus, and a frame of 40 contacts.
 const TO_HOST: usize = 2560;
-/// Bytes from the host, four packets: when they are full, the host is made to wait.
+/// Number of bytes queued from the host, four packets. While they are full, the host must wait.
 const FROM_HOST: usize = 256;
-/// Bytes that are copied at once, with interrupts off: for less than 10 us.
+/// Number of bytes copied at a time, with interrupts off: for less than 10 us.
 const PIECE: usize = 256;
 
 /// A ring.
@@ -21,7 +21,8 @@ pub(super) type Ring<const N: usize> = Pipe<CriticalSectionRawMutex, N>;
 pub(super) static SENT: Ring<TO_HOST> = Ring::new();
 pub(super) static RECEIVED: Ring<FROM_HOST> = Ring::new();
 
-/// A program has the port open: it has said so, and nobody has pulled the cable since or put the host to sleep.
+/// State of the port: open if a program has opened it, and the cable was not pulled nor the host suspended
+/// since.
 pub(super) struct Opened {
     ready: AtomicBool,
     asleep: AtomicBool,
@@ -30,12 +31,12 @@ pub(super) struct Opened {
 pub(super) static OPENED: Opened = Opened { ready: AtomicBool::new(false), asleep: AtomicBool::new(false) };
 
 impl Opened {
-    /// The terminal is ready, as it says by its line DTR.
+    /// Sets whether the terminal is ready, by its line DTR.
     pub fn set_ready(&self, ready: bool) {
         self.ready.store(ready, Ordering::Relaxed);
     }
 
-    /// Nothing moves on the bus: the host sleeps, or is no longer there.
+    /// Sets whether the bus is idle: the host is suspended or gone.
     pub fn set_asleep(&self, asleep: bool) {
         self.asleep.store(asleep, Ordering::Relaxed);
     }
@@ -45,17 +46,17 @@ impl Opened {
     }
 }
 
-/// A host takes a packet within this time, or it is taken not to read.
+/// Time without a packet taken after which the host counts as not reading.
 const PATIENCE_MS: u64 = 2_000;
 
-/// Packets that the host has taken, or refused.
+/// Number of packets that the host has taken or refused.
 pub(super) static PACKETS: AtomicU32 = AtomicU32::new(0);
 
 /// The port.
 pub struct Usb {
-    /// Packets when they were looked at last.
+    /// Number of packets at the last check.
     packets: u32,
-    /// When the host last took one, or nothing waited.
+    /// Last time at which the host took one, or nothing was queued.
     moved: Instant,
 }
 
@@ -66,12 +67,12 @@ impl Usb {
         Usb { packets: 0, moved: Instant::now() }
     }
 
-    /// Whether a program has opened the port, and reads from it: one that does not must not keep the other
-    /// link silent.
+    /// True if a program has opened the port and reads from it. A program that does not read must not keep
+    /// the board from using the other link.
     pub fn is_read(&mut self) -> bool {
         let (open, packets) = (OPENED.get(), PACKETS.load(Ordering::Relaxed));
         let was_read = self.moved.elapsed().as_millis() < PATIENCE_MS;
-        // Once it is taken not to read, only a packet that it takes shows otherwise.
+        // Once it counts as not reading, only a taken packet proves the contrary.
         let moves = core::mem::replace(&mut self.packets, packets) != packets;
         if !open || moves || (was_read && SENT.is_empty()) {
             self.moved = Instant::now();
@@ -93,7 +94,7 @@ impl Link for Usb {
 
     fn try_write(&mut self, bytes: &[u8]) -> usize {
         let mut given = 0;
-        // A ring takes what goes in before its end, hence the rounds.
+        // The ring accepts only the bytes up to its end, hence the rounds.
         while let Some(piece) = bytes.get(given..bytes.len().min(given + PIECE)) {
             match SENT.try_write(piece) {
                 Ok(count) if count > 0 => given += count,

@@ -1,17 +1,18 @@
-//! The DMA channels that read the garment and trigger each other. Nothing here ends by itself.
+//! The DMA channels that read the garment and trigger each other. They run until they are stopped.
 //!
 //! | channel | waits for | does | then |
 //! |---|---|---|---|
 //! | 0 - 3 | a sample | stores the code of the converter's input 0 - 3 | the next input's channel, after the last `Word` |
-//! | `Word` | | gives the next levels to the select lines | `Drop`, or `Settle` where nothing is dropped |
-//! | `Drop` | a sample, as often as samples are dropped | throws it away: lines that settle slowly (see [`Rounds`]) | `Settle` |
-//! | `Settle` | a sample | stores the thermometer's | the first input's channel |
-//! | `Answer` | the answer to a word where a stretch begins | takes it away | `List` |
-//! | `List` | | finds the values for that stretch | `Target` |
-//! | `Target` | | tells `Value` the next register, or nothing at the end | |
+//! | `Word` | | sends the next levels to the select lines | `Drop`, or `Settle` if nothing is dropped |
+//! | `Drop` | a sample, for each one to drop | discards it: lines that settle slowly (see [`Rounds`]) | `Settle` |
+//! | `Settle` | a sample | stores the thermometer's code | the first input's channel |
+//! | `Answer` | the answer to a word that begins a stretch | discards it | `List` |
+//! | `List` | | loads the address of the values for that stretch | `Target` |
+//! | `Target` | | gives `Value` the next register; at the end, nothing | |
 //! | `Value` | | writes the next value to that register | `Target` |
 //!
-//! The registers of a stretch are written while the thermometer is converted, when no channel stores a code.
+//! The registers of a stretch are written during the conversion of the thermometer, when no channel stores a
+//! code.
 
 use super::frames::{Begun, Frames};
 use super::select::Select;
@@ -28,7 +29,7 @@ use rp_pac::{ADC, DMA};
 use taxel_core::acquire::{Depth, Fields, Plan, Rounds, SWEEP_INPUTS, Sweep, Unfit};
 use taxel_core::garment::Circuit;
 
-/// The chain's own channels, and the PIO block with the select lines' program.
+/// The chain's own channels, and the PIO block for the select lines.
 pub type Parts = (
     Peri<'static, PIO0>,
     (
@@ -54,29 +55,29 @@ const LIST: usize = WORD + 3;
 const TARGET: usize = WORD + 4;
 const VALUE: usize = WORD + 5;
 const DROP: usize = WORD + 6;
-/// Clocks in which a select line comes to its level: 1 us.
+/// Clocks in which a select line reaches its level: 1 us.
 const SETTLES: u32 = 125;
 const CHANNELS: u16 = (1 << (DROP + 1)) - 1;
 
 /// The chain of DMA channels.
 pub struct Chain {
     _parts: Parts,
-    /// The converter inputs that are read in turn, bit `n` for GPIO `n`.
+    /// Converter inputs that are read in turn, bit `n` for GPIO `n`.
     inputs: u32,
     select: Option<Select>,
 }
 
-/// What a channel does each time that it is triggered.
+/// Registers of a channel: its work each time it is triggered.
 struct Step {
     read: u32,
     write: u32,
-    /// Transfers.
+    /// Number of transfers.
     count: u32,
     control: CtrlTrig,
 }
 
 impl Step {
-    /// One transfer.
+    /// A step of one transfer.
     fn new(size: DataSize, read: u32, write: u32, when: TreqSel, then: usize) -> Step {
         let mut control = CtrlTrig::default();
         control.set_en(true);
@@ -92,18 +93,18 @@ impl Step {
         channel.read_addr().write_value(self.read);
         channel.write_addr().write_value(self.write);
         channel.trans_count().write_value(self.count);
-        // Not the register that starts it.
+        // This alias of the register does not start the channel.
         channel.al1_ctrl().write_value(self.control.0);
     }
 }
 
 impl Chain {
-    /// At rest.
+    /// A chain at rest.
     pub fn new(parts: Parts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> Chain {
         Chain { _parts: parts, inputs: 0, select: None }
     }
 
-    /// Reads a plan over and over, from now on.
+    /// Starts to read a plan in a loop. Error if the chain cannot read it.
     pub fn start(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<(), Unfit> {
         self.stop();
         let fields = if plan.depth == Depth::Interlaced {
@@ -120,8 +121,8 @@ impl Chain {
         Ok(())
     }
 
-    /// The tables of a progressive scan, without sub-fields.
-    #[inline(never)] // the sweep is on the stack only meanwhile
+    /// Fills the tables of a progressive scan, which has no sub-fields.
+    #[inline(never)] // out of line: the sweep is on the stack only during the call
     fn sweep(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<usize, Unfit> {
         let mut sweep = Sweep::<{ tables::ADDRESSES }, { tables::STRETCHES }>::new();
         sweep.fill(circuit, plan)?;
@@ -133,7 +134,7 @@ impl Chain {
         Ok(0)
     }
 
-    /// The tables of an interlaced scan; how many sub-fields it has.
+    /// Fills the tables of an interlaced scan; returns the number of its sub-fields.
     #[inline(never)]
     fn interlace(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<usize, Unfit> {
         let fields = Fields::of(circuit, plan)?;
@@ -152,7 +153,7 @@ impl Chain {
         Ok(fields.count())
     }
 
-    /// The converter's channels of the inputs, in turn.
+    /// Converter channels of the inputs, in turn.
     fn channels(&self) -> impl Iterator<Item = usize> {
         let inputs = self.inputs;
         (0..32).filter(move |input| inputs >> input & 1 == 1).map(adc::channel)
@@ -182,7 +183,7 @@ impl Chain {
         let values = DMA.ch(VALUE);
         let (from, to) = (values.read_addr().as_ptr() as u32, values.al2_write_addr_trig().as_ptr() as u32);
         Step::new(SIZE_WORD, tables::ahead(), from, PERMANENT, TARGET).set_up(LIST);
-        // `Answer` is ready again as soon as its answer is being followed.
+        // `Answer` is ready again while its answer is followed.
         let mut target = Step::new(SIZE_WORD, tables::targets(), to, PERMANENT, ANSWER);
         target.control.set_incr_read(true);
         target.control.set_ring_size((tables::TARGETS * size_of::<u32>()).trailing_zeros() as u8);
@@ -192,13 +193,13 @@ impl Chain {
         value.set_up(VALUE);
     }
 
-    /// Whether a select line shows another level than it has been driven to.
+    /// True if a select line shows another level than it is driven to.
     pub fn misleads(&self) -> bool {
         let Some(select) = self.select else { return false };
         let read = || DMA.ch(WORD).read_addr().read();
         let at = read();
         let is_other = || tables::word_before(at).is_some_and(|word| !select.shows(word)) && read() == at;
-        // The levels may have changed just now.
+        // The levels may have changed just now, so look twice.
         let settles = || cortex_m::asm::delay(SETTLES);
         is_other() && {
             settles();
@@ -206,11 +207,11 @@ impl Chain {
         }
     }
 
-    /// Stands still; the select lines and the converter are the processor's.
+    /// Stops the chain; the select lines and the converter are the processor's again.
     pub fn stop(&mut self) {
         let Some(mut select) = self.select.take() else { return };
         adc::halt();
-        // Switched off first, so that nothing that still ends triggers anything.
+        // Switched off first, so that a channel that still ends triggers nothing.
         (0..=DROP).for_each(|channel| DMA.ch(channel).al1_ctrl().write_value(0));
         DMA.chan_abort().write(|w| w.set_chan_abort(CHANNELS));
         while DMA.chan_abort().read().chan_abort() != 0 {}
@@ -222,7 +223,7 @@ fn mask(inputs: &[u8]) -> u32 {
     inputs.iter().fold(0, |mask, input| mask | 1 << (input & 31))
 }
 
-/// What the chain writes at the start of a stretch.
+/// Registers that the chain writes at the start of a stretch.
 fn registers() -> tables::Registers {
     tables::Registers {
         destinations: core::array::from_fn(|input| DMA.ch(input).write_addr().as_ptr() as u32),
@@ -232,7 +233,7 @@ fn registers() -> tables::Registers {
 }
 
 fn trigger(channels: u16) {
-    // What the tables and the frames hold is in memory before the first channel looks.
+    // Makes sure that tables and frames are in memory before the first channel reads them.
     cortex_m::asm::dmb();
     DMA.multi_chan_trigger().write(|w| w.set_multi_chan_trigger(channels));
 }

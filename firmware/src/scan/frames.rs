@@ -1,8 +1,9 @@
-//! Where the codes end up. The chain raises an interrupt where it begins a frame: the one before is complete
-//! then, and the place of the one after is chosen, so that the chain never meets a frame that is being read.
+//! The frames in memory. The chain raises an interrupt where it begins a frame. Then the frame before is
+//! complete, and the place of the frame after is chosen, so that the chain never writes a frame that is being
+//! read.
 //!
-//! An interlaced scan raises it where it begins a sub-field. Its codes lie in the order of the scan then; the
-//! interrupt checks them and copies them into their places of a frame.
+//! An interlaced scan raises it where it begins a sub-field. The codes of its sub-field are then in the order
+//! of the scan; the interrupt checks them and copies them to their taxels' places in a frame.
 
 use super::{reflex, select::Select, tables};
 use crate::{adc, platform::Timer};
@@ -17,16 +18,16 @@ use static_cell::ConstStaticCell;
 use taxel_core::acquire::{Clock, Lent, PLACES, Ring, ScanError, TURN_PLACES};
 use taxel_core::format::{Code, Micros};
 
-/// The codes of one frame by taxel number.
+/// Codes of one frame, by taxel number.
 type Frame = [Code; crate::TAXELS];
 
-/// Which frame is where, and whether the chain went where it was not led.
+/// State of the interrupt: ring, and whether the DMA left its sequence.
 struct Beat {
     ring: Ring,
     astray: bool,
-    /// Sub-fields of a frame; 0 of one that is not interlaced.
+    /// Number of sub-fields of a frame; 0 if the scan is not interlaced.
     fields: usize,
-    /// The one that is being read.
+    /// Sub-field that is being read.
     field: usize,
 }
 
@@ -35,7 +36,7 @@ impl Beat {
         Beat { ring: Ring::new(now), astray: false, fields, field: 0 }
     }
 
-    /// A frame is complete; whether it is, and the flag that of the one after it.
+    /// Completes a frame. Returns false if the flag is not that of the frame after it.
     fn frame(&mut self, begun: u32, now: Micros) -> bool {
         let place = self.ring.next();
         if begun != 1 << place {
@@ -46,8 +47,8 @@ impl Beat {
         true
     }
 
-    /// A sub-field is complete, and with the last one a frame; whether it is, and the flag that of the one
-    /// after it.
+    /// Completes a sub-field and, with the last one, a frame. Returns false if the flag is not that of the
+    /// sub-field after it.
     fn field(&mut self, begun: u32, now: Micros) -> bool {
         let next = if self.field + 1 < self.fields { self.field + 1 } else { 0 };
         if begun != tables::flag_of(next) {
@@ -55,9 +56,9 @@ impl Beat {
         }
         let places = FRAMES_AT.load(Ordering::Relaxed).cast::<Frame>();
         #[allow(unsafe_code)]
-        // SAFETY: two places of a static, which was taken before the chain began. The chain stores in the
-        // last one alone, and comes back to this sub-field after all others. The ring keeps the place that is
-        // being filled from being lent.
+        // SAFETY: two places of a static, which was taken before the chain began. The chain stores only in
+        // the last one, and returns to this sub-field after all others. The ring does not lend the place that
+        // is being filled.
         let (codes, frame) = unsafe {
             let filling = usize::from(self.ring.filling()).min(TURN_PLACES - 1);
             (&*places.wrapping_add(TURN_PLACES), &mut *places.wrapping_add(filling))
@@ -73,15 +74,15 @@ impl Beat {
 
 static BEAT: Mutex<CriticalSectionRawMutex, RefCell<Beat>> =
     Mutex::new(RefCell::new(Beat::new(Micros(0), 0)));
-/// The memory of all frames, for the interrupt.
+/// Memory of all frames, for the interrupt.
 static FRAMES_AT: AtomicPtr<[Frame; PLACES]> = AtomicPtr::new(core::ptr::null_mut());
 static COMPLETE: AtomicWaker = AtomicWaker::new();
 
-/// The interrupt at the beginning of each frame, or of each sub-field.
+/// Handler of the interrupt at the beginning of each frame, or of each sub-field.
 pub struct Begun;
 
 impl Handler<PIO0_IRQ_0> for Begun {
-    #[allow(unsafe_code)] // SAFETY: nothing here is unsafe; the trait wants to be called by the interrupt alone
+    #[allow(unsafe_code)] // SAFETY: no unsafe code here; the trait requires that only the interrupt calls it
     unsafe fn on_interrupt() {
         let begun = u32::from(Select::take_flags());
         BEAT.lock(|beat| {
@@ -89,7 +90,7 @@ impl Handler<PIO0_IRQ_0> for Begun {
             let now = Timer.now();
             let led = if beat.fields == 0 { beat.frame(begun, now) } else { beat.field(begun, now) };
             beat.astray |= !led;
-            // Nobody waits for a sub-field.
+            // Nothing waits for a single sub-field.
             if beat.field == 0 || beat.astray {
                 COMPLETE.wake();
             }
@@ -97,11 +98,11 @@ impl Handler<PIO0_IRQ_0> for Begun {
     }
 }
 
-/// The memory of all frames, which the chain fills and [`Frames::next`] lends.
+/// Memory of all frames, which the chain fills and [`Frames::next`] lends.
 pub struct Frames(*mut [Frame; PLACES]);
 
 impl Frames {
-    /// Must be called once.
+    /// Takes the static memory. Must be called once.
     pub fn take() -> Frames {
         static FRAMES: ConstStaticCell<[Frame; PLACES]> =
             ConstStaticCell::new([[Code(0); crate::TAXELS]; PLACES]);
@@ -110,19 +111,19 @@ impl Frames {
         Frames(frames)
     }
 
-    /// Where the code of a taxel goes in a place.
+    /// Address of a taxel's code in a place.
     pub fn address(&self, place: usize, taxel: u16) -> u32 {
         let offset = place * size_of::<Frame>() + usize::from(taxel) * size_of::<Code>();
         self.0 as u32 + offset as u32
     }
 
-    /// Where a code goes by the order of an interlaced scan, until its sub-field is complete: in the place
-    /// that no frame needs then.
+    /// Address of a code of an interlaced scan until its sub-field is complete, by the order of the scan: in
+    /// the place that no frame uses then.
     pub fn scanned(&self, index: usize) -> u32 {
         self.address(TURN_PLACES, index as u16)
     }
 
-    /// All places hold the same before the chain starts: what the frame that was lent last held, or nothing.
+    /// Fills all places before the chain starts: with a copy of the frame lent last if `keep`, else with 0.
     pub fn reset(&mut self, keep: bool) {
         let last = BEAT.lock(|beat| beat.borrow().ring.lent()).filter(|_| keep);
         #[allow(unsafe_code)]
@@ -133,8 +134,8 @@ impl Frames {
         (0..PLACES).for_each(|place| codes.copy_within(from..from + crate::TAXELS, place * crate::TAXELS));
     }
 
-    /// The chain has been triggered: waits until it has begun its first frame, some 100 cycles. `fields`: its
-    /// sub-fields, 0 where it is not interlaced.
+    /// Waits until the triggered chain has begun its first frame, some 100 cycles. `fields` is the number of
+    /// sub-fields, 0 if the scan is not interlaced.
     pub fn begin(&self, fields: usize) {
         while Select::take_flags() == 0 {}
         BEAT.lock(|beat| *beat.borrow_mut() = Beat::new(Timer.now(), fields));
@@ -143,14 +144,14 @@ impl Frames {
         }
         Select::listen();
         #[allow(unsafe_code)]
-        // SAFETY: no critical section is made of this interrupt's mask.
+        // SAFETY: no critical section relies on this interrupt being masked.
         unsafe {
             PIO0_IRQ_0::enable()
         };
     }
 
-    /// Waits for a frame that was not lent yet; of more `scans` than one, the sum. It stays as it is until
-    /// this is called again.
+    /// Waits for a frame that was not lent yet; for more than one of `scans`, the sum of that many. The frame
+    /// does not change until the next call.
     pub async fn next(&mut self, scans: u16) -> Result<(&mut Frame, Lent), ScanError> {
         let mut lent = complete(Ring::lend).await?;
         for _ in 1..scans {
@@ -164,29 +165,28 @@ impl Frames {
             lent.duration_us = (shown.start.since(lent.start) as u32).saturating_add(shown.duration_us);
         }
         #[allow(unsafe_code)]
-        // SAFETY: the ring keeps the chain away from a lent place, and whoever holds the reference keeps the
-        // next one from being lent.
+        // SAFETY: the ring keeps the chain away from a lent place, and the returned reference borrows `self`,
+        // so that no other frame is lent meanwhile.
         let frame = unsafe { &mut *self.frame(lent) };
         Ok((frame, lent))
     }
 
-    /// Adds the codes of a frame that is shown to the one that is lent.
+    /// Adds the codes of a shown frame to the lent one.
     fn add(&mut self, lent: Lent, shown: Lent) {
         #[allow(unsafe_code)]
-        // SAFETY: a frame that is shown lies in another place than the one that is lent, and the chain comes
-        // to it a whole frame later at the earliest; should it have come to it nevertheless, the sum is
-        // thrown away.
+        // SAFETY: a shown frame lies in another place than the lent one, and the chain returns to it a whole
+        // frame later at the earliest. If it does so earlier, the sum is discarded.
         let (sums, codes) = unsafe { (&mut *self.frame(lent), &*self.frame(shown)) };
         sums.iter_mut().zip(codes).for_each(|(sum, code)| sum.0 = sum.0.wrapping_add(code.0));
     }
 
-    /// The memory of a place, which is within that of a static, taken once.
+    /// Memory of a place, within the static that was taken once.
     fn frame(&self, lent: Lent) -> *mut Frame {
         self.0.cast::<Frame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
     }
 }
 
-/// Waits until the ring has what is asked for, and the conversions have gone well.
+/// Waits until `ask` gets a frame from the ring. Error if a conversion failed or the DMA left its sequence.
 async fn complete(ask: fn(&mut Ring) -> Option<Lent>) -> Result<Lent, ScanError> {
     let lent = poll_fn(|context| {
         COMPLETE.register(context.waker());

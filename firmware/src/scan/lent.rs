@@ -1,5 +1,5 @@
-//! Marks frames for the emulator: it watches one word of memory, and compares the frame that it names with
-//! what the garment showed. On a board this is a store.
+//! Marks frames for the emulator, which watches one word of memory and compares the frame at that address
+//! with the simulated garment. On a board this is a store.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 use taxel_core::format::Code;
@@ -9,7 +9,7 @@ use taxel_core::format::Code;
 #[unsafe(no_mangle)]
 static TAXEL_LENT: AtomicU32 = AtomicU32::new(0);
 
-/// Says that these codes are complete and about to be perceived.
+/// Marks these codes as complete and about to be perceived.
 #[inline]
 pub fn tell(codes: &[Code]) {
     TAXEL_LENT.store(codes.as_ptr() as u32, Ordering::Relaxed);

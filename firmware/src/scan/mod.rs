@@ -1,26 +1,26 @@
-//! Reading the garment on the RP2040: by DMA and PIO, at the converter's own speed and without the processor,
-//! wherever the garment's wiring allows that; else by the processor.
+//! Reads the garment on the RP2040: by DMA and PIO, at the converter's own speed and without the processor,
+//! if the garment's wiring allows it; else by the processor.
 //!
 //! | file | what |
 //! |---|---|
-//! | `chain.rs` | the DMA channels that trigger each other |
-//! | `tables.rs` | what they read: levels of the select lines, and where codes go |
-//! | `select.rs` | the PIO program that puts levels on the select lines |
-//! | `frames.rs` | where the codes end up, and who may read which frame |
-//! | `reflex.rs` | the check of a sub-field, and the pins that it asserts |
+//! | `chain.rs` | DMA channels that trigger each other |
+//! | `tables.rs` | their tables: levels of the select lines, destinations of codes |
+//! | `select.rs` | PIO program that drives the select lines |
+//! | `frames.rs` | frames in memory, and who may access them |
+//! | `reflex.rs` | check of a sub-field, and the pins that it asserts |
 //! | `lent.rs` | tells the emulator which frame is read |
 //!
-//! Per address: a channel for each input takes one sample and stores it where its taxel's code belongs, then
-//! the next levels go out, and while the select lines settle the converter measures its own temperature. The
+//! Per address, a channel for each input takes one sample and stores it in the place of its taxel. Then the
+//! next levels go out, and while the select lines settle the converter measures its own temperature. The
 //! inputs and the thermometer are converted in turn without a pause: 512 addresses of four inputs take 5.12
-//! ms. Lines that settle slowly are converted in vain for some rounds, as
-//! [`Rounds`](taxel_core::acquire::Rounds) says.
+//! ms. For lines that settle slowly, some rounds of conversions are discarded, see
+//! [`Rounds`](taxel_core::acquire::Rounds).
 //!
-//! Codes of 8 bits come the same way, and are shortened when the frame is lent. To store bytes instead would
-//! not give a frame more: a conversion takes 96 clocks whatever is kept of it (RP2040 datasheet, 4.9.2). It
-//! would save 8 KB of the ring, and either cost as much to widen the 2,048 bytes of each frame as shortening
-//! the codes does (some 18,000 cycles), or everything that reads codes would have to exist twice:
-//! conditioning, tare, health, raw frames.
+//! Codes of 8 bits are read in 12 bits, and shortened when the frame is lent. Storing bytes instead would not
+//! make frames faster: a conversion takes 96 clocks for any number of bits (RP2040 datasheet, 4.9.2). It
+//! would save 8 KB of the ring. But either widening the 2,048 bytes of each frame would cost as much as
+//! shortening the codes does (some 18,000 cycles), or all code that reads them (conditioning, tare, health,
+//! raw frames) would be needed twice.
 
 mod chain;
 mod frames;
@@ -42,7 +42,7 @@ use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
-/// The scan by the processor.
+/// The scanner that works by the processor.
 pub type Processor = MuxScan<
     'static,
     pins::Line,
@@ -53,34 +53,34 @@ pub type Processor = MuxScan<
     { crate::TAXELS },
 >;
 
-/// What a frame may take longer than it can, us.
+/// Margin on the longest duration of a frame, us.
 const SPARE_US: u64 = 5_000;
 
-/// Who scans.
+/// Active scanner.
 enum By {
     Nobody,
     Chain,
     Processor,
 }
 
-/// Reads the garment.
+/// Reads the garment, by the chain or by the processor.
 pub struct Scanner {
     processor: Processor,
     chain: Chain,
     frames: Frames,
     by: By,
-    /// What is being scanned.
+    /// Circuit that is being scanned.
     circuit: Option<Circuit>,
     plan: Plan,
-    /// Time in which a frame must come, us.
+    /// Greatest time to wait for a frame, us.
     patience_us: u64,
-    /// A select line showed another level than it was driven to.
+    /// True if a select line showed another level than it was driven to.
     misled: bool,
     looks: u32,
 }
 
 impl Scanner {
-    /// Over the processor's scan, of whose pins and converter the chain makes use.
+    /// Builds on the processor's scan, whose pins and converter the chain uses.
     pub fn new(processor: Processor, chain: Chain) -> Scanner {
         Scanner {
             processor,
@@ -95,8 +95,8 @@ impl Scanner {
         }
     }
 
-    /// Begins to scan something else, or the same anew.
-    #[inline(never)] // a copy of the circuit is on the stack only meanwhile
+    /// Starts to scan a circuit by a plan.
+    #[inline(never)] // out of line: a copy of the circuit is on the stack only during the call
     fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
         self.chain.stop();
         self.frames.reset(self.circuit.as_ref() == Some(circuit));
@@ -112,15 +112,15 @@ impl Scanner {
         self.patience_us = longest_frame_us(circuit, plan) + SPARE_US;
     }
 
-    /// The latest frame of the chain that was not read yet. In every fourth one, at another time of each, the
-    /// select lines are looked at.
+    /// Waits for the latest frame of the chain that was not read yet. During every fourth one it checks the
+    /// select lines, each time at another moment.
     async fn next(&mut self) -> Result<Scan<'_>, ScanError> {
         let depth = self.plan.depth;
         self.looks = self.looks.wrapping_add(1);
         let mut next = pin!(self.frames.next(depth.scans()));
         let mut frame = None;
         if self.looks & 3 == 0 {
-            // Multiples of the golden ratio are spread evenly: over 4 of a frame's 5 ms.
+            // Multiples of the golden ratio are spread evenly, over 4 of a frame's 5 ms.
             let look = Timer::after_micros(u64::from(self.looks.wrapping_mul(0x9e37_79b9) >> 20));
             match select(next.as_mut(), look).await {
                 Either::First(early) => frame = Some(early),
@@ -182,7 +182,7 @@ impl Acquire for Scanner {
 }
 
 impl Examine for Scanner {
-    /// By the processor; the chain stands still.
+    /// Examines by the processor, after stopping the chain.
     fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
         self.rest();
         self.processor.examine(circuit)

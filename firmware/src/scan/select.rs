@@ -1,24 +1,24 @@
-//! The PIO program that puts levels on the select lines: a word from the chain is put on the pins, and
-//! answered where its flag says that a stretch begins.
+//! The PIO program that drives the select lines. It puts a word from the chain on the pins, and answers it if
+//! its flag marks the start of a stretch.
 
 use embassy_rp::pio::program::{InstructionOperands, JmpCondition, OutDestination};
 use rp_pac::{IO_BANK0, PIO0, SIO, io::vals::Oeover};
 
-/// The state machine.
+/// Number of the state machine.
 const MACHINE: usize = 0;
-/// Functions of a pin.
+/// Function numbers of a pin.
 const FUNCTION_PIO0: u8 = 6;
 const FUNCTION_SIO: u8 = 5;
 
-/// The select lines, on the pins between the lowest and the highest select line. PIO drives a row of pins,
-/// but only those of them that are given to it: the pins between the lines keep what they do.
+/// The select lines, within the range of pins from the lowest to the highest one. PIO writes the whole range,
+/// but only pins that are connected to it follow: the pins between the lines are not affected.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Select {
     lines: u32,
 }
 
 impl Select {
-    /// Gives the lines of these GPIO numbers to the program, and starts it.
+    /// Connects the lines of these GPIO numbers to the program, and starts it.
     pub fn take(numbers: &[u8]) -> Select {
         let select = Select { lines: numbers.iter().fold(0, |lines, number| lines | 1 << (number & 31)) };
         PIO0.ctrl().write(|w| w.set_sm_enable(0));
@@ -40,7 +40,7 @@ impl Select {
             w.set_out_base(select.first());
             w.set_out_count(select.count());
         });
-        // A change of this register's joints empties the queues.
+        // A change of the joins in this register empties the queues.
         machine.shiftctrl().write(|w| w.set_fjoin_tx(true));
         machine.shiftctrl().write(|w| w.set_out_shiftdir(true));
         machine.instr().write(|w| {
@@ -54,7 +54,7 @@ impl Select {
         select
     }
 
-    /// Stops the program and gives the lines back to the processor.
+    /// Stops the program and returns the lines to the processor.
     pub fn release(&mut self) {
         PIO0.irqs(0).inte().write(|_| {});
         PIO0.ctrl().write(|w| w.set_sm_enable(0));
@@ -79,22 +79,22 @@ impl Select {
         32 - self.lines.leading_zeros() as u8 - self.first()
     }
 
-    /// The register that takes the program's words.
+    /// Address of the register for the program's words.
     pub fn words() -> u32 {
         PIO0.txf(MACHINE).as_ptr() as u32
     }
 
-    /// The register that holds its answers.
+    /// Address of the register with its answers.
     pub fn answers() -> u32 {
         PIO0.rxf(MACHINE).as_ptr() as u32
     }
 
-    /// The register that raises flags.
+    /// Address of the register that raises flags.
     pub fn flags() -> u32 {
         PIO0.irq_force().as_ptr() as u32
     }
 
-    /// Flags interrupt the processor from now on.
+    /// Enables the interrupt of the flags.
     pub fn listen() {
         PIO0.irqs(0).inte().write(|w| {
             w.set_sm0(true);
@@ -104,20 +104,20 @@ impl Select {
         });
     }
 
-    /// Takes the flags that are up.
+    /// Returns the raised flags and clears them.
     pub fn take_flags() -> u8 {
         let flags = PIO0.irq().read().irq();
         PIO0.irq().write(|w| w.set_irq(flags));
         flags
     }
 
-    /// Whether the lines are at the levels of one of the program's words.
+    /// True if the lines have the levels of this word of the program.
     pub fn shows(self, word: u32) -> bool {
         let levels = SIO.gpio_in(0).read();
         (levels ^ word << self.first()) & self.lines == 0
     }
 
-    /// The program's word for these levels (bit `n` for GPIO `n`); `begins`: a stretch begins.
+    /// The program's word for these levels (bit `n` for GPIO `n`); `begins` marks the start of a stretch.
     pub fn word(self, levels: u32, begins: bool) -> u32 {
         levels >> self.first() | u32::from(begins) << self.count()
     }

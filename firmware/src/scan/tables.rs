@@ -1,29 +1,30 @@
-//! What the chain reads and writes besides codes. The words are atomic because DMA reads and changes them;
-//! the chain stands still while they are filled, but for the one that says where the frame after the present
-//! one goes.
+//! Tables that the chain reads and writes besides codes. The words are atomic because DMA reads and changes
+//! them. They are filled while the chain stands still, except the word that names the place of the frame
+//! after the present one.
 
 use super::select::Select;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 use taxel_core::acquire::{Fields, PLACES, SWEEP_INPUTS, Sweep};
 pub use taxel_core::acquire::{SWEEP_ADDRESSES as ADDRESSES, SWEEP_STRETCHES as STRETCHES};
 
-/// Codes without a taxel in a stretch: as many as a block's row or column has.
+/// Greatest number of codes without a taxel in a stretch: a row or column of a block.
 const SPARE: usize = 256;
 
-/// Registers that are written at the start of each stretch, by [`Targets`], and the zero that ends the list.
+/// Number of registers written at the start of each stretch, by [`Targets`], with the zero that ends the
+/// list.
 pub const TARGETS: usize = 8;
-/// What is written there, in the same order: the destinations of the codes, the word after the present one,
-/// where the next values are, the flag of a new frame.
+/// Number of values written to them, in the same order: the destinations of the codes, the address of the
+/// next word, the address of the next values, the flag of a new frame.
 const VALUES: usize = TARGETS - 1;
 const WORD: usize = SWEEP_INPUTS;
 const NEXT: usize = SWEEP_INPUTS + 1;
 const FLAG: usize = SWEEP_INPUTS + 2;
 
-/// Aligned for the ring in which it is read.
+/// Registers, aligned for the ring in which DMA reads them.
 #[repr(C, align(32))]
 struct Targets([AtomicU32; TARGETS]);
 
-/// What is written at the start of a stretch.
+/// Values written at the start of a stretch.
 type Values = [AtomicU32; VALUES];
 
 static TARGET: Targets = Targets([const { AtomicU32::new(0) }; TARGETS]);
@@ -41,54 +42,54 @@ fn address<T>(of: &T) -> u32 {
     core::ptr::from_ref(of) as u32
 }
 
-/// Where the levels begin.
+/// Address of the words for the select lines.
 pub fn words() -> u32 {
     address(&WORDS)
 }
 
-/// The levels before an address: those that went out last where they are read from there next.
+/// The word before address `at`, which was sent last if the next one is read from `at`.
 pub fn word_before(at: u32) -> Option<u32> {
     let index = (at.wrapping_sub(words()) / size_of::<AtomicU32>() as u32).wrapping_sub(1);
     WORDS.get(index as usize).map(|word| word.load(Relaxed))
 }
 
-/// Where the list of registers is, in a ring of [`TARGETS`] words.
+/// Address of the list of registers, a ring of [`TARGETS`] words.
 pub fn targets() -> u32 {
     address(&TARGET)
 }
 
-/// Where it stands where the values of the next stretch are.
+/// Address of the pointer to the next stretch's value list.
 pub fn ahead() -> u32 {
     address(&AHEAD)
 }
 
-/// Where the answers of the select lines' program go.
+/// Destination of the answers of the select lines' program.
 pub fn answer() -> u32 {
     address(&ANSWER)
 }
 
-/// Where codes go that no taxel has.
+/// Destination of codes that belong to no taxel.
 pub fn nowhere() -> u32 {
     address(&NOWHERE)
 }
 
-/// Where codes of the thermometer go.
+/// Destination of codes of the thermometer.
 pub fn warmth() -> u32 {
     address(&THERMOMETER)
 }
 
-/// The latest code of the thermometer.
+/// Latest code of the thermometer.
 pub fn thermometer() -> u16 {
     THERMOMETER.load(Relaxed)
 }
 
-/// The registers that the chain writes at the start of a stretch.
+/// Addresses of the registers that the chain writes at the start of a stretch.
 pub struct Registers {
-    /// Take the destinations of the four inputs' codes.
+    /// Registers for the destinations of the four inputs' codes.
     pub destinations: [u32; SWEEP_INPUTS],
-    /// Takes the address of the next word.
+    /// Register for the address of the next word.
     pub word: u32,
-    /// Takes the flags of new frames.
+    /// Register for the flags of new frames.
     pub flag: u32,
 }
 
@@ -99,8 +100,8 @@ impl Registers {
     }
 }
 
-/// What is written at the start of the stretch whose first address is `first`: where the codes of each input
-/// (GPIO number) go, the values of the stretch after it, and its flag.
+/// Sets the values for the stretch whose first address is `first`: the destination of the codes of each input
+/// (GPIO number), the values of the stretch after it, and its flag.
 fn set(
     values: &Values,
     first: usize,
@@ -116,7 +117,7 @@ fn set(
     set(FLAG, flag);
 }
 
-/// Fills the tables for a sweep. `code` is where the code of a taxel goes in a place.
+/// Fills the tables for a sweep. `code` returns the address of a taxel's code in a place.
 pub fn fill(
     sweep: &Sweep<ADDRESSES, STRETCHES>,
     select: Select,
@@ -141,8 +142,8 @@ pub fn fill(
     begin();
 }
 
-/// Fills the tables for sub-fields, whose words are set. `code` is where a code goes by the order of the
-/// scan. The flag of each sub-field is that of its number, of four.
+/// Fills the tables for sub-fields, whose words are set already. `code` returns the address of a code by the
+/// order of the scan. The flag of a sub-field is its number modulo 4.
 pub fn fill_fields(fields: &Fields, code: impl Fn(usize) -> u32, registers: Registers) {
     registers.set();
     end_words(fields.before(fields.count()));
@@ -157,27 +158,27 @@ pub fn fill_fields(fields: &Fields, code: impl Fn(usize) -> u32, registers: Regi
     begin();
 }
 
-/// The flag of a sub-field.
+/// Flag of a sub-field.
 pub fn flag_of(field: usize) -> u32 {
     1 << (field & 3)
 }
 
-/// Sets what goes to the select lines' program for an address.
+/// Sets the word for the select lines at an address.
 pub fn set_word(index: usize, word: u32) {
     WORDS.get(index).into_iter().for_each(|slot| slot.store(word, Relaxed));
 }
 
-/// The first word again: it is read before the list of its stretch leads back to the second.
+/// Repeats the first word at the end: it is read before the list of its stretch leads back to the second.
 fn end_words(count: usize) {
     set_word(count, WORDS.first().map_or(0, |word| word.load(Relaxed)));
 }
 
-/// The first list comes first.
+/// Starts with the first list.
 fn begin() {
     AHEAD.store(VALUE.first().and_then(|lists| lists.first()).map_or(0, address), Relaxed);
 }
 
-/// The frame after the one at `place` goes to `next`.
+/// Leads the chain from the frame at `place` to the one at `next`.
 pub fn lead(place: u8, next: u8) {
     let lists = |place: u8| VALUE.get(usize::from(place));
     let last = lists(place).and_then(|lists| lists.get(LAST.load(Relaxed) as usize));
