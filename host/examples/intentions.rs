@@ -1,4 +1,4 @@
-//! Prints the intention of each touch: `cargo run --example intentions -- usb`, or without a board `-- sim:lash`.
+//! Prints each touch's intention: `cargo run --example intentions -- usb`, or without a board `-- sim:lash`.
 
 use taxel::client::Event;
 use taxel::session::Session;
