@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a garment in the terminal: taxel live --json --pixels | python3 draw.py, or draw.py HOST PORT."""
+"""Draws a garment in the terminal: taxel live --json --pixels | python3 draw.py; over TCP: draw.py HOST PORT"""
 import json
 import socket
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""ROS 2 node: images and intention of a garment. python3 taxel_node.py --ros-args -p source:=usb"""
+"""ROS 2 node: publishes images and intention. Start: python3 taxel_node.py --ros-args -p source:=usb"""
 import json
 import subprocess
 import threading

@@ -1,4 +1,4 @@
-//! Prints what each touch means: `cargo run --example intentions -- usb`, or without a board `-- sim:lash`.
+//! Prints each touch's intention: `cargo run --example intentions -- usb`, or without a board `-- sim:lash`.
 
 use taxel::client::Event;
 use taxel::session::Session;
