@@ -47,7 +47,7 @@ pub struct Cli {
     /// What to do [default: live]
     #[command(subcommand)]
     command: Option<Command>,
-    /// Report on the standard error what the program does
+    /// Report on standard error what the program does
     #[arg(short, long, global = true)]
     verbose: bool,
 }

@@ -1,4 +1,4 @@
-//! `taxel info --repair`: what can be read of a recording, written to another file.
+//! `taxel info --repair`: writes what can be read of a recording to another file.
 
 use crate::output::{Force, Output};
 use crate::recording::{self, Scan};
@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// What `taxel info` takes for a repair.
+/// Arguments of `taxel info` for a repair.
 #[derive(Debug, Clone, Default, Args)]
 pub struct RepairArgs {
     /// Write all that can be read to another file, with an end: after a kill, a power cut or damage
@@ -21,14 +21,14 @@ pub struct RepairArgs {
     /// With --repair: replace the recording itself, when the repaired one is complete
     #[arg(long, requires = "repair")]
     pub in_place: bool,
-    /// Whether another file is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
 
 impl RepairArgs {
-    /// Writes the repaired file, and says so; its name. A whole file stays as it is, and is copied only where a
-    /// name for the copy was given.
+    /// Writes the repaired file, and reports it. Returns its name. An intact file stays as it is; it is
+    /// copied only if an output was named.
     pub fn run(&self, file: &Path) -> Result<PathBuf> {
         let shown = file.display();
         let before = state(file);
@@ -59,13 +59,13 @@ impl RepairArgs {
     }
 }
 
-/// Length and time of a file, by which it is seen that somebody writes it.
+/// Length and modification time of a file, to detect that it is still being written.
 fn state(file: &Path) -> Option<(u64, SystemTime)> {
     let known = fs::metadata(file).ok()?;
     Some((known.len(), known.modified().ok()?))
 }
 
-/// What was found in a file, in words.
+/// Describes the damage of a file.
 pub fn found(scan: &Scan) -> String {
     let mut words = Vec::new();
     let (chunks, bytes) = scan.damaged();

@@ -72,7 +72,7 @@ pub fn run(args: &CheckArgs) -> Result<()> {
 /// Looks at the garment once.
 fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
-    let worn = board.worn().context("the board has not said what it wears").board()?;
+    let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let mut dialogue = Dialogue::new(&mut board, garment.wiring.falling, args.wait, args.json);

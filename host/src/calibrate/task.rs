@@ -30,7 +30,7 @@ pub struct Task {
 
 /// Tares the board, asks for the weights and fits; the board's own calibration stays as it is.
 pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
-    let worn = board.worn().context("the board has not said what it wears").board()?;
+    let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, task.over)?;

@@ -36,7 +36,7 @@ fn settings_are_stored_or_it_is_said_why_not() {
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert_eq!(
         text(&done.stdout),
-        "sim:idle has stored garment, scene, gains and baseline: they survive a restart.\n"
+        "sim:idle has saved garment, scene, gains and baseline to its flash.\n"
     );
     let touched = scene("touched.toml", &format!("duration_s = 9\n{}", pen("back", 4, 4, 9.0)));
     let other = run(&["save", "--source", &touched, "--garment", "no-such-garment"]);

@@ -79,13 +79,13 @@ fn mistakes_are_told_in_plain_words() {
     ends(
         &["live", "--source", "serial:/dev/null"],
         3,
-        "/dev/null at 921600 Bd cannot be opened: it is no serial",
+        "/dev/null at 921600 Bd cannot be opened: it is not a serial",
     );
-    ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port, `taxel ports` lists");
+    ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port; `taxel ports` lists");
     ends(
         &["live", "--source", "tcp:no-such.invalid:80"],
         3,
-        "cannot be reached: its name leads to no address",
+        "cannot be reached: its name has no address",
     );
 }
 

@@ -29,7 +29,7 @@ fn verbose_tells_source_board_and_files() {
     for step in [
         format!("taxel: reads {scene}\n"),
         format!("taxel: source {source} is open\n"),
-        "wears garment block-4x16 and plays scene".into(),
+        "garment block-4x16, scene".into(),
         "the board has done start\n".into(),
     ] {
         assert!(told.contains(&step), "{step}\n{told}");

@@ -117,7 +117,7 @@ fn everything_is_set_again_whatever_breaks() {
             rig.asked.clear();
         }
         if breaks {
-            assert!(told(&mut session, "is gone").ends_with("it is waited for"));
+            assert!(told(&mut session, "is gone").ends_with("waiting for it"));
         }
         let text = told(&mut session, if restarts { "started anew" } else { "has lived on" });
         assert_eq!(text.contains("is back after"), breaks, "{text}");
