@@ -15,8 +15,10 @@
 //! gap are reported by an [`Event::Log`] of the host's own. It is an error if the board refuses a setting
 //! that it had accepted before.
 //!
-//! | file | holds |\n|---|---|\n| `outgoing.rs` | requests on their way to a board that may not read |\n|
-//! `absence.rs` | a lost source, until it is back |
+//! | file | holds |
+//! |---|---|
+//! | `outgoing.rs` | requests on their way to a board that may not read |
+//! | `absence.rs` | a lost source, until it is back |
 
 mod absence;
 mod outgoing;

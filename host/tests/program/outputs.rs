@@ -196,7 +196,7 @@ fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     folder.refused(&["report", "in.mcap", "-o", "/dev/full"], "/dev/full cannot be written");
     folder.refused(
         &["record", "--source", "sim:press", "--frames", "40", "-o", "/dev/full"],
-        "its last record is written in part: no space left on device",
+        "its last record is incomplete: no space left on device",
     );
     let done = folder.run(&["calibrate", "--simulate", "7", "-o", "/dev/full"]);
     assert!(!done.status.success());
