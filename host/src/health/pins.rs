@@ -1,11 +1,10 @@
-//! Lines and inputs that a self-test has found to be at fault: where they are, and what that means for the
-//! garment.
+//! Lines and inputs found faulty by a self-test: their place, and the consequence for the garment.
 
 use serde_json::{Value, json};
 use taxel_core::garment::{Coding, Garment, Group};
 use taxel_core::selftest::{Fault, Findings, PinFault};
 
-/// `{"lines", "inputs", "faults": [{"gpio", "what", "where", "means"}]}`; null where nobody has examined them.
+/// `{"lines", "inputs", "faults": [{"gpio", "what", "where", "means"}]}`; null without a self-test.
 pub fn report(garment: &Garment, findings: Option<&Findings>) -> Value {
     let Some(findings) = findings else { return Value::Null };
     let fault = |found: &PinFault| {
@@ -18,14 +17,14 @@ pub fn report(garment: &Garment, findings: Option<&Findings>) -> Value {
     json!({ "lines": findings.lines, "inputs": findings.inputs, "faults": faults })
 }
 
-/// A line for each fault; one that says so where there is none.
+/// A line for each fault, or one that says that there is none.
 pub fn table(garment: &Garment, findings: Option<&Findings>) -> String {
     let Some(findings) = findings else {
-        return format!("{}: the board has not examined its lines and inputs.\n", garment.name);
+        return format!("{}: the board has not tested its lines and inputs yet.\n", garment.name);
     };
     if findings.faults.is_empty() {
         let Findings { lines, inputs, .. } = findings;
-        return format!("{}: {lines} select lines and {inputs} inputs are well.\n", garment.name);
+        return format!("{}: no faults on {lines} select lines and {inputs} inputs.\n", garment.name);
     }
     let line = |found: &PinFault| {
         let (place, meaning) = (place(garment, found.pin), meaning(garment, found));
@@ -34,13 +33,13 @@ pub fn table(garment: &Garment, findings: Option<&Findings>) -> String {
     findings.faults.iter().map(line).collect()
 }
 
-/// The groups of select lines, what they choose, and their lines.
+/// Groups of select lines: what they select, and their lines.
 fn groups(garment: &Garment) -> [(&'static str, &Group); 3] {
     let wiring = &garment.wiring;
     [("block", &wiring.block), ("row", &wiring.row), ("column", &wiring.column)]
 }
 
-/// The group of a select line, and its bit in that.
+/// Group of a select line, and its bit in it.
 fn line(garment: &Garment, pin: u8) -> Option<(&'static str, usize, Coding)> {
     groups(garment).into_iter().find_map(|(name, group)| {
         let bit = group.lines.iter().position(|line| line.pin == pin)?;
@@ -57,7 +56,7 @@ fn place(garment: &Garment, pin: u8) -> String {
     }
 }
 
-/// Names of the panels that an input reads.
+/// Names of the panels read by an input.
 fn panels(garment: &Garment, pin: u8) -> String {
     let read = |panel: usize| garment.blocks.iter().any(|b| usize::from(b.panel) == panel && b.input == pin);
     let names: Vec<&str> =

@@ -234,9 +234,9 @@ fn a_file_is_read_as_it_was_written_and_a_changed_one_is_refused() {
         std::fs::write(&file, text.replacen(from, to, 1)).unwrap();
         format!("{:#}", Calibration::read(&file).unwrap_err())
     };
-    assert!(refused("gains = [", "gains = [4096, ").contains("`rest` and `gains` must be as long"));
+    assert!(refused("gains = [", "gains = [4096, ").contains("`rest` and `gains` must have the same length"));
     let id = format!("id = \"{}\"", calibration.id);
-    assert!(refused(&id, "id = \"00000000\"").ends_with("it was changed"));
+    assert!(refused(&id, "id = \"00000000\"").ends_with("the file was changed"));
     let wrong = refused("by = ", "bye = ");
     assert!(wrong.contains("line 3") && wrong.contains("bye"), "{wrong}");
     std::fs::remove_file(&file).unwrap();

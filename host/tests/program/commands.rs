@@ -62,7 +62,7 @@ fn health_names_what_is_ill_and_where() {
     assert_eq!(told["taxels"], json!(expected));
     let table = run(&args[..args.len() - 1]);
     let lines: Vec<&str> = text(&table.stdout).lines().collect();
-    assert_eq!(lines[0], "reference: 9 select lines and 4 inputs are well.");
+    assert_eq!(lines[0], "reference: no faults on 9 select lines and 4 inputs.");
     assert_eq!(lines[1], "stuck    chest, row 4, column 13 (block 1, its row 0, column 13; taxel 77)");
 }
 

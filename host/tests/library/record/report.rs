@@ -45,5 +45,5 @@ fn a_page_is_in_one_unit() {
 #[test]
 fn without_an_image_there_is_no_page() {
     let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
-    assert_eq!(error, "file:x: no image came, there is nothing to report");
+    assert_eq!(error, "file:x: no image was received, so there is nothing to report");
 }
