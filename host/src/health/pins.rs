@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(report(&garment, Some(&found))["faults"][2]["gpio"], 27);
         assert_eq!(
             table(&garment, Some(&findings(&[]))),
-            "reference: 9 select lines and 4 inputs are well.\n"
+            "reference: no faults on 9 select lines and 4 inputs.\n"
         );
         assert!(table(&garment, None).contains("has not examined"));
     }

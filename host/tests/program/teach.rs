@@ -80,7 +80,7 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
     learn("box");
     let said = learn("ball");
     assert!(
-        said.contains("\n5 of 5: held for 0.") && said.ends_with("100 % of 10 are known by the others\n"),
+        said.contains("\n5 of 5: held for 0.") && said.ends_with("100 % of 10 are recognised by the others\n"),
         "{said}"
     );
     let (list, _) = done(&folder, &["shapes", "list", "mine.json", "--json"]);
@@ -98,7 +98,7 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
         assert_eq!(answers(&folder, &format!("other-{name}")), vec![name; 5]);
     }
     let (told, _) = done(&folder, &["shapes", "install", "mine.json", "--source", "sim:box.toml"]);
-    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it is switched off.\n");
+    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it restarts.\n");
     let (card, _) = done(&folder, &["shapes", "card", "mine.json"]);
     assert!(
         card.contains("5 touches of sim:strap.toml") && card.contains("each prototype left out in turn"),

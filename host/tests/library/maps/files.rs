@@ -139,7 +139,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "strong -",
             "strongish -",
-            "map.toml, line 31, `weight`: \"strongish -\" is no weight: expected none, or weak, medium, strong, very strong followed by + or -",
+            "map.toml, line 31, `weight`: \"strongish -\" is not a weight: expected none, or weak, medium, strong, very strong followed by + or -",
         ),
         (
             "lambda",

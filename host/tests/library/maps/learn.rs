@@ -86,7 +86,7 @@ fn a_bad_table_is_refused_by_line() {
     for (text, message) in [
         ("", "it is empty"),
         ("press,time\n", "line 1: there is no column label"),
-        ("force,label\n", "line 1: column force is no concept of the map"),
+        ("force,label\n", "line 1: column force is not a concept of the map"),
         ("anger,label\n", "line 1: column anger is a concept that has causes"),
         ("press,label\n0.5\n", "line 2: 1 values, and there are 2 columns"),
         ("press,label\n0.5,attack\nNaN,none\n", "line 3: press = \"NaN\" is not a number in -1 ..= 1"),

@@ -57,7 +57,7 @@ fn a_time_may_be_asked_for() {
 fn where_there_is_nothing_to_explain_it_is_said() {
     let quiet = told("sim:idle", None).unwrap_err();
     assert!(
-        quiet.ends_with("no intention was announced; --at S explains what was told until then"),
+        quiet.ends_with("no intention was announced; --at S explains the state at that time"),
         "{quiet}"
     );
     let early = told("sim:lash", Some(0.0)).unwrap();
@@ -66,7 +66,7 @@ fn where_there_is_nothing_to_explain_it_is_said() {
     std::fs::write(&scene, "[stream]\nintent = false\n").unwrap();
     let board = BoardArgs { scene: Some(scene), ..BoardArgs::of(spec("sim:lash")) };
     let silent = listen(board, Some(0.1)).unwrap_err().to_string();
-    assert!(silent.ends_with("nothing was told of an intention in the first 0.1 s"), "{silent}");
+    assert!(silent.ends_with("no intention was reported in the first 0.1 s"), "{silent}");
 }
 
 /// A map that knows nothing but how warm it is, which only a host can tell.

@@ -88,19 +88,19 @@ fn maps_that_share_concepts_merge() {
     let names: Vec<&str> = united.map.concept.iter().map(|concept| concept.name.as_str()).collect();
     assert_eq!((names, united.map.edge.len()), (vec!["press", "attack", "vision"], 3));
     assert_eq!(united.map.input.len(), 1, "press has a cause now");
-    assert_eq!(united.conflicts, ["press is an input of touch and has causes in another: the causes count"]);
+    assert_eq!(united.conflicts, ["press is an input of touch and has causes in another: the causes are used"]);
     let mut other = touch.clone();
     (other.name, other.lambda, other.input[0].rise) = ("other".into(), 2.0, Some([0, 50]));
     other.edge[0].weight = taxel::fcm::weight::Weight::Number(0.25);
     let error = unite(&[touch.clone(), other.clone()], "both", Shared::Agree).unwrap_err().to_string();
-    assert_eq!(error, "edge press -> attack is 0.5 in touch, 0.25 in other: --combine makes one of them");
+    assert_eq!(error, "edge press -> attack is 0.5 in touch, 0.25 in other: --combine makes them one");
     let united = unite(&[touch, other], "both", Shared::Combine(Aggregation::Sum)).unwrap();
     assert_eq!(united.map.edge[0].weight.value(), 0.38);
     assert_eq!(
         united.conflicts,
         [
-            "lambda of other is not that of touch, which counts",
-            "the input of press in other is not that of the map before, which counts"
+            "lambda of other differs from that of touch, which is used",
+            "the input of press in other differs from that of the map before, which is used"
         ]
     );
 }

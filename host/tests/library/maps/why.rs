@@ -117,7 +117,7 @@ fn what_cannot_be_explained_is_refused() {
         "--input: anger has causes, which would overwrite it; --set holds it"
     );
     assert_eq!(refused(&[], Some("joy")), "map tactile: --of names the unknown concept joy");
-    assert_eq!(refused(&[], Some("press")), "press has no cause: it is as it was set");
+    assert_eq!(refused(&[], Some("press")), "press has no cause: its value was set");
     let lonely = map("name = \"m\"\n[[concept]]\nname = \"a\"\n");
     assert_eq!(explain(&lonely, &[], None).err().unwrap().to_string(), "no concept of the map has a cause");
 }
