@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(error("seed = 2\n"), "x.toml, line 1: `duration_s` is missing");
         let unknown = error("duration_s = 1\ncolour = 3\n");
         assert!(
-            unknown.starts_with("x.toml, line 2: `colour` is no key that is known here: `name`"),
+            unknown.starts_with("x.toml, line 2: `colour` is not a known key: `name`"),
             "{unknown}"
         );
         let wrong = error("duration_s = 1\nseed = \"a\"\n");

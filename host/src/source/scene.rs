@@ -154,12 +154,12 @@ mod tests {
         );
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
         assert!(
-            error.starts_with("script a: `scene.contact.lo`: `lo` is no key that is known here"),
+            error.starts_with("script a: `scene.contact.lo`: `lo` is not a known key"),
             "{error}"
         );
         let error = of("speed = 3").unwrap_err().to_string();
         assert!(
-            error.starts_with("script a: `scene.speed`: `speed` is no key that is known here"),
+            error.starts_with("script a: `scene.speed`: `speed` is not a known key"),
             "{error}"
         );
     }

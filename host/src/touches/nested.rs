@@ -1,4 +1,4 @@
-//! An honest figure: settings are chosen without the touches that they are judged by.
+//! Nested cross-validation: settings are chosen without the touches that they are tested on.
 
 use super::compare::apart;
 use super::course::courses;
@@ -9,8 +9,8 @@ use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
-/// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn,
-/// trains with them on all the others, and applies to the group.
+/// For each group: chooses the settings that perform best in cross-validation on the other groups, trains
+/// with them on all the others, and applies to the group.
 pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());

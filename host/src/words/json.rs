@@ -1,8 +1,8 @@
-//! Where and what is wrong in JSON.
+//! Places and causes of errors in JSON.
 
 use super::plain;
 
-/// What the reader of JSON found in the text of a file, as `FILE, line 3, `key`: ...`.
+/// Formats an error in the text of a file as `FILE, line 3, `key`: ...`.
 pub fn json(error: &serde_json::Error, text: &str, file: &str) -> String {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or("");
     let before = line.get(..error.column().min(line.len())).unwrap_or(line);
@@ -12,13 +12,13 @@ pub fn json(error: &serde_json::Error, text: &str, file: &str) -> String {
     }
 }
 
-/// The last key that is named before a value: what stands in quotes before a colon.
+/// The last key before a value: the text in quotes before a colon.
 fn key(before: &str) -> Option<&str> {
     let (key, _) = before.rsplit_once(':')?;
     key.trim_end().strip_suffix('"')?.rsplit_once('"').map(|(_, key)| key)
 }
 
-/// The same for what is no file, or for a text that is gone.
+/// Formats an error without a file, or without its text.
 pub(super) fn without_text(error: &serde_json::Error) -> String {
     match (error.line(), error.column()) {
         (0, _) => told(error),

@@ -243,7 +243,7 @@ fn bad_garments_are_refused_by_name() {
     refused(
         1,
         &["process", &image, "--layout", &garment],
-        &["extra.toml, line 2", "`extra` is no key that is known here"],
+        &["extra.toml, line 2", "`extra` is not a known key"],
     );
     refused(2, &["process", &image, "--layout", "nothing"], &["no garment", "nothing", "mat-64x32"]);
     refused(1, &["process", &image, "--layout", "mat-64x32"], &["garment.npy", "2 x 3", "mat-64x32"]);
@@ -255,7 +255,7 @@ fn bad_sources_are_refused_by_name() {
     refused(
         1,
         &["live", "--source", &format!("sim:{scene}")],
-        &["colour.toml, line 2", "`colour` is no key that is known here"],
+        &["colour.toml, line 2", "`colour` is not a known key"],
     );
     refused(2, &["live", "--source", "sim:nothing"], &["no script of touches", "nothing", "pat"]);
     refused(3, &["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);

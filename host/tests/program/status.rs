@@ -63,8 +63,8 @@ fn mistakes_are_told_in_plain_words() {
     let live = |option: &str, value: &str, status: i32, words: &str| {
         ends(&["live", "--source", "sim:pat", option, value], status, words);
     };
-    ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is no text (UTF-8)");
-    live("--scene", binary, 1, "cannot be read: it is no text (UTF-8)");
+    ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is not text (UTF-8)");
+    live("--scene", binary, 1, "cannot be read: it is not text (UTF-8)");
     live("--scene", "no-such.toml", 1, "no-such.toml cannot be read: no such file or directory");
     live("--seconds", "-1", 2, "'-1' for '--seconds <S>': must be a time of 0 or more");
     live("--tare", "99999", 2, "'99999' for '--tare <N>': it must be 0 to 4096");

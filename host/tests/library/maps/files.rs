@@ -144,7 +144,7 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "lambda",
             "lamda",
-            "map.toml, line 7: `lamda` is no key that is known here, did you mean `lambda`? Known are `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
+            "map.toml, line 7: `lamda` is not a known key, did you mean `lambda`? Known are `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
         ),
         (
             "lambda = 2.5",
