@@ -1,4 +1,4 @@
-//! Reading and checking a script. Every error is one sentence that names the file and the key.
+//! Reads and checks scripts. Errors are one sentence that names the file and the key.
 
 use super::script::{Joint, Script};
 use super::touch::Touch;
@@ -7,11 +7,11 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Longest time in a script, s.
+/// Latest time in a script, s.
 const LONGEST_S: f64 = 86_400.0;
 /// Largest footprint, mm.
 const LARGEST_MM: f64 = 1_000.0;
-/// Largest count: far beyond a converter, small enough for an `f32`.
+/// Largest count: far above a converter's range, small enough for an `f32`.
 const MOST_COUNTS: f64 = 1e6;
 
 impl Script {
@@ -99,7 +99,7 @@ fn check_joint(joint: &Joint) -> Result<()> {
     within("fall_s", joint.fall_s.unwrap_or(0.0), 0.0..=LONGEST_S)
 }
 
-/// Also refuses what is not a number.
+/// Also refuses NaN.
 fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
     if !range.contains(&value) {
         bail!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());
