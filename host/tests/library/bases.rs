@@ -1,5 +1,5 @@
-//! Bases of shapes as files: whatever is in them, they are read or refused with one sentence, and what is
-//! read recognises.
+//! Files of shape bases: any content is either read or refused with one sentence, and a base that was read
+//! recognises shapes.
 
 use proptest::prelude::*;
 use taxel::learn::confusion::Confusion;
