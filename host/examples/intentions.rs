@@ -1,4 +1,5 @@
-//! Prints what each touch means: `cargo run --example intentions -- usb`, or without a board `-- sim:lash`.
+//! Prints the intention of each touch: `cargo run --example intentions -- usb`, or without a board `--
+//! sim:lash`.
 
 use taxel::client::Event;
 use taxel::session::Session;

@@ -22,7 +22,7 @@ fn scene(name: &str, script: &str) -> String {
     format!("sim:{}", path.display())
 }
 
-/// A pen on a taxel, from then on.
+/// A pen on a taxel from this time on.
 fn pen(panel: &str, row: u16, column: u16, force_n: f64) -> String {
     format!(
         "[[touch]]\npanel = \"{panel}\"\nshape = \"box\"\nsize_mm = [8, 8]\nat = [{column}, {row}]\nforce_n = {force_n}\n\

@@ -1,4 +1,4 @@
-//! `taxel fcm` from outside: where a map is wrong, and whose opinion is whose.
+//! `taxel fcm` from outside: places of errors in maps, and opinions by map.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

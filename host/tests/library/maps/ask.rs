@@ -49,7 +49,7 @@ fn a_bad_answer_is_refused_with_its_line_or_asked_for_again() {
         let refused = refused.unwrap_err();
         assert!(refused.starts_with(message), "{refused}");
     }
-    // To a person, the sentence is said and the question asked again.
+    // In a dialogue, the error is shown and the question repeated.
     let (map, said) = asked(&ANSWERS.replacen("strong -", "strongly\nstrong -", 1), true);
     assert_eq!(map, asked(ANSWERS, false).0);
     assert!(

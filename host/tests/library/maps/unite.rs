@@ -1,4 +1,4 @@
-//! Several maps as one.
+//! Uniting several maps.
 
 use crate::maps::files::map;
 use taxel::fcm::aggregate::Aggregation;
@@ -7,8 +7,7 @@ use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
 use taxel::fcm::unite::{Shared, unite};
 
-/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept that is named in
-/// `inputs`.
+/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept in `inputs`.
 fn of(name: &str, concepts: &[&str], edges: &[(&str, &str, &str)], inputs: &[&str]) -> MapFile {
     let mut text = format!("name = \"{name}\"\n");
     concepts.iter().for_each(|concept| text += &format!("[[concept]]\nname = \"{concept}\"\n"));
@@ -52,9 +51,9 @@ fn experts_are_combined_and_their_disagreement_is_named() {
     assert!(united.conflicts.is_empty() && united.map.input.len() == 1);
     let text = table(&united);
     assert!(text.contains("weak - (anna), strong + (ben), none (carla); SIGNS CONFLICT"), "{text}");
-    // Which comes first is said with the greatest disagreement first.
+    // Edges are sorted by disagreement.
     assert!(text.find("shape -> attack").unwrap() < text.find("press -> attack").unwrap());
-    // The greatest membership: a repeated statement counts once.
+    // Maximum of the memberships: a repeated statement counts once.
     let max = unite(&experts(), "ours", Shared::Vote(Aggregation::Max)).unwrap();
     assert_eq!(max.map.edge[0].weight.value(), 0.5);
     assert_eq!(

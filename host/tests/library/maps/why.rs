@@ -1,4 +1,4 @@
-//! Explanations add up, whatever the map.
+//! Explanations add up, for any map.
 
 use crate::maps::files::map;
 use taxel::fcm::decimal::Decimal;
@@ -10,7 +10,7 @@ fn inputs(pairs: &[(&str, &str)]) -> Vec<(String, Decimal)> {
     pairs.iter().map(|(name, value)| (name.to_string(), Decimal::parse(value).unwrap())).collect()
 }
 
-/// Parts less the threshold are the sum; so are the shares; and the sum gives the activation.
+/// The parts minus the threshold are the sum; the shares are, too; and the sum gives the activation.
 fn adds_up(file: &MapFile, explained: &Explained) {
     let Explained { map, run, why, shares } = explained;
     let parts: i32 = why.parts.iter().map(|part| part.value.0).sum();
@@ -50,7 +50,7 @@ fn a_lash_is_an_attack_because_it_is_sudden_and_narrow() {
         (json["concept"].as_str(), json["sum_units"].as_i64()),
         (Some("attack"), Some(explained.shares.sum()))
     );
-    // What is felt about it goes back to what was measured.
+    // Feelings are traced back to measured inputs.
     let anger = explain(&file, &inputs(&measured), Some("anger")).unwrap();
     adds_up(&file, &anger);
     let way = |wanted: &[&str]| {
