@@ -1,4 +1,4 @@
-//! The schemas of files, with what of JSON Schema (draft 7) they use checked as editors do it.
+//! The schemas of files, by a validator for the part of JSON Schema (draft 7) that they use.
 
 use super::tools::{file, said};
 use crate::start::root;

@@ -1,4 +1,4 @@
-//! Commands around a board, an example, and the documents that others program by: as they work from outside.
+//! Commands about a board, an example, and the documents for other programs, tested from outside.
 
 use crate::start::{intentions, root, taxel};
 use serde_json::Value;
