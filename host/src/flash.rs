@@ -56,10 +56,7 @@ pub fn run(args: &FlashArgs) -> Result<()> {
         None => only(drives())?,
     };
     copy(&image, &drive.join("taxel.uf2"))?;
-    println!(
-        "{name} is on {}: the board restarts by itself; `taxel doctor` checks it.",
-        drive.display()
-    );
+    println!("{name} is on {}: the board restarts by itself; `taxel doctor` checks it.", drive.display());
     Ok(())
 }
 
@@ -81,9 +78,7 @@ fn only(drives: Vec<PathBuf>) -> Result<PathBuf> {
         ))),
         many => {
             let count = many.len();
-            bail!(Fault::usage(format!(
-                "{count} boards wait in their boot loaders: choose one with --drive"
-            )))
+            bail!(Fault::usage(format!("{count} boards wait in their boot loaders: choose one with --drive")))
         }
     }
 }

@@ -117,7 +117,10 @@ fn settings(maps: &[MapFile]) -> Vec<String> {
             ("held", first.held == other.held),
         ] {
             if !same {
-                found.push(format!("{what} of {} differs from that of {}, which is used", other.name, first.name));
+                found.push(format!(
+                    "{what} of {} differs from that of {}, which is used",
+                    other.name, first.name
+                ));
             }
         }
     }

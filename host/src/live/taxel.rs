@@ -23,7 +23,8 @@ impl FromStr for TaxelPlace {
 
     fn from_str(text: &str) -> Result<TaxelPlace, String> {
         let parts: Vec<_> = text.split(',').map(str::trim).collect();
-        let number = |text: &str| text.parse::<u16>().map_err(|_| format!("\"{text}\" is not a row or column"));
+        let number =
+            |text: &str| text.parse::<u16>().map_err(|_| format!("\"{text}\" is not a row or column"));
         match parts[..] {
             [panel, row, column] if !panel.is_empty() => {
                 Ok(TaxelPlace { panel: panel.into(), row: number(row)?, column: number(column)? })

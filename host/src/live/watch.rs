@@ -82,9 +82,7 @@ fn tell(client: &Client, event: &Event) {
         Event::Hello => {
             if let Some(worn) = client.worn() {
                 let (firmware, garment, scene) = (&worn.firmware, &worn.garment.name, &worn.scene.name);
-                verbose::tell(format_args!(
-                    "board {firmware}: garment {garment}, scene {scene}"
-                ));
+                verbose::tell(format_args!("board {firmware}: garment {garment}, scene {scene}"));
             }
         }
         Event::Answer { request, refusal: None } => {

@@ -121,10 +121,7 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
 /// ours. The port may differ if it is forwarded.
 fn check_names(host: &str, has_origin: bool, origin: Option<&str>, sites: Sites<'_>) -> Result<(), Refusal> {
     if !is_this_machine(host) {
-        return Err(refusal(
-            "403 Forbidden",
-            "this server only answers to 127.0.0.1 and localhost",
-        ));
+        return Err(refusal("403 Forbidden", "this server only answers to 127.0.0.1 and localhost"));
     }
     // Duplicates count as invalid.
     if has_origin && !origin.is_some_and(|origin| sites.are_of(host, origin)) {

@@ -93,8 +93,7 @@ pub fn run(args: &SetupArgs) -> Result<()> {
         Some(seed) => simulated(args, seed)?,
         None => on_a_board(args)?,
     };
-    let comment =
-        "Wiring found by `taxel setup`. Names, pitch and seams are those of the given garment.";
+    let comment = "Wiring found by `taxel setup`. Names, pitch and seams are those of the given garment.";
     if args.json && output.is_none() {
         return Ok(());
     }

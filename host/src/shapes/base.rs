@@ -116,7 +116,10 @@ impl Base {
         crate::verbose::reads(name);
         let read = || {
             let size = std::fs::metadata(name).context("cannot be read")?.len();
-            ensure!(size <= LONGEST, "is not a base of shapes: it has {size} bytes, expected at most {LONGEST}");
+            ensure!(
+                size <= LONGEST,
+                "is not a base of shapes: it has {size} bytes, expected at most {LONGEST}"
+            );
             Base::parse(&std::fs::read_to_string(name).context("cannot be read")?)
         };
         // A text that cannot be a path is a name.

@@ -145,10 +145,7 @@ mod tests {
     fn errors_name_file_line_and_key() {
         assert_eq!(error("seed = 2\n"), "x.toml, line 1: `duration_s` is missing");
         let unknown = error("duration_s = 1\ncolour = 3\n");
-        assert!(
-            unknown.starts_with("x.toml, line 2: `colour` is not a known key: `name`"),
-            "{unknown}"
-        );
+        assert!(unknown.starts_with("x.toml, line 2: `colour` is not a known key: `name`"), "{unknown}");
         let wrong = error("duration_s = 1\nseed = \"a\"\n");
         assert_eq!(wrong, "x.toml, line 2, `seed`: must be a whole number of 0 or more, not \"a\"");
         let size = error(&format!("{TOUCH}size_mm = \"large\"\n"));

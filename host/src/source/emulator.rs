@@ -84,7 +84,9 @@ fn harness() -> Result<PathBuf> {
             .map(|above| above.join("tests/emulator"))
             .find(|folder| folder.join(PROGRAM).is_file())
             .ok_or_else(|| {
-                anyhow!("there is no tests/emulator/{PROGRAM} here or above; set TAXEL_EMULATOR to its folder")
+                anyhow!(
+                    "there is no tests/emulator/{PROGRAM} here or above; set TAXEL_EMULATOR to its folder"
+                )
             })?,
     };
     if !folder.join("node_modules").is_dir() {
@@ -96,7 +98,11 @@ fn harness() -> Result<PathBuf> {
 /// The newest firmware image: `TAXEL_FIRMWARE`, or where `cargo xtask firmware` writes it.
 fn image(harness: &Path) -> Result<PathBuf> {
     if let Some(told) = std::env::var_os("TAXEL_FIRMWARE").map(PathBuf::from) {
-        return if told.is_file() { Ok(told) } else { bail!("TAXEL_FIRMWARE={} is not a file", told.display()) };
+        return if told.is_file() {
+            Ok(told)
+        } else {
+            bail!("TAXEL_FIRMWARE={} is not a file", told.display())
+        };
     }
     let told = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let repository = harness.ancestors().nth(2).map(|root| root.join("target"));

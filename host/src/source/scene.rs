@@ -153,14 +153,8 @@ mod tests {
             "{error}"
         );
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
-        assert!(
-            error.starts_with("script a: `scene.contact.lo`: `lo` is not a known key"),
-            "{error}"
-        );
+        assert!(error.starts_with("script a: `scene.contact.lo`: `lo` is not a known key"), "{error}");
         let error = of("speed = 3").unwrap_err().to_string();
-        assert!(
-            error.starts_with("script a: `scene.speed`: `speed` is not a known key"),
-            "{error}"
-        );
+        assert!(error.starts_with("script a: `scene.speed`: `speed` is not a known key"), "{error}");
     }
 }

@@ -21,8 +21,7 @@ impl Tcp {
     pub fn open(address: &str, longest: Duration) -> Result<Tcp> {
         let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
-        let unknown =
-            |_| Fault::board(format!("tcp:{address} cannot be reached: its name has no address"));
+        let unknown = |_| Fault::board(format!("tcp:{address} cannot be reached: its name has no address"));
         for target in address.to_socket_addrs().map_err(unknown)? {
             match TcpStream::connect_timeout(&target, longest) {
                 Ok(stream) => {

@@ -76,9 +76,7 @@ fn name(message: &str) -> Option<String> {
             let names = known.split(", ").map(|name| name.trim_matches('`'));
             match super::meant(unknown.trim_matches('`'), names) {
                 Some(name) => {
-                    format!(
-                        "{unknown} is not a known {what}, did you mean `{name}`? Known are {known}"
-                    )
+                    format!("{unknown} is not a known {what}, did you mean `{name}`? Known are {known}")
                 }
                 None => format!("{unknown} is not a known {what}: {known}"),
             }

@@ -34,10 +34,7 @@ fn pen(panel: &str, row: u16, column: u16, force_n: f64) -> String {
 fn settings_are_stored_or_it_is_said_why_not() {
     let done = run(&["save", "--source", "sim:idle", "--tare", "20"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
-    assert_eq!(
-        text(&done.stdout),
-        "sim:idle has saved garment, scene, gains and baseline to its flash.\n"
-    );
+    assert_eq!(text(&done.stdout), "sim:idle has saved garment, scene, gains and baseline to its flash.\n");
     let touched = scene("touched.toml", &format!("duration_s = 9\n{}", pen("back", 4, 4, 9.0)));
     let other = run(&["save", "--source", &touched, "--garment", "no-such-garment"]);
     assert_eq!(other.status.code(), Some(2));

@@ -82,11 +82,7 @@ fn mistakes_are_told_in_plain_words() {
         "/dev/null at 921600 Bd cannot be opened: it is not a serial",
     );
     ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port; `taxel ports` lists");
-    ends(
-        &["live", "--source", "tcp:no-such.invalid:80"],
-        3,
-        "cannot be reached: its name has no address",
-    );
+    ends(&["live", "--source", "tcp:no-such.invalid:80"], 3, "cannot be reached: its name has no address");
 }
 
 #[test]

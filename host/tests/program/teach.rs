@@ -80,7 +80,8 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
     learn("box");
     let said = learn("ball");
     assert!(
-        said.contains("\n5 of 5: held for 0.") && said.ends_with("100 % of 10 are recognised by the others\n"),
+        said.contains("\n5 of 5: held for 0.")
+            && said.ends_with("100 % of 10 are recognised by the others\n"),
         "{said}"
     );
     let (list, _) = done(&folder, &["shapes", "list", "mine.json", "--json"]);

@@ -56,10 +56,7 @@ pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: Folder) -
         frames.each("exporting", |frame| episode.take(frame, &mut known, &mut stats).with_context(place))?;
         let [length, leaps] = episode.finish(&mut stats).with_context(place)?;
         if leaps > 0 {
-            eprintln!(
-                "{}: the board's time leaps {leaps} times; there are no rows for the gaps.",
-                place()
-            );
+            eprintln!("{}: the board's time leaps {leaps} times; there are no rows for the gaps.", place());
         }
         episodes.push(length);
         rows += length;

@@ -87,7 +87,10 @@ fn maps_that_share_concepts_merge() {
     let names: Vec<&str> = united.map.concept.iter().map(|concept| concept.name.as_str()).collect();
     assert_eq!((names, united.map.edge.len()), (vec!["press", "attack", "vision"], 3));
     assert_eq!(united.map.input.len(), 1, "press has a cause now");
-    assert_eq!(united.conflicts, ["press is an input of touch and has causes in another: the causes are used"]);
+    assert_eq!(
+        united.conflicts,
+        ["press is an input of touch and has causes in another: the causes are used"]
+    );
     let mut other = touch.clone();
     (other.name, other.lambda, other.input[0].rise) = ("other".into(), 2.0, Some([0, 50]));
     other.edge[0].weight = taxel::fcm::weight::Weight::Number(0.25);

@@ -101,12 +101,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.enable[0].pin`: wiring: pin 13 is no free output of this board: the heartbeat LED is there",
     ),
     ("/wiring/enable/inverted", "18, inverted = true", "18, inverted = 1", "`inverted`: must be"),
-    (
-        "/wiring/block",
-        "[wiring.block]\n",
-        "[wiring.block]\nline = 1\n",
-        ": `line` is not a known key",
-    ),
+    ("/wiring/block", "[wiring.block]\n", "[wiring.block]\nline = 1\n", ": `line` is not a known key"),
     ("/wiring/block/coding", "block]\ncoding = \"binary\"", "block]\ncoding = \"gray\"", "`coding`: "),
     (
         "/wiring/block/lines",
@@ -131,12 +126,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.row.lines[0].pin`: wiring: pin 40 is no free output of this board: the chip ends at GP29",
     ),
     ("/wiring/row/lines/inverted", "3, inverted = true", "3, inverted = [true]", "`inverted`: must be"),
-    (
-        "/wiring/column",
-        "[wiring.column]\n",
-        "[wiring.column]\nwidth = 16\n",
-        ": `width` is not a known key",
-    ),
+    ("/wiring/column", "[wiring.column]\n", "[wiring.column]\nwidth = 16\n", ": `width` is not a known key"),
     ("/wiring/column/coding", "column]\ncoding = \"binary\"", "column]\ncoding = 2", "`coding`: "),
     (
         "/wiring/column/lines",
@@ -157,12 +147,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.column.lines[0].pin`: wiring: pin 26 is no free output of this board: it is a converter input",
     ),
     ("/wiring/column/lines/inverted", "9, inverted = true", "9, inverted = 0.5", "`inverted`: must be"),
-    (
-        "/panels",
-        "name = \"front\"\n",
-        "name = \"front\"\ncolour = 3\n",
-        ": `colour` is not a known key",
-    ),
+    ("/panels", "name = \"front\"\n", "name = \"front\"\ncolour = 3\n", ": `colour` is not a known key"),
     ("/panels/name", "\"rear\"", "\"front\"", "`panels[1].name`: panel front: the name is used twice"),
     ("/panels/name", "\"rear\"", "\"\"", "`panels[1].name`: panel 1: its name is empty"),
     ("/panels/name", "\"rear\"", "\"the rear of the torso\"", "`name`: "),
