@@ -51,7 +51,7 @@ impl RepairArgs {
             recording::repair(file, &scan, &mut draft)?;
         }
         if self.in_place && state(file) != before {
-            bail!("{shown} has grown meanwhile: it is being recorded; repair it when that has ended");
+            bail!("{shown} is still being recorded: repair it when the recording has ended");
         }
         draft.keep()?;
         eprintln!("{shown}: {}; written to {}.", found(&scan), name.display());
@@ -76,18 +76,18 @@ pub fn found(scan: &Scan) -> String {
         words.push(format!("{bytes} bytes are damaged"));
     }
     if scan.corrected > 0 {
-        let (s, stand) = if scan.corrected == 1 { ("", "stands") } else { ("s", "stand") };
-        words.push(format!("{} record{s} that {stand} wrong can be put right", scan.corrected));
+        let (s, stand) = if scan.corrected == 1 { ("", "has an error") } else { ("s", "have errors") };
+        words.push(format!("{} record{s} that {stand} can be corrected", scan.corrected));
     }
     if !scan.ended {
         words.push(format!("without its end, {} bytes torn", scan.torn));
     }
     if scan.foreign > 0 {
-        words.push(format!("{} chunks of a compression or a size that is not read here", scan.foreign));
+        words.push(format!("{} chunks with an unsupported compression or size", scan.foreign));
     }
     match (words.is_empty(), scan.whole) {
         (true, true) => "whole".into(),
-        (true, false) => "its end does not tell what is in it".into(),
+        (true, false) => "its summary is damaged or does not match its contents".into(),
         _ => words.join(", "),
     }
 }

@@ -84,7 +84,7 @@ impl Cost {
             text += &format!("{name:<34}{us:>12.1}{:>22.2}\n", 100.0 * us / self.period);
         }
         text + &format!(
-            "\nA recording is played at {:.0} frames/s, {:.0} times as fast as it was.\n",
+            "\nA recording is played at {:.0} frames/s, {:.0} times real time.\n",
             self.frames_per_second(),
             self.period / self.replayed
         )

@@ -103,7 +103,7 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
         }
         What::Scene { file, force } => {
             let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
-            let comment = format!("# As it ships; what is left out stays so. {next}\n");
+            let comment = format!("# The shipped scene; missing keys keep these values. {next}\n");
             let none: [&Path; 0] = [];
             let output = Output::file(file, *force, none)?;
             begin(output, *force, Kind::Scene, &(comment + &scene::text()?))

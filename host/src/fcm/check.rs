@@ -78,7 +78,9 @@ fn structure(map: &MapFile) -> Vec<String> {
     let fed = |name: &str| map.input.iter().any(|input| input.concept == name);
     for concept in map.entries() {
         if !fed(concept) {
-            found.push(format!("concept {concept} has neither an input nor a cause: it stays as it starts"));
+            found.push(format!(
+                "concept {concept} has neither an input nor a cause: it keeps its initial value"
+            ));
         }
         if !map.edge.iter().any(|edge| edge.from == concept) {
             found.push(format!("concept {concept} causes nothing"));

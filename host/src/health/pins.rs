@@ -68,16 +68,16 @@ fn meaning(garment: &Garment, found: &PinFault) -> String {
     match found.fault {
         Fault::StuckHigh | Fault::StuckLow => match line(garment, found.pin) {
             Some((name, bit, Coding::Binary)) => {
-                format!("of two {name}s that differ in bit {bit} alone one is read twice, the other never")
+                format!("of two {name}s that differ only in bit {bit}, one is read twice, the other never")
             }
             Some((name, bit, Coding::OneHot)) => format!("{name} {bit} is always chosen, or never"),
             None => "the multiplexers are always enabled, or never".into(),
         },
         Fault::Bridged(other) => format!(
-            "the two cannot be told apart; whatever differs between them and GPIO {other} ({}) is misread",
+            "the two cannot be told apart; whatever distinguishes it from GPIO {other} ({}) is misread",
             place(garment, other)
         ),
-        Fault::Open => "nothing is connected to it: whatever it shows is no pressure".into(),
+        Fault::Open => "nothing is connected to it: its codes are not pressure".into(),
         Fault::Grounded => "its wire touches ground: nothing is read there".into(),
         Fault::Supplied => "its wire touches the supply: nothing is read there".into(),
     }
@@ -100,7 +100,7 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(
             lines[0],
-            "GPIO 8 (row line, bit 1) stuck high: of two rows that differ in bit 1 alone one is read twice, the \
+            "GPIO 8 (row line, bit 1) stuck high: of two rows that differ only in bit 1, one is read twice, the \
              other never"
         );
         assert!(lines[1].starts_with("GPIO 2 (block line, bit 0) bridged to GPIO 3: "), "{}", lines[1]);

@@ -62,7 +62,10 @@ impl Folder {
             }
             let inside = file.strip_prefix(&self.path)?;
             if !(self.ours)(inside) {
-                bail!("{shown} holds {}, which is no such output: name another folder", inside.display());
+                bail!(
+                    "{shown} contains {}, which is not part of such an output: name another folder",
+                    inside.display()
+                );
             }
         }
         Ok(())

@@ -102,7 +102,7 @@ impl<W: Write> Rebuilt<'_, W> {
                 self.contents.words(&metadata.name, offset, length);
             }
             Kind::Unknown => _ = self.raw(piece.op, &piece.body)?,
-            // These are written anew.
+            // Written anew below.
             Kind::Header(_) | Kind::BadChunk | Kind::Index(_) | Kind::Summary | Kind::Footer => {}
         }
         Ok(())

@@ -291,9 +291,9 @@ impl Session {
                 names.dedup();
                 let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
                 let life = match (gap, self.client.has_lived_on()) {
-                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board has lived on"),
-                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had started anew"),
-                    (None, _) => "has started anew, or did not hear".into(),
+                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board kept running"),
+                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had restarted"),
+                    (None, _) => "has restarted, or missed requests".into(),
                 };
                 let untared = untared.map_or(String::new(), |why| format!("; no new tare: {why}"));
                 self.say(Level::Warn, format!("{label} {life}; set again: {}{untared}", names.join(", ")));

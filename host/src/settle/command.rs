@@ -123,7 +123,7 @@ fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment)
         settled.settle_ns, settled.residue_counts, settled.error_counts
     );
     println!(
-        "A board that scans by DMA drops whole conversions meanwhile: it gives {given_ns} ns, and {:.1} frames/s.",
+        "A board that scans by DMA settles for whole conversions: {given_ns} ns, at {:.1} frames/s.",
         1e6 / frame_us(&circuit, &Plan::default()) as f64
     );
     if !settled.unmeasured.is_empty() {

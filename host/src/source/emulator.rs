@@ -77,7 +77,7 @@ fn harness() -> Result<PathBuf> {
                 if told.is_file() { told.parent().map(Path::to_path_buf) } else { Some(told.clone()) };
             folder
                 .filter(|folder| folder.join(PROGRAM).is_file())
-                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} holds no {PROGRAM}", told.display()))?
+                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} has no {PROGRAM}", told.display()))?
         }
         None => std::env::current_dir()?
             .ancestors()
@@ -165,7 +165,7 @@ fn connect(child: &mut Child) -> Result<Tcp> {
     let told: Value =
         serde_json::from_str(&line).map_err(|_| anyhow!("the emulator ended before it began"))?;
     let port =
-        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator told no port but {}", line.trim()))?;
+        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator printed no port, but {}", line.trim()))?;
     // Further output is drained, so that the emulator never blocks on it.
     std::thread::spawn(move || io::copy(&mut out, &mut io::sink()));
     Tcp::open(&format!("127.0.0.1:{port}"), CONNECT)

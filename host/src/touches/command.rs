@@ -102,7 +102,7 @@ impl Task {
         C: ValueEnum + Clone + Send + Sync + 'static,
     {
         if let (Some(model), Some(_)) = (&args.model, &args.cross) {
-            eprintln!("note: --cross trains anew on the files, {} is not asked", model.display());
+            eprintln!("note: --cross trains on the files; {} is not used", model.display());
         }
         let mut doubts = doubts(&data);
         let mut report = match (&args.cross, args.nested) {
@@ -136,7 +136,7 @@ impl Task {
         let mut report = as_it_is(&model, &data, times)?;
         if trained_on {
             eprintln!(
-                "warning: the model was trained on this file; how well it does on others is what --cross tells"
+                "warning: the model was trained on this file; use --cross for its accuracy on other touches"
             );
         }
         report.add("trained_on", trained_on.into());

@@ -19,7 +19,7 @@ pub fn saturation(data: &Data) -> Option<String> {
     let classes: Vec<String> = classes.collect();
     let which = classes.join(", ");
     (classes.len() > 1).then(|| {
-        format!("saturation: values stop at {top} in {which}: how hard these press tells them apart no more")
+        format!("saturation: values stop at {top} in {which}: force no longer tells these classes apart")
     })
 }
 

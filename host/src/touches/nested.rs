@@ -19,7 +19,7 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let first = candidates.first().context("there are no settings to choose from")?;
     ensure!(
         candidates.iter().all(|other| same(first, other)),
-        "settings differ in what is learnt of a touch"
+        "settings differ in the training data of a touch"
     );
     let courses = courses(data, first);
     let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());

@@ -34,9 +34,9 @@ fn told(error: &serde_json::Error) -> String {
     let missing = |what: &str| format!("{what} is missing");
     match message {
         "expected value" => missing("a value"),
-        "key must be a string" => "a key must stand in quotes".into(),
-        "trailing characters" => "something follows behind the end".into(),
-        "trailing comma" => "a comma stands before a closing bracket".into(),
+        "key must be a string" => "a key must be in quotes".into(),
+        "trailing characters" => "there is text behind the end".into(),
+        "trailing comma" => "there is a comma before a closing bracket".into(),
         "recursion limit exceeded" => "it is nested too deeply".into(),
         _ => match (message.strip_prefix("EOF while parsing "), message.strip_prefix("expected `")) {
             (Some(inside), _) => format!("it ends within {inside}"),
@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(wrong("{\"a\": "), "a.json, line 1, character 6: it ends within a value");
         assert_eq!(wrong("{\"a\": ]"), "a.json, line 1, character 7: a value is missing");
         assert_eq!(wrong("{\"a\" 3}"), "a.json, line 1, character 6: `:` is missing");
-        assert_eq!(wrong("{a: 3}"), "a.json, line 1, character 2: a key must stand in quotes");
+        assert_eq!(wrong("{a: 3}"), "a.json, line 1, character 2: a key must be in quotes");
         assert_eq!(wrong("[]"), "a.json, line 1, character 0: must be a table, not a list");
     }
 }

@@ -103,7 +103,7 @@ fn a_recording_that_grows_is_not_repaired_in_place() {
     let case = CASES.iter().find(|case| case.args.contains("--in-place")).unwrap();
     let before = stage.before(case, true);
     let done = Run { case, replaces: true, call: 1, fault: Fault::Grown }.go(&stage, &before);
-    assert!(!done.succeeded() && done.said.contains("has grown meanwhile"), "{}", done.said);
+    assert!(!done.succeeded() && done.said.contains("is still being recorded"), "{}", done.said);
     assert_eq!(done.after["cut.mcap"], [&before["cut.mcap"][..], b"more"].concat());
     assert_eq!(names(&done.after), names(&before));
 }

@@ -31,7 +31,7 @@ const LIVE_KEYS = [
 /** Keys apart from these, and those of views and layers. */
 const KEYS = [
   ["+ −", "scale"],
-  ["a", "the scale follows what is shown"],
+  ["a", "adapt the scale to the pressure shown"],
   ["u", "kPa or counts"],
   ["x", "clear what is held"],
   ["s", "save"],

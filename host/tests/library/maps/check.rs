@@ -43,7 +43,7 @@ fn what_nothing_reaches_is_named() {
     assert_eq!(
         found.warnings,
         [
-            "concept lonely has neither an input nor a cause: it stays as it starts",
+            "concept lonely has neither an input nor a cause: it keeps its initial value",
             "no input reaches the intention attack"
         ]
     );

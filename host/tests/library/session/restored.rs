@@ -119,7 +119,7 @@ fn everything_is_set_again_whatever_breaks() {
         if breaks {
             assert!(told(&mut session, "is gone").ends_with("waiting for it"));
         }
-        let text = told(&mut session, if restarts { "started anew" } else { "has lived on" });
+        let text = told(&mut session, if restarts { "restarted" } else { "kept running" });
         assert_eq!(text.contains("is back after"), breaks, "{text}");
         until(&mut session, |event| matches!(event, Event::Frame { .. }));
         let rig = rig.lock().unwrap();
