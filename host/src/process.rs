@@ -45,8 +45,8 @@ pub struct ProcessArgs {
     /// Take the mean of the first N frames as the baseline
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub tare: u16,
-    /// Forms (outline, azimuth, breadth, shape) computed in a frame, contact after contact: 1 to 254, or all; a
-    /// board computes 1
+    /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
+    /// 254, or all; on a board 1
     #[arg(long, value_name = "N", value_parser = forms, default_value = "all")]
     pub forms: u8,
     /// Print JSON, one object per frame

@@ -105,7 +105,7 @@ impl<'a> Dialogue<'a> {
         mut steady: Steady,
         rest: &Rest,
     ) -> Result<Option<Reading>> {
-        let again = if going { "again only " } else { "" };
+        let again = if going { "only " } else { "" };
         let ask = json!({ "type": "ask", "plate": plate.name, "newtons": newtons, "going": going });
         self.say(&format!("{}: put {again}{newtons} N on the plate.", plate.name), ask);
         let (mut began, mut shown) = (None, 0.0);

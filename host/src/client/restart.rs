@@ -9,7 +9,8 @@ use taxel_core::wire::{Receiver, Request, encode, frame_bound};
 
 /// Tolerated error of a board's clock, besides a hundredth of the elapsed time, us.
 const SLACK_US: u64 = 250_000;
-/// Number of consecutive `Hello`s, with nothing between them, that a board sends until it is told to start.
+/// Number of `Hello`s in a row, without another message between them, that shows that the board has not been
+/// started.
 const LONELY: u8 = 2;
 
 /// State of a board between restarts.

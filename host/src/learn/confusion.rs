@@ -26,7 +26,7 @@ impl Confusion {
         self.counts[class][column] += 1;
     }
 
-    /// True if an answer is right; for a class that was not taught, none is right.
+    /// True if an answer is right; for a class that was not taught, the right answer is none.
     pub fn is_right(&self, class: usize, answer: Option<usize>) -> bool {
         answer == self.answers.iter().position(|name| *name == self.classes[class])
     }

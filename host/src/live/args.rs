@@ -43,8 +43,8 @@ pub struct BoardArgs {
     /// board keeps this until it restarts [default: when it has led for 250 ms]
     #[arg(long, value_name = "SHARE", requires = "gestures")]
     pub gesture_certainty: Option<f64>,
-    /// Forms (outline, azimuth, breadth, shape) computed in a frame, contact after contact: 1 to 254, or all;
-    /// also requests their ages. The board keeps this until it restarts [default: 1]
+    /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
+    /// 254, or all; also requests the ages of the forms. The board keeps this until it restarts [default: 1]
     #[arg(long, value_name = "N", value_parser = forms)]
     pub forms: Option<u8>,
     /// Set a concept: value, -1 to 1; its age; the age from which the value expires [default: never]; the

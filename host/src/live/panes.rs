@@ -123,7 +123,7 @@ mod tests {
     use crate::live::{LiveArgs, Show, watch};
     use crate::source::{SourceOptions, open};
 
-    /// Records the first bar and the board's state each time an intention is announced.
+    /// The bar, and the reported activation, of each announced intention.
     #[derive(Default)]
     struct Bars(Vec<[String; 2]>);
 

@@ -58,8 +58,9 @@ impl Damage {
         Damage { offset, end: None, ns: 0 }
     }
 
-    /// Counts the damage, and returns the offset at which reading continues. None if nothing more is
-    /// readable, or, in a file without an index, if the rest looks like a last record cut off by a kill.
+    /// Counts the damage, and returns the offset at which reading continues; none if nothing more is
+    /// readable. In that case, without an index, the rest is taken for a last record that a kill has cut off,
+    /// and is not counted.
     pub fn pass(&self, records: &mut Records, path: &Path, skipped: &mut Skipped) -> Result<Option<u64>> {
         let places = chunk_indexes(path)?;
         let next = match self.end {

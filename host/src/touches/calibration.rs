@@ -27,7 +27,7 @@ const PENALTY: f64 = 1.0;
 const STEPS: usize = 25;
 
 impl Calibration {
-    /// Maximum-likelihood fit to the decisions.
+    /// Penalised maximum-likelihood fit to the decisions.
     pub fn fit(judged: &[Judged]) -> Calibration {
         let mut weights = [0.0; 4];
         for _ in 0..STEPS {
