@@ -129,7 +129,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Ways => ways::measured(log),
     };
     let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;
-    // File paths of this machine do not belong into the table.
+    // Paths of written files do not belong into the table.
     let file = paths::target().display().to_string();
     let said = lines.iter().filter(|line| !line.is_empty() && !line.starts_with(&file));
     Ok(said.map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n"))

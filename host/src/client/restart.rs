@@ -113,7 +113,7 @@ impl Client {
         self.set_again();
     }
 
-    /// Handles a `Hello` of the board whose last one was `before`.
+    /// Handles a `Hello`, before it replaces the last one.
     pub(super) fn greeted(&mut self, now: &Worn) {
         self.life.met = true;
         self.life.hellos = self.life.hellos.saturating_add(1);
