@@ -27,7 +27,7 @@
 //! | [`arrays`], [`process`], [`features`], [`doubts`] | recorded frames, run through the board's pipeline |
 //! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
 //! | [`shapes`], [`touches`], [`gestures`], [`intent`], [`learn`] | training of what a board recognises |
-//! | [`bench`](mod@bench) | tables and charts of cost and error |
+//! | [`mod@bench`] | tables and charts of cost and error |
 //! | [`output`], [`words`], [`fault`], [`progress`] | safe output files; errors in plain words; exit status |
 //! | [`cli`] | the command line |
 //!
