@@ -6,8 +6,8 @@
 //! | `.npz` | named arrays like that |
 //! | `.csv`, `.txt` | a row per line, numbers separated by commas, a blank line between frames; `#` starts a comment |
 //!
-//! Every value is an integer in 0 ..= 65535, or the error names file, array, frame, row and column (all from
-//! 0).
+//! Every value is an integer in 0 ..= 65535; else the error names file, array, frame, row and column (all
+//! from 0).
 
 mod csv;
 mod npy;
@@ -30,23 +30,23 @@ pub struct Frames {
     pub columns: u16,
     /// Number of frames, at least one.
     pub count: usize,
-    /// Frame after frame, row after row.
+    /// Values in frame order; each frame in row order.
     pub values: Vec<u16>,
 }
 
 impl Frames {
-    /// Frame `n`; none past the last.
+    /// Returns frame `n`; none past the last.
     pub fn frame(&self, n: usize) -> Option<&[u16]> {
         self.iter().nth(n)
     }
 
-    /// The frames in their order.
+    /// Iterates over the frames.
     pub fn iter(&self) -> std::slice::ChunksExact<'_, u16> {
         self.values.chunks_exact(usize::from(self.rows) * usize::from(self.columns))
     }
 }
 
-/// Reads the array of that name; without a name the only one that can be frames.
+/// Reads the array with this name; without a name the only array whose shape is that of frames.
 pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
     let read = || match (open(path)?, array) {
         (Source::Archive(mut archive), Some(name)) => archive.named(name),
@@ -59,8 +59,8 @@ pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
     read().with_context(|| path.display().to_string())
 }
 
-/// Reads all arrays of two or three dimensions in the order of their names. A file that holds one array
-/// without a name gives it the name of the file.
+/// Reads all arrays of two or three dimensions, ordered by name. A single unnamed array gets the name of the
+/// file.
 pub fn read_all(path: &Path) -> Result<Vec<(String, Frames)>> {
     let read = || match open(path)? {
         Source::Archive(mut archive) => archive.all(),
@@ -72,23 +72,22 @@ pub fn read_all(path: &Path) -> Result<Vec<(String, Frames)>> {
     read().with_context(|| path.display().to_string())
 }
 
-/// Names of the arrays of an archive, in order; none of any other file.
+/// Names of an archive's arrays, in order; none for other files.
 pub fn names(path: &Path) -> Result<Vec<String>> {
     archive(path, |archive| Ok(archive.names().to_vec()))
 }
 
-/// The counts of an array of one dimension in an archive, as labels are; none where there is no such array.
+/// Reads a one-dimensional array of counts, such as labels, from an archive; none if it is missing.
 pub fn list(path: &Path, array: &str) -> Result<Option<Vec<u16>>> {
     archive(path, |archive| archive.list(array))
 }
 
-/// The texts of an array of one dimension in an archive, as names of classes are; none where there is no such
-/// array.
+/// Reads a one-dimensional array of texts, such as class names, from an archive; none if it is missing.
 pub fn texts(path: &Path, array: &str) -> Result<Option<Vec<String>>> {
     archive(path, |archive| archive.texts(array))
 }
 
-/// What an archive holds; nothing of any other file.
+/// Reads from an archive; returns the default for other files.
 fn archive<T: Default>(path: &Path, read: impl FnOnce(&mut npz::Archive) -> Result<T>) -> Result<T> {
     let read = || match open(path)? {
         Source::Archive(mut archive) => read(&mut archive),
@@ -97,7 +96,7 @@ fn archive<T: Default>(path: &Path, read: impl FnOnce(&mut npz::Archive) -> Resu
     read().with_context(|| path.display().to_string())
 }
 
-/// A file whose kind is known.
+/// An open file of known kind.
 enum Source {
     Array(File, u64),
     Archive(npz::Archive),
@@ -107,7 +106,7 @@ enum Source {
 impl Source {
     fn frames(self) -> Result<Frames> {
         match self {
-            // Its values are not compressed: it becomes no more than twice as large.
+            // Values are uncompressed, so they take at most twice the size of the file.
             Source::Array(file, size) => npy::read(file, size, &mut Room::endless()),
             Source::Archive(mut archive) => archive.only(),
             Source::Text(file) => csv::read(file),
@@ -115,14 +114,14 @@ impl Source {
     }
 }
 
-/// Opens a file. Its first bytes tell what it is, its name only where they do not.
+/// Opens a file. Its kind is detected by its first bytes; by its name if they are not conclusive.
 fn open(path: &Path) -> Result<Source> {
     crate::verbose::reads(path);
     let file = File::open(path).context("cannot be read")?;
     let mut start = Vec::new();
     (&file).take(8).read_to_end(&mut start).context("cannot be read")?;
     let size = file.metadata().context("cannot be read")?.len();
-    // From the start again; the handle above is at byte 8.
+    // Read from the start; the handle above is at byte 8.
     let file = File::open(path).context("cannot be read")?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
@@ -135,7 +134,7 @@ fn open(path: &Path) -> Result<Source> {
     }
 }
 
-/// Size of an array of frames.
+/// Shape of an array of frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Shape {
     frames: usize,
@@ -144,7 +143,7 @@ struct Shape {
 }
 
 impl Shape {
-    /// Of the dimensions of an array. The number of values fits a `usize`.
+    /// Shape from the dimensions of an array. The number of values fits a `usize`.
     fn of(dimensions: &[u64]) -> Result<Shape> {
         let (frames, rows, columns) = match *dimensions {
             [rows, columns] => (1, rows, columns),
@@ -165,7 +164,7 @@ impl Shape {
         checked().with_context(|| format!("shape {dimensions:?}: a frame has at most 65535 rows and columns"))
     }
 
-    /// Of an array of one dimension: one frame of one row.
+    /// Shape of a one-dimensional array: one frame of one row.
     fn of_list(dimensions: &[u64]) -> Result<Shape> {
         match *dimensions {
             [n @ 1..=65535] => Ok(Shape { frames: 1, rows: 1, columns: n as u16 }),
@@ -181,14 +180,14 @@ impl Shape {
         self.frames * self.area()
     }
 
-    /// Where the value `index` of an array in Fortran order belongs in frame and row order.
+    /// Converts index `index` in Fortran order to frame and row order.
     fn place_of_fortran(self, index: usize) -> usize {
         let (rest, frame) = (index / self.frames, index % self.frames);
         let (column, row) = (rest / usize::from(self.rows), rest % usize::from(self.rows));
         frame * self.area() + row * usize::from(self.columns) + column
     }
 
-    /// What is wrong with the value at `index`, in frame and row order.
+    /// Error about the value at `index`, in frame and row order.
     fn unfit(self, index: usize, value: impl std::fmt::Display) -> anyhow::Error {
         let (frame, taxel) = (index / self.area(), index % self.area());
         let (row, column) = (taxel / usize::from(self.columns), taxel % usize::from(self.columns));
@@ -204,7 +203,7 @@ fn unfit(frame: usize, row: usize, column: usize, value: impl std::fmt::Display)
     anyhow!("frame {frame}, row {row}, column {column}: {value} is not an integer in 0 ..= 65535")
 }
 
-/// A float that holds a count exactly.
+/// Converts a float that is exactly a count.
 fn count(value: f64) -> Option<u16> {
     (value.fract() == 0.0 && (0.0..=65535.0).contains(&value)).then_some(value as u16)
 }

@@ -47,7 +47,7 @@ pub struct Cli {
     /// What to do [default: live]
     #[command(subcommand)]
     command: Option<Command>,
-    /// Report on the standard error what the program does
+    /// Report on standard error what the program does
     #[arg(short, long, global = true)]
     verbose: bool,
 }
@@ -97,7 +97,7 @@ enum Command {
     /// Measure speed and error: tables and charts
     #[command(after_help = BENCH)]
     Bench(BenchArgs),
-    /// Find out by touch how the wires of a garment are connected
+    /// Identify a garment's wires by touch, and write its garment file
     #[command(after_help = SETUP)]
     Setup(SetupArgs),
     /// Calibrate force with known weights
@@ -112,7 +112,7 @@ enum Command {
     /// Save settings to the board's flash
     #[command(after_help = SAVE)]
     Save(SaveArgs),
-    /// Let a board begin with what ships, and keep aside what was saved to it
+    /// Start the board with the shipped settings; keep the saved ones aside
     #[command(after_help = RESET_SETTINGS)]
     ResetSettings(ResetSettingsArgs),
     /// Recognise shapes: train, teach, evaluate, install
@@ -182,7 +182,7 @@ impl Cli {
     }
 }
 
-/// A number that is none, in plain words.
+/// Rewrites number-parsing errors in plain words.
 fn in_words(error: clap::Error) -> clap::Error {
     let Some(theirs) = std::error::Error::source(&error).map(ToString::to_string) else { return error };
     let ours = words::plain(&theirs);

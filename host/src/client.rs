@@ -1,5 +1,4 @@
-//! The host's end of the wire: bytes in any split go in, events come out, and what is known of the garment
-//! stays here.
+//! The host's end of the wire: takes bytes in any split, returns events, and keeps the state of the garment.
 //!
 //! ```
 //! use taxel::client::{Client, Event};
@@ -56,10 +55,10 @@ use wanted::Sets;
 
 /// Longest frame from a board.
 const LONGEST_REPORT: usize = 8192;
-/// Ids of contacts that have gone which are kept at most: those of 16 full lists.
+/// Most ids of released contacts kept: those of 16 full lists.
 const RELEASED: usize = 1024;
 
-/// What one board tells, put together.
+/// State of one board, built from its messages.
 #[derive(Debug, Clone)]
 pub struct Client {
     receiver: Box<Receiver<LONGEST_REPORT>>,
@@ -67,7 +66,7 @@ pub struct Client {
     /// Bytes since the last 0x00.
     line: Vec<u8>,
     requests: Vec<u8>,
-    /// Requests that wait until the board has answered others.
+    /// Requests held back until the board has answered others.
     held: VecDeque<(Vec<u8>, Option<Sets>)>,
     counts: Counts,
     syncs: Syncs,
@@ -79,21 +78,21 @@ pub struct Client {
     contacts: Vec<Placed>,
     growths: Growths,
     released: Vec<u32>,
-    /// The releases belong to a frame that has been told.
+    /// The releases belong to a frame that was reported.
     told: bool,
     regions: Vec<RegionState>,
     intention: Option<IntentReport>,
-    /// The last report in which the announced intention led.
+    /// Last report with the announced intention in the lead.
     led: Option<IntentReport>,
-    /// How sure the gesture is that was told last, or is told next.
+    /// Confidence of the gesture reported last, or of the next one.
     confidence: Option<ConfidenceReport>,
     /// Ids of contacts that may be drift.
     unsure: Vec<u32>,
-    /// The board was asked how old forms are.
+    /// The ages of forms were requested.
     ages_asked: bool,
-    /// What it told last.
+    /// Last report of the ages.
     forms: Option<FormsReport>,
-    /// Frame of the contacts that were told last.
+    /// Frame of the latest list of contacts.
     contacts_of: u32,
     health: Option<Health>,
     budget: Option<Budget>,
@@ -101,7 +100,7 @@ pub struct Client {
     ill: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
     boot: Option<Boot>,
-    /// Names of the classes that the board was taught; none: the built-in base is in force.
+    /// Classes taught to the board; empty while the built-in base is in use.
     shapes: Vec<String>,
 }
 
@@ -112,13 +111,13 @@ impl Default for Client {
 }
 
 impl Client {
-    /// A client that knows nothing yet.
+    /// A client without any state.
     pub fn new() -> Client {
         Client {
             receiver: Box::new(Receiver::new()),
             message: Vec::new(),
             line: Vec::new(),
-            // Ends whatever the board may have received before.
+            // Terminates a partial frame that the board may have received before.
             requests: vec![0],
             held: VecDeque::new(),
             counts: Counts::default(),
@@ -150,7 +149,7 @@ impl Client {
         }
     }
 
-    /// Takes one byte. When it ends a message, the state is that of the message, and this says what it was.
+    /// Handles one byte. If it completes a message, updates the state and returns the event.
     pub fn push(&mut self, byte: u8) -> Option<Event> {
         self.counts.bytes += 1;
         self.keep(byte);
@@ -171,12 +170,12 @@ impl Client {
         Some(event)
     }
 
-    /// Counts from here on: what came before was put together from parts of a recording.
+    /// Restarts the counters: earlier messages were assembled from parts of a recording.
     pub fn recount(&mut self) {
         self.counts = Counts::default();
     }
 
-    /// Keeps a byte for [`Client::line`]; of what is longer than any frame, the beginning.
+    /// Keeps a byte for [`Client::line`]; only the beginning of an overlong frame is kept.
     fn keep(&mut self, byte: u8) {
         if self.line.last() == Some(&0) {
             self.line.clear();
@@ -186,7 +185,7 @@ impl Client {
         }
     }
 
-    /// Takes the message of an intact frame.
+    /// Handles the message of an intact frame.
     fn read(&mut self, message: &[u8]) -> Result<Event, WireError> {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
@@ -194,14 +193,14 @@ impl Client {
         }
         let report: Report<'_> = decode(rest)?;
         self.counts.messages += 1;
-        // How it started, a board tells with its `Hello`.
+        // A board reports the cause of its start along with its `Hello`.
         if !matches!(report, Report::Hello(_) | Report::Boot(_)) {
             self.spoken();
         }
         Ok(self.take(report))
     }
 
-    /// The board has started anew: what it said before holds no more.
+    /// Discards the state from before a restart of the board.
     fn forget(&mut self) {
         self.picture = Picture::default();
         self.contacts.clear();
@@ -319,7 +318,7 @@ impl Client {
         let taxels = self.layout().map_or(0, |layout| layout.taxels());
         let news = self.picture.take(frame, taxels);
         if self.picture.wants_key() {
-            // A request of two bytes fits.
+            // A request of two bytes always fits.
             let _ = self.request(&Request::KeyFrame);
         }
         if news != ImageNews::Whole {
@@ -336,7 +335,7 @@ impl Client {
             list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
         self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
-        // A board that shows no images never ends the list.
+        // A board that sends no images never completes the list.
         self.released.drain(..self.released.len().saturating_sub(RELEASED));
         self.contacts = here;
         self.contacts_of = list.frame;

@@ -1,37 +1,37 @@
-//! The host's time of what a board has seen, from round trips of `Sync`: bounds, not a guess with an error bar.
+//! Host time of a board's events, from round trips of `Sync`: guaranteed bounds instead of an estimate.
 //!
-//! A request that the host sent at `asked` was read by the board at `received`, and its answer, handed to the
-//! link at `sent`, came at `answered`: the board's `received` is not before `asked`, and its `sent` not after
-//! `answered`, however long and however unequal the two ways were. Each round trip so bounds the offset of
-//! the two clocks from both sides; bounds of earlier trips are carried on, widened by what the clocks can
-//! have drifted since, and cut with the new ones. A trip that waited in a queue bounds less, and does no
-//! harm. The rate is bounded likewise, by bounds of the offset that lie minutes apart.
+//! The host sent a request at `asked`, the board read it at `received` and handed the answer to the link at
+//! `sent`, and the answer arrived at `answered`. The board's `received` is not before `asked`, and its `sent`
+//! not after `answered`, however long and unequal the two ways were. So each round trip bounds the offset of
+//! the two clocks from both sides. Bounds of earlier trips are widened by the possible drift since, and
+//! intersected with the new ones. A trip that waited in a queue has wider bounds, and does no harm. The rate
+//! is bounded likewise, from bounds of the offset that are minutes apart.
 //!
-//! What is assumed: the clocks differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at
-//! most. Bounds that leave nothing over mean that it did not hold, or that a clock was set: then everything
-//! begins with the last trip.
+//! Assumptions: the rates differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at
+//! most. An empty intersection means that an assumption failed or a clock was set; then only the last trip is
+//! kept.
 
 use std::collections::VecDeque;
 use std::time::{Instant, SystemTime};
 use taxel_core::format::Micros;
 
-/// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm, a host that
-/// follows a time server turns its clock by 500 ppm at most.
+/// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm; a host that
+/// follows a time server slews its clock by 500 ppm at most.
 pub const RATE_LIMIT: f64 = 500e-6;
-/// Fastest change of that difference, per second: 0.1 ppm/s, a cheap crystal that warms by 6 degrees in a
-/// minute.
+/// Fastest change of that difference, per second: 0.1 ppm/s, that of a cheap crystal that warms by 6 degrees
+/// in a minute.
 pub const WANDER: f64 = 0.1e-6;
-/// Time between two bounds that are kept for the rate, us.
+/// Time between two bounds kept for the rate, us.
 const SPACING: f64 = 4e6;
-/// Bounds that are kept: two minutes of them, after which wander costs more than a longer time gains.
+/// Number of bounds kept: two minutes of them. With older ones, wander costs more than the longer time gains.
 const KEPT: usize = 32;
 
-/// Host time of something on a board.
+/// Host time of an event on a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct HostTime {
     /// Microseconds since the epoch of the host's times.
     pub us: u64,
-    /// The true time is at most that far from it, microseconds.
+    /// Largest error, microseconds.
     pub uncertainty_us: u64,
 }
 
@@ -48,13 +48,13 @@ pub struct RoundTrip {
     pub answered: u64,
 }
 
-/// What is known of a board's clock.
+/// Model of a board's clock.
 #[derive(Debug, Default, Clone)]
 pub struct HostClock {
     known: Option<Known>,
 }
 
-/// Bounds, both included.
+/// Inclusive bounds.
 #[derive(Debug, Clone, Copy)]
 struct Bounds {
     low: f64,
@@ -74,24 +74,24 @@ impl Bounds {
 
 #[derive(Debug, Clone)]
 struct Known {
-    /// Host time less board time in the first trip, us: offsets are counted from it.
+    /// Host time minus board time in the first trip, us; the origin of offsets.
     origin: i128,
     /// Board time of the bounds.
     at: Micros,
     offset: Bounds,
-    /// Change of the offset, us per us of the board.
+    /// Change of the offset, us per us of board time.
     rate: Bounds,
     earlier: VecDeque<(Micros, Bounds)>,
 }
 
 impl HostClock {
-    /// Takes a round trip; one that ends before it began is left out.
+    /// Adds a round trip; ignores one that ends before it began.
     pub fn take(&mut self, trip: &RoundTrip) {
         let RoundTrip { asked, received, sent, answered } = *trip;
         let origin =
             self.known.as_ref().map_or(i128::from(answered) - i128::from(sent.0), |known| known.origin);
         let offset = |host: u64, board: Micros| (i128::from(host) - i128::from(board.0) - origin) as f64;
-        // The drift of the short time on the board, and the microsecond that either clock cuts off.
+        // Drift during the short time on the board, and up to one microsecond of truncation by either clock.
         let slack = 1.0 + span(received, sent).abs() * RATE_LIMIT;
         let new = Bounds { low: offset(asked, received) - slack, high: offset(answered, sent) + 1.0 };
         if received > sent || new.low > new.high {
@@ -107,12 +107,12 @@ impl HostClock {
         }));
     }
 
-    /// The board has started anew: its clock as well.
+    /// Discards the model: the board, and so its clock, has restarted.
     pub fn forget(&mut self) {
         self.known = None;
     }
 
-    /// The host's time of a time of the board; none before the first round trip.
+    /// Converts a board time to host time; none before the first round trip.
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
         let known = self.known.as_ref()?;
         let Bounds { low, high } = known.offset_at(board);
@@ -126,7 +126,7 @@ impl HostClock {
 }
 
 impl Known {
-    /// Bounds of the offset at a time of the board, before or after the last trip.
+    /// Bounds of the offset at a board time, before or after the last trip.
     fn offset_at(&self, board: Micros) -> Bounds {
         let passed = span(self.at, board);
         let drifts = [self.rate.low * passed, self.rate.high * passed];
@@ -137,7 +137,7 @@ impl Known {
         }
     }
 
-    /// With the bounds of a new trip; none where nothing is left between all bounds.
+    /// Adds the bounds of a new trip; none if the intersection of all bounds is empty.
     fn carried_on(mut self, sent: Micros, new: Bounds) -> Option<Known> {
         let passed = span(self.at, sent);
         if passed < 0.0 {
@@ -155,7 +155,7 @@ impl Known {
                 low: (self.offset.low - before.high) / time,
                 high: (self.offset.high - before.low) / time,
             };
-            // The mean is that of the time between; since then the rate has wandered on.
+            // The mean applies to the middle of the interval; the rate has wandered since.
             self.rate = self.rate.cut(mean.widened(WANDER * 1e-6 * time / 2.0))?;
         }
         let limit = Bounds { low: -RATE_LIMIT, high: RATE_LIMIT };
@@ -170,12 +170,12 @@ impl Known {
     }
 }
 
-/// Time from the one to the other, us.
+/// Signed time from `from` to `to`, us.
 fn span(from: Micros, to: Micros) -> f64 {
     (i128::from(to.0) - i128::from(from.0)) as f64
 }
 
-/// The host's time: microseconds since 1970 when it was made, steady since, whatever is done to the calendar.
+/// Steady host time: microseconds since 1970 at creation, then monotonic even if the calendar is set.
 #[derive(Debug, Clone, Copy)]
 pub struct SteadyTime {
     began: Instant,
@@ -183,13 +183,13 @@ pub struct SteadyTime {
 }
 
 impl SteadyTime {
-    /// From now on.
+    /// Starts now.
     pub fn start() -> SteadyTime {
         let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
         SteadyTime { began: Instant::now(), began_us: since.as_micros() as u64 }
     }
 
-    /// The time, us.
+    /// Current time, us.
     pub fn now_us(&self) -> u64 {
         self.began_us + self.began.elapsed().as_micros() as u64
     }
@@ -208,10 +208,11 @@ mod tests {
         let mut clock = HostClock::default();
         assert_eq!(clock.host_time(Micros(5)), None);
         clock.take(&trip(1_000_000, 500, 700, 1_001_200));
-        // At board time 700 the host's time is between 1,000,200 (it took nothing there) and 1,001,200.
+        // At board time 700 the host's time is between 1,000,200 (if the trip took no time there) and
+        // 1,001,200.
         let time = clock.host_time(Micros(700)).unwrap();
         assert_eq!((time.us, time.uncertainty_us), (1_000_700, 503));
-        // A trip that waited a second in a queue says nothing new, and costs nothing but the drift.
+        // A trip that waited a second in a queue adds nothing, and costs only the drift.
         clock.take(&trip(2_000_000, 1_000_000, 1_000_100, 3_001_500));
         let later = clock.host_time(Micros(1_000_100)).unwrap();
         assert!((500..=1_010).contains(&later.uncertainty_us), "{later:?}");

@@ -1,4 +1,4 @@
-//! Days of the calendar as text.
+//! Calendar days as text.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -8,12 +8,12 @@ pub fn today() -> String {
     date(seconds / 86_400)
 }
 
-/// Days from one year-month-day to another, 0 where it is not later; none where one of them is no day.
+/// Days from one year-month-day to another; 0 if the second is earlier, none if one of them is not a day.
 pub fn days_between(from: &str, to: &str) -> Option<u64> {
     Some(number(to)?.saturating_sub(number(from)?))
 }
 
-/// Year, month and day; none where it is no day.
+/// Year, month and day; none if the text is not a day.
 pub fn parts(text: &str) -> Option<(u16, u8, u8)> {
     let mut parts = text.split('-');
     let (year, month, day) = (parts.next()?, parts.next()?, parts.next()?);
@@ -21,8 +21,8 @@ pub fn parts(text: &str) -> Option<(u16, u8, u8)> {
     Some((year.parse().ok()?, month.parse().ok()?, day.parse().ok()?))
 }
 
-/// The day that many days after 1 January 1970: whole spans of 400 years have 146,097 days, and a year that
-/// begins in March has its leap day last.
+/// Date of a day since 1 January 1970. A span of 400 years has 146,097 days, and a year counted from March
+/// has its leap day last.
 fn date(days: u64) -> String {
     let days = days + 719_468;
     let (span, day) = (days / 146_097, days % 146_097);
@@ -34,7 +34,7 @@ fn date(days: u64) -> String {
     format!("{:04}-{month:02}-{day:02}", span * 400 + year + later)
 }
 
-/// Days since 1 January 1970 of a day since then: no year is longer than 366 days, so the search is short.
+/// Days since 1 January 1970. No year is longer than 366 days, so the search is short.
 fn number(text: &str) -> Option<u64> {
     let year: u64 = text.get(..4)?.parse().ok()?;
     let least = year.checked_sub(1970)? * 365;

@@ -1,20 +1,19 @@
-//! What speaks against recorded frames before anything is concluded from them: a transient of the start, values
-//! that stop at a top, units that do not fit.
+//! Checks recorded frames before conclusions are drawn: start-up transients, saturation, implausible units.
 
-/// First frames of a recording that a transient may spoil.
+/// Number of frames at the start of a recording that a transient may spoil.
 const FIRST: usize = 3;
 
-/// Fewest frames of a recording in which a transient can be told from a touch.
+/// Least number of frames by which a transient can be told from a touch.
 const FEWEST: usize = 8;
 
-/// By how much the total of a transient exceeds that of any later frame.
+/// Factor by which the total of a transient exceeds that of any later frame.
 const ABOVE: u64 = 8;
 
-/// Fewest values at a top at which values stop, and by how much they outnumber those at any value just below.
+/// Least number of values at a ceiling, and the factor by which they outnumber any value just below.
 const PILED: usize = 100;
 const OUTNUMBER: usize = 10;
 
-/// The sentence on recordings, each with its name and frames, that begin with a transient; none: none does.
+/// Warning about recordings (name and frames) that begin with a transient; none if none does.
 pub fn start_ups<'a, F: Iterator<Item = &'a [u16]>>(
     recordings: impl Iterator<Item = (String, F)>,
 ) -> Option<String> {
@@ -31,7 +30,8 @@ pub fn start_ups<'a, F: Iterator<Item = &'a [u16]>>(
     Some(format!("{what}, as when a sensor starts up; cut the first frames"))
 }
 
-/// The last of the first frames that is a transient, and how many times the total of any later frame it has.
+/// Index of the last start-up frame that is a transient, and the factor by which its total exceeds any later
+/// frame's.
 fn transient(totals: &[u64]) -> Option<(usize, u64)> {
     let (first, later) = totals.split_at_checked(FIRST).filter(|_| totals.len() >= FEWEST)?;
     let most = later.iter().copied().max().unwrap_or(0).max(1);
@@ -39,7 +39,7 @@ fn transient(totals: &[u64]) -> Option<(usize, u64)> {
     Some((frame, first[frame] / most))
 }
 
-/// The greatest value, if values stop there: many have it, and few one that is just below.
+/// Returns the greatest value if values saturate there: many have it, and few the values just below.
 pub fn top(values: impl Iterator<Item = u16>) -> Option<u16> {
     let mut counts = vec![0usize; 1 << 16];
     values.for_each(|value| counts[usize::from(value)] += 1);
@@ -48,14 +48,14 @@ pub fn top(values: impl Iterator<Item = u16>) -> Option<u16> {
     (top > 0 && counts[top] >= PILED && counts[top] >= OUTNUMBER * below).then_some(top as u16)
 }
 
-/// The sentence on frames of a recording whose greatest value does not fit a full scale; none: it does.
+/// Warning about frames whose greatest value does not fit the full scale; none if it does.
 pub fn full_scale(greatest: u16, full_scale: u16) -> Option<String> {
     if greatest > full_scale {
         Some(format!(
-            "values reach {greatest}, more than the full scale of {full_scale}: name it with --full-scale"
+            "values reach {greatest}, more than the full scale of {full_scale}: set it with --full-scale"
         ))
     } else if greatest > 0 && greatest < full_scale / 16 {
-        let why = "the limits of the scene are shares of that, so that little or nothing touches";
+        let why = "the scene's limits are shares of it, so that few touches or none are found";
         Some(format!("no value is above {greatest} of a full scale of {full_scale}: {why}; see --full-scale"))
     } else {
         None

@@ -1,4 +1,4 @@
-//! Whose fault an error is, and with it the exit status of the program.
+//! Assigns blame for an error, which decides the exit status of the program.
 //!
 //! | status | when | how an error says so |
 //! |---|---|---|
@@ -7,8 +7,8 @@
 //! | 2 | wrong use: another command line is needed | [`Fault::usage`], [`Blame::usage`] |
 //! | 3 | the board is at fault: no answer, a refusal, faulty lines or taxels | [`Fault::board`], [`Blame::board`] |
 //!
-//! A mark adds no words to the error, and contexts above it keep it. The first mark counts: who found the
-//! error knows best. `anyhow!("{error:#}")` loses it; use `context`.
+//! A mark adds no words to the error, and contexts above it keep it. The innermost mark counts.
+//! `anyhow!("{error:#}")` loses it; use `context`.
 //!
 //! ```
 //! use anyhow::{Context, Result, ensure};
@@ -30,7 +30,7 @@
 use anyhow::Error;
 use std::fmt;
 
-/// An error that says whose fault it is.
+/// An error with its blame.
 #[derive(Debug)]
 pub struct Fault {
     status: u8,
@@ -38,13 +38,12 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// The command line is wrong: a name that is not known, options that do not go together, a number out of
-    /// its range.
+    /// The command line is wrong: an unknown name, options that exclude each other, a number out of range.
     pub fn usage(message: impl fmt::Display) -> Fault {
         Fault { status: 2, error: Error::msg(message.to_string()) }
     }
 
-    /// The board is at fault, or what is between it and the host.
+    /// The board, or the link to it, is at fault.
     pub fn board(message: impl fmt::Display) -> Fault {
         Fault { status: 3, error: Error::msg(message.to_string()) }
     }
@@ -92,7 +91,7 @@ fn mark(error: &Error) -> Option<u8> {
     error.chain().find_map(|cause| cause.downcast_ref::<Fault>()).map(|fault| fault.status)
 }
 
-/// The exit status of a program that ends by this error.
+/// Exit status for this error.
 pub fn status(error: &Error) -> u8 {
     mark(error).unwrap_or(1)
 }

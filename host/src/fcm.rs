@@ -1,4 +1,4 @@
-//! `taxel fcm`: fuzzy cognitive maps as files; run, validated, explained, combined, taught and drawn.
+//! `taxel fcm`: fuzzy cognitive maps as files: run, check, explain, combine, learn and draw.
 
 pub mod aggregate;
 pub mod bench;

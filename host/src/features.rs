@@ -1,5 +1,4 @@
-//! `taxel features`: moments, NMI and axis of one recorded image as it stands, without conditioning or
-//! thresholds.
+//! `taxel features`: moments, NMI and axis of one recorded image, without conditioning or thresholds.
 
 use crate::arrays;
 use crate::fault::Fault;
@@ -26,8 +25,8 @@ pub struct FeaturesArgs {
     pub json: bool,
 }
 
-/// Features of one image. The sums are exact; x is the column and y the row, from 0. What an image without
-/// pressure does not have is none.
+/// Features of one image. The sums are exact; x is the column and y the row, from 0. Features that need
+/// pressure are none for an image without any.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Features {
     /// sum f
@@ -42,7 +41,7 @@ pub struct Features {
     pub syy: u64,
     /// sum x y f
     pub sxy: i64,
-    /// The moment of inertia about the centroid times the mass.
+    /// Moment of inertia about the centroid, times the mass.
     #[serde(rename = "Jm")]
     pub jm: u64,
     /// Normalised moment of inertia as published, sqrt(J) / m.
@@ -55,7 +54,7 @@ pub struct Features {
     pub nmi_peak_sheppard: Option<f64>,
     /// `nmi_s2` with Sheppard's correction.
     pub nmi_s2_sheppard: Option<f64>,
-    /// Angle of the major axis from +x towards +y, in (-pi/2, pi/2] rad; none where there is no direction.
+    /// Angle of the major axis from +x towards +y, in (-pi/2, pi/2] rad; none for an image without direction.
     pub azimuth: Option<f64>,
     /// 0 for a disc or square, 1 for a line.
     pub anisotropy: Option<f64>,
@@ -63,7 +62,7 @@ pub struct Features {
     pub x: Option<f64>,
     /// Centroid, taxels.
     pub y: Option<f64>,
-    /// Taxels with any pressure.
+    /// Number of taxels with pressure.
     pub area: u32,
     /// Greatest value.
     pub peak: u16,
@@ -87,8 +86,8 @@ pub fn run(args: FeaturesArgs) -> Result<()> {
 }
 
 impl Features {
-    /// Of an image of rows of `columns` values. Refused are images whose moment of inertia times mass takes
-    /// more than 64 bits, for which the core's arithmetic is not exact.
+    /// Computes the features of an image with rows of `columns` values. Error if the moment of inertia times
+    /// mass exceeds 64 bits, for which the core's arithmetic is not exact.
     pub fn of(image: &[u16], columns: usize) -> Result<Features> {
         let moments = Moments::of_image(image, columns);
         if wide_jm(&moments) != Some(moments.jm().into()) {
@@ -122,7 +121,7 @@ impl Features {
         })
     }
 
-    /// The readable form: one line for each feature.
+    /// Readable form: one line for each feature.
     pub fn table(&self) -> String {
         let float = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.7}"));
         let degrees = |angle: f64| format!("{angle:.7} rad ({:.2} degrees)", angle.to_degrees());

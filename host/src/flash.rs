@@ -1,4 +1,4 @@
-//! `taxel flash`: the firmware onto a board, by its boot loader's drive or by a debug probe.
+//! `taxel flash`: writes the firmware to a board, by its boot loader's drive or a debug probe.
 
 use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
@@ -10,20 +10,20 @@ use std::process::Command;
 
 /// Bytes of a UF2 block.
 const BLOCK: usize = 512;
-/// First two words of each, and the last.
+/// First two words of each block, and its last.
 const MARKS: [u32; 3] = [0x0a32_4655, 0x9e5d_5157, 0x0ab1_6f30];
-/// Family of the RP2040.
+/// Family id of the RP2040.
 const FAMILY: u32 = 0xe48b_ff56;
-/// Flags of a block that says its family, and nothing else.
+/// Flags of a block: only "family id present".
 const HAS_FAMILY: u32 = 0x2000;
-/// Bytes that a block writes.
+/// Payload of a block, bytes.
 const PAGE: u32 = 256;
-/// Where the program lies in the flash. Behind it are the board's settings, which a new firmware leaves alone.
+/// Flash range of the program. The board's settings are behind it and survive a new firmware.
 const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 72) * 1024;
-/// What the boot loader's drive says of itself, in this file.
+/// File that identifies the boot loader's drive, and a word in it.
 const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
-/// What `taxel flash` takes.
+/// Arguments of `taxel flash`.
 #[derive(Debug, Clone, Args)]
 pub struct FlashArgs {
     /// The firmware: UF2 for the boot loader's drive, ELF for a debug probe; `cargo xtask firmware` builds both
@@ -47,7 +47,7 @@ pub fn run(args: &FlashArgs) -> Result<()> {
         Some(drive) => {
             ensure!(
                 is_drive(drive),
-                "{} is no drive of an RP2040's boot loader: it has no {}",
+                "{} is not the drive of an RP2040's boot loader: it has no {}",
                 drive.display(),
                 TELLS.0
             );
@@ -56,14 +56,11 @@ pub fn run(args: &FlashArgs) -> Result<()> {
         None => only(drives())?,
     };
     copy(&image, &drive.join("taxel.uf2"))?;
-    println!(
-        "{name} is on {}: the board restarts by itself; `taxel doctor` tells how it is.",
-        drive.display()
-    );
+    println!("{name} is on {}: the board restarts by itself; `taxel doctor` checks it.", drive.display());
     Ok(())
 }
 
-/// The drives of boot loaders that are mounted.
+/// Mounted drives of boot loaders.
 pub fn drives() -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = places().into_iter().filter(|place| is_drive(place)).collect();
     found.sort();
@@ -81,14 +78,12 @@ fn only(drives: Vec<PathBuf>) -> Result<PathBuf> {
         ))),
         many => {
             let count = many.len();
-            bail!(Fault::usage(format!(
-                "{count} boards wait in their boot loaders: --drive tells which one is meant"
-            )))
+            bail!(Fault::usage(format!("{count} boards wait in their boot loaders: choose one with --drive")))
         }
     }
 }
 
-/// Where drives are mounted on this system.
+/// Folders under which this system mounts drives.
 fn places() -> Vec<PathBuf> {
     if cfg!(windows) {
         return (b'D'..=b'Z').map(|letter| PathBuf::from(format!("{}:\\", char::from(letter)))).collect();
@@ -103,8 +98,8 @@ fn is_drive(place: &Path) -> bool {
     fs::read_to_string(place.join(TELLS.0)).is_ok_and(|text| text.contains(TELLS.1))
 }
 
-/// Whether this is a whole UF2 for an RP2040 that writes its program, in one piece, and nothing else; errors
-/// name the block.
+/// Checks for a complete UF2 for the RP2040 that writes one contiguous program and nothing else. Errors name
+/// the block.
 fn check(image: &[u8]) -> Result<()> {
     let (blocks, rest) = image.as_chunks::<BLOCK>();
     ensure!(
@@ -113,11 +108,11 @@ fn check(image: &[u8]) -> Result<()> {
     );
     for (index, block) in blocks.iter().enumerate() {
         let word = |at: usize| u32::from_le_bytes([block[at], block[at + 1], block[at + 2], block[at + 3]]);
-        ensure!([word(0), word(4), word(BLOCK - 4)] == MARKS, "block {index} of it is no block of a UF2");
+        ensure!([word(0), word(4), word(BLOCK - 4)] == MARKS, "block {index} of it is not a UF2 block");
         ensure!(word(28) == FAMILY, "block {index} of it is for another microcontroller than the RP2040");
         ensure!(
             word(20) as usize == index && word(24) as usize == blocks.len(),
-            "block {index} of it says it is number {} of {}: the file is not whole",
+            "block {index} of it says it is number {} of {}: the file is incomplete",
             word(20),
             word(24)
         );
@@ -133,8 +128,8 @@ fn check(image: &[u8]) -> Result<()> {
             PROGRAM.start,
             PROGRAM.end - 1
         );
-        // The first is at the beginning, where the boot loader looks for a program; gaps would leave what was
-        // there before.
+        // The first address is the beginning, where the boot loader looks for a program; in gaps the old
+        // contents would remain.
         let expected = PROGRAM.start + PAGE * index as u32;
         ensure!(
             address == expected,
@@ -148,7 +143,7 @@ fn copy(image: &[u8], to: &Path) -> Result<()> {
     let wrong = || format!("{} cannot be written", to.display());
     let mut file = File::create(to).with_context(wrong)?;
     file.write_all(image).with_context(wrong)?;
-    // The board restarts as soon as it has the last block, and its drive is gone then.
+    // The board restarts as soon as it has the last block, and its drive disappears.
     let _ = file.sync_all();
     Ok(())
 }
@@ -162,7 +157,7 @@ fn probe(elf: &Path) -> Result<()> {
         )?;
         ensure!(status.success(), "probe-rs {} failed", step[0]);
     }
-    println!("{} is on the board: `taxel doctor` tells how it is.", elf.display());
+    println!("{} is on the board: `taxel doctor` checks it.", elf.display());
     Ok(())
 }
 
@@ -189,7 +184,7 @@ mod tests {
         assert!(check(&whole).is_ok());
         assert!(why(&whole[..700]).contains("multiple of 512"));
         assert!(why(&whole[..512]).contains("number 0 of 2"));
-        assert!(why(&[block(0, 2), vec![0; BLOCK]].concat()).starts_with("block 1 of it is no block"));
+        assert!(why(&[block(0, 2), vec![0; BLOCK]].concat()).starts_with("block 1 of it is not a UF2 block"));
         let mut other = whole.clone();
         other[BLOCK + 28] ^= 1;
         assert!(why(&other).contains("another microcontroller"));
@@ -206,7 +201,7 @@ mod tests {
             let outside = format!("block 1 of it is for address {address:#x}, outside of the program");
             assert!(why(12, address).starts_with(&outside), "{address:#x}");
         }
-        // A page twice, one that is left out, one that begins within another.
+        // A page twice, a gap, and a page that overlaps another.
         for address in [0x1000_0000, 0x1000_0200, 0x1000_0180] {
             assert!(why(12, address).ends_with("a program is in one piece"), "{address:#x}");
         }

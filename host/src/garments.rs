@@ -1,4 +1,4 @@
-//! Garments as files.
+//! Garment files.
 
 mod key;
 
@@ -10,38 +10,37 @@ use std::fmt::Display;
 use std::path::Path;
 use taxel_core::garment::{Garment, GarmentError};
 
-/// Names and files of the garments that come with the program.
+/// Names and texts of the presets.
 const PRESETS: [(&str, &str); 3] = [
     ("reference", include_str!("../garments/reference.toml")),
     ("mat-64x32", include_str!("../garments/mat-64x32.toml")),
     ("block-4x16", include_str!("../garments/block-4x16.toml")),
 ];
 
-/// A garment's file, read.
+/// A garment's file and its contents.
 #[derive(Debug, Clone)]
 pub struct Read {
-    /// What people call the file: its path, or the name of a garment that comes with the program.
+    /// Path of the file, or name of the preset.
     pub name: String,
-    /// The text of the file, with its comments.
+    /// Text of the file, with its comments.
     pub text: String,
-    /// The garment, not yet checked.
+    /// The garment, unchecked.
     pub garment: Garment,
 }
 
 impl Read {
-    /// What is wrong with the garment, with the line of the key that is to be changed.
+    /// Error about the garment, with the line of the key to change.
     pub fn error(&self, error: &GarmentError) -> Error {
         self.error_at(&key::key(error, &self.garment), error)
     }
 
-    /// An error about one of its keys, with its line.
+    /// Error about one of its keys, with its line.
     pub fn error_at(&self, key: &str, error: impl Display) -> Error {
         toml_key::error(&self.name, &self.text, key, error)
     }
 }
 
-/// Reads a garment that comes with the program, or a garment's TOML file. Errors name the file, the line and
-/// the key.
+/// Reads a preset or a garment's TOML file. Errors name the file, the line and the key.
 pub fn read(name_or_path: &str) -> Result<Read> {
     let name = name_or_path.to_string();
     if let Some((_, text)) = PRESETS.iter().find(|(preset, _)| *preset == name) {
@@ -58,24 +57,24 @@ pub fn read(name_or_path: &str) -> Result<Read> {
     Ok(Read { name, text, garment })
 }
 
-/// Garments that come with the program whose rows and columns are joined by the cloth alone, and read through a
-/// resistor: what is pressed elsewhere in a block leads current past the taxel that is read. In the others an
-/// amplifier holds what is read at one voltage.
+/// Presets with passive matrices: only the fabric joins rows and columns, which are read through a resistor,
+/// so that pressure elsewhere in a block leads current past the taxel that is read. The other presets have an
+/// amplifier that holds the read line at one voltage.
 const PASSIVE: [&str; 1] = ["block-4x16"];
 
-/// Whether a garment's blocks are passive matrices, as one that keeps the name of the one it was made of.
+/// True if a garment's blocks are passive matrices; it is recognised by the name of its preset.
 pub fn is_passive(garment: &Garment) -> bool {
     PASSIVE.contains(&garment.name.as_str())
 }
 
-/// A garment as TOML, with a comment of some lines above it.
+/// Encodes a garment as TOML, below a comment of one or more lines.
 pub fn text(garment: &Garment, comment: &str) -> Result<String> {
     let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
     Ok(comment + &toml::to_string(garment).context("the garment cannot be written as TOML")?)
 }
 
-/// Writes a garment's file. It is printed where there is none, and where it cannot be written: nobody touches a
-/// garment twice for it.
+/// Writes a garment's file. Prints the garment if there is no file, or if it cannot be written, so that a
+/// garment found by touch is not lost.
 pub fn write(garment: &Garment, comment: &str, output: Option<Output>) -> Result<()> {
     let text = text(garment, comment)?;
     let Some(output) = output else {

@@ -1,4 +1,4 @@
-//! `taxel gestures`: which gesture a touch is, by a model that fits the board.
+//! `taxel gestures`: recognises gestures by a model that fits the board.
 
 use crate::arrays;
 use crate::doubts::start_ups;
@@ -11,8 +11,8 @@ use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::{CLASSES, Shipped};
 
-/// Chosen by cross-validation by participant. Recordings are cut out of touches that go on, so that windows may
-/// begin anywhere.
+/// Chosen by cross-validation by participant. Recordings are cut from ongoing touches, so windows may begin
+/// anywhere.
 const SETTINGS: Settings = Settings {
     pressed: 12,
     halves: true,
@@ -32,7 +32,7 @@ const TASK: Task = Task {
     candidates: || grid(SETTINGS, &[3.0, 10.0, 40.0, 160.0, 640.0], &[0.0, 0.5]),
 };
 
-/// Times of observation, seconds.
+/// Observation times, seconds.
 const TIMES: [f64; 7] = [0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Arguments of `taxel gestures`.
@@ -58,7 +58,7 @@ enum Command {
     Card,
 }
 
-/// What to keep apart.
+/// Groups that are left out in turn.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Cross {
     /// Each participant
@@ -80,12 +80,12 @@ pub fn run(args: GesturesArgs) -> Result<()> {
     }
 }
 
-/// What `eval --cross participant` finds.
+/// Report of `eval --cross participant`.
 pub fn across_people(files: &Files) -> Result<Report> {
     touches::cross(&load(files)?, &SETTINGS, &times(54.0)?)
 }
 
-/// Times of observation at so many frames per second.
+/// Observation times at this frame rate.
 fn times(rate: f64) -> Result<Times> {
     ensure!(
         rate > 0.0 && rate.is_finite(),
@@ -106,7 +106,7 @@ fn load(files: &Files) -> Result<Data> {
     ensure!(!table.is_empty(), "{}: there are no labels", labels.display());
     ensure!(
         frames.count % table.len() == 0,
-        "{}: {} frames are not as many for each of the {} recordings that {} lists",
+        "{}: {} frames cannot be split evenly among the {} recordings that {} lists",
         path.display(),
         frames.count,
         table.len(),

@@ -1,16 +1,16 @@
-//! How the contacts that are there have grown, and how hard they seem by that.
+//! Growth of the present contacts, and the hardness derived from it.
 
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::contact::Growth;
 use taxel_core::garment::Layout;
 
-/// By the contact's id, with the panel that it was on last.
+/// Growth and last panel by contact id.
 #[derive(Debug, Default, Clone)]
 pub struct Growths(BTreeMap<u32, (Growth, u8)>);
 
 impl Growths {
-    /// Takes a frame: those that are there, and those that have just gone, which are known until the next.
+    /// Handles a frame. Contacts just released stay known until the next frame.
     pub fn feel(&mut self, present: &[Placed], gone: &[Placed]) {
         let id = |placed: &Placed| placed.contact.id;
         self.0.retain(|known, _| present.iter().chain(gone).any(|placed| id(placed) == *known));
@@ -21,7 +21,7 @@ impl Growths {
         }
     }
 
-    /// How hard a contact seems, counts per cm2; none where that is not known.
+    /// Apparent hardness of a contact, counts per cm2; none if unknown.
     pub fn hardness(&self, contact: u32, layout: &Layout) -> Option<u32> {
         let (growth, panel) = self.0.get(&contact)?;
         growth.hardness(layout.areas().get(usize::from(*panel))?.cell_mm2)

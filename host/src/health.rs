@@ -29,7 +29,7 @@ pub struct HealthArgs {
     /// find dead taxels
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub frames: u64,
-    /// Take the mean of the first N frames as the baseline [default: what a simulated scene says, else 0]
+    /// Take the mean of the first N frames as the baseline [default: that of a simulated scene, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
     /// Run the self-test of select lines and inputs, and judge every taxel anew [default: report the board's
@@ -45,20 +45,20 @@ pub struct HealthArgs {
     pub json: bool,
 }
 
-/// What a board knows of its health, in both forms that the command prints.
+/// Health of a board, in both forms that the command prints.
 #[derive(Debug)]
 pub struct Told {
-    /// `{"self_test", "taxels", "ghosts"}`; ghosts are null where the blocks are no passive matrices.
+    /// `{"self_test", "taxels", "ghosts"}`; ghosts are null unless the blocks are passive matrices.
     pub json: Value,
     /// A line for each finding.
     pub text: String,
-    /// Lines and inputs at fault.
+    /// Number of faulty lines and inputs.
     pub faults: usize,
-    /// Faulty taxels.
+    /// Number of faulty taxels.
     pub taxels: usize,
 }
 
-/// Runs the command; the board is at fault where a line, an input or a taxel is.
+/// Runs the command. Blames the board for a faulty line, input or taxel.
 pub fn run(args: HealthArgs) -> Result<()> {
     let told = look(&args)?;
     if args.json {
@@ -71,7 +71,7 @@ pub fn run(args: HealthArgs) -> Result<()> {
     Ok(())
 }
 
-/// Watches a board for as long as the arguments say.
+/// Watches a board for the time that the arguments give.
 pub fn look(args: &HealthArgs) -> Result<Told> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
@@ -80,10 +80,10 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     live::watch(&live, source, &mut found)?;
     if args.self_test && !found.answered {
-        bail!(Fault::board("no self-test has come; ask for more --frames"));
+        bail!(Fault::board("no self-test was received; try more --frames"));
     }
     let passive = found.is_passive();
-    let garment = found.garment.context("the board has not said what it wears").board()?;
+    let garment = found.garment.context("the board has not sent its garment").board()?;
     let places = places(&garment, &found.ill)?;
     let pins = found.pins.as_ref();
     let ghosts = passive.then(|| found.ghosts.report(&garment));
@@ -95,16 +95,16 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
     })
 }
 
-/// Keeps what was told last.
+/// The latest health reports.
 #[derive(Default)]
 struct Known {
     garment: Option<Garment>,
     ill: BTreeMap<u16, TaxelHealth>,
     pins: Option<Findings>,
-    /// A self-test is still to be asked for.
+    /// A self-test is still to be requested.
     wanted: bool,
     answered: bool,
-    /// As asked for; none: as the garment says.
+    /// Passive matrices by the command line; none: by the garment.
     passive: Option<bool>,
     ghosts: Ghosts,
 }
@@ -145,22 +145,22 @@ impl Show for Known {
     }
 }
 
-/// Where an ill taxel is.
+/// Place of a faulty taxel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct IllPlace {
-    /// Its number.
+    /// Number of the taxel.
     pub taxel: u16,
-    /// What is wrong.
+    /// Its fault.
     pub health: TaxelHealth,
-    /// Name of its panel.
+    /// Name of the panel.
     pub panel: String,
     /// Row and column in the panel.
     pub place: (u16, u16),
-    /// Index of its block in the garment, and wired row and column there.
+    /// Index of the block in the garment, and the wired row and column in it.
     pub wired: Option<(u8, u8, u8)>,
 }
 
-/// Finds ill taxels in a garment.
+/// Finds the places of faulty taxels in a garment.
 pub fn places(garment: &Garment, ill: &BTreeMap<u16, TaxelHealth>) -> Result<Vec<IllPlace>> {
     let layout = Layout::build(garment, usize::from(u16::MAX), 4095)?;
     let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
@@ -191,7 +191,7 @@ pub fn report(places: &[IllPlace]) -> Value {
     places.iter().map(one).collect()
 }
 
-/// The readable form: a line for each taxel.
+/// Readable form: one line for each taxel.
 pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
     if places.is_empty() {
         return format!("{}: no faulty taxels.\n", garment.name);
@@ -224,7 +224,7 @@ mod tests {
             std::fs::write(&file, format!("duration_s = 1\n{faults}")).unwrap();
             HealthArgs {
                 source: format!("sim:{}", file.display()).parse().unwrap(),
-                // A stuck taxel is known for sure after 58 frames, counted from when it shows.
+                // A stuck taxel is confirmed 58 frames after the fault appears.
                 frames: 150,
                 tare: None,
                 self_test: true,

@@ -1,4 +1,4 @@
-//! `taxel intent`: what a touch means, by a model that fits the board.
+//! `taxel intent`: recognises the intention of a touch by a model that fits the board.
 
 use crate::arrays;
 use crate::doubts::start_ups;
@@ -27,10 +27,10 @@ const TASK: Task = Task {
     candidates: || grid(SETTINGS, &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
 };
 
-/// Frames of observation.
+/// Observation times, frames.
 const FRAMES: [u16; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20, 40, 80];
 
-/// What each gesture means.
+/// Gestures of each intention.
 const MEANINGS: [(&str, &[&str]); 3] = [
     ("kindness", &["stroke", "hug", "tap", "tickle"]),
     ("threat", &["grab", "squeez", "squeeze"]),
@@ -54,7 +54,7 @@ enum Command {
     Card,
 }
 
-/// What to keep apart.
+/// Groups that are left out in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Cross {
     /// Each recording
@@ -81,7 +81,7 @@ pub fn run(args: IntentArgs) -> Result<()> {
     }
 }
 
-/// What `eval --cross day` finds.
+/// Report of `eval --cross day`.
 pub fn across_days(files: &Files) -> Result<Report> {
     touches::cross(&load(files, Cross::Day)?, &SETTINGS, &times())
 }
@@ -91,7 +91,7 @@ fn times() -> Times {
     Times { unit: "frames", frame: 1.0, steps, every: 1 }
 }
 
-/// Reads recorded touches: each stretch of frames of one label is one.
+/// Reads recorded touches: each run of frames with one label is a touch.
 fn load(files: &Files, apart: Cross) -> Result<Data> {
     let (path, labels) = (&files.frames, labels(files)?);
     let frames = arrays::read(path, None)?;
@@ -134,7 +134,7 @@ fn meaning(label: &str) -> Option<usize> {
     MEANINGS.iter().position(|(_, gestures)| gestures.contains(&label.as_str()))
 }
 
-/// The eight digits of the day in a name such as Tap_20250527135406; without them the name.
+/// The day's eight digits in a name such as Tap_20250527135406; the whole name if there are none.
 fn day(recording: &str) -> &str {
     let digits = |part: &&str| part.len() >= 8 && part.bytes().all(|byte| byte.is_ascii_digit());
     recording.split('_').find(digits).map_or(recording, |part| &part[..8])

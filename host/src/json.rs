@@ -1,7 +1,7 @@
-//! The JSON objects that every command prints alike.
+//! JSON objects shared by all commands.
 //!
-//! Lengths in taxels and, with `_mm`, in millimetres where the garment knows its pitch; angles in radians,
-//! times in seconds, pressure in counts. Floats are finite or `null`.
+//! Lengths are in taxels and, with `_mm`, in millimetres if the garment has a pitch; angles in radians, times
+//! in seconds, pressure in counts. Floats are finite or `null`.
 
 use serde_json::{Map, Value, json};
 use taxel_core::body::Placed;
@@ -11,7 +11,7 @@ use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{BUILT_IN, Base};
 
-/// A contact with its shape and place; `unsure`: it may be drift.
+/// Encodes a contact with its shape and place. `unsure`: it may be drift.
 pub fn contact(placed: &Placed, layout: &Layout, unsure: bool) -> Value {
     let Placed { contact, shape, region } = placed;
     let area = layout.areas().get(usize::from(contact.panel));
@@ -57,13 +57,13 @@ pub fn contact(placed: &Placed, layout: &Layout, unsure: bool) -> Value {
     object
 }
 
-/// Distance of taxel centres in mm on a contact's panel; none where it is not known.
+/// Distance of taxel centres on a contact's panel, mm; none if unknown.
 fn pitch_mm(layout: &Layout, contact: &Contact) -> Option<[f64; 2]> {
     let pitch = layout.areas().get(usize::from(contact.panel))?.pitch_um;
     (!pitch.contains(&0)).then(|| pitch.map(|um| f64::from(um) / 1000.0))
 }
 
-/// The word for a phase.
+/// Name of a phase.
 pub fn phase(phase: Phase) -> &'static str {
     match phase {
         Phase::Onset => "onset",
@@ -72,7 +72,7 @@ pub fn phase(phase: Phase) -> &'static str {
     }
 }
 
-/// What the touch means: the leading intention and the activation of each concept of the map.
+/// Encodes the leading intention and the activation of each concept of the map.
 pub fn intent(leading: Leading, names: &[Name], concepts: &[Q15]) -> Value {
     let concepts: Map<String, Value> =
         names.iter().zip(concepts).map(|(name, value)| (name.to_string(), json!(value.to_f64()))).collect();

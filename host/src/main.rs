@@ -1,4 +1,4 @@
-//! The program `taxel`: where it fails one sentence, and the exit status of [`taxel::fault`].
+//! The program `taxel`: prints one sentence about an error, and exits with the status of [`taxel::fault`].
 #![forbid(unsafe_code)]
 
 use std::io::{ErrorKind, Write};
@@ -18,17 +18,17 @@ fn main() -> ExitCode {
     }
 }
 
-/// How errors of the standard output begin.
+/// Beginning of errors about the standard output.
 const OUTPUT: &str = "the standard output cannot be written";
 
-/// Tells an error. Where nobody takes it, its status still says something.
+/// Prints an error. If that fails, the exit status still reports it.
 fn tell(error: anyhow::Error) -> ExitCode {
     _ = writeln!(std::io::stderr(), "error: {}", words::sentence(&error));
     ExitCode::from(fault::status(&error))
 }
 
-/// A broken pipe, or a full disk, that nobody has put into words is that of the standard output; those of links
-/// and files say which.
+/// Kind of a broken pipe or full disk without a context, which can only come from the standard output: errors
+/// of links and files have contexts.
 fn of_closed_output(error: &anyhow::Error) -> Option<ErrorKind> {
     let outermost = error.chain().next()?;
     let error = outermost.downcast_ref::<std::io::Error>()?;
@@ -36,8 +36,8 @@ fn of_closed_output(error: &anyhow::Error) -> Option<ErrorKind> {
     is_bare.then(|| error.kind())
 }
 
-/// `println!` panics when the reader of a pipe is gone (`taxel ... | head`), which is no fault, or where the
-/// disk is full.
+/// `println!` panics if the disk is full, or if the reader of a pipe has exited (`taxel ... | head`), which
+/// is not an error.
 fn leave_where_nobody_reads() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

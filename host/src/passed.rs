@@ -1,11 +1,11 @@
-//! Time that passes on a board, whose clock begins anew when it starts anew.
+//! Elapsed board time across restarts of the board's clock.
 
 use std::time::Duration;
 
-/// A clock that goes back by more has begun anew; messages may come in another order than that of their times.
+/// A larger step back is a restart; smaller ones are messages out of order.
 const ANEW: Duration = Duration::from_secs(1);
 
-/// The time that has passed since the first message.
+/// Time since the first message.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Passed {
     last: Option<u64>,
@@ -13,8 +13,8 @@ pub struct Passed {
 }
 
 impl Passed {
-    /// A message of this time, us of the board, has come: the time that has passed until then, us. By a start
-    /// none passes.
+    /// Handles a message's time, us of the board. Returns the time elapsed until then, us; a restart adds
+    /// none.
     pub fn until(&mut self, time_us: u64) -> u64 {
         let last = self.last.unwrap_or(time_us);
         self.us = self.us.saturating_add(time_us.saturating_sub(last));

@@ -1,4 +1,4 @@
-//! `taxel ports`: what is plugged in, and which of it is a board.
+//! `taxel ports`: lists what is plugged in, and which of it is a board.
 
 use crate::flash;
 use crate::source::{PortKind, ports};
@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 
-/// What `taxel ports` takes.
+/// Arguments of `taxel ports`.
 #[derive(Debug, Clone, Args)]
 pub struct PortsArgs {
     /// Print JSON instead of a table
@@ -36,7 +36,7 @@ pub fn run(args: &PortsArgs) -> Result<()> {
     Ok(())
 }
 
-/// What to do with what was found.
+/// Advice on what was found.
 fn advice(kinds: impl Iterator<Item = PortKind> + Clone, drives: usize) -> &'static str {
     let any = |kind| kinds.clone().any(|k| k == kind);
     match (any(PortKind::Board), any(PortKind::Probe), drives) {
@@ -46,7 +46,7 @@ fn advice(kinds: impl Iterator<Item = PortKind> + Clone, drives: usize) -> &'sta
         }
         (_, _, 1..) => "A board waits for its firmware: `taxel flash FILE.uf2`.",
         _ if kinds.clone().next().is_some() => {
-            "None of these says that it is a taxel board; over a plain UART adapter: `taxel live --source serial:PORT`."
+            "None of these identifies itself as a taxel board; over a UART adapter: `taxel live --source serial:PORT`."
         }
         _ => {
             "No serial port and no boot loader's drive: is the board plugged in, with a cable that carries data?"

@@ -1,4 +1,4 @@
-//! `taxel process`: the board's pipeline over recorded frames, one JSON object a frame.
+//! `taxel process`: runs the board's pipeline over recorded frames, one JSON object per frame.
 
 use crate::arrays::{self, Frames};
 use crate::doubts;
@@ -25,7 +25,7 @@ use taxel_core::scene::Scene;
 const TAXELS: usize = 16_384;
 type State = PipelineState<TAXELS, { TAXELS / 2 }>;
 
-/// What `taxel process` takes.
+/// Arguments of `taxel process`.
 #[derive(Debug, Clone, Args)]
 pub struct ProcessArgs {
     /// Recorded frames: .npy, .npz ([n, rows, columns] or [rows, columns]) or .csv
@@ -45,8 +45,8 @@ pub struct ProcessArgs {
     /// Take the mean of the first N frames as the baseline
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub tare: u16,
-    /// Forms (outline, azimuth, breadth, shape) that are looked at in a frame, in turn: 1 to 254, or all; a
-    /// board looks at 1
+    /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
+    /// 254, or all; on a board 1
     #[arg(long, value_name = "N", value_parser = forms, default_value = "all")]
     pub forms: u8,
     /// Print JSON, one object per frame
@@ -71,7 +71,7 @@ pub fn run(args: ProcessArgs) -> Result<()> {
     Ok(out.flush()?)
 }
 
-/// The arrays that are asked for, with their names.
+/// Reads the selected arrays, with their names.
 pub fn recordings(file: &Path, array: Option<&str>) -> Result<Vec<(String, Frames)>> {
     match array {
         Some(name) => Ok(vec![(name.to_string(), arrays::read(file, array)?)]),
@@ -123,7 +123,7 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     Ok(())
 }
 
-/// Tells what speaks against a recording.
+/// Prints warnings about a recording.
 fn doubt(place: &str, frames: &Frames, full_scale: u16) {
     let greatest = frames.values.iter().copied().max().unwrap_or(0);
     let start_up = doubts::start_ups([(place.to_string(), frames.iter())].into_iter());
@@ -138,7 +138,7 @@ fn array_of(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!(", array {name}") }
 }
 
-/// A frame as a line for people.
+/// Formats a frame as a line of text.
 fn line(object: &Value) -> String {
     let contacts = object["contacts"].as_array().map_or(&[][..], Vec::as_slice);
     let each = contacts.iter().map(|c| {
@@ -157,7 +157,7 @@ fn line(object: &Value) -> String {
     format!("frame {}: {leading}; {}", object["frame"], if all.is_empty() { "nothing touches" } else { &all })
 }
 
-/// A garment and a scene on the host: frames of values in, JSON objects out.
+/// A garment and a scene on the host: takes frames of values, returns JSON objects.
 pub struct Replay {
     layout: Layout,
     falling: bool,
@@ -170,7 +170,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// For a garment whose taxels have values up to `full_scale`.
+    /// A replay on a garment with values up to `full_scale`.
     pub fn new(garment: &Garment, scene: &Scene, full_scale: u16) -> Result<Replay> {
         let layout = Layout::build(garment, TAXELS, full_scale)?;
         let pipeline = Pipeline::build(scene, &layout)?;
@@ -191,7 +191,7 @@ impl Replay {
         })
     }
 
-    /// Perceives one frame: an object with time, contacts and intent.
+    /// Processes one frame. Returns an object with time, contacts and intent.
     pub fn frame(&mut self, values: &[u16], time: Micros) -> Value {
         let codes: Vec<Code> = values.iter().map(|value| Code(*value)).collect();
         let Replay { layout, falling, pipeline, state, names, leading, concepts, growths } = self;
@@ -208,7 +208,7 @@ impl Replay {
     }
 }
 
-/// What was perceived in a frame, but for its meaning.
+/// Encodes what was perceived in a frame, except for the intention.
 fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
     let contact = |(index, placed): (usize, &Placed)| {
         let mut object = json::contact(placed, layout, percept.unsure.is_unsure(index));

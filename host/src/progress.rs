@@ -1,32 +1,31 @@
-//! How far something is that takes long: on the standard error, where it is a terminal, from the third second
-//! on.
+//! Progress of long tasks, on standard error from the third second on, if it is a terminal.
 
 use crate::verbose;
 use std::fmt;
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
-/// What takes less time is not shown.
+/// Shorter tasks show no progress.
 const QUIET: Duration = Duration::from_secs(2);
-/// Time between two looks on a terminal, and between two lines with `-v` where there is none.
+/// Time between two updates on a terminal, or between two lines with `-v` without one.
 const LOOK: Duration = Duration::from_millis(200);
 const LINE: Duration = Duration::from_secs(10);
 
-/// What is counted.
+/// Unit of the progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Bytes, told in megabytes.
+    /// Bytes, shown in megabytes.
     Bytes,
     /// Frames.
     Frames,
-    /// Microseconds of a board, told in seconds.
+    /// Microseconds of a board, shown in seconds.
     BoardTime,
-    /// Steps of any kind, by their name.
+    /// Steps with this name.
     Steps(&'static str),
 }
 
 impl Unit {
-    /// So many of them, with their name.
+    /// Formats a count with its unit.
     fn told(self, count: f64) -> String {
         match self {
             Unit::Bytes => format!("{:.1} MB", count / 1e6),
@@ -36,7 +35,7 @@ impl Unit {
         }
     }
 
-    /// So many a second.
+    /// Formats a rate.
     fn rate(self, rate: f64) -> String {
         match self {
             Unit::BoardTime => format!("{:.1} x real time", rate / 1e6),
@@ -46,21 +45,21 @@ impl Unit {
     }
 }
 
-/// Shows how far something is. When it is dropped, the line on the terminal is cleared.
+/// Progress of a task. Dropping it clears the line on the terminal.
 #[derive(Debug)]
 pub struct Progress {
     what: String,
     unit: Unit,
     total: Option<u64>,
     began: Instant,
-    /// When to tell next, since it began; none: nobody sees it.
+    /// Time since the start at which the next update is due; none if it is not shown.
     due: Option<Duration>,
     terminal: bool,
     shown: bool,
 }
 
 impl Progress {
-    /// Of something that begins now; `total` is where it ends, if that is known.
+    /// Starts now; `total` is the final count, if known.
     pub fn of(what: impl fmt::Display, unit: Unit, total: Option<u64>) -> Progress {
         let terminal = stderr().is_terminal();
         let due = if terminal { Some(QUIET) } else { verbose::is_on().then_some(LINE) };
@@ -68,24 +67,24 @@ impl Progress {
         Progress { what: what.to_string(), unit, total, began: Instant::now(), due, terminal, shown: false }
     }
 
-    /// So many are done.
+    /// Updates the count.
     pub fn at(&mut self, done: u64) {
         if self.due.is_some() {
             self.say(|progress, passed| progress.line(&progress.unit.told(done as f64), done, passed));
         }
     }
 
-    /// So many are done, of which there is more to say.
+    /// Updates the count, and shows this text with it.
     pub fn told(&mut self, done: u64, text: impl FnOnce() -> String) {
         self.say(|progress, passed| progress.line(&text(), done, passed));
     }
 
-    /// Where it ends, which is known only now.
+    /// Sets the final count once it is known.
     pub fn expect(&mut self, total: u64) {
         self.total = Some(total).filter(|total| *total > 0);
     }
 
-    /// Clears the line: something else is going to be said.
+    /// Clears the line before other output.
     pub fn clear(&mut self) {
         if self.terminal && std::mem::take(&mut self.shown) {
             let _ = write!(stderr(), "\r\x1b[K");
@@ -98,13 +97,13 @@ impl Progress {
             return;
         }
         let line = line(self, passed);
-        // Nothing is lost where the standard error is gone.
+        // Errors are ignored: standard error may be closed.
         let _ = if self.terminal { write!(stderr(), "\r{line}\x1b[K") } else { writeln!(stderr(), "{line}") };
         self.due = Some(passed + if self.terminal { LOOK } else { LINE });
         self.shown = true;
     }
 
-    /// How far, how fast, and how long it still takes.
+    /// Formats share, speed and remaining time.
     fn line(&self, so_far: &str, done: u64, passed: Duration) -> String {
         let rate = done as f64 / passed.as_secs_f64().max(1e-9);
         let Some(total) = self.total else {
@@ -122,7 +121,7 @@ impl Drop for Progress {
     }
 }
 
-/// A time for people: `42 s`, `3 min 5 s`, `2 h 10 min`.
+/// Formats a time: `42 s`, `3 min 5 s`, `2 h 10 min`.
 fn time(seconds: f64) -> String {
     match seconds.ceil().min(1e9) as u64 {
         s @ 0..60 => format!("{s} s"),
@@ -141,7 +140,7 @@ mod tests {
         progress
     }
 
-    /// The line of a progress.
+    /// Formats the line of a progress.
     fn line(progress: &Progress, done: u64) -> String {
         progress.line(&progress.unit.told(done as f64), done, Duration::from_secs(4))
     }

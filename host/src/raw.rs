@@ -1,4 +1,4 @@
-//! A board that is asked for raw codes, and that wears what it is told meanwhile.
+//! A board that streams raw codes, and takes other garments meanwhile.
 
 use crate::client::{Client, Event, Worn, cleaned, scene_bytes};
 use crate::fault::Fault;
@@ -13,9 +13,9 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::Request;
 
-/// How long a board may say nothing that is waited for.
+/// Longest wait for an expected message.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Seconds that a simulation lasts: longer than anybody waits.
+/// Duration of a simulation, s: longer than anybody waits.
 const DAYS: f64 = 1e6;
 
 /// Raw codes of a frame.
@@ -23,35 +23,35 @@ const DAYS: f64 = 1e6;
 pub struct Codes {
     /// Start of the scan, us of the board.
     pub time_us: u64,
-    /// By taxel of the garment that is worn.
+    /// Codes by taxel of the current garment.
     pub codes: Vec<u16>,
 }
 
-/// A board that streams raw codes and nothing else. One that is dropped without [`RawBoard::leave`] or
-/// [`RawBoard::give_back`], be it by an error or Ctrl-C, gets the garment and the scene back that it had.
+/// A board that streams raw codes and nothing else. When dropped without [`RawBoard::leave`] or
+/// [`RawBoard::give_back`], by an error or Ctrl-C, it restores the board's garment and scene.
 pub struct RawBoard {
     session: Session,
     scene: Scene,
     garment: Garment,
-    /// Garment or scene are not what they are to be in the end.
+    /// Garment or scene are not the final ones.
     borrowed: bool,
-    /// Nothing ends it now.
+    /// Ctrl-C is ignored while the board is being restored.
     leaving: bool,
 }
 
 impl RawBoard {
-    /// Connects and asks for raw codes. A board with a scene of its own gets it back by [`RawBoard::leave`].
+    /// Connects and requests raw codes. [`RawBoard::leave`] restores the board's own scene.
     pub fn open(spec: &SourceSpec) -> Result<RawBoard> {
         stop::catch()?;
         RawBoard::on(source::open(spec, &RawBoard::options())?)
     }
 
-    /// With which its source is to be opened.
+    /// Options with which its source is opened.
     pub fn options() -> SourceOptions {
         SourceOptions { seconds: Some(DAYS), ..SourceOptions::default() }
     }
 
-    /// The same over a source that is open.
+    /// Requests raw codes from an open source.
     pub fn on(source: Source) -> Result<RawBoard> {
         let mut session = Session::new(source, Returns::Within(PATIENCE));
         session.parts().0.start(0)?;
@@ -71,17 +71,17 @@ impl RawBoard {
         Ok(board)
     }
 
-    /// What it is, in a few words.
+    /// Short name of the source.
     pub fn label(&self) -> &str {
         &self.session.source().label
     }
 
-    /// The garment that it wore when it was found.
+    /// The garment that the board had at the start.
     pub fn garment(&self) -> &Garment {
         &self.garment
     }
 
-    /// Puts a garment on; an error is the board's own where it refuses.
+    /// Sends a garment. Error if the board refuses it.
     pub fn wear(&mut self, garment: &Garment) -> Result<()> {
         let bytes = postcard::to_allocvec(garment).context("the garment cannot be written")?;
         self.ask(&Request::SetGarment(&bytes))?;
@@ -90,35 +90,35 @@ impl RawBoard {
         self.until("the new garment", |client, _| client.worn().is_some_and(|worn| worn.garment == told))
     }
 
-    /// Gives the board a garment, and its own scene back.
+    /// Sends a garment, and restores the board's own scene.
     pub fn leave(&mut self, garment: &Garment) -> Result<()> {
         self.wear(garment)?;
         self.give_back()
     }
 
-    /// Gives the board its own scene back; garment and gains stay.
+    /// Restores the board's own scene; garment and gains stay.
     pub fn give_back(&mut self) -> Result<()> {
         self.use_for(&self.scene.clone())?;
         self.borrowed = false;
         Ok(())
     }
 
-    /// What the board says of itself.
+    /// The board's last `Hello`.
     pub fn worn(&self) -> Option<&Worn> {
         self.session.client().worn()
     }
 
-    /// Taxels that are ill, as told last.
+    /// Faulty taxels, by the latest report.
     pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
         self.session.client().ill()
     }
 
-    /// The temperature of its converter as told last, degrees Celsius; none: it has no thermometer.
+    /// Latest temperature of its converter, degrees Celsius; none if it has no thermometer.
     pub fn celsius(&self) -> Option<f64> {
         self.session.client().celsius().map(|celsius| celsius.to_f64())
     }
 
-    /// The next frame.
+    /// Reads the next frame.
     pub fn frame(&mut self) -> Result<Codes> {
         let mut time_us = 0;
         self.until("raw codes", |_, event| match event {
@@ -135,7 +135,7 @@ impl RawBoard {
         self.ask(&Request::SetScene(&scene_bytes(scene)?))
     }
 
-    /// Makes a request and waits for its answer.
+    /// Sends a request and waits for its answer.
     pub fn ask(&mut self, request: &Request<'_>) -> Result<()> {
         let number = request.number();
         self.session.request(request)?;
@@ -153,7 +153,7 @@ impl RawBoard {
         }
     }
 
-    /// Reads until an event is the one.
+    /// Reads until an event meets the condition.
     fn until(&mut self, what: &str, mut is_it: impl FnMut(&Client, &Event) -> bool) -> Result<()> {
         let began = Instant::now();
         loop {
@@ -175,7 +175,7 @@ impl RawBoard {
             if turn == Turn::End {
                 bail!(Fault::board(format!("{label} ended before {what} came")));
             }
-            // A board that is gone is waited for on its own.
+            // The session itself limits the wait for a lost board.
             if began.elapsed() > PATIENCE && turn != Turn::Waiting && !self.session.client().is_restoring() {
                 let seconds = PATIENCE.as_secs();
                 bail!(Fault::board(format!("{label}: {what} did not come in {seconds} s")));
@@ -190,13 +190,13 @@ impl Drop for RawBoard {
         if self.borrowed && !self.session.is_gone() {
             let garment = self.garment.clone();
             let worn = self.worn().is_some_and(|worn| worn.garment == garment);
-            // Whoever was told of an error is not told of another one.
+            // An error has been reported already.
             let _ = if worn { self.give_back() } else { self.leave(&garment) };
         }
     }
 }
 
-/// Raw codes, as many as the link takes; nothing that names a region, which the garment may not have.
+/// Scene with raw codes, as many as the link takes. It names no region, because the garment may not have it.
 fn raw_scene() -> Scene {
     let shipped = Scene::shipped();
     let stream = StreamConfig {

@@ -1,4 +1,4 @@
-//! `taxel info --repair`: what can be read of a recording, written to another file.
+//! `taxel info --repair`: writes what can be read of a recording to another file.
 
 use crate::output::{Force, Output};
 use crate::recording::{self, Scan};
@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// What `taxel info` takes for a repair.
+/// Arguments of `taxel info` for a repair.
 #[derive(Debug, Clone, Default, Args)]
 pub struct RepairArgs {
     /// Write all that can be read to another file, with an end: after a kill, a power cut or damage
@@ -21,14 +21,14 @@ pub struct RepairArgs {
     /// With --repair: replace the recording itself, when the repaired one is complete
     #[arg(long, requires = "repair")]
     pub in_place: bool,
-    /// Whether another file is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
 
 impl RepairArgs {
-    /// Writes the repaired file, and says so; its name. A whole file stays as it is, and is copied only where a
-    /// name for the copy was given.
+    /// Writes the repaired file, and reports it. Returns its name. An intact file stays as it is; it is
+    /// copied only if an output was named.
     pub fn run(&self, file: &Path) -> Result<PathBuf> {
         let shown = file.display();
         let before = state(file);
@@ -51,7 +51,7 @@ impl RepairArgs {
             recording::repair(file, &scan, &mut draft)?;
         }
         if self.in_place && state(file) != before {
-            bail!("{shown} has grown meanwhile: it is being recorded; repair it when that has ended");
+            bail!("{shown} is still being recorded: repair it when the recording has ended");
         }
         draft.keep()?;
         eprintln!("{shown}: {}; written to {}.", found(&scan), name.display());
@@ -59,13 +59,13 @@ impl RepairArgs {
     }
 }
 
-/// Length and time of a file, by which it is seen that somebody writes it.
+/// Length and modification time of a file, to detect that it is still being written.
 fn state(file: &Path) -> Option<(u64, SystemTime)> {
     let known = fs::metadata(file).ok()?;
     Some((known.len(), known.modified().ok()?))
 }
 
-/// What was found in a file, in words.
+/// Describes the damage of a file.
 pub fn found(scan: &Scan) -> String {
     let mut words = Vec::new();
     let (chunks, bytes) = scan.damaged();
@@ -76,18 +76,18 @@ pub fn found(scan: &Scan) -> String {
         words.push(format!("{bytes} bytes are damaged"));
     }
     if scan.corrected > 0 {
-        let (s, stand) = if scan.corrected == 1 { ("", "stands") } else { ("s", "stand") };
-        words.push(format!("{} record{s} that {stand} wrong can be put right", scan.corrected));
+        let (s, stand) = if scan.corrected == 1 { ("", "has an error") } else { ("s", "have errors") };
+        words.push(format!("{} record{s} that {stand} can be corrected", scan.corrected));
     }
     if !scan.ended {
         words.push(format!("without its end, {} bytes torn", scan.torn));
     }
     if scan.foreign > 0 {
-        words.push(format!("{} chunks of a compression or a size that is not read here", scan.foreign));
+        words.push(format!("{} chunks with an unsupported compression or size", scan.foreign));
     }
     match (words.is_empty(), scan.whole) {
         (true, true) => "whole".into(),
-        (true, false) => "its end does not tell what is in it".into(),
+        (true, false) => "its summary is damaged or does not match its contents".into(),
         _ => words.join(", "),
     }
 }

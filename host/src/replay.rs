@@ -1,4 +1,4 @@
-//! `taxel replay`: a recording as if its board were there; `--source replay:FILE` does the same for every
+//! `taxel replay`: plays a recording as if its board were connected; `--source replay:FILE` does so for every
 //! other command.
 
 use crate::live::{self, LiveArgs};
@@ -8,7 +8,7 @@ use clap::Args;
 use std::io::{IsTerminal, stdout};
 use std::path::PathBuf;
 
-/// What `taxel replay` takes.
+/// Arguments of `taxel replay`.
 #[derive(Debug, Clone, Args)]
 pub struct ReplayArgs {
     /// Recording: .mcap

@@ -1,4 +1,4 @@
-//! `taxel reset-settings`: a board begins with what ships, and keeps aside what was saved to it.
+//! `taxel reset-settings`: restarts a board with the shipped settings, and keeps its saved ones aside.
 
 use crate::client::{Client, Event};
 use crate::fault::Fault;
@@ -15,14 +15,14 @@ pub struct ResetSettingsArgs {
     /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Use again what was put aside
+    /// Use the settings that were kept aside
     #[arg(long)]
     pub undo: bool,
 }
 
-/// Longest time until the board has answered.
+/// Longest wait for the answer.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Number of the answer to a request that the board could not read.
+/// Request number in the answer to an unreadable request.
 const UNREADABLE: u8 = 255;
 
 /// Runs the command.
@@ -32,19 +32,19 @@ pub fn run(args: &ResetSettingsArgs) -> Result<()> {
     let mut asking = Asking { undo: args.undo, begun: Instant::now(), asked: false, done: false };
     live::watch(&LiveArgs::of(args.source.clone()), source, &mut asking)?;
     if !asking.done {
-        bail!(Fault::board(format!("{label} ended before it had answered")));
+        bail!(Fault::board(format!("{label} ended before the board had answered")));
     }
     match args.undo {
-        true => println!("{label} starts again with the settings that were saved to it."),
+        true => println!("{label} restarts with its saved settings."),
         false => println!(
-            "{label} starts again with what ships. Saved settings are kept aside until the next `taxel save`; \
+            "{label} restarts with the shipped settings. Saved settings are kept aside until the next `taxel save`; \
              `taxel reset-settings --undo` uses them again."
         ),
     }
     Ok(())
 }
 
-/// Asks once the board is known, and waits for its answer.
+/// Sends the request once the board is known, and waits for its answer.
 struct Asking {
     undo: bool,
     begun: Instant,

@@ -1,4 +1,4 @@
-//! `taxel save`: what the board knows survives a restart.
+//! `taxel save`: saves a board's settings to its flash.
 
 use crate::client::{Client, Event};
 use crate::fault::Fault;
@@ -16,7 +16,7 @@ pub struct SaveArgs {
     pub board: BoardArgs,
 }
 
-/// Longest time from a request to its answer.
+/// Longest wait for an answer.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Runs the command.
@@ -27,13 +27,13 @@ pub fn run(args: SaveArgs) -> Result<()> {
     let mut saving = Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false };
     live::watch(&LiveArgs::on(args.board), source, &mut saving)?;
     if !saving.done {
-        bail!(Fault::board(format!("{label} ended before it had stored its settings")));
+        bail!(Fault::board(format!("{label} ended before the board had saved its settings")));
     }
-    println!("{label} has stored garment, scene, gains and baseline: they survive a restart.");
+    println!("{label} has saved garment, scene, gains and baseline to its flash.");
     Ok(())
 }
 
-/// Waits for what is to be done before, asks for the save, and waits for that.
+/// Waits until earlier requests are done, requests the save, and waits for its answer.
 struct Saving {
     /// A tare is under way.
     waits_for: bool,

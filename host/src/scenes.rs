@@ -1,4 +1,4 @@
-//! `taxel scenes`: the scripts of touches that the simulated board can play.
+//! `taxel scenes`: lists the scripts of touches that the simulated board can play.
 
 use crate::sim::{self, SceneInfo};
 use anyhow::Result;
@@ -29,7 +29,7 @@ pub fn report(scenes: &[SceneInfo]) -> Value {
     scenes.iter().map(scene).collect()
 }
 
-/// The readable form: one line for each scene.
+/// Readable form: one line for each scene.
 pub fn table(scenes: &[SceneInfo]) -> String {
     let width = scenes.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
     let line = |s: &SceneInfo| format!("{:width$}  {:>5.2} s  {}\n", s.name, s.duration, s.title);

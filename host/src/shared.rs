@@ -1,9 +1,9 @@
-//! A value that threads share, and that one may wait for another to change.
+//! A value shared by threads, with waiting for changes.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// The value; a thread that panicked leaves it as it was.
+/// The value. A panic of another thread does not poison it.
 #[derive(Debug, Default)]
 pub struct Shared<T> {
     value: Mutex<T>,
@@ -16,13 +16,13 @@ impl<T> Shared<T> {
         self.value.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes it, and wakes who waits.
+    /// Changes the value, and wakes all waiting threads.
     pub fn change(&self, change: impl FnOnce(&mut T)) {
         change(&mut self.lock());
         self.wake();
     }
 
-    /// Wakes who waits.
+    /// Wakes all waiting threads.
     pub fn wake(&self) {
         self.changed.notify_all();
     }

@@ -1,40 +1,40 @@
-//! How a board came to start, in words.
+//! Causes of a board's start, in words.
 
 use taxel_core::boot::{Aside, Boot, BootCause};
 
-/// What started it.
+/// Cause of the start.
 pub fn cause(boot: &Boot) -> &'static str {
     match boot.cause {
-        BootCause::Power => "the power came",
+        BootCause::Power => "power-up",
         BootCause::Pin => "the reset pin",
         BootCause::Watchdog => "the watchdog: its loop hung",
         BootCause::Panic => "a panic of its program",
-        BootCause::Request => "a host asked for it",
+        BootCause::Request => "a host's request",
         BootCause::Other => "something else, as after flashing",
     }
 }
 
-/// Why what was saved is not in force; none: it is.
+/// Why saved settings are not in use; none if they are.
 pub fn aside(boot: &Boot) -> Option<&'static str> {
     match boot.aside {
         Aside::No => None,
-        Aside::Resets => Some("the board had reset itself three times without a minute of life"),
-        Aside::Pin => Some("its pin for that was grounded"),
+        Aside::Resets => Some("the board had reset itself three times without running for a minute"),
+        Aside::Pin => Some("its reset-settings pin was grounded"),
         Aside::Request => Some("`taxel reset-settings` has put them aside"),
     }
 }
 
-/// Whether it reset itself.
+/// True if the board reset itself.
 pub fn is_fault(boot: &Boot) -> bool {
     matches!(boot.cause, BootCause::Watchdog | BootCause::Panic)
 }
 
-/// A sentence where something is to be said.
+/// Remark on an unusual start.
 pub fn remark(boot: &Boot) -> Option<String> {
     let cause = cause(boot);
     match (aside(boot), is_fault(boot)) {
         (Some(why), _) => {
-            Some(format!("started ({cause}) with what ships; saved settings are kept aside: {why}"))
+            Some(format!("started ({cause}) with the shipped settings; saved ones are kept aside: {why}"))
         }
         (None, true) => Some(format!("started again ({cause})")),
         (None, false) => None,
@@ -54,8 +54,8 @@ mod tests {
         assert_eq!(of(BootCause::Panic, Aside::No).unwrap(), "started again (a panic of its program)");
         assert_eq!(
             of(BootCause::Watchdog, Aside::Resets).unwrap(),
-            "started (the watchdog: its loop hung) with what ships; saved settings are kept aside: the board had \
-             reset itself three times without a minute of life"
+            "started (the watchdog: its loop hung) with the shipped settings; saved ones are kept aside: the board \
+             had reset itself three times without running for a minute"
         );
         assert!(of(BootCause::Power, Aside::Pin).is_some() && of(BootCause::Power, Aside::Request).is_some());
     }

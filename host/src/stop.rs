@@ -1,4 +1,4 @@
-//! Ctrl-C, for commands that have to put something back before they end.
+//! Ctrl-C, for commands that have to restore something before they end.
 
 use anyhow::{Result, anyhow, bail};
 use std::sync::OnceLock;
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C is told by [`asked`] and [`check`]; a second one ends the program as it stands.
+/// From now on [`asked`] and [`check`] report Ctrl-C; a second one ends the program at once.
 pub fn catch() -> Result<()> {
     static CAUGHT: OnceLock<Result<(), ctrlc::Error>> = OnceLock::new();
     let told = || {
@@ -18,7 +18,7 @@ pub fn catch() -> Result<()> {
     caught.copied().map_err(|error| anyhow!("Ctrl-C cannot be caught: {error}"))
 }
 
-/// Whether Ctrl-C was pressed.
+/// True if Ctrl-C was pressed.
 pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }

@@ -1,7 +1,7 @@
-//! What is told on the standard error. Where nobody takes it (a log on a full disk) the command goes on: the
-//! standard library's macros of these names end the program then, and a recording with it.
+//! Macros for standard error that ignore write errors. The standard library's macros of these names panic if
+//! it cannot be written (a log on a full disk), and would end a recording.
 
-/// Tells a line.
+/// Prints a line.
 macro_rules! eprintln {
     ($($words:tt)*) => {{
         use std::io::Write as _;
@@ -9,7 +9,7 @@ macro_rules! eprintln {
     }};
 }
 
-/// Tells words without an end of the line.
+/// Prints text without a line end.
 macro_rules! eprint {
     ($($words:tt)*) => {{
         use std::io::Write as _;

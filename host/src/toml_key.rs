@@ -4,9 +4,9 @@ use crate::words::{Step, line_of};
 use anyhow::{Error, anyhow};
 use std::fmt::Display;
 
-/// An error about a key of a file, in one sentence: ``mine.toml, line 12, `blocks[3].input`: ...``. A path is
-/// keys with dots between them, and indices from 0; where the file does not say the whole path, the line is
-/// that of the part that it says.
+/// Error about a key of a file, in one sentence: ``mine.toml, line 12, `blocks[3].input`: ...``. A path is
+/// keys joined by dots, with indices from 0. If the file has only a part of the path, the line is that of
+/// this part.
 pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> Error {
     let steps: Vec<Step<'_>> = steps(path).collect();
     match line_of(text, &steps) {
@@ -15,7 +15,7 @@ pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> Error {
     }
 }
 
-/// `blocks[3].input` as `blocks`, 3, `input`.
+/// Splits `blocks[3].input` into `blocks`, 3, `input`.
 fn steps(path: &str) -> impl Iterator<Item = Step<'_>> {
     path.split(['.', '[']).map(|part| match part.strip_suffix(']').and_then(|index| index.parse().ok()) {
         Some(index) => Step::At(index),

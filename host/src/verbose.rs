@@ -1,4 +1,4 @@
-//! What the program does step by step, told on the standard error where `-v` asks for it.
+//! Steps of the program, printed to standard error with `-v`.
 
 use crate::words;
 use std::fmt::Display;
@@ -7,17 +7,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static ON: AtomicBool = AtomicBool::new(false);
 
-/// Tells from now on.
+/// Turns the output on.
 pub fn on() {
     ON.store(true, Ordering::Relaxed);
 }
 
-/// Whether somebody wants to be told.
+/// True if the output is on.
 pub fn is_on() -> bool {
     ON.load(Ordering::Relaxed)
 }
 
-/// Tells a step: `garment block-4x16 sent`.
+/// Prints a step: `garment block-4x16 sent`.
 pub fn tell(step: impl Display) {
     if ON.load(Ordering::Relaxed) {
         // Steps quote boards and files.
@@ -25,7 +25,7 @@ pub fn tell(step: impl Display) {
     }
 }
 
-/// Tells that a file is about to be read.
+/// Prints that a file is about to be read.
 pub fn reads(file: impl AsRef<Path>) {
     tell(format_args!("reads {}", file.as_ref().display()));
 }

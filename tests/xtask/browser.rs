@@ -1,22 +1,22 @@
-//! The page of `taxel view` in a browser, see tests/browser.
+//! Tests the page of `taxel view` in a browser, see tests/browser.
 
 use crate::targets::{End, shown, test_target};
 use crate::{install, paths, process};
 use std::path::Path;
 use std::process::Command;
 
-/// What a line of the log begins with that is measured.
+/// Prefix of log lines with measurements.
 const MEASURED: &str = "# view: ";
 
-/// Every test of the page; what it measured is shown.
+/// Runs all tests of the page, and prints their measurements.
 pub fn check(log: &Path) -> End {
     shown(measured(&[], log, &[])?)
 }
 
-/// What the tests in some files print, or in all.
+/// Measurements printed by the tests in some files; an empty list selects all files.
 pub fn measured(files: &[&str], log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     install::browser()?;
-    // The tests of the program are built together with it.
+    // The tests of the program are built along with it.
     if let Err(why) = process::run_into(test_target("program").arg("--no-run"), log) {
         return Ok(Err(why));
     }

@@ -1,28 +1,28 @@
-//! `cargo xtask campaign`: runs that take longer than a check may, each of which prints a table.
+//! `cargo xtask campaign`: long runs, each of which prints a table.
 
 use crate::{browser, paths, targets, ways};
 use std::path::{Path, PathBuf};
 
-/// What a run is.
+/// Kind of a run.
 #[derive(Debug, Clone, Copy)]
 enum Run {
-    /// Tests of the core whose names hold this.
+    /// Tests of the core whose names contain this.
     Core(&'static str),
-    /// Tests of the library whose names hold this.
+    /// Tests of the library whose names contain this.
     Library(&'static str),
     /// A module of the tests of the firmware image.
     Image(&'static str),
     /// A file of the tests of the page.
     Browser(&'static str),
-    /// Tests of Python whose names hold this.
+    /// Python tests whose names contain this.
     Python(&'static str),
-    /// Tests of files on a disk that fails.
+    /// Tests of files on a failing disk.
     Disk,
-    /// The image by each way of having a compiler.
+    /// The image by each toolchain.
     Ways,
 }
 
-/// The runs: each prints more where TAXEL_CAMPAIGN is set.
+/// The runs. Tests print more if TAXEL_CAMPAIGN is set.
 const RUNS: [(&str, Run, &str); 18] = [
     (
         "emulator-usb",
@@ -84,11 +84,11 @@ const RUNS: [(&str, Run, &str); 18] = [
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
 ];
 
-/// What the table begins with.
+/// Title of the table.
 const TITLE: &str =
     "Long runs on the emulated and the simulated board; `cargo xtask campaign --write` writes this.";
 
-/// Runs all of them, or `--only` one; `--write`: and writes what they print.
+/// Runs all of them, or `--only` one; `--write` also writes their output to the table.
 pub fn run(args: &[String]) -> Result<(), String> {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let (only, write) = match args[..] {
@@ -115,7 +115,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// What one of them prints.
+/// Output of a run.
 fn measured(run: Run, log: &Path) -> Result<String, String> {
     let _ = std::fs::remove_file(log);
     let longer = [("TAXEL_CAMPAIGN", "1")];
@@ -129,13 +129,13 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Ways => ways::measured(log),
     };
     let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;
-    // It does not belong into a table which files were written.
+    // Paths of written files do not belong into the table.
     let file = paths::target().display().to_string();
     let said = lines.iter().filter(|line| !line.is_empty() && !line.starts_with(&file));
     Ok(said.map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n"))
 }
 
-/// Puts what a run printed in the place of what it printed before.
+/// Replaces the output of a run in the table.
 fn note(what: &str, lines: &str) -> std::io::Result<()> {
     let before = std::fs::read_to_string(written())?;
     let mut table = TITLE.to_string();

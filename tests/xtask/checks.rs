@@ -1,5 +1,5 @@
-//! `cargo xtask test`: every check. Two run at a time: while one compiles on all cores the other mostly waits
-//! for cargo, and while one runs the emulator, which takes one core, the other has the rest.
+//! `cargo xtask test`: all checks, two at a time: while one compiles on all cores, the other mostly waits for
+//! cargo; while one runs the emulator, on one core, the other has the rest.
 
 use crate::counts::Counts;
 use crate::cross::Toolchain;
@@ -12,10 +12,10 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// A check appends what it prints to a log.
+/// A check. It appends its output to a log.
 type Check = fn(&Path) -> End;
 
-/// In the order in which they begin: what takes long or builds what others need first.
+/// Checks in starting order: long ones and those whose build products others need come first.
 const CHECKS: &[(&str, Check)] = &[
     ("fmt", fmt),
     ("test", test),
@@ -44,18 +44,18 @@ const CHECKS: &[(&str, Check)] = &[
     ("locks", compare_locks),
 ];
 
-/// What needs recordings, which only their owners have: an extra that is asked for.
+/// Checks that need recordings, which only their owners have; they run on request.
 const RECORDED: &[(&str, Check)] =
     &[("recorded", targets::recorded), ("emulator-recorded", targets::emulator_recorded)];
 
-/// Checks that run at a time.
+/// Checks at a time.
 const AT_ONCE: usize = 2;
 
-/// What the command line asks for.
+/// Options of the command line.
 struct Asked {
     checks: Vec<(&'static str, Check)>,
     may_miss: Vec<String>,
-    /// Whether the checks that need recordings were left out, as they were not asked for.
+    /// True if the checks that need recordings were not requested.
     left_out: bool,
 }
 
@@ -89,7 +89,7 @@ impl Asked {
     }
 }
 
-/// Runs the checks that `args` ask for. True: all is well.
+/// Runs the selected checks. Returns true if all is well.
 pub fn run(args: &[String]) -> Result<bool, String> {
     let asked = Asked::read(args)?;
     let logs = paths::target().join("xtask");
@@ -147,8 +147,8 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
     }
 }
 
-/// Cargo in a folder. What a later build would reuse takes longer to write than it is worth here, unless
-/// somebody asks for it.
+/// Cargo in a folder, without incremental builds unless the user enables them: writing their data takes
+/// longer than it saves here.
 pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     let mut command = Command::new("cargo");
     command.args(args).current_dir(folder);
@@ -175,7 +175,7 @@ fn clippy(log: &Path) -> End {
         .iter()
         .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
         .collect();
-    // Tests ask for all features; the program is also looked at as most people build it.
+    // Tests use all features; the program is also checked with its default features.
     let plain = ["--workspace", "--exclude", "taxel-tests"];
     Ok(run(&[WHOLE, &["--all-targets"]].concat())
         .and_then(|()| run(&[WHOLE, &apart].concat()))

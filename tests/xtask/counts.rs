@@ -1,15 +1,15 @@
-//! How many tests a program ran, from what it printed.
+//! Counts the tests that a program ran, from its output.
 
 use std::ops::AddAssign;
 
-/// Tests by their ends.
+/// Tests by result.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Counts {
     /// Tests that passed.
     pub passed: u32,
     /// Tests that failed.
     pub failed: u32,
-    /// Tests that were left out.
+    /// Tests that were skipped.
     pub skipped: u32,
 }
 
@@ -22,8 +22,8 @@ impl AddAssign for Counts {
 }
 
 impl Counts {
-    /// The sum over all `test result:` lines of cargo and all `# pass` lines of node in a log; none without
-    /// any.
+    /// Sum over all `test result:` lines of cargo and all `# pass` lines of node in a log; none if there are
+    /// no such lines.
     pub fn of(log: &str) -> Option<Counts> {
         let mut counts = Counts::default();
         let mut found = false;

@@ -1,46 +1,46 @@
-//! The compiler for the microcontroller.
+//! Compiler for the microcontroller.
 //!
-//! There are three ways to have one. Two build the compiler's library, too, and so without frame pointers:
-//! they would take one of the eight registers that most instructions of a Cortex-M0+ can name, and 3 to 6 %
-//! more cycles. That is what `cargo xtask firmware` does wherever it can: it asks rustup for the library's
-//! source, else apt-get for a compiler with source. Only where neither is to be had is the image built with
-//! the library that rustup has for the target. TAXEL_CROSS chooses a way by its name.
+//! There are three ways to get one. Two also build the compiler's library, and so without frame pointers:
+//! these would take one of the eight registers that most instructions of a Cortex-M0+ can address, and 3 to 6
+//! % more cycles. `cargo xtask firmware` prefers them: it asks rustup for the library's source, else apt-get
+//! for a compiler with source. If neither is available, it uses the library that rustup has for the target.
+//! TAXEL_CROSS selects a way by name.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
 
-/// The microcontroller's target.
+/// Target of the microcontroller.
 pub const TARGET: &str = "thumbv6m-none-eabi";
 
-/// What describes targets and builds the library is for nightly compilers, or for those that are told to be
-/// one.
+/// Makes a stable compiler accept the options for target descriptions and library builds, which are for
+/// nightly ones.
 const BOOTSTRAP: (&str, &str) = ("RUSTC_BOOTSTRAP", "1");
 
-/// Loops whose length is not known stay as they are: most are short here, and what leads into an unrolled one
-/// takes longer than it saves. That saves 1 % of a frame's cycles and 8 % of the image.
+/// Disables unrolling of loops with unknown length: most are short here, and the entry to an unrolled loop
+/// takes longer than it saves. This saves 1 % of a frame's cycles and 8 % of the image.
 const FLAGS: &str = "-Cllvm-args=-unroll-runtime=false";
 
-/// The oldest compiler that the sources are written for.
+/// Oldest supported compiler version.
 const OLDEST: (u32, u32) = (1, 95);
 
-/// How the compiler and its library come about.
+/// Origin of the compiler and its library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Rustup's compiler; the library is built from its source.
+    /// rustup's compiler; the library is built from source.
     RustSrc,
-    /// Debian's compiler; likewise.
+    /// Debian's compiler; the library is built from source.
     Debian,
-    /// Rustup's compiler and rustup's library for the target.
+    /// rustup's compiler and rustup's library for the target.
     Target,
 }
 
 impl Way {
-    /// All, the best first.
+    /// All ways, best first.
     pub const ALL: [Way; 3] = [Way::RustSrc, Way::Debian, Way::Target];
 
-    /// As TAXEL_CROSS names it.
+    /// Name, as in TAXEL_CROSS.
     pub fn name(self) -> &'static str {
         match self {
             Way::RustSrc => "rust-src",
@@ -49,7 +49,7 @@ impl Way {
         }
     }
 
-    /// The way that TAXEL_CROSS asks for.
+    /// The way that TAXEL_CROSS selects.
     fn asked() -> Result<Option<Way>, String> {
         let Some(name) = std::env::var_os("TAXEL_CROSS") else { return Ok(None) };
         let found = Way::ALL.into_iter().find(|way| name == way.name());
@@ -58,7 +58,7 @@ impl Way {
         })
     }
 
-    /// Installs what it takes.
+    /// Installs what the way needs.
     fn install(self) -> Result<(), String> {
         match self {
             Way::RustSrc => rustup(&["component", "add", "rust-src"]),
@@ -67,7 +67,7 @@ impl Way {
         }
     }
 
-    /// A compiler that is there already.
+    /// An installed compiler.
     fn installed(self) -> Option<Toolchain> {
         let roots = sysroots();
         let mut mine =
@@ -86,14 +86,14 @@ impl Way {
 pub struct Toolchain {
     way: Way,
     bin: PathBuf,
-    /// The description of the target for which the library is built, too; none: the library is there.
+    /// Target description if the library is built, too; none if the library is installed.
     described: Option<PathBuf>,
     linker: PathBuf,
 }
 
 impl Toolchain {
-    /// Finds one, or installs one: the way that TAXEL_CROSS names, else the best that can be had. A way that
-    /// only needs what is there goes before one as good for which something must be installed.
+    /// Finds or installs a toolchain: the way named by TAXEL_CROSS, else the best available. An installed way
+    /// is preferred to an equally good one that must be installed first.
     pub fn find() -> Result<Toolchain, String> {
         if let Some(way) = Way::asked()? {
             return Toolchain::by(way);
@@ -111,7 +111,7 @@ impl Toolchain {
         Err(format!("no compiler for {TARGET}: {}", why.join("; ")))
     }
 
-    /// Of one way, installed if it must be.
+    /// Toolchain of one way, installed if necessary.
     pub fn by(way: Way) -> Result<Toolchain, String> {
         if let Some(there) = way.installed() {
             return Ok(there);
@@ -120,7 +120,7 @@ impl Toolchain {
         way.installed().ok_or(format!("{}: no compiler that is new enough", way.name()))
     }
 
-    /// What it builds with, for people and for tables: only images of one compiler and one way are alike.
+    /// Description of the library, for tables: images are comparable only for the same compiler and way.
     pub fn library(&self) -> &'static str {
         match self.way {
             Way::Target => "rustup's library, with frame pointers",
@@ -128,12 +128,12 @@ impl Toolchain {
         }
     }
 
-    /// Where it builds: each way has a folder of its own, so that none finds what another has left.
+    /// Target folder; each way has its own, so that build products are not mixed.
     pub fn folder(&self) -> PathBuf {
         folder(self.way)
     }
 
-    /// `cargo SUBCOMMAND` for the target, in `folder`, whose manifest and configuration cargo finds by that.
+    /// `cargo SUBCOMMAND` for the target, in `folder` with its manifest and configuration.
     pub fn cargo(&self, subcommand: &str, folder: &Path) -> Command {
         let mut command =
             Command::new(self.bin.join(if subcommand == "clippy" { "cargo-clippy" } else { "cargo" }));
@@ -155,7 +155,7 @@ impl Toolchain {
         command
     }
 
-    /// Installs this toolchain's clippy where it is missing.
+    /// Installs this toolchain's clippy if it is missing.
     pub fn install_clippy(&self) -> Result<(), String> {
         if self.bin.join("cargo-clippy").exists() {
             return Ok(());
@@ -168,7 +168,8 @@ impl Toolchain {
     }
 }
 
-/// One at a time: two checks may miss the same thing at once, and of two downloads into one folder one fails.
+/// One at a time: two checks may miss the same component at once, and of two concurrent downloads to one
+/// folder one fails.
 fn rustup(args: &[&str]) -> Result<(), String> {
     static ONE: Mutex<()> = Mutex::new(());
     let _one = ONE.lock().unwrap_or_else(|broken| broken.into_inner());
@@ -178,13 +179,12 @@ fn rustup(args: &[&str]) -> Result<(), String> {
     process::output(&mut rustup).map(|_| ()).ok_or(format!("`{typed}` failed"))
 }
 
-/// Where images of a way are built.
+/// Build folder of a way.
 fn folder(way: Way) -> PathBuf {
     paths::cross_target().join(way.name())
 }
 
-/// The folders of all compilers that are new enough: the one in use first, then rustup's others, then the
-/// system's.
+/// Folders of all sufficiently new compilers: the one in use first, then rustup's others, then the system's.
 fn sysroots() -> Vec<PathBuf> {
     let mut compilers = vec![PathBuf::from("rustc")];
     let listed =
@@ -212,7 +212,7 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
     Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
 }
 
-/// rustc prints the folder of a target's library even when nothing is there.
+/// rustc prints the folder of a target's library even if it does not exist.
 fn has_target_library(root: &Path) -> bool {
     let files = std::fs::read_dir(root.join("lib/rustlib").join(TARGET).join("lib"));
     files.into_iter().flatten().flatten().any(|file| {
@@ -221,14 +221,13 @@ fn has_target_library(root: &Path) -> bool {
     })
 }
 
-/// Writes down what a compiler knows of the target, but that frame pointers are not wanted; the file is named
-/// as the target is.
+/// Writes the compiler's description of the target, without frame pointers, to a file named after the target.
 fn describe(root: &Path, way: Way) -> Option<PathBuf> {
     let print = ["-Zunstable-options", "--print", "target-spec-json", "--target", TARGET];
     let known =
         process::output(Command::new(root.join("bin/rustc")).args(print).env(BOOTSTRAP.0, BOOTSTRAP.1))?;
     let text = known.replace(r#""frame-pointer": "always""#, r#""frame-pointer": "may-omit""#);
-    // Cargo looks for it from another folder.
+    // Absolute, because cargo runs in another folder.
     let path = std::path::absolute(folder(way).join(TARGET).with_extension("json")).ok()?;
     if std::fs::read_to_string(&path).is_ok_and(|written| written == text) {
         return Some(path);

@@ -1,41 +1,41 @@
-//! What a 32-bit ELF file says of itself: what goes into flash, how much memory it takes, and what for.
+//! Reads 32-bit ELF files: contents of the flash, memory, sections and symbols.
 
-/// A loadable piece.
+/// A loadable segment.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Segment<'a> {
-    /// Where it is stored.
+    /// Load address (LMA).
     pub stored: u32,
-    /// Where it is when the program runs.
+    /// Run address (VMA).
     pub runs: u32,
-    /// What is stored.
+    /// Contents.
     pub bytes: &'a [u8],
-    /// Memory that it takes when the program runs.
+    /// Size in memory.
     pub memory: u32,
 }
 
-/// A part of the program.
+/// A section.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Section<'a> {
-    /// With a dot in front.
+    /// Name, with a leading dot.
     pub name: &'a str,
-    /// Whether it takes memory or flash, which notes for debuggers do not.
+    /// True if it takes memory or flash; false for debug information.
     pub allocated: bool,
-    /// Whether it is stored in the file, which zeros are not.
+    /// True if it is stored in the file; false for zeros.
     pub stored: bool,
-    /// Bytes.
+    /// Size, bytes.
     pub size: u32,
 }
 
 /// A function or a variable.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Symbol<'a> {
-    /// As the compiler wrote it.
+    /// Mangled name.
     pub name: &'a str,
     /// Index of its section.
     pub section: usize,
-    /// Where it is when the program runs.
+    /// Run address.
     pub address: u32,
-    /// Bytes.
+    /// Size, bytes.
     pub size: u32,
 }
 
@@ -44,7 +44,7 @@ const HEADERS_AT: usize = 28;
 const HEADER_SIZE_AT: usize = 42;
 const HEADER_COUNT_AT: usize = 44;
 
-/// The loadable pieces of a file; none if it is no such file.
+/// Loadable segments of a file; none if it is not a 32-bit ELF file.
 pub fn segments(file: &[u8]) -> Option<Vec<Segment<'_>>> {
     if !file.starts_with(b"\x7fELF\x01\x01") {
         return None;
@@ -77,20 +77,20 @@ const ZEROS: u32 = 8;
 const ALLOCATED: u32 = 2;
 const SYMBOL_SIZE: usize = 16;
 
-/// The section headers of a file.
+/// Section headers of a file.
 fn headers(file: &[u8]) -> Option<Vec<&[u8]>> {
     let start = word(file, SECTIONS_AT)? as usize;
     let size = half(file, SECTION_SIZE_AT)?;
     (0..half(file, SECTION_COUNT_AT)?).map(|index| file.get(start + index * size..)).collect()
 }
 
-/// What a section header points at.
+/// Contents of a section.
 fn content<'a>(file: &'a [u8], header: &[u8]) -> Option<&'a [u8]> {
     let (offset, size) = (word(header, 16)? as usize, word(header, 20)? as usize);
     file.get(offset..offset + size)
 }
 
-/// The sections of a file, in their order.
+/// Sections of a file, in order.
 pub fn sections(file: &[u8]) -> Option<Vec<Section<'_>>> {
     let headers = headers(file)?;
     let names = content(file, headers.get(half(file, SECTION_NAMES_AT)?)?)?;
@@ -105,7 +105,7 @@ pub fn sections(file: &[u8]) -> Option<Vec<Section<'_>>> {
     headers.iter().map(section).collect()
 }
 
-/// The compiler that a file was built by, and its version.
+/// Name and version of the compiler of a file.
 pub fn compiler(file: &[u8]) -> Option<&str> {
     let at = sections(file)?.iter().position(|section| section.name == ".comment")?;
     let notes = content(file, headers(file)?.get(at)?)?;
@@ -114,7 +114,7 @@ pub fn compiler(file: &[u8]) -> Option<&str> {
     Some(named.split(" (").next().unwrap_or(named))
 }
 
-/// The functions and variables of a file.
+/// Functions and variables of a file.
 pub fn symbols(file: &[u8]) -> Option<Vec<Symbol<'_>>> {
     let headers = headers(file)?;
     let table = headers.iter().find(|header| word(header, 4) == Some(SYMBOLS))?;
@@ -130,7 +130,7 @@ pub fn symbols(file: &[u8]) -> Option<Vec<Symbol<'_>>> {
     content(file, table)?.chunks_exact(SYMBOL_SIZE).map(symbol).collect()
 }
 
-/// A text that ends with a zero.
+/// A zero-terminated text.
 fn text(bytes: &[u8], at: u32) -> Option<&str> {
     let from = bytes.get(at as usize..)?;
     std::str::from_utf8(from.split(|byte| *byte == 0).next()?).ok()

@@ -1,11 +1,11 @@
-//! What is shown of the log of a check that failed.
+//! Excerpt of a failed check's log.
 
-/// Lines of its end.
+/// Lines from its end.
 const LAST: usize = 60;
-/// Lines of what one program of tests says of its failures.
+/// Lines of one test program's failures.
 const FAILURES: usize = 80;
 
-/// What each program of tests said of its failures, wherever that stands, and the end of the log.
+/// Failures of each test program, and the end of the log.
 pub fn excerpt(log: &str) -> String {
     let lines: Vec<&str> = log.lines().collect();
     let last = lines.len().saturating_sub(LAST);
@@ -21,7 +21,7 @@ pub fn excerpt(log: &str) -> String {
     shown.join("\n")
 }
 
-/// Where what is said of failures ends: behind cargo's sum of a program, or at node's next test.
+/// End of the text about failures: behind cargo's summary of a program, or at node's next test.
 fn end_of(lines: &[&str], begin: usize) -> usize {
     let rest = &lines[begin + 1..];
     let sum = rest.iter().position(|line| line.starts_with("test result: "));

@@ -1,4 +1,4 @@
-//! The firmware image: built, measured, run.
+//! Builds, measures and runs the firmware image.
 
 use crate::cross::Toolchain;
 use crate::{elf, install, paths, process, uf2};
@@ -8,23 +8,23 @@ use std::process::Command;
 
 const FLASH: u64 = 2048 * 1024 - 72 * 1024;
 const RAM: std::ops::Range<u32> = 0x2000_0000..0x2004_2000;
-/// Of that, what memory.x sets aside for the stack.
+/// Part of the RAM that memory.x reserves for the stack.
 const STACK: u64 = 48 * 1024;
 
 /// A finished image.
 #[derive(Debug)]
 pub struct Image {
-    /// For debug probes and the emulator.
+    /// ELF file for debug probes and the emulator.
     pub elf: PathBuf,
     uf2: PathBuf,
     flash: u64,
     ram: u64,
-    /// The compiler, and how its library came about.
+    /// Compiler, and origin of its library.
     pub compiler: String,
 }
 
 impl Image {
-    /// Bytes of flash, and of RAM before the stack.
+    /// Size of flash, and of RAM besides the stack, bytes.
     pub fn sizes(&self) -> [u64; 2] {
         [self.flash, self.ram]
     }
@@ -60,24 +60,24 @@ pub fn command(toolchain: &Toolchain) -> Command {
     toolchain.cargo("build", &paths::firmware())
 }
 
-/// The command that builds the image that measures.
+/// The command that builds the benchmark image.
 pub fn bench_command(toolchain: &Toolchain) -> Command {
     let mut cargo = command(toolchain);
     cargo.args(["--bin", "bench", "--features", "bench"]);
     cargo
 }
 
-/// The image that measures.
+/// Path of the benchmark image.
 pub fn bench_elf(toolchain: &Toolchain) -> PathBuf {
     toolchain.folder().join(crate::cross::TARGET).join("release/bench")
 }
 
-/// Writes the UF2 beside the ELF that was just built, and measures both.
+/// Writes the UF2 beside the built ELF, and measures both.
 pub fn measure(toolchain: &Toolchain) -> Result<Image, String> {
     let elf = toolchain.folder().join(crate::cross::TARGET).join("release/taxel-firmware");
     let read = |error: std::io::Error| format!("{}: {error}", elf.display());
     let file = std::fs::read(&elf).map_err(read)?;
-    let segments = elf::segments(&file).ok_or(format!("{} is no ELF file", elf.display()))?;
+    let segments = elf::segments(&file).ok_or(format!("{} is not an ELF file", elf.display()))?;
     let uf2 = elf.with_extension("uf2");
     std::fs::write(&uf2, uf2::file(&segments)?).map_err(|error| format!("{}: {error}", uf2.display()))?;
     let flash = segments.iter().map(|s| s.bytes.len() as u64).sum();
@@ -86,26 +86,26 @@ pub fn measure(toolchain: &Toolchain) -> Result<Image, String> {
     Ok(Image { elf, uf2, flash, ram, compiler })
 }
 
-/// What an image was built by: the compiler, as the image itself says, and how its library came about.
+/// Compiler of an image, as stored in it, and origin of its library.
 pub fn compiler(image: &Path, toolchain: &Toolchain) -> Result<String, String> {
     let file = std::fs::read(image).map_err(|error| format!("{}: {error}", image.display()))?;
     let compiler = elf::compiler(&file).ok_or(format!("{} does not name its compiler", image.display()))?;
     Ok(format!("{compiler}, {}", toolchain.library()))
 }
 
-/// The firmware as its lock file says; built at once where nothing has changed.
+/// Builds the firmware with its lock file; immediate if nothing has changed.
 pub fn image(toolchain: &Toolchain, log: &Path) -> Result<Image, String> {
     process::run_into(command(toolchain).arg("--locked"), log).and_then(|()| measure(toolchain))
 }
 
-/// The command that builds the core alone.
+/// The command that builds only the core.
 pub fn core_command(toolchain: &Toolchain) -> Command {
     let mut cargo = toolchain.cargo("build", &paths::root());
     cargo.args(["--package", "taxel-core"]);
     cargo
 }
 
-/// Builds the core alone.
+/// Builds only the core.
 pub fn build_core() -> Result<(), String> {
     process::run(&mut core_command(&Toolchain::find()?))
 }

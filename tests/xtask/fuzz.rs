@@ -1,16 +1,16 @@
-//! `cargo xtask fuzz`: each target of `fuzz/` for some minutes, with AddressSanitizer. What it finds on the way
-//! stays below the target folder; a defect becomes an input of the corpus, which `cargo test` replays.
+//! `cargo xtask fuzz`: runs each target of `fuzz/` for some minutes, with AddressSanitizer. The grown corpus
+//! stays in the target folder; a defect becomes an input of the corpus, which `cargo test` replays.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Minutes of a target where nobody says otherwise.
+/// Default minutes per target.
 const MINUTES: f64 = 10.0;
-/// Seconds that one input may take: more is a defect.
+/// Most seconds for one input; more is a defect.
 const PATIENCE: u32 = 10;
 
-/// What the command line asks for.
+/// Options of the command line.
 struct Asked {
     minutes: f64,
     targets: Vec<String>,
@@ -49,7 +49,7 @@ fn targets() -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// Runs the targets that are asked for. True: nothing was found.
+/// Runs the selected targets. Returns true if nothing was found.
 pub fn run(args: &[String]) -> Result<bool, String> {
     let asked = Asked::read(args)?;
     let nightly = ["run", "nightly", "rustc", "--version"];
@@ -65,7 +65,7 @@ pub fn run(args: &[String]) -> Result<bool, String> {
     Ok(found == 0)
 }
 
-/// Runs one target. True: nothing was found.
+/// Runs one target. Returns true if nothing was found.
 fn one(tool: &Path, target: &str, minutes: f64) -> Result<bool, String> {
     let folder = paths::target().join("fuzz");
     let grown = folder.join("corpus").join(target);
@@ -77,12 +77,12 @@ fn one(tool: &Path, target: &str, minutes: f64) -> Result<bool, String> {
     let mut command = Command::new("rustup");
     command.args(["run", "nightly"]).arg(tool).args(["fuzz", "run", target, "--fuzz-dir"]);
     command.arg(paths::fuzz().join("targets")).arg("--target-dir").arg(&folder);
-    // The first corpus takes what is found on the way.
+    // New inputs go to the first corpus.
     command.arg(&grown).arg(paths::fuzz().join("corpus").join(target)).arg("--");
     command.arg(format!("-max_total_time={}", (minutes * 60.0).ceil()));
     command.arg(format!("-timeout={PATIENCE}")).arg("-print_final_stats=1");
     command.arg(format!("-artifact_prefix={}/", findings.display()));
-    // Those of the cargo that runs this are of another compiler.
+    // These variables of the running cargo are for another compiler.
     command.env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN").current_dir(paths::root());
     let end = process::run_into(&mut command, &log);
     let said = std::fs::read_to_string(&log).unwrap_or_default();
@@ -101,13 +101,13 @@ fn one(tool: &Path, target: &str, minutes: f64) -> Result<bool, String> {
     }
 }
 
-/// The input that found something.
+/// Path of the input with a finding.
 fn unit(said: &str) -> Option<PathBuf> {
     let line = said.lines().rev().find_map(|line| line.split_once("Test unit written to "));
     line.map(|(_, path)| path.trim().into())
 }
 
-/// How many inputs were run.
+/// Number of executed inputs.
 fn executions(said: &str) -> &str {
     let line = said.lines().rev().find_map(|line| line.strip_prefix("stat::number_of_executed_units:"));
     line.map_or("?", str::trim)

@@ -1,28 +1,28 @@
-//! What is missing on the machine is installed where that is allowed, and otherwise named.
+//! Installs missing programs if permitted, else names them.
 
 use crate::process;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, MutexGuard};
 
-/// What apt-get offers for the cross build where rustup cannot add the target: a compiler with its library's
-/// source.
+/// Debian packages for the cross build if rustup cannot add the target: a compiler with the source of its
+/// library.
 pub const CROSS: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy", "lld"];
 
-/// What the emulator and the browser need.
+/// Debian packages for the emulator and the browser tests.
 pub const NODE: &[&str] = &["nodejs", "npm"];
 
-/// What shows the page of `taxel view`.
+/// Debian packages of the browser.
 pub const BROWSER: &[&str] = &["chromium"];
 
-/// Checks run two at a time; only one of them installs.
+/// Checks run two at a time; only one of them may install.
 static INSTALLING: Mutex<()> = Mutex::new(());
 
 fn alone() -> MutexGuard<'static, ()> {
     INSTALLING.lock().unwrap_or_else(|broken| broken.into_inner())
 }
 
-/// Installs Debian packages, or says what to type.
+/// Installs Debian packages, or returns the command to type.
 pub fn packages(names: &[&str]) -> Result<(), String> {
     let typed = format!("apt-get install {}", names.join(" "));
     if !is_root() || !process::exists("apt-get") {
@@ -34,7 +34,7 @@ pub fn packages(names: &[&str]) -> Result<(), String> {
     if process::output(&mut install).is_some() {
         return Ok(());
     }
-    // The lists may be too old to find the packages.
+    // The package lists may be outdated.
     process::output(&mut apt(&["update"]));
     process::output(&mut install).map(|_| ()).ok_or(format!("{typed} failed"))
 }
@@ -49,13 +49,13 @@ fn is_root() -> bool {
     process::output(Command::new("id").arg("-u")).as_deref() == Some("0")
 }
 
-/// Node and the emulator's packages.
+/// Installs Node and the emulator's packages.
 pub fn emulator() -> Result<(), String> {
     let _alone = alone();
     node(&crate::paths::emulator(), "rp2040js")
 }
 
-/// A browser without a screen, and Node with what drives it.
+/// Installs a headless browser, and Node with its driver.
 pub fn browser() -> Result<(), String> {
     let _alone = alone();
     if !process::exists("chromium") {
@@ -64,7 +64,7 @@ pub fn browser() -> Result<(), String> {
     node(&crate::paths::browser(), "ws")
 }
 
-/// Node, and the packages of a folder, of which `package` is one.
+/// Installs Node, and the packages of a folder, one of which is `package`.
 fn node(folder: &Path, package: &str) -> Result<(), String> {
     if !process::exists("node") || !process::exists("npm") {
         packages(NODE)?;
@@ -81,7 +81,7 @@ fn node(folder: &Path, package: &str) -> Result<(), String> {
     ))
 }
 
-/// An interpreter of Python that has the readers of recordings, in a folder of its own.
+/// Creates a Python environment with the readers of recordings, in a folder of its own.
 pub fn python() -> Result<PathBuf, String> {
     let _alone = alone();
     if !process::exists("python3") {
@@ -106,7 +106,7 @@ pub fn python() -> Result<PathBuf, String> {
     Ok(python)
 }
 
-/// A program of cargo's registry in this version, in a folder of its own.
+/// Installs a program from crates.io in this version, in a folder of its own.
 pub fn cargo_tool(name: &str, version: &str) -> Result<PathBuf, String> {
     let _alone = alone();
     let folder = crate::paths::target().join(format!("tools/{name}-{version}"));

@@ -1,17 +1,16 @@
-//! The firmware and what a fuzzer runs have lock files of their own. What is tested on the host must be what
-//! runs on the board and what is fuzzed: the core is built from the same versions of the same crates in all of
-//! them.
+//! The firmware and the fuzz targets have lock files of their own. The host tests must test what runs on the
+//! board and what is fuzzed: all build the core from the same versions of the same crates.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The crate whose dependencies must agree.
 const SHARED: &str = "taxel-core";
 
-/// A package as the lock files name it.
+/// Name and version of a package in a lock file.
 type Package<'a> = (&'a str, &'a str);
 
-/// Compares what the lock file of the root and that of a folder say of the core. Features may add crates on one
-/// side; what both hold must agree.
+/// Compares the core's dependencies in the lock file of the root and that of a folder. Features may add
+/// crates on one side; crates in both must have the same version.
 pub fn compare(root: &str, other: &str, folder: &str) -> Result<(), String> {
     let (here, there) = (closure(root)?, closure(other)?);
     let versions = |name: &str| {
@@ -29,7 +28,7 @@ pub fn compare(root: &str, other: &str, folder: &str) -> Result<(), String> {
     }
 }
 
-/// All that the core depends on.
+/// All dependencies of the core.
 fn closure(lock: &str) -> Result<BTreeSet<Package<'_>>, String> {
     let packages = packages(lock);
     let find = |name: &str, version: Option<&str>| {
@@ -42,7 +41,7 @@ fn closure(lock: &str) -> Result<BTreeSet<Package<'_>>, String> {
             continue;
         }
         for dependency in &packages[&package] {
-            // "name", or "name version" where the lock file holds several.
+            // "name", or "name version" if the lock file has several.
             let mut words = dependency.split(' ');
             let name = words.next().unwrap_or_default();
             open.push(find(name, words.next()).ok_or(format!("a lock file does not hold {dependency}"))?);
@@ -51,7 +50,7 @@ fn closure(lock: &str) -> Result<BTreeSet<Package<'_>>, String> {
     Ok(found)
 }
 
-/// Every package with its dependencies.
+/// All packages with their dependencies.
 fn packages(lock: &str) -> BTreeMap<Package<'_>, Vec<&str>> {
     let mut found = BTreeMap::new();
     for entry in lock.split("[[package]]").skip(1) {

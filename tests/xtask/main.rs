@@ -1,4 +1,4 @@
-//! `cargo xtask`: what cargo alone does not do. Runs without dependencies, so that it is built in a second.
+//! `cargo xtask`: tasks beyond cargo's. It has no dependencies, so that it builds in a second.
 
 mod browser;
 mod campaign;
@@ -30,32 +30,32 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   firmware [--write]    build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive;
-                        --write: and write down its sizes, docs/bench/sizes.txt
+                        --write: also write its sizes to docs/bench/sizes.txt
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   cycles [--json|--write]
-                        what the chain costs on the emulated board, beside its error; --write renews docs/bench
-  recorded [--all]      feed every recorded frame of pmatdata and smart_garment, or of every folder, through the pipeline
+                        cost and error of the chain on the emulated board; --write updates docs/bench
+  recorded [--all]      run the recorded frames of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
-                        the core beside imageproc, and OpenCV where Python has it: microseconds per panel
+                        compare the core with imageproc, and with OpenCV if Python has it: microseconds per panel
   campaign [--only NAME] [--write]
-                        long runs on the emulated and the simulated board; --write: and write down what they print, docs/bench/campaign.txt
+                        long runs on the emulated and the simulated board; --write: also write their output to docs/bench/campaign.txt
   fuzz [--minutes N] [TARGET...]
-                        each fuzz target, or these, for 10 minutes or N, with AddressSanitizer; needs a nightly compiler
+                        run each fuzz target, or these, for 10 minutes or N, with AddressSanitizer; needs a nightly compiler
   mutants [--count N] [--seed S] [--write]
-                        change the core and the store in N places (200), chosen by a seed, one at a time: do the tests notice?
-                        --write: and write it down, docs/bench/mutants.txt
-  soak [--minutes N]    boards that break and come back, recorded, watched and set anew for 20 minutes, or N: what grows, what is lost?
+                        mutation tests: change the core and the store at N places (200), chosen by a seed, one at a time
+                        --write: also write the result to docs/bench/mutants.txt
+  soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
-                        what dependencies are: sources, licences, advisories; and lists of them, target/sbom
+                        check dependencies: sources, licences, advisories; write lists of them to target/sbom
   test [--recorded] [--only NAME] [--may-miss NAME]
-                        every check, two at a time; one that cannot run fails the run, unless it is named as one that may be missing;
-                        --recorded, or TAXEL_DATA set to folders of recordings: and those that need recordings
+                        every check, two at a time; one that cannot run fails the run, unless it is named by --may-miss;
+                        --recorded, or TAXEL_DATA set to folders of recordings: also those that need recordings
 
 TAXEL_CROSS chooses the compiler for the board: rust-src, debian or target
 ";
 
-/// Builds the firmware, says how large it is, and writes that down if it is asked to.
+/// Builds the firmware, prints its size, and writes the table of sizes if requested.
 fn build_firmware(args: &[String]) -> Result<(), String> {
     let write = match args {
         [] => false,

@@ -1,31 +1,31 @@
-//! `cargo xtask mutants`: the contacts, the wire and the store, changed in some places chosen by a seed, one at
-//! a time. A change that no test notices shows what is not tested, or changes nothing; those that change
-//! nothing are explained in the table.
+//! `cargo xtask mutants`: mutation tests of the contacts, the wire and the store, at places chosen by a seed,
+//! one at a time. A mutant that no test notices shows a gap in the tests, or is equivalent; equivalent ones
+//! are explained in the table.
 
 use crate::{install, paths, process};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Changes where nobody says otherwise.
+/// Default number of mutants.
 const COUNT: usize = 200;
-/// What the table begins with.
+/// Title of the table.
 const TITLE: &str = "Changes that the tests notice; `cargo xtask mutants --write` writes this.";
-/// What the list of the others begins with.
+/// Title of the list of missed mutants.
 const MISSED: &str = "Not noticed, and why:";
-/// With this an explanation begins where no test can notice a change: it is not counted.
+/// Beginning of an explanation for an equivalent mutant, which is not counted.
 const EQUAL: &str = "changes nothing";
-/// Why, where nobody has said.
+/// Explanation if there is none.
 const UNEXPLAINED: &str = "not explained";
 
-/// A part that is changed, and the tests that should notice.
+/// A part to be mutated, and the tests that should notice.
 struct Part {
     name: &'static str,
     folder: &'static str,
     package: &'static str,
-    /// The test target beside those of the modules.
+    /// Test target besides the unit tests.
     target: &'static str,
-    /// What is in the names of its tests: the others take minutes, and look at something else.
+    /// Filters of test names; the other tests take minutes and test other parts.
     tests: &'static [&'static str],
 }
 
@@ -47,13 +47,13 @@ const PARTS: [Part; 3] = [
     Part { name: "store", folder: "store/src", package: "taxel-store", target: "settings", tests: &[""] },
 ];
 
-/// How changes ended, as cargo-mutants names the files that list them.
+/// Results, as cargo-mutants names the files that list them.
 const ENDS: [&str; 4] = ["caught", "missed", "timeout", "unviable"];
 
-/// Names of changes by how they ended.
+/// Names of mutants by result.
 type Ended = BTreeMap<&'static str, Vec<String>>;
 
-/// What the command line asks for.
+/// Options of the command line.
 #[derive(Debug, PartialEq, Eq)]
 struct Asked {
     count: usize,
@@ -81,7 +81,7 @@ impl Asked {
     }
 }
 
-/// Runs what the arguments ask for.
+/// Runs the selected mutants.
 pub fn run(args: &[String]) -> Result<(), String> {
     let asked = Asked::read(args)?;
     let tool = install::cargo_tool("cargo-mutants", "26.2.0").map_err(|why| format!("not run: {why}"))?;
@@ -106,7 +106,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// As many of each part, so that each is judged; the first take what is left.
+/// Equal numbers for each part, so that each is judged; the first ones get the remainder.
 fn shares(count: usize) -> [usize; PARTS.len()] {
     std::array::from_fn(|part| (count + PARTS.len() - 1 - part) / PARTS.len())
 }
@@ -115,19 +115,18 @@ fn written() -> PathBuf {
     paths::root().join("docs/bench/mutants.txt")
 }
 
-/// cargo-mutants on a part of the sources.
+/// cargo-mutants on one part of the sources.
 fn mutants(tool: &Path, part: &Part) -> Command {
     let mut command = Command::new(tool);
     command.args(["mutants", "--no-config", "--colors", "never", "--dir"]).arg(paths::root());
     command.args(["--package", part.package, "--file", &format!("{}/**", part.folder)]);
-    // What one change has built serves the next, and the next run: only what has changed is compiled, and
-    // quickly.
+    // Build products are reused for the next mutant and the next run: only changes are compiled, and quickly.
     command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "1");
     command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "0");
     command
 }
 
-/// The names of all changes of a part.
+/// Names of all mutants of a part.
 fn listed(tool: &Path, part: &Part) -> Result<Vec<String>, String> {
     let mut command = mutants(tool, part);
     let names = process::output(command.arg("--list"));
@@ -135,7 +134,7 @@ fn listed(tool: &Path, part: &Part) -> Result<Vec<String>, String> {
     Ok(names.lines().map(String::from).collect())
 }
 
-/// Tests those of the names.
+/// Tests the mutants with these names.
 fn tested(tool: &Path, part: &Part, names: &[String]) -> Result<Ended, String> {
     if names.is_empty() {
         return Ok(Ended::new());
@@ -148,7 +147,7 @@ fn tested(tool: &Path, part: &Part, names: &[String]) -> Result<Ended, String> {
     command.arg("--output").arg(&output).args(["--no-times", "--timeout-multiplier", "4"]);
     names.iter().for_each(|name| _ = command.arg("--re").arg(format!("^{}$", escaped(name))));
     command.args(["--", "--lib", "--test", part.target, "--"]).args(part.tests);
-    // It fails where a change is not noticed, too: what it lists counts.
+    // It also fails if a mutant is missed; only its lists matter.
     let end = process::run_into(&mut command, &log);
     let read = |end: &&'static str| {
         let text = std::fs::read_to_string(output.join(format!("mutants.out/{end}.txt"))).ok()?;
@@ -167,13 +166,13 @@ fn tested(tool: &Path, part: &Part, names: &[String]) -> Result<Ended, String> {
     }
 }
 
-/// A text as a regular expression that only it matches.
+/// A regular expression that matches exactly this text.
 fn escaped(text: &str) -> String {
     let special = |sign: char| !sign.is_alphanumeric() && !" _/:,<>'\"&=-%@;!#~`".contains(sign);
     text.chars().flat_map(|sign| special(sign).then_some('\\').into_iter().chain([sign])).collect()
 }
 
-/// Fisher and Yates, by the numbers of splitmix64.
+/// Fisher-Yates shuffle with splitmix64.
 fn shuffle<T>(list: &mut [T], seed: u64) {
     let mut state = seed;
     for end in (1..list.len()).rev() {
@@ -185,8 +184,8 @@ fn shuffle<T>(list: &mut [T], seed: u64) {
     }
 }
 
-/// How many of each part were noticed. A test that does not end notices, too; what does not compile is no
-/// change, and neither is what changes nothing.
+/// Number of noticed mutants by part. A test that does not end counts as noticed; mutants that do not compile
+/// and equivalent ones are not counted.
 fn table(ends: &[Ended], explained: &BTreeMap<String, String>) -> String {
     let row = |ended: &Ended| {
         let [caught, missed, timeout, unviable] = ENDS.map(|end| ended.get(end).map_or(0, Vec::len));
@@ -212,7 +211,7 @@ fn table(ends: &[Ended], explained: &BTreeMap<String, String>) -> String {
     text
 }
 
-/// Those that were not noticed, with what is known of them.
+/// The missed mutants with their explanations.
 fn missed(ends: &[Ended], explained: &BTreeMap<String, String>) -> String {
     let names = ends.iter().flat_map(|ended| ended.get("missed").into_iter().flatten());
     let lines = names.map(|name| {
@@ -222,7 +221,7 @@ fn missed(ends: &[Ended], explained: &BTreeMap<String, String>) -> String {
     format!("{MISSED}\n{}", lines.collect::<String>())
 }
 
-/// The explanations of a table by the lasting names of the changes.
+/// Explanations of a table, by the stable names of the mutants.
 fn explained(table: &str) -> BTreeMap<String, String> {
     let list = table.split_once(MISSED).map_or("", |(_, list)| list);
     let lines: Vec<&str> = list.lines().skip(1).collect();
@@ -230,7 +229,7 @@ fn explained(table: &str) -> BTreeMap<String, String> {
     lines.chunks(2).filter_map(pair).collect()
 }
 
-/// The name of a change without its line and column, which move.
+/// Name of a mutant without its line and column, which change.
 fn lasting(name: &str) -> String {
     let mut parts = name.splitn(4, ':');
     let (file, what) = (parts.next().unwrap_or_default(), parts.nth(2).unwrap_or_default());

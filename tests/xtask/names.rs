@@ -1,22 +1,22 @@
-//! The names that the compiler gives to functions and variables, as people write them.
+//! Demangles names of functions and variables.
 
-/// The path of a symbol, without the hash that ends it; as it stands where it is no path.
+/// Path of a symbol without its hash; other symbols are returned unchanged.
 pub fn path(symbol: &str) -> String {
     let Some(parts) = components(symbol) else { return symbol.to_string() };
     let parts: Vec<String> = parts.iter().filter(|part| !is_hash(part)).map(|part| plain(part)).collect();
     parts.join("::")
 }
 
-/// The crate that a symbol is of; none if the compiler or the linker made it up, or it is of C.
+/// Crate of a symbol; none for symbols of the compiler, the linker or C.
 pub fn of_crate(symbol: &str) -> Option<String> {
     if let Some(newer) = symbol.strip_prefix("_R") {
-        // The root of the path: "Cs", a hash, "_", the length and the name.
+        // Root of the path: "Cs", a hash, "_", the length and the name.
         let (_, rest) = newer.split_once("Cs")?.1.split_once('_')?;
         return Some(counted(rest)?.0.to_string());
     }
     let path = path(symbol);
     let (first, _) = path.split_once("::")?;
-    // "<&T as core": a trait that is implemented for all types belongs to the trait's crate.
+    // "<&T as core": a trait that is implemented for all types is attributed to the trait's crate.
     let of_type = first.trim_start_matches(['<', '&', '[', '(', '*']).trim_start_matches("mut ");
     let owner = of_type
         .split_once(" as ")
@@ -25,7 +25,7 @@ pub fn of_crate(symbol: &str) -> Option<String> {
     owner.chars().all(|c| c.is_alphanumeric() || c == '_').then(|| owner.to_string())
 }
 
-/// `_ZN`, then each part with its length before it, then `E`.
+/// Splits `_ZN`, each part behind its length, `E`.
 fn components(symbol: &str) -> Option<Vec<&str>> {
     let mut rest = symbol.strip_prefix("_ZN")?;
     let mut parts = Vec::new();
@@ -37,7 +37,7 @@ fn components(symbol: &str) -> Option<Vec<&str>> {
     Some(parts)
 }
 
-/// A text with its length before it, and what follows.
+/// Splits off a text behind its length.
 fn counted(text: &str) -> Option<(&str, &str)> {
     let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let length: usize = text.get(..digits)?.parse().ok()?;
@@ -48,7 +48,7 @@ fn is_hash(part: &str) -> bool {
     part.len() == 17 && part.starts_with('h') && part.chars().skip(1).all(|c| c.is_ascii_hexdigit())
 }
 
-/// The signs that a symbol cannot hold are spelt out.
+/// Replaces escape sequences of characters that a symbol cannot contain.
 fn plain(part: &str) -> String {
     const SPELT: [(&str, &str); 12] = [
         ("_$", "$"),

@@ -1,5 +1,5 @@
-//! Whether a panic is reachable from the core on the microcontroller: what the linker says of
-//! `firmware/examples/no_panic.rs`.
+//! Checks by linking `firmware/examples/no_panic.rs` that no panic is reachable from the core on the
+//! microcontroller.
 
 use crate::cross::Toolchain;
 use crate::targets::End;
@@ -7,15 +7,15 @@ use crate::{paths, process};
 use std::path::Path;
 use std::process::Command;
 
-/// What the linker says where a panic is reachable.
+/// The linker's message if a panic is reachable.
 const REACHABLE: &str = "undefined symbol: a_panic_is_reachable";
 
-/// It links, and with a panic that is reachable it does not, for that reason and no other.
+/// The example must link; with a reachable panic it must not, for this reason and no other.
 pub fn check(log: &Path) -> End {
     Ok(by(&Toolchain::find()?, log))
 }
 
-/// By one compiler.
+/// Checks with one compiler.
 pub fn by(toolchain: &Toolchain, log: &Path) -> Result<(), String> {
     if process::run_into(&mut command(toolchain), log).is_err() {
         let text = std::fs::read_to_string(log).unwrap_or_default();

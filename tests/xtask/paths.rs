@@ -1,4 +1,4 @@
-//! Where things lie.
+//! Paths of the repository and of build products.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ pub fn firmware() -> PathBuf {
     root().join("firmware")
 }
 
-/// What a fuzzer runs.
+/// The fuzz targets.
 pub fn fuzz() -> PathBuf {
     root().join("fuzz")
 }
@@ -24,7 +24,7 @@ pub fn emulator() -> PathBuf {
     root().join("tests/emulator")
 }
 
-/// What drives the page of `taxel view` in a browser.
+/// The browser tests of the page of `taxel view`.
 pub fn browser() -> PathBuf {
     root().join("tests/browser")
 }
@@ -34,12 +34,12 @@ pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// The folder of everything that is built for the microcontroller, a folder a way (see `cross`).
+/// Target folder for the microcontroller, with a folder for each toolchain (see `cross`).
 pub fn cross_target() -> PathBuf {
     target().join("firmware")
 }
 
-/// Where a run writes what it says, without what the last one said.
+/// Log of a run, emptied.
 pub fn log(name: &str) -> Result<PathBuf, String> {
     let folder = target().join("xtask");
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -1,4 +1,4 @@
-//! Running other programs.
+//! Runs other programs.
 
 use std::fs::File;
 use std::path::Path;
@@ -10,13 +10,13 @@ pub fn shown(command: &Command) -> String {
     words.map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
 }
 
-/// Runs a command in the open: its output is the user's.
+/// Runs a command with its output shown.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let status = command.status().map_err(|error| format!("{}: {error}", shown(command)))?;
     if status.success() { Ok(()) } else { Err(format!("{} failed ({status})", shown(command))) }
 }
 
-/// Runs a command quietly, appending all it says to a log file.
+/// Runs a command, and appends its output to a log file.
 pub fn run_into(command: &mut Command, log: &Path) -> Result<(), String> {
     let fail = |error: std::io::Error| format!("{}: {error}", log.display());
     let out = File::options().create(true).append(true).open(log).map_err(fail)?;
@@ -24,14 +24,14 @@ pub fn run_into(command: &mut Command, log: &Path) -> Result<(), String> {
     run(command.stdin(Stdio::null()).stdout(out).stderr(err))
 }
 
-/// What a command prints, if it succeeds.
+/// Output of a command, if it succeeds.
 pub fn output(command: &mut Command) -> Option<String> {
     let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_string())
 }
 
-/// Whether a program can be started.
+/// True if a program can be started.
 pub fn exists(program: &str) -> bool {
     output(Command::new(program).arg("--version")).is_some()
 }

@@ -1,22 +1,22 @@
-//! Where recordings lie: the folders of TAXEL_DATA, listed as PATH lists folders.
+//! Folders of recordings: TAXEL_DATA, a list like PATH.
 
 use std::ffi::{OsStr, OsString};
 
-/// The variable that lists them.
+/// Name of the variable.
 pub const VARIABLE: &str = "TAXEL_DATA";
 
-/// The list as tests can use it. An empty one is none.
+/// The list with absolute paths; none if it is empty.
 pub fn listed() -> Option<OsString> {
     absolute(&std::env::var_os(VARIABLE).filter(|listed| !listed.is_empty())?)
 }
 
-/// Cargo starts each test in its package's folder, so no entry may depend on where one stands.
+/// Cargo starts each test in its package's folder, so relative entries would not work.
 fn absolute(listed: &OsStr) -> Option<OsString> {
     let absolute = |folder| std::path::absolute(&folder).unwrap_or(folder);
     std::env::join_paths(std::env::split_paths(listed).map(absolute)).ok()
 }
 
-/// Whether every folder that is listed is there.
+/// Checks that every listed folder exists.
 pub fn at_hand() -> Result<(), String> {
     let listed = listed().ok_or_else(|| format!("{VARIABLE} lists no folders of recordings"))?;
     let missing = std::env::split_paths(&listed).find(|folder| !folder.is_dir());

@@ -1,19 +1,19 @@
-//! The end of each check, and of all.
+//! Results of the checks.
 
 use crate::counts::Counts;
 
-/// How a check ended.
+/// Result of a check.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// With so many tests, or as one.
+    /// Passed, with its number of tests.
     Passed(Counts),
-    /// With so many tests failed, and why.
+    /// Failed, with its number of tests, and why.
     Failed(Counts, String),
     /// It could not run, and why.
     NotRun(String),
 }
 
-/// All checks.
+/// Results of all checks.
 #[derive(Debug, Default)]
 pub struct Report {
     counts: Counts,
@@ -22,12 +22,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// Adds the end of a check.
+    /// Adds the result of a check.
     pub fn add(&mut self, name: &'static str, outcome: Outcome) {
         match outcome {
             Outcome::Passed(counts) => self.counts += counts,
             Outcome::Failed(mut counts, _) => {
-                // A check that fails without a failed test, by a warning or a panic, still counts as a failure.
+                // A check that fails without a failed test, by a warning or a panic, counts as one failure.
                 counts.failed = counts.failed.max(1);
                 self.counts += counts;
                 self.failed.push(name);
@@ -36,12 +36,12 @@ impl Report {
         }
     }
 
-    /// Whether everything passed and nothing is missing but what may be.
+    /// True if everything passed, and nothing is missing except for `may_miss`.
     pub fn succeeded(&self, may_miss: &[String]) -> bool {
         self.failed.is_empty() && self.missing.iter().all(|(name, _)| may_miss.iter().any(|may| may == name))
     }
 
-    /// The closing lines.
+    /// Summary of the results.
     pub fn closing(&self) -> String {
         let Counts { passed, failed, skipped } = self.counts;
         let why =

@@ -1,4 +1,4 @@
-//! The table of what takes how much flash and RAM, `docs/bench/sizes.txt`, and its comparison with an image.
+//! Table of the use of flash and RAM, `docs/bench/sizes.txt`, and its comparison with an image.
 
 use crate::elf::{self, Symbol};
 use crate::firmware::Image;
@@ -7,28 +7,27 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// A section may differ from the table by so many percent, and by so many bytes however small it is, if both
-/// are of one compiler.
+/// Tolerance for a section, per cent, and least tolerance, bytes, if both images are by the same compiler.
 const PERCENT: u32 = 2;
 const BYTES: u32 = 256;
-/// What an image of any compiler may take of flash and RAM, in KiB: a tenth of flash above the table, and 48
-/// KiB left for the stack.
+/// Limits of flash and RAM for any compiler, KiB: a tenth of flash above the table, and 48 KiB left for the
+/// stack.
 const MOST: [(&str, u64); 2] = [("flash", 528), ("RAM", 216)];
-/// Crates and symbols that are listed: the largest.
+/// Listed crates and symbols: the largest.
 const CRATES: usize = 12;
 const SYMBOLS: usize = 24;
-/// Where symbols belong whose names tell no crate: interrupts, arithmetic, copying.
+/// Group of symbols without a crate: interrupts, arithmetic, copying.
 const OTHERS: &str = "others";
-/// Tables and texts of the flash that have no symbol.
+/// Constants of the flash without a symbol.
 const UNNAMED: &str = "constants without a name";
-/// What stands before the name of the compiler.
+/// Prefix of the compiler's name.
 const COMPILER: &str = "Built by ";
-/// The heads of the three parts of the table.
+/// Headings of the three parts of the table.
 const SECTION: &str = "section";
 const CRATE: &str = "crate";
 const SYMBOL: &str = "symbol";
 
-/// Where the table lies.
+/// Path of the table.
 fn file() -> PathBuf {
     paths::root().join("docs/bench/sizes.txt")
 }
@@ -41,8 +40,8 @@ pub fn write(image: &Image) -> Result<(), String> {
     folder.and_then(|()| std::fs::write(&file, table)).map_err(|error| format!("{}: {error}", file.display()))
 }
 
-/// Holds an image against what any may take, and against the table: strictly if the table is of the same
-/// compiler, else the sections are returned beside the table's, for people.
+/// Checks an image against the limits, and against the table: strictly if the table is by the same compiler,
+/// else returns both tables' sections for comparison.
 pub fn check(image: &Image) -> Result<String, String> {
     for ((what, most), size) in MOST.into_iter().zip(image.sizes()) {
         if size > most * 1024 {
@@ -53,10 +52,10 @@ pub fn check(image: &Image) -> Result<String, String> {
     compare(&kept, &read(image)?)
 }
 
-/// The table of an image.
+/// Builds the table of an image.
 fn read(image: &Image) -> Result<String, String> {
     let bytes = std::fs::read(&image.elf).map_err(|error| format!("{}: {error}", image.elf.display()))?;
-    table(&bytes, &image.compiler).ok_or(format!("{} is no ELF file with symbols", image.elf.display()))
+    table(&bytes, &image.compiler).ok_or(format!("{} is not an ELF file with symbols", image.elf.display()))
 }
 
 fn table(image: &[u8], compiler: &str) -> Option<String> {
@@ -64,7 +63,7 @@ fn table(image: &[u8], compiler: &str) -> Option<String> {
     let mut symbols = elf::symbols(image)?;
     symbols.retain(|s| s.size > 0 && sections.get(s.section).is_some_and(|section| section.allocated));
     symbols.sort_by_key(|s| (s.address, s.size));
-    // Two names for one thing.
+    // Two names for one address.
     symbols.dedup_by_key(|s| s.address);
     let in_flash = |s: &Symbol| sections.get(s.section).is_some_and(|section| section.stored);
     let mut text = format!(
@@ -102,8 +101,8 @@ fn table(image: &[u8], compiler: &str) -> Option<String> {
     Some(text)
 }
 
-/// Whether the sections of two tables are about as large; each that is not is named. Tables of different
-/// compilers are put side by side.
+/// Compares the sections of two tables; the error names each that differs too much. Tables of different
+/// compilers are listed side by side.
 fn compare(kept: &str, found: &str) -> Result<String, String> {
     let compilers = [kept, found].map(compiler);
     let (kept, found) = (sections(kept), sections(found));
@@ -135,12 +134,12 @@ fn compare(kept: &str, found: &str) -> Result<String, String> {
     Err(format!("{}; `cargo xtask firmware --write` where that is meant", differ.join("; ")))
 }
 
-/// By whom a table says that its image was built.
+/// Compiler of a table's image.
 fn compiler(table: &str) -> &str {
     table.lines().find_map(|line| line.strip_prefix(COMPILER)).unwrap_or("an unknown compiler")
 }
 
-/// The first part of a table.
+/// First part of a table.
 fn sections(table: &str) -> BTreeMap<&str, u32> {
     let lines = table.lines().skip_while(|line| !line.starts_with(SECTION)).skip(1);
     let lines = lines.take_while(|line| !line.is_empty());

@@ -1,21 +1,21 @@
-//! `cargo xtask supply`: where dependencies come from, what their licences allow, what is known against them,
-//! and a list of them for each thing that is given away.
+//! `cargo xtask supply`: checks the dependencies' sources, licences and advisories, and writes a list of them
+//! for each deliverable.
 
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Packages with a lock of their own: the workspace, the image, the fuzzer's targets.
+/// Packages with a lock file: the workspace, the image, the fuzz targets.
 const LOCKED: [&str; 3] = ["Cargo.toml", "firmware/Cargo.toml", "fuzz/targets/Cargo.toml"];
-/// What cargo-deny is asked. The list of advisories is on the network; the rest needs nothing.
+/// Checks of cargo-deny. The advisories need the network, the others do not.
 const CHECKS: [&str; 4] = ["licenses", "sources", "bans", ADVISORIES];
 const ADVISORIES: &str = "advisories";
-/// What it says where that list cannot be had.
+/// Its message if the advisories are not available.
 const NO_LIST: &str = "failed to fetch advisory database";
-/// What is given away, and the folder of its lock.
+/// Deliverables, and the folders of their lock files.
 const GIVEN: [(&str, &str); 2] = [("taxel", "."), ("taxel-firmware", "firmware")];
 
-/// How a check ended.
+/// Result of a check.
 #[derive(Debug, PartialEq, Eq)]
 enum End {
     Passed,
@@ -23,7 +23,7 @@ enum End {
     NotRun,
 }
 
-/// Asks everything, and writes the lists. True: nothing is wrong, and all was asked, or what was not may be
+/// Runs all checks, and writes the lists. Returns true if nothing is wrong, and all checks ran or may be
 /// missed.
 pub fn run(args: &[String]) -> Result<bool, String> {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
@@ -59,7 +59,7 @@ impl End {
     }
 }
 
-/// Asks cargo-deny about the dependencies of a package.
+/// Runs cargo-deny on the dependencies of a package.
 fn asked(deny: &Path, manifest: &str, check: &str, log: &Path) -> End {
     let mut command = Command::new(deny);
     command.args(["--locked", "--manifest-path"]).arg(paths::root().join(manifest));
@@ -79,7 +79,7 @@ fn asked(deny: &Path, manifest: &str, check: &str, log: &Path) -> End {
     }
 }
 
-/// Writes the list of what a package is made of, in the form of CycloneDX.
+/// Writes the list of a package's dependencies, in CycloneDX format.
 fn listed(package: &str, folder: &str) -> Result<PathBuf, String> {
     let tool = install::cargo_tool("cargo-sbom", "0.10.0").map_err(|why| format!("not run: {why}"))?;
     let mut command = Command::new(tool);

@@ -1,5 +1,5 @@
-//! The test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, Python, or
-//! calls that fail.
+//! Test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, Python, or
+//! failing system calls.
 
 use crate::checks::cargo;
 use crate::cross::Toolchain;
@@ -7,31 +7,31 @@ use crate::{firmware, install, paths, process, recordings};
 use std::path::Path;
 use std::process::Command;
 
-/// How a check ends. `Err` of the outer result: it cannot run, and why.
+/// Result of a check; an outer error means that it cannot run, and why.
 pub type End<T = ()> = Result<Result<T, String>, String>;
 
-/// All of them by package; cargo passes them over even where it is asked for all targets.
+/// These targets by package; cargo skips them even if all targets are selected.
 pub const APART: &[(&str, &[&str])] =
     &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python", "disk"])];
 
-/// Minutes of a soak where nobody says otherwise.
+/// Default minutes of a soak.
 const SOAK_MINUTES: f64 = 20.0;
 
-/// What all of the workspace's builds have in common, so that none builds anew what another has built: cargo
-/// takes the features of dependencies from all packages and targets that it is asked for.
+/// Options shared by all builds of the workspace, so that they reuse each other's products: cargo unifies the
+/// features of dependencies over all selected packages and targets.
 pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
 
-/// The part of the tests on the emulated board that a module holds; what it measured is shown.
+/// Runs one module of the tests on the emulated board, and prints its measurements.
 pub fn on_emulator(module: &'static str, log: &Path) -> End {
     shown(measured(module, log, &[])?)
 }
 
-/// Lines of a check that are for people.
+/// Prints the lines of a check that are for people.
 pub fn shown(end: Result<Vec<String>, String>) -> End {
     Ok(end.map(|lines| lines.iter().filter(|line| !line.is_empty()).for_each(|line| println!("  {line}"))))
 }
 
-/// What a module of the tests on the emulated board printed.
+/// Output of one module of the tests on the emulated board.
 pub fn measured(module: &str, log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     install::emulator()?;
     let toolchain = Toolchain::find()?;
@@ -45,7 +45,7 @@ pub fn measured(module: &str, log: &Path, variables: &[(&str, &str)]) -> End<Vec
     Ok(printed("emulated", &[&format!("{module}::")], log, &variables))
 }
 
-/// What a test target printed, or the tests of it whose names hold one of `names`.
+/// Output of a test target, or of those of its tests whose names contain one of `names`.
 pub fn printed(
     target: &str,
     names: &[&str],
@@ -62,7 +62,7 @@ pub fn printed(
     end.map(|()| lines)
 }
 
-/// What the chain costs on the emulated board, against the bars and the table that was written.
+/// Compares the cost of the chain on the emulated board with the limits and with the table.
 pub fn cycles(log: &Path) -> End {
     install::emulator()?;
     let toolchain = Toolchain::find()?;
@@ -72,7 +72,7 @@ pub fn cycles(log: &Path) -> End {
     Ok(process::run_into(measuring(&toolchain)?.arg("--check"), log))
 }
 
-/// `cargo xtask cycles`: the table of what the chain costs on the emulated board.
+/// `cargo xtask cycles`: table of the chain's cost on the emulated board.
 pub fn show_cycles(args: &[String]) -> Result<(), String> {
     install::emulator()?;
     let toolchain = Toolchain::find()?;
@@ -80,7 +80,7 @@ pub fn show_cycles(args: &[String]) -> Result<(), String> {
     process::run(measuring(&toolchain)?.args(args))
 }
 
-/// The program that measures, up to its own options.
+/// The measuring program, without its own options.
 pub fn measuring(toolchain: &Toolchain) -> Result<Command, String> {
     let mut command = test_target("cycles");
     let image = firmware::bench_elf(toolchain);
@@ -89,24 +89,24 @@ pub fn measuring(toolchain: &Toolchain) -> Result<Command, String> {
     Ok(command)
 }
 
-/// Files and lines of the program as Python finds them; what was measured is shown.
+/// Checks files and lines of the program with Python, and prints the measurements.
 pub fn python(log: &Path) -> End {
     shown(read_by_python(&[], log, &[])?)
 }
 
-/// What Python found.
+/// Output of the Python tests.
 pub fn read_by_python(names: &[&str], log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     let python = install::python()?.to_string_lossy().into_owned();
     let variables = [variables, &[("TAXEL_PYTHON", python.as_str())]].concat();
     Ok(printed("python", names, log, &variables))
 }
 
-/// Every command that writes, on a disk that fails; what was tried is shown.
+/// Runs every command that writes on a failing disk, and prints what was tried.
 pub fn disk(log: &Path) -> End {
     shown(on_failing_disk(log, &[])?)
 }
 
-/// What was tried on a disk that fails.
+/// Output of the tests on a failing disk.
 pub fn on_failing_disk(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     if !cfg!(all(target_os = "linux", target_env = "gnu")) {
         return Err("a program's calls are made to fail on Linux with glibc alone".into());
@@ -117,7 +117,7 @@ pub fn on_failing_disk(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String
     Ok(printed("disk", &[], log, &[variables, &[("TAXEL_DISK", library.as_str())]].concat()))
 }
 
-/// `cargo xtask soak`: boards that break and come back, recorded, watched and set anew for minutes.
+/// `cargo xtask soak`: runs failing boards for minutes while they are recorded, watched and reconfigured.
 pub fn soak(args: &[String]) -> Result<(), String> {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let minutes = match args[..] {
@@ -134,19 +134,19 @@ pub fn soak(args: &[String]) -> Result<(), String> {
     process::run(&mut command)
 }
 
-/// Recordings through the pipeline, and recorded touches, recognised with people and days kept apart.
+/// Runs recordings through the pipeline, and evaluates recorded touches with people and days left out.
 pub fn recorded(log: &Path) -> End {
     recordings::at_hand()?;
     Ok(process::run_into(&mut test_target("recorded"), log))
 }
 
-/// Recordings on the emulated board and on this machine.
+/// Runs recordings on the emulated board and on this machine.
 pub fn emulator_recorded(log: &Path) -> End {
     recordings::at_hand()?;
     on_emulator("recorded", log)
 }
 
-/// `cargo xtask recorded`: the recordings through the pipeline, in the open.
+/// `cargo xtask recorded`: runs the recordings through the pipeline, with output.
 pub fn feed_recordings(args: &[String]) -> Result<(), String> {
     recordings::at_hand()?;
     let mut command = test_target("recorded");
@@ -159,14 +159,14 @@ pub fn feed_recordings(args: &[String]) -> Result<(), String> {
     process::run(&mut command)
 }
 
-/// `cargo xtask peers`: the core beside other libraries, in one run.
+/// `cargo xtask peers`: compares the core with other libraries, in one run.
 pub fn peers(args: &[String]) -> Result<(), String> {
     let mut command =
         cargo(&["bench", "--quiet", "--package", "taxel-tests", "--bench", "peers", "--"], paths::root());
     process::run(command.args(args))
 }
 
-/// One of the workspace's test targets.
+/// A test target of the workspace.
 pub fn test_target(name: &str) -> Command {
     let mut command = cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root());
     match recordings::listed() {

@@ -1,5 +1,5 @@
-//! UF2, the file that a board's boot loader takes when it is dropped on its drive: blocks of 512 bytes, each
-//! with 256 bytes of flash and where they go.
+//! UF2, the file format of a board's boot loader, copied to its drive: blocks of 512 bytes, each with 256
+//! bytes of flash and their address.
 
 use crate::elf::Segment;
 
@@ -12,7 +12,7 @@ const END: u32 = 0x0ab1_6f30;
 const HAS_FAMILY: u32 = 0x2000;
 const ERASED: u8 = 0xff;
 
-/// The file for what an image stores in flash.
+/// UF2 file for the flash contents of an image.
 pub fn file(segments: &[Segment]) -> Result<Vec<u8>, String> {
     let stored = || segments.iter().filter(|s| !s.bytes.is_empty());
     if let Some(outside) = stored().find(|s| !FLASH.contains(&s.stored)) {
@@ -20,7 +20,7 @@ pub fn file(segments: &[Segment]) -> Result<Vec<u8>, String> {
     }
     let start = stored().map(|s| s.stored / PAGE * PAGE).min().ok_or("the image stores nothing")?;
     let end = stored().map(|s| s.stored + s.bytes.len() as u32).max().unwrap_or(start);
-    // One piece without gaps: the boot loader erases a sector when the first of its pages arrives.
+    // Contiguous: the boot loader erases a sector when the first of its pages arrives.
     let mut image = vec![ERASED; (end - start).next_multiple_of(PAGE) as usize];
     for segment in stored() {
         image[(segment.stored - start) as usize..][..segment.bytes.len()].copy_from_slice(segment.bytes);

@@ -1,14 +1,13 @@
-//! The image by each way of having a compiler for the board: that each is found, what the image takes, and
-//! what a frame costs.
+//! The image by each toolchain: whether it is available, the size of the image, and the cost of a frame.
 
 use crate::cross::{Toolchain, Way};
 use crate::{firmware, install, no_panic, process, sizes, targets};
 use std::path::Path;
 
-/// So many ways at least must be at hand, so that the way is known not to matter.
+/// Least number of toolchains that must be available, to show that the choice does not matter.
 const LEAST: usize = 2;
 
-/// Builds and measures by all ways that can be had here, and names the others.
+/// Builds and measures with all available toolchains, and names the others.
 pub fn measured(log: &Path) -> Result<Vec<String>, String> {
     install::emulator()?;
     let mut lines = Vec::new();

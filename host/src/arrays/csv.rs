@@ -1,18 +1,18 @@
-//! Frames as text.
+//! Frames from text.
 
 use super::{Frames, Shape, count, unfit};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::fs::File;
 use std::io::Read;
 
-/// Frames of a file.
+/// Reads the frames of a file.
 pub fn read(mut file: File) -> Result<Frames> {
     let mut text = String::new();
     file.read_to_string(&mut text).context("not a text")?;
     parse(&text)
 }
 
-/// Frames of a text.
+/// Parses the frames of a text.
 pub fn parse(text: &str) -> Result<Frames> {
     let mut table = Table::default();
     for (line, text) in text.trim_start_matches('\u{feff}').lines().enumerate() {
@@ -27,7 +27,7 @@ pub fn parse(text: &str) -> Result<Frames> {
     table.finish()
 }
 
-/// The frames so far.
+/// Frames parsed so far.
 #[derive(Default)]
 struct Table {
     values: Vec<u16>,
@@ -37,7 +37,7 @@ struct Table {
     rows: Option<usize>,
     /// Complete frames.
     frames: usize,
-    /// Rows of the frame under way.
+    /// Rows of the incomplete frame.
     row: usize,
 }
 
@@ -59,7 +59,7 @@ impl Table {
         Ok(())
     }
 
-    /// At a blank line, or at the end; several in a row are one.
+    /// Ends a frame at a blank line or at the end; consecutive blank lines count as one.
     fn end_frame(&mut self) -> Result<()> {
         if self.row > 0 {
             let rows = *self.rows.get_or_insert(self.row);

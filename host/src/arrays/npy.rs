@@ -1,4 +1,4 @@
-//! One NumPy array.
+//! Reads one NumPy array.
 
 use super::room::Room;
 use super::{Frames, Shape, count};
@@ -7,27 +7,27 @@ use npyz::{DType, Deserialize, Endianness, NpyFile, NpyHeader, Order, TypeChar};
 use std::fmt::Display;
 use std::io::{self, BufReader, ErrorKind, Read};
 
-/// How every array begins.
+/// Magic of the format.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Headers of plain arrays have 118 bytes or a little more.
+/// Size limit of a header; those of plain arrays have 118 bytes or a little more.
 const LONGEST_HEADER: usize = 1 << 16;
-/// Bytes that are read at a time.
+/// Bytes read at once.
 const PIECE: usize = 1 << 16;
-/// Names of classes take less.
+/// Size limit of an array of texts; names of classes are shorter.
 const LONGEST_TEXTS: u64 = 1 << 20;
 
-/// Frames of an array whose file or archive entry has `size` bytes, as far as there is room for them.
+/// Frames of an array in a file or archive entry of `size` bytes, as far as there is room for them.
 pub fn read(source: impl Read, size: u64, room: &mut Room) -> Result<Frames> {
     read_as(source, size, room, Shape::of)
 }
 
-/// Counts of an array of one dimension.
+/// Counts of a one-dimensional array.
 pub fn list(source: impl Read, size: u64) -> Result<Vec<u16>> {
     Ok(read_as(source, size, &mut Room::endless(), Shape::of_list)?.values)
 }
 
-/// Texts of an array of one dimension, as NumPy writes them: four bytes a character, filled up with 0.
+/// Texts of a one-dimensional array in NumPy's encoding: four bytes per character, padded with 0.
 pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
     let header = parse(&head(&mut source)?)?;
     let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected texts") };
@@ -45,10 +45,10 @@ pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
             words.map(|word| if little { u32::from_le_bytes(word) } else { u32::from_be_bytes(word) });
         codes.take_while(|code| *code != 0).map(char::from_u32).collect()
     };
-    body.chunks_exact(width).map(|cell| text(cell).context("holds what is no text")).collect()
+    body.chunks_exact(width).map(|cell| text(cell).context("holds something that is not text")).collect()
 }
 
-/// Values of an array whose dimensions `shape_of` understands.
+/// Values of an array whose dimensions `shape_of` accepts.
 fn read_as(
     mut source: impl Read,
     size: u64,
@@ -65,7 +65,7 @@ fn read_as(
     check_size(header.shape(), claimed, there)?;
     room.take(shape.values() as u64)?;
     let dimensions = header.shape().to_vec();
-    // `size` may be a claim as well: what is read is counted.
+    // `size` may be wrong as well, so the bytes read are counted.
     let mut body = Counted { source: source.take(claimed.saturating_add(1)), bytes: 0 };
     let file = NpyFile::with_header(header, BufReader::with_capacity(PIECE, &mut body));
     let frames = match (kind.type_char(), width) {
@@ -84,19 +84,19 @@ fn read_as(
     if frames.as_ref().is_err_and(|error| !is_end(error)) {
         return frames;
     }
-    // What is left is at most the byte that there may not be.
+    // At most one byte is left, which must not exist.
     io::copy(&mut body, &mut io::sink()).context("damaged")?;
     check_size(&dimensions, claimed, body.bytes)?;
     frames
 }
 
-/// Whether the values ended too early.
+/// True if the values ended too early.
 fn is_end(error: &Error) -> bool {
     let cause = error.root_cause().downcast_ref::<io::Error>();
     cause.is_some_and(|cause| cause.kind() == ErrorKind::UnexpectedEof)
 }
 
-/// Counts the bytes that are read.
+/// Counts the bytes read.
 struct Counted<R> {
     source: R,
     bytes: u64,
@@ -110,7 +110,7 @@ impl<R: Read> Read for Counted<R> {
     }
 }
 
-/// Number of dimensions of an array; nothing but its header is read.
+/// Number of dimensions of an array; only its header is read.
 pub fn dimensions(mut source: impl Read) -> Result<usize> {
     Ok(parse(&head(&mut source)?)?.shape().len())
 }
@@ -121,7 +121,7 @@ fn check_size(shape: &[u64], claimed: u64, there: u64) -> Result<()> {
     Ok(())
 }
 
-/// Everything before the values.
+/// Reads everything before the values.
 fn head(source: &mut impl Read) -> Result<Vec<u8>> {
     let mut head = Vec::new();
     let mut more = |count: usize| -> Result<Vec<u8>> {
@@ -144,8 +144,8 @@ fn parse(head: &[u8]) -> Result<NpyHeader> {
     NpyHeader::from_reader(head).context("has a header that is not one of a NumPy array")
 }
 
-/// npyz multiplies the dimensions without a check and follows brackets without a limit; no real header tries
-/// it.
+/// npyz multiplies dimensions without a check and nests brackets without a limit; headers that would exploit
+/// that are refused.
 fn is_tame(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
     let brackets = text.matches(['(', '[', '{']).count();
@@ -161,9 +161,9 @@ fn is_tame(head: &[u8]) -> bool {
     brackets <= 64 && product().is_some()
 }
 
-/// A number in a file.
+/// Type of a number in a file.
 trait Cell: Deserialize + Display + Copy {
-    /// The count that it stands for; none if it is no integer in 0 ..= 65535.
+    /// The number as a count; none if it is not an integer in 0 ..= 65535.
     fn count(self) -> Option<u16>;
 }
 

@@ -8,16 +8,16 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use zip::ZipArchive;
 
-/// What the file of an array has behind the array's name.
+/// Suffix of an array's file name.
 const ENDING: &str = ".npy";
-/// Memory that the frames of all arrays may take beyond the size of the archive: one of some megabytes may
-/// become gigabytes.
+/// Most memory for the frames of all arrays beyond the size of the archive, because a few megabytes may
+/// expand to gigabytes.
 const BEYOND: u64 = 128 << 20;
 
 /// An open archive.
 pub struct Archive {
     archive: ZipArchive<BufReader<File>>,
-    /// Of all its arrays, in order.
+    /// Names of all its arrays, in order.
     names: Vec<String>,
     room: Room,
 }
@@ -34,7 +34,7 @@ impl Archive {
         Ok(Archive { archive, names, room })
     }
 
-    /// The array of that name.
+    /// Reads the array with this name.
     pub fn named(&mut self, name: &str) -> Result<Frames> {
         if !self.names.iter().any(|known| known == name) {
             bail!(Fault::usage(format!("there is no array {name}; known are {}", listed(&self.names))));
@@ -50,17 +50,17 @@ impl Archive {
         &self.names
     }
 
-    /// The array of that name and of one dimension, if it is there.
+    /// Reads the one-dimensional array with this name, if it exists.
     pub fn list(&mut self, name: &str) -> Result<Option<Vec<u16>>> {
         self.known(name, |entry, size| npy::list(entry, size))
     }
 
-    /// The texts of that name, if they are there.
+    /// Reads the texts with this name, if they exist.
     pub fn texts(&mut self, name: &str) -> Result<Option<Vec<String>>> {
         self.known(name, |entry, _| npy::texts(entry))
     }
 
-    /// What `read` makes of an array, if it is there.
+    /// Applies `read` to an array, if it exists.
     fn known<T>(
         &mut self,
         name: &str,
@@ -72,7 +72,7 @@ impl Archive {
         self.entry(name, read).with_context(|| format!("array {name}")).map(Some)
     }
 
-    /// The only array, or the only one that can be frames.
+    /// Reads the only array, or the only one whose shape is that of frames.
     pub fn only(&mut self) -> Result<Frames> {
         let candidates = if self.names.len() == 1 { self.names.clone() } else { self.candidates()? };
         match candidates.as_slice() {
@@ -87,7 +87,7 @@ impl Archive {
         }
     }
 
-    /// All arrays that can be frames.
+    /// Reads all arrays whose shape is that of frames.
     pub fn all(&mut self) -> Result<Vec<(String, Frames)>> {
         let candidates = self.candidates()?;
         if candidates.is_empty() {
@@ -108,7 +108,7 @@ impl Archive {
         Ok(candidates)
     }
 
-    /// What `read` makes of an entry, given its reader and its size.
+    /// Applies `read` to an entry's reader and size.
     fn entry<T>(&mut self, name: &str, read: impl FnOnce(&mut dyn Read, u64) -> Result<T>) -> Result<T> {
         let entry = self.archive.by_name(&format!("{name}{ENDING}"));
         let mut entry = entry.map_err(|error| anyhow!("damaged: {error}"))?;
@@ -117,7 +117,7 @@ impl Archive {
     }
 }
 
-/// Names for a sentence, not too many of them.
+/// Names for a sentence, shortened if there are many.
 fn listed(names: &[String]) -> String {
     const MOST: usize = 20;
     match names.len().checked_sub(MOST) {

@@ -1,11 +1,11 @@
-//! How much memory arrays may take.
+//! Limits the memory of arrays.
 
 use anyhow::{Result, ensure};
 
 /// Bytes of a value in memory.
 const VALUE: u64 = size_of::<u16>() as u64;
 
-/// What is left of it.
+/// Remaining memory.
 #[derive(Debug, Clone, Copy)]
 pub struct Room {
     /// Bytes of the file.
@@ -14,17 +14,17 @@ pub struct Room {
 }
 
 impl Room {
-    /// As much as a file takes, and so much beyond.
+    /// The size of a file, and this many bytes beyond.
     pub fn of(file: u64, beyond: u64) -> Room {
         Room { file, left: file.saturating_add(beyond) }
     }
 
-    /// As much as is asked for.
+    /// No limit.
     pub fn endless() -> Room {
         Room { file: 0, left: u64::MAX }
     }
 
-    /// Takes the room of so many values.
+    /// Reserves memory for this many values.
     pub fn take(&mut self, values: u64) -> Result<()> {
         let bytes = values.saturating_mul(VALUE);
         let mib = |bytes: u64| bytes.div_ceil(1 << 20);

@@ -4,7 +4,7 @@ use npyz::npz::NpzWriter;
 use std::io::Cursor;
 use std::path::PathBuf;
 
-/// A file of that name in a folder of this test run.
+/// A file with this name in a folder of this test run.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("taxel-arrays-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -116,7 +116,7 @@ fn a_file_cut_anywhere_is_an_error() {
     }
 }
 
-/// Nothing panics, and no claim makes much memory be taken, whatever a byte says.
+/// Nothing panics, and no false size makes much memory be allocated, whatever byte is changed.
 #[test]
 fn every_wrong_byte_is_survived() {
     for (name, whole) in [

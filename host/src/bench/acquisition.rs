@@ -1,12 +1,12 @@
-//! `taxel bench acquisition`: frames a second against the error of a taxel.
+//! `taxel bench acquisition`: frame rate against the error of a taxel.
 //!
-//! A simulated scan of the reference garment (512 addresses, four converter inputs) of a texture whose taxels
-//! signal anything between 200 and 3,800 counts, so that neighbours in time differ by up to 3,600 and no
-//! noise is cut at the ends of the scale. What is modelled: the chain that reads the garment ([`Rounds`]);
-//! the line of each input, a capacitance that the source charges from what the taxel before left on it; the
-//! converter's four wide codes, its noise and its rounding; what the scene's depth keeps. Not modelled: the
-//! processor, so that the rates are those of wiring and converter alone, and the charge that the converter's
-//! 1 pF takes from a line when the inputs change, whose sampling window no data sheet gives.
+//! A simulated scan of the reference garment (512 addresses, four converter inputs) with a texture of signals
+//! between 200 and 3,800 counts, so that neighbours in time differ by up to 3,600 and no noise is clipped at
+//! the ends of the scale. Modelled: the chain that reads the garment ([`Rounds`]); the line of each input, a
+//! capacitance that the source charges from the level left by the previous taxel; the converter's four wide
+//! codes, its noise and its rounding; the depth of the scene. Not modelled: the processor, so that the rates
+//! are those of wiring and converter alone; and the charge that the converter's 1 pF takes from a line when
+//! the inputs change, whose sampling window no data sheet gives.
 
 mod order;
 
@@ -23,27 +23,26 @@ use taxel_core::garment::Garment;
 /// data sheet), 25 cm of cable at 100 pF/m, a pin of the RP2040 (5) and its sampling capacitor (1), rounded
 /// up. Every further multiplexer on the same line adds its own 45 pF, whether enabled or not.
 pub const LINE_PF: f64 = 80.0;
-/// Settling times that a garment asks for, ns.
+/// Settling times of a garment, ns.
 const SETTLING: [u32; 7] = [2_000, 4_000, 8_000, 14_000, 20_000, 34_000, 64_000];
 /// Resistances that charge the line, kOhm.
 const SOURCES: [f64; 5] = [1.0, 3.0, 10.0, 30.0, 100.0];
 const DEPTHS: [Depth; 5] = [Depth::Eight, Depth::Twelve, Depth::MeanOf2, Depth::MeanOf4, Depth::MeanOf8];
 /// Signals of the texture, counts.
 const SIGNALS: std::ops::RangeInclusive<u16> = 200..=3_800;
-/// Of the reference garment.
+/// Addresses of the reference garment.
 const ADDRESSES: usize = 512;
 const INPUTS: usize = 4;
-/// A delay in whole microseconds may end this much early.
+/// Most that a delay in whole microseconds may end early, ns.
 const EARLY_NS: u32 = 1_000;
 
-/// The garments that come with the program: the largest source resistance (kOhm, with [`LINE_PF`]) that their
-/// shipped settling allows.
+/// Presets, with the largest source resistance (kOhm, with [`LINE_PF`]) that their settling time allows.
 pub const SHIPPED: [(&str, f64); 3] = [("reference", 3.0), ("mat-64x32", 3.0), ("block-4x16", 10.0)];
 
-/// How one row is acquired.
+/// Setting of one row.
 #[derive(Debug, Clone, Copy)]
 struct Setting {
-    /// As the garment asks for.
+    /// Settling time of the garment.
     settle_ns: u32,
     source_kohm: f64,
     depth: Depth,
@@ -56,7 +55,7 @@ impl Setting {
         Rounds::of(self.inputs, self.settle_ns)
     }
 
-    /// Settling that the chain gives, us.
+    /// Settling time given by the chain, us.
     fn settled_us(&self) -> f64 {
         self.rounds().settling_ns() as f64 / 1000.0
     }
@@ -66,7 +65,7 @@ impl Setting {
     }
 }
 
-/// What comes of it; errors in counts of 12 bits.
+/// Result of a setting; errors in counts of 12 bits.
 #[derive(Debug, Clone, Copy)]
 struct Outcome {
     rate: f64,
@@ -75,20 +74,20 @@ struct Outcome {
     largest: f64,
 }
 
-/// What a full-scale step leaves of itself after that time on a line of that time constant (kOhm times pF),
-/// counts: the largest error that settling alone can make.
+/// Residue of a full-scale step after this time on a line with this time constant (kOhm times pF), counts:
+/// the largest error by settling alone.
 pub fn residue(settle_ns: u64, tau_ns: f64) -> f64 {
     f64::from(FULL_SCALE) * (-(settle_ns as f64) / tau_ns).exp()
 }
 
-/// The settling that every board is sure to give a garment that asks for so much: the reference board's chain
-/// counts whole conversions, a loop's delay may end early; the lesser of the two.
+/// Settling time that every board guarantees to a garment that asks for this one: the reference board's chain
+/// counts whole conversions, a loop's delay may end early; the smaller of the two.
 pub fn sure_ns(asked_ns: u32) -> u64 {
     let counted = (asked_ns / CONVERSION_NS).max(1) * CONVERSION_NS;
     counted.min(asked_ns.saturating_sub(EARLY_NS)).into()
 }
 
-/// The whole table; the same whenever it is made.
+/// The whole table; deterministic.
 pub fn report() -> Report {
     let rows: Vec<(Setting, Outcome)> =
         settings().map(|setting| (setting, acquire(&setting, true))).collect();
@@ -131,7 +130,7 @@ fn noise() -> f64 {
     Idle::default().noise_counts
 }
 
-/// Scans the texture; without a real converter's faults only the lines and the rounding are left.
+/// Scans the texture; without `real`, only the lines and the rounding have errors.
 fn acquire(setting: &Setting, real: bool) -> Outcome {
     let signals = texture(setting.addresses * setting.inputs);
     let chain = Chain {
@@ -149,7 +148,7 @@ fn acquire(setting: &Setting, real: bool) -> Outcome {
     let averaged = usize::from(setting.depth.scans());
     let mut scans = 0;
     chain.scan(&signals, 1 + averaged, |codes| {
-        // The first scan begins with empty lines; those that count come after another one.
+        // The first scan begins with empty lines; the measured ones follow another.
         if scans > 0 {
             sums.iter_mut().zip(codes).for_each(|(sum, code)| *sum += code);
         }
@@ -168,14 +167,14 @@ fn acquire(setting: &Setting, real: bool) -> Outcome {
     }
 }
 
-/// Anything within the signals, each as likely.
+/// Random signals with a uniform distribution.
 fn texture(taxels: usize) -> Vec<f32> {
     let mut rng = Rng::with_seed(3);
     let [least, most] = [SIGNALS.start(), SIGNALS.end()].map(|signal| f32::from(*signal));
     (0..taxels).map(|_| least + rng.f32() * (most - least)).collect()
 }
 
-/// A garment that comes with the program at its largest source resistance: name, setting, outcome.
+/// A preset at its largest source resistance: name, setting, result.
 fn shipped(name: &'static str, source_kohm: f64) -> Option<(&'static str, Setting, Outcome)> {
     let garment = Garment::preset(name)?;
     let mut inputs: Vec<u8> = garment.blocks.iter().map(|block| block.input).collect();
@@ -200,7 +199,7 @@ fn object(setting: &Setting, outcome: &Outcome) -> Value {
     })
 }
 
-/// Settling by source resistance, everything kept.
+/// Settling by source resistance, at full depth.
 fn by_source(rows: &[(Setting, Outcome)], text: &mut String) -> std::fmt::Result {
     writeln!(
         text,
@@ -222,7 +221,7 @@ fn by_source(rows: &[(Setting, Outcome)], text: &mut String) -> std::fmt::Result
     Ok(())
 }
 
-/// What the depth keeps, where the lines have settled.
+/// Effect of the depth on settled lines.
 fn by_depth(rows: &[(Setting, Outcome)], text: &mut String) -> std::fmt::Result {
     let (settle, source) = (2_000, 3.0);
     writeln!(text, "\n{} us, {source} kOhm: bits kept, and the mean of several scans", settle / 1000)?;
@@ -294,7 +293,7 @@ mod tests {
             // As simulated, with an ideal converter: the residue, and half a count of rounding.
             let simulated = acquire(&setting, false).largest;
             assert!(simulated < 1.5, "{name}: {simulated}");
-            // A microsecond less would not do: the figure is as small as it can be.
+            // A microsecond less would not do: the setting is minimal.
             assert!(residue(sure_ns(setting.settle_ns - 1_000), tau_ns) > 1.0, "{name}");
         }
     }
@@ -314,9 +313,9 @@ mod tests {
     fn no_error_is_above_residue_and_rounding() {
         for setting in settings().filter(|s| s.bits() == 12 && s.depth.scans() < 4) {
             let Outcome { residue, largest, .. } = acquire(&setting, false);
-            // Half a count of rounding, twice where a mean is rounded, and what f32 loses of 4095.
+            // Half a count of rounding, twice for a rounded mean, and what f32 loses of 4095.
             assert!(largest <= residue + 1.01, "{setting:?}: {largest} > {residue}");
-            // Its largest step is nine tenths of full scale, and meets a line that has hardly settled before.
+            // Its largest step is nine tenths of full scale, from a line that has hardly settled before.
             assert!(largest >= 0.7 * residue, "a hard texture: {setting:?} {largest} {residue}");
         }
     }
@@ -330,7 +329,7 @@ mod tests {
         let (one, eight) = (at(Depth::Twelve, true), at(Depth::MeanOf8, true));
         assert!((one.rate / eight.rate - 8.0).abs() < 1e-9);
         assert!(eight.rms < 0.75 * one.rms, "{} {}", eight.rms, one.rms);
-        // The wide codes stay: they are no noise.
+        // The wide codes stay, because they are not noise.
         assert!(eight.largest > 3.0, "{}", eight.largest);
         assert!(at(Depth::Twelve, false).largest <= 0.501);
     }

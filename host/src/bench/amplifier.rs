@@ -1,9 +1,10 @@
-//! `taxel bench amplifier`: how quick the amplifier must be that keeps the multiplexers' commons still.
+//! `taxel bench amplifier`: required speed of the amplifier that holds the multiplexers' commons at one
+//! voltage.
 //!
 //! A transimpedance amplifier holds the summing point of a panel's eight multiplexers at one voltage and
-//! turns the taxel's current into the converter's. Its feedback alone would settle with R C; the amplifier
-//! itself has to charge the summing point's capacitance through that feedback, and is the slower, the less
-//! bandwidth it has. With one pole the whole is of second order:
+//! converts the taxel's current to the converter's voltage. Its feedback alone would settle with R C; the
+//! amplifier has to charge the capacitance of the summing point through that feedback, and is the slower, the
+//! less bandwidth it has. With one pole the whole is of second order:
 //!
 //! `V(s) / I(s) = -R / (1 + s (R C + (1 + R / Rs) / w) + s^2 R (Cs + C) / w)`
 //!
@@ -21,16 +22,16 @@ use std::fmt::Write;
 
 /// Feedback: 10 kOhm and 22 pF, whose time constant is 0.22 us.
 const FEEDBACK: (f64, f64) = (10e3, 22e-12);
-/// From the summing point to ground, farad: eight commons of 45 pF, 31 pF of cable and pin, and the 80 pF of
-/// the cloth's column and its cable.
+/// Capacitance from the summing point to ground, farad: eight commons of 45 pF, 31 pF of cable and pin, and
+/// the 80 pF of the fabric's column and its cable.
 const INPUT_F: f64 = 471e-12;
 /// Gain-bandwidth products of the table, MHz. 1 is an LM358's, 10 an MCP6022's, 50 an OPA365's.
 const BANDWIDTHS: [f64; 10] = [1.0, 3.0, 10.0, 20.0, 30.0, 35.0, 40.0, 50.0, 70.0, 100.0];
-/// Taxels: one that is firmly pressed, and one that lets hardly any current through; ohm.
+/// Taxels: firmly pressed, and nearly isolating; ohm.
 const TAXELS: [(&str, f64); 2] = [("pressed, 3 kOhm", 3e3), ("released, 1 MOhm", 1e6)];
-/// What may be left of a full-scale step: half a count of 12 bits, and of 8.
+/// Allowed share of a full-scale step: half a count of 12 bits, and of 8.
 const PARTS: [f64; 2] = [0.5 / 4096.0, 0.5 / 256.0];
-/// The slot in which the shipped garment settles, s.
+/// Settling slot of the shipped garment, s.
 const SLOT: f64 = 2e-6;
 
 /// An amplifier with one pole and its feedback, and a taxel.
@@ -43,7 +44,7 @@ pub struct Amplifier {
 }
 
 impl Amplifier {
-    /// Of a gain-bandwidth product in Hz, for a taxel of so many ohm.
+    /// An amplifier with this gain-bandwidth product in Hz, for a taxel of this resistance in ohm.
     pub fn new(gain_bandwidth: f64, taxel: f64) -> Amplifier {
         let (ohm, farad) = FEEDBACK;
         let w = TAU * gain_bandwidth;
@@ -56,7 +57,7 @@ impl Amplifier {
         self.decay / self.natural
     }
 
-    /// What is left of a step after a time (s), as a part of it.
+    /// Residue of a step after a time (s), as a share of it.
     pub fn left(&self, time: f64) -> f64 {
         let Amplifier { decay, natural } = *self;
         let square = natural * natural - decay * decay;
@@ -72,21 +73,21 @@ impl Amplifier {
         (fast * (-slow * time).exp() - slow * (-fast * time).exp()) / (fast - slow)
     }
 
-    /// The most that is left of a step at that time or later.
+    /// Largest residue of a step at that time or later.
     pub fn most_left(&self, time: f64) -> f64 {
         let turn = self.turn().map_or(0.0, |turn| (time / turn).ceil() * turn);
         self.left(time).abs().max(self.left(turn.max(time)).abs())
     }
 
-    /// From one extreme of an overshooting step to the next, s.
+    /// Time between two extremes of an overshooting step, s.
     fn turn(&self) -> Option<f64> {
         let square = self.natural * self.natural - self.decay * self.decay;
         (square > 0.0).then(|| TAU / 2.0 / square.sqrt())
     }
 
-    /// Time after which no more than that part of a step is left, s.
+    /// Time after which the residue stays below this share of a step, s.
     pub fn settling(&self, part: f64) -> f64 {
-        // Between two extremes, and where there are none, what is left goes one way.
+        // Between two extremes, and without any, the residue is monotonic.
         let (mut early, mut late) = match self.turn() {
             Some(turn) => {
                 let last = (0..).find(|n| self.left(f64::from(n + 1) * turn).abs() <= part).unwrap_or(0);
@@ -99,7 +100,8 @@ impl Amplifier {
         };
         for _ in 0..60 {
             let middle = (early + late) / 2.0;
-            // After the last extreme that is too large: up to where it falls below the part, never again above.
+            // After the last extreme that is too large: up to where it falls below the share, never again
+            // above.
             if self.left(middle).abs() > part && self.left(middle).signum() == self.left(early).signum() {
                 early = middle;
             } else {
@@ -110,7 +112,7 @@ impl Amplifier {
     }
 }
 
-/// The whole table; the same whenever it is made.
+/// The whole table; deterministic.
 pub fn report() -> Report {
     let mut text = String::from(
         "A transimpedance amplifier with 10 kOhm and 22 pF in its feedback and 471 pF at its summing point, one pole: the time after\n\
@@ -135,7 +137,7 @@ pub fn report() -> Report {
     Report { text, json, chart: chart() }
 }
 
-/// Counts that are left after the shipped settling.
+/// Residue after the shipped settling time, counts.
 fn left(amplifier: &Amplifier) -> f64 {
     f64::from(FULL_SCALE) * amplifier.most_left(SLOT)
 }
@@ -183,7 +185,7 @@ fn chart() -> Chart {
 mod tests {
     use super::*;
 
-    /// What ngspice 39 finds for the whole circuit (a step of 0.96 V by a taxel of 3 kOhm, a multiplexer of
+    /// Results of ngspice 39 for the whole circuit (a step of 0.96 V by a taxel of 3 kOhm, a multiplexer of
     /// 120 ohm between 80 and 391 pF, an output of 50 ohm): MHz, us until half a count is left.
     const NGSPICE: [(f64, f64); 7] =
         [(1.0, 13.75), (3.0, 9.23), (10.0, 4.30), (20.0, 2.12), (30.0, 1.75), (50.0, 0.93), (100.0, 1.49)];
@@ -196,7 +198,7 @@ mod tests {
         }
     }
 
-    /// The settling time is the last at which a finely sampled response is outside.
+    /// The settling time is the last time at which a finely sampled response is outside.
     #[test]
     fn nothing_is_left_after_the_settling_time() {
         for mhz in BANDWIDTHS {
@@ -213,8 +215,7 @@ mod tests {
         }
     }
 
-    /// 195 frames a second ask for 2 us: 35 MHz keep within them, 20 do not, and a part of 50 has a margin of
-    /// 30 %.
+    /// 195 frames per second require 2 us: 35 MHz is sufficient, 20 is not, and 50 has a margin of 30 %.
     #[test]
     fn what_195_frames_a_second_need() {
         let worst = |mhz: f64| {
@@ -225,7 +226,7 @@ mod tests {
         };
         assert!(worst(35.0) < SLOT && worst(50.0) < 1.4e-6 && worst(100.0) < SLOT);
         assert!(worst(20.0) > 1.5 * SLOT);
-        // However quick it is, its feedback settles no sooner than this.
+        // However fast the amplifier, its feedback settles no sooner than this.
         assert!(worst(10_000.0) > 1.95e-6);
     }
 }

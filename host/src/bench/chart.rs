@@ -1,22 +1,22 @@
-//! A chart as SVG: points of several series over two logarithmic axes, with the Pareto front of each marked.
+//! A chart as SVG: points of several series on two logarithmic axes, with the Pareto front of each.
 
 use std::fmt::Write;
 
 const PAPER: &str = "#12141a";
 const INK: &str = "#d8dee9";
 const GRID: &str = "#2e3440";
-/// One colour a series, in turn.
+/// Colours of the series, in turn.
 const COLOURS: [&str; 6] = ["#88c0d0", "#ebcb8b", "#a3be8c", "#b48ead", "#d08770", "#bf616a"];
-/// The whole picture, SVG units.
+/// Size of the picture, SVG units.
 const SIZE: [f64; 2] = [880.0, 520.0];
-/// Left, top, right and bottom end of what the axes span.
+/// Left, top, right and bottom of the plot area.
 const FRAME: [f64; 4] = [80.0, 48.0, 660.0, 460.0];
-/// Height of the strip at the low end of an axis where values of 0 lie, which a logarithm has no place for.
+/// Height of the strip at the low end of an axis for values of 0, which have no logarithm.
 const ZERO: f64 = 24.0;
-/// Marks fewer than this far apart would overlap: only decades are named on wider axes.
+/// Axes with more decades than this have marks at decades only, because closer ones would overlap.
 const DECADES_WITH_STEPS: i32 = 2;
 
-/// Which end of an axis is the better one.
+/// The better end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Better {
     /// Less is better: an error, a time.
@@ -34,33 +34,32 @@ pub struct Axis {
     pub better: Better,
 }
 
-/// Points of one kind.
+/// A series of points.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// What the legend says.
+    /// Name in the legend.
     pub name: String,
-    /// x, y (neither is negative) and what a viewer shows for the point; see [`Chart::named`].
+    /// x, y (not negative) and the tooltip of the point; see [`Chart::named`].
     pub points: Vec<(f64, f64, String)>,
 }
 
 /// A chart.
 #[derive(Debug, Clone)]
 pub struct Chart {
-    /// One line above it.
+    /// Title.
     pub title: String,
-    /// The axis to the right.
+    /// Horizontal axis.
     pub x: Axis,
-    /// The axis upwards.
+    /// Vertical axis.
     pub y: Axis,
-    /// Whether the points of the front carry their names: what stands before the first colon of what a viewer
-    /// shows.
+    /// True if the points of the front are labelled with the text of their tooltip before its first colon.
     pub named: bool,
-    /// What is drawn.
+    /// The series.
     pub series: Vec<Series>,
 }
 
 impl Axis {
-    /// An axis by its label.
+    /// An axis with this label.
     pub fn new(label: &str, better: Better) -> Axis {
         Axis { label: label.into(), better }
     }
@@ -74,8 +73,8 @@ impl Axis {
 }
 
 impl Chart {
-    /// The Pareto front of a series: the indices of the points that no other betters in one axis without
-    /// being worse in the other, from left to right.
+    /// Pareto front of a series: indices of the points that no other point betters on one axis without being
+    /// worse on the other, from left to right.
     pub fn front(&self, series: &Series) -> Vec<usize> {
         let beaten = |a: &(f64, f64, String), b: &(f64, f64, String)| {
             let no_worse = !self.x.beats(a.0, b.0) && !self.y.beats(a.1, b.1);
@@ -90,7 +89,7 @@ impl Chart {
         front.into_iter().map(|(index, _)| index).collect()
     }
 
-    /// The picture.
+    /// Draws the chart.
     pub fn svg(&self) -> String {
         let all = || self.series.iter().flat_map(|series| &series.points);
         let [left, top, right, bottom] = FRAME;
@@ -148,7 +147,7 @@ impl Chart {
         )
     }
 
-    /// A series: its points, those of the front filled and joined, and its line in the legend.
+    /// Draws a series: its points, those of the front filled and connected, and its line in the legend.
     fn draw(
         &self,
         series: &Series,
@@ -189,17 +188,17 @@ impl Chart {
     }
 }
 
-/// From a value to a place of the picture.
+/// Maps values to places of the picture.
 struct Scale {
     /// Powers of ten at the two ends, and their places.
     decades: [i32; 2],
     places: [f64; 2],
-    /// Where 0 lies, if there is one.
+    /// Place of 0, if it occurs.
     zero: Option<f64>,
 }
 
 impl Scale {
-    /// Over all values, from one place to another.
+    /// A scale for all values, between two places.
     fn over(values: impl Iterator<Item = f64> + Clone, from: f64, to: f64) -> Scale {
         let positive = || values.clone().filter(|value| *value > 0.0);
         let low = positive().min_by(f64::total_cmp).unwrap_or(1.0).log10().floor() as i32;
@@ -218,7 +217,7 @@ impl Scale {
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
-    /// Places and names of the marks: decades, with 2 and 5 between them where there is room.
+    /// Places and names of the marks: decades, with 2 and 5 between them if there is room.
     fn marks(&self) -> Vec<(f64, String)> {
         let [low, high] = self.decades;
         let steps: &[f64] = if high - low <= DECADES_WITH_STEPS { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -229,7 +228,7 @@ impl Scale {
     }
 }
 
-/// A mark's name: as few digits as tell it.
+/// Name of a mark, with as few digits as possible.
 fn named(value: f64) -> String {
     if (1e-3..1e5).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }

@@ -46,7 +46,7 @@ enum Table {
     Record(record::RecordBench),
 }
 
-/// What comes out besides the text table.
+/// Options besides the text table.
 #[derive(Debug, Clone, Args)]
 pub struct Output {
     /// Print JSON instead of a table
@@ -55,19 +55,19 @@ pub struct Output {
     /// Also draw the chart into this file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
 
-/// A finished table in its three forms.
+/// A finished table in its forms.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// For people.
+    /// Readable form.
     pub text: String,
-    /// For programs: `{"columns": ..., "rows": [...]}`
+    /// JSON form: `{"columns": ..., "rows": [...]}`
     pub json: Value,
-    /// Error over cost.
+    /// Chart of error over cost.
     pub chart: Chart,
 }
 
@@ -83,8 +83,8 @@ pub fn run(args: BenchArgs) -> Result<()> {
 }
 
 impl Output {
-    /// Prints a report, and draws it where a file is named; one that cannot be written is refused before the
-    /// work.
+    /// Prints a report, and draws its chart if a file is named; an output that cannot be written is refused
+    /// before the work.
     pub fn put(&self, report: impl FnOnce() -> Result<Report>) -> Result<()> {
         let none: [&PathBuf; 0] = [];
         let chart = self.svg.as_ref().map(|file| output::Output::file(file, self.force, none)).transpose()?;

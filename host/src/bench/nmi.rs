@@ -1,9 +1,9 @@
-//! `taxel bench nmi`: how far the normalised moment of inertia and its forms spread when the same touch is
-//! turned, scaled, shifted by parts of a taxel, or pressed harder.
+//! `taxel bench nmi`: spread of the normalised moment of inertia and its forms if one touch is turned,
+//! scaled, shifted by fractions of a taxel, or pressed harder.
 //!
 //! Every touch is drawn exactly (the covered part of each taxel), rounded to 12-bit codes, and measured by
-//! the core's own contact and shape stages with their shipped settings. Only one thing varies at a time; the
-//! others stay at 17 degrees, scale 1, a centre that lies on no symmetry of the grid, and gain 0.5.
+//! the core's own contact and shape stages with their shipped settings. One parameter varies at a time; the
+//! others stay at 17 degrees, scale 1, a centre off the symmetries of the grid, and gain 0.5.
 
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};
@@ -17,7 +17,7 @@ use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Nmi, nmi};
 
-/// The forms, in the order of the columns.
+/// Forms, in the order of the columns.
 pub const FORMS: [&str; 5] = ["published", "peak", "s2", "peak, Sheppard", "s2, Sheppard"];
 /// Rows, columns, and the radius of the disc at scale 1, in taxels: at scale 2 every shape still fits.
 pub const GRIDS: [(u16, u16, f64); 3] = [(4, 16, 0.9), (16, 16, 3.0), (32, 64, 6.0)];
@@ -25,7 +25,7 @@ pub const GRIDS: [(u16, u16, f64); 3] = [(4, 16, 0.9), (16, 16, 3.0), (32, 64, 6
 const TAXELS: usize = 2048;
 const FULL_SCALE: f64 = 4095.0;
 
-/// A grid on which touches are drawn and measured.
+/// A grid for drawing and measuring touches.
 pub struct Grid {
     layout: Layout,
     rows: u16,
@@ -34,13 +34,13 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// By rows, columns and the radius of the disc.
+    /// A grid with these rows, columns and radius of the disc.
     pub fn new((rows, columns, radius): (u16, u16, f64)) -> Result<Grid> {
         let layout = Layout::build(&Garment::recorded(rows, columns), TAXELS, u16::MAX)?;
         Ok(Grid { layout, rows, columns, radius })
     }
 
-    /// The codes of a touch.
+    /// Codes of a touch.
     pub fn draw(&self, shape: Shape, touch: &Touch) -> Vec<u16> {
         let mut covered = vec![0.0; usize::from(self.rows) * usize::from(self.columns)];
         let centre = [(self.columns, touch.shift[0]), (self.rows, touch.shift[1])]
@@ -51,7 +51,7 @@ impl Grid {
         covered.into_iter().map(|part| (part * touch.gain * FULL_SCALE).round() as u16).collect()
     }
 
-    /// The forms of the greatest contact; none where nothing is found.
+    /// Forms of the greatest contact; none if there is no contact.
     pub fn measure(&self, values: &[u16]) -> Result<Option<Nmi>> {
         let stage = ContactConfig::default().build()?;
         let mut state: Box<ContactState<8, { TAXELS / 2 }>> = Box::default();
@@ -62,14 +62,14 @@ impl Grid {
     }
 }
 
-/// A row: mean and spread of each form.
+/// Mean and spread of each form.
 #[derive(Debug, Clone)]
 struct Row {
     grid: String,
     shape: &'static str,
     varied: &'static str,
     mean: [f64; 5],
-    /// Largest less smallest, of the mean, in per cent.
+    /// Largest minus smallest, per cent of the mean.
     spread: [f64; 5],
 }
 
@@ -109,7 +109,7 @@ fn rows() -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// The whole table; the same whenever it is made.
+/// The whole table; deterministic.
 pub fn report() -> Result<Report> {
     let rows = rows()?;
     let each: Vec<_> = rows
@@ -157,7 +157,7 @@ fn kinds(rows: &[Row]) -> Vec<(String, &'static str)> {
     first.map(|row| (row.grid.clone(), row.varied)).collect()
 }
 
-/// Each form by what geometry does to it and what pressure does to it, the worst of the shapes on each grid.
+/// Each form by its spread under geometry and under pressure, the worst of the shapes on each grid.
 fn chart(rows: &[Row]) -> Chart {
     let on_grid = rows.chunks(Shape::ALL.len() * VARIED.len());
     let series = on_grid.filter_map(|rows| {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// What an outline of even pressure has, whatever its size: sqrt(J) / m with f = 1.
+    /// NMI of an outline with even pressure, of any size: sqrt(J) / m with f = 1.
     const EXACT: [(Shape, f64); 3] =
         [(Shape::Disc, 0.398942280401), (Shape::Square, 0.408248290464), (Shape::Rectangle, 0.456435464588)];
 

@@ -1,8 +1,8 @@
-//! Outlines of touches, and how much of each taxel they cover: exact areas of polygons, no sampling.
+//! Outlines of touches, and the covered part of each taxel: exact areas of polygons, no sampling.
 
 use std::f64::consts::PI;
 
-/// Corners that stand for a circle: its edge is off by less than 5e-6 of its radius.
+/// Corners of a polygon for a circle: its edge is off by less than 5e-6 of the radius.
 const CORNERS: usize = 1024;
 
 type Point = [f64; 2];
@@ -12,18 +12,18 @@ type Point = [f64; 2];
 pub struct Outline(Vec<Point>);
 
 impl Outline {
-    /// Around the origin.
+    /// A disc around the origin.
     pub fn disc(radius: f64) -> Outline {
         Outline::capsule(0.0, radius)
     }
 
-    /// Around the origin, by its half sides.
+    /// A rectangle around the origin, by its half sides.
     pub fn rectangle(half_length: f64, half_width: f64) -> Outline {
         let [x, y] = [half_length, half_width];
         Outline(vec![[x, y], [-x, y], [-x, -y], [x, -y]])
     }
 
-    /// A rectangle of that half length between two half discs.
+    /// A rectangle with this half length between two half discs.
     pub fn capsule(half_length: f64, radius: f64) -> Outline {
         let corner = |index: usize| {
             let (y, x) = ((index as f64 + 0.5) / CORNERS as f64 * 2.0 * PI).sin_cos();
@@ -32,7 +32,7 @@ impl Outline {
         Outline((0..CORNERS).map(corner).collect())
     }
 
-    /// Turned about the origin (radians, from +x towards +y), then moved.
+    /// The outline turned about the origin (radians, from +x towards +y), then moved.
     pub fn placed(&self, angle: f64, [x, y]: Point) -> Outline {
         let (sin, cos) = angle.sin_cos();
         Outline(self.0.iter().map(|[u, v]| [u * cos - v * sin + x, u * sin + v * cos + y]).collect())
@@ -52,12 +52,12 @@ impl Outline {
     }
 }
 
-/// The part of a polygon within half a taxel of a coordinate along an axis (0: x, 1: y).
+/// Part of a polygon within half a taxel of a coordinate along an axis (0: x, 1: y).
 fn between(polygon: &[Point], axis: usize, centre: f64) -> Vec<Point> {
     cut(&cut(polygon, axis, 1.0, centre + 0.5), axis, -1.0, 0.5 - centre)
 }
 
-/// The part of a convex polygon where `sign * coordinate <= limit`.
+/// Part of a convex polygon with `sign * coordinate <= limit`.
 fn cut(polygon: &[Point], axis: usize, sign: f64, limit: f64) -> Vec<Point> {
     let beyond = |point: &Point| sign * point[axis] - limit;
     let mut rest = Vec::with_capacity(polygon.len() + 2);
@@ -75,7 +75,7 @@ fn cut(polygon: &[Point], axis: usize, sign: f64, limit: f64) -> Vec<Point> {
     rest
 }
 
-/// Area of a polygon whose corners go from +x towards +y, about one of them so that no digits are lost.
+/// Area of a polygon whose corners go from +x towards +y, relative to one of them for precision.
 fn area(polygon: &[Point]) -> f64 {
     let Some([x, y]) = polygon.first() else { return 0.0 };
     let cross = |pair: &[Point]| (pair[0][0] - x) * (pair[1][1] - y) - (pair[1][0] - x) * (pair[0][1] - y);
@@ -99,11 +99,11 @@ mod tests {
         let row: Vec<f64> = covered[3 * 16 + 1..3 * 16 + 7].to_vec();
         assert_eq!(row, [0.0, 0.25, 1.0, 1.0, 0.25, 0.0]);
         assert_eq!(covered.iter().sum::<f64>(), 2.5);
-        // A corner that points upwards: the square around the origin turned by an eighth.
+        // A corner that points upwards: the square around the origin turned by 45 degrees.
         let covered = image(&Outline::rectangle(1.0, 1.0).placed(PI / 4.0, [8.0, 8.0]));
         let tip = 2f64.sqrt() - 0.5;
         for [x, y] in [[9, 8], [7, 8], [8, 9], [8, 7]] {
-            // A right angle's tip that reaches past the edge, less the two corners beyond the taxel's sides.
+            // The tip of a right angle beyond the edge, minus the two corners beyond the taxel's sides.
             let want = tip * tip - (tip - 0.5).powi(2);
             assert!((covered[y * 16 + x] - want).abs() < 1e-12, "{}", covered[y * 16 + x]);
         }

@@ -1,4 +1,4 @@
-//! What recording costs beside perceiving, and how fast a recording is played.
+//! Cost of recording compared with perception, and speed of replay.
 
 use crate::client::{Client, Event, ImageNews};
 use crate::live::{LiveArgs, Show, watch};
@@ -15,9 +15,9 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-/// What is recorded: five moving contacts on 2,048 taxels.
+/// Scene that is recorded: five moving contacts on 2,048 taxels.
 const SCENE: &str = "five";
-/// Each is done so often; the fastest counts, the others were disturbed.
+/// Repetitions; the fastest counts, because the others were disturbed.
 const TIMES: usize = 3;
 
 /// Arguments of `taxel bench record`.
@@ -28,20 +28,20 @@ pub struct RecordBench {
     pub json: bool,
 }
 
-/// Microseconds a frame.
+/// Results, microseconds per frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Cost {
-    /// Frames of the scene.
+    /// Number of frames.
     pub frames: usize,
-    /// Microseconds from frame to frame as the board sent them.
+    /// Time between frames as sent by the board, us.
     pub period: f64,
-    /// The board's pipeline over the images, on this machine.
+    /// Running the board's pipeline on the images, on this machine.
     pub perceived: f64,
-    /// Recording what the board sent.
+    /// Recording the stream.
     pub recorded: f64,
-    /// The same with ROS 2's messages.
+    /// Recording with ROS 2 messages.
     pub with_ros2: f64,
-    /// Reading a recording, up to the events that it tells.
+    /// Replaying the recording through a client.
     pub replayed: f64,
 }
 
@@ -74,7 +74,7 @@ impl Cost {
         1e6 / self.replayed
     }
 
-    /// For people.
+    /// Readable form.
     pub fn table(&self) -> String {
         let mut text = format!(
             "Five moving contacts on 2,048 taxels, {} frames, one each {:.0} us; on this machine:\n\n{:<34}{:>12}{:>22}\n",
@@ -84,13 +84,13 @@ impl Cost {
             text += &format!("{name:<34}{us:>12.1}{:>22.2}\n", 100.0 * us / self.period);
         }
         text + &format!(
-            "\nA recording is played at {:.0} frames/s, {:.0} times as fast as it was.\n",
+            "\nA recording is played at {:.0} frames/s, {:.0} times real time.\n",
             self.frames_per_second(),
             self.period / self.replayed
         )
     }
 
-    /// For programs.
+    /// JSON form.
     pub fn json(&self) -> Value {
         let rows: Vec<_> = self.rows().into_iter().map(|(name, us)| json!([name, us])).collect();
         json!({
@@ -103,7 +103,7 @@ impl Cost {
     }
 }
 
-/// Measures, with files in a folder that is made.
+/// Measures, with files in a new folder.
 pub fn measure(folder: &Path) -> Result<Cost> {
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let file = |name: &str| folder.join(name);
@@ -117,7 +117,7 @@ pub fn measure(folder: &Path) -> Result<Cost> {
     let again = |name: &str, ros2| {
         let path = file(name);
         let recorded = each(&mut || play(scene.clone(), &mut recorder(path.clone(), ros2)?))?;
-        // What reading takes is no part of it; more than that is noise.
+        // Without the time of reading; a negative difference is noise.
         anyhow::Ok((recorded - replayed).max(0.0))
     };
     let first_and_last = images.0.first().zip(images.0.last());
@@ -167,7 +167,7 @@ impl Show for Images {
     }
 }
 
-/// The images through the pipeline, as if they were codes: the same taxels are pressed.
+/// Runs the images through the pipeline as if they were codes: the same taxels are pressed.
 fn perceive(images: &Images) -> Result<()> {
     let garment = Garment::reference();
     let layout = Layout::build(&garment, 2048, sim::FULL_SCALE)?;

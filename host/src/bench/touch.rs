@@ -1,13 +1,13 @@
-//! Touches that are drawn exactly: discs, squares, rectangles and fingers, turned, scaled, shifted and pressed.
+//! Exactly drawn touches: discs, squares, rectangles and fingers, turned, scaled, shifted and pressed.
 
 use super::outline::Outline;
 
-/// What varies, in the order of [`Touch::varied`].
+/// Varied parameters, in the order of [`Touch::varied`].
 pub const VARIED: [&str; 4] = ["rotation", "scale", "shift", "pressure"];
-/// Steps that make up the dome of a finger.
+/// Layers of a finger's dome.
 const LAYERS: usize = 8;
 
-/// What touches.
+/// Shape of a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// Even pressure.
@@ -21,10 +21,10 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// All, in the order of the rows.
+    /// All shapes, in the order of the rows.
     pub const ALL: [Shape; 4] = [Shape::Disc, Shape::Square, Shape::Rectangle, Shape::Finger];
 
-    /// Its name.
+    /// Name.
     pub fn name(self) -> &'static str {
         match self {
             Shape::Disc => "disc",
@@ -34,7 +34,7 @@ impl Shape {
         }
     }
 
-    /// Outlines that are pressed one upon the other, each with its part of the pressure.
+    /// Outlines stacked on each other, each with its share of the pressure.
     pub fn layers(self, radius: f64) -> Vec<(Outline, f64)> {
         let side = radius * std::f64::consts::PI.sqrt() / 2.0;
         match self {
@@ -44,7 +44,7 @@ impl Shape {
                 vec![(Outline::rectangle(side * 2f64.sqrt(), side / 2f64.sqrt()), 1.0)]
             }
             Shape::Finger => {
-                // A ball's pressure on a soft ground, sqrt(1 - r^2): where a layer lies, seen from its rim.
+                // Pressure of a ball on soft ground, sqrt(1 - r^2): place of a layer, from the rim.
                 let layer = |index: usize| {
                     let height = (index as f64 + 0.5) / LAYERS as f64;
                     let across = 0.65 * radius * (1.0 - height * height).sqrt();
@@ -59,22 +59,22 @@ impl Shape {
 /// One touch of a shape.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {
-    /// Radians.
+    /// Rotation, radians.
     pub angle: f64,
-    /// Of the size on that grid.
+    /// Scale relative to the grid's size.
     pub scale: f64,
-    /// Of the centre from the grid's, in taxels.
+    /// Offset of the centre from the grid's, taxels.
     pub shift: [f64; 2],
-    /// Greatest pressure as a part of full scale.
+    /// Greatest pressure as a share of full scale.
     pub gain: f64,
 }
 
-/// What the others stay at while one thing varies.
+/// Values of the parameters that do not vary.
 pub const STILL: Touch = Touch { angle: 17.0 * DEGREE, scale: 1.0, shift: [0.13, 0.29], gain: 0.5 };
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Touch {
-    /// The touches under one variation: its index in [`VARIED`].
+    /// Touches of one variation, by its index in [`VARIED`].
     pub fn varied(variation: usize) -> Vec<Touch> {
         let part = |step: i32, of: i32| f64::from(step) / f64::from(of);
         match variation {

@@ -17,7 +17,7 @@ use std::time::Duration;
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 
-/// What `taxel calibrate check` takes.
+/// Arguments of `taxel calibrate check`.
 #[derive(Debug, Clone, Args)]
 pub struct CheckArgs {
     /// Calibration file
@@ -59,7 +59,7 @@ pub fn run(args: &CheckArgs) -> Result<()> {
     let mut told = None;
     loop {
         let now = reasons(args, &calibration)?;
-        // Numbers in a reason change all the time; which reasons there are is news.
+        // The numbers in a reason change all the time; only a change of the kinds of reasons is reported.
         let kinds: Vec<_> = now.iter().map(std::mem::discriminant).collect();
         if told.as_ref() != Some(&kinds) {
             tell(args, &calibration, &now);
@@ -69,10 +69,10 @@ pub fn run(args: &CheckArgs) -> Result<()> {
     }
 }
 
-/// Looks at the garment once.
+/// Checks the garment once.
 fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
-    let worn = board.worn().context("the board has not said what it wears").board()?;
+    let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let mut dialogue = Dialogue::new(&mut board, garment.wiring.falling, args.wait, args.json);
@@ -108,11 +108,11 @@ fn tell(args: &CheckArgs, calibration: &Calibration, reasons: &[Reason]) {
     reasons.iter().for_each(|reason| println!("  {reason}."));
 }
 
-/// A known force by the calibration, N.
+/// Force of a known weight by the calibration, N.
 fn felt(calibration: &Calibration, plate: &Plate, reading: &Reading) -> Result<f64> {
     let name = plate.name.trim_start_matches("panel ");
     let panel = calibration.panels.iter().find(|panel| panel.name == name);
-    let curve = &panel.with_context(|| format!("the calibration knows no panel {name}"))?.knots;
+    let curve = &panel.with_context(|| format!("the calibration has no panel {name}"))?.knots;
     let force = |(taxel, counts): (&u16, &f64)| {
         let gain = f64::from(calibration.gains[usize::from(*taxel)]) / f64::from(UNITY);
         curve.micronewtons((counts.max(0.0) * gain * f64::from(super::curve::PARTS)).round() as u32) as f64

@@ -19,14 +19,14 @@ use std::path::PathBuf;
 use taxel_core::garment::Layout;
 use taxel_core::wire::Request;
 
-/// Newtons of a kilogram.
+/// Newtons per kilogram-force.
 const GRAVITY: f64 = 9.806_65;
-/// The garment of a simulation where none is named.
+/// Garment of a simulation if none is given.
 const SIMULATED: &str = "block-4x16";
-/// What a simulated garment is like.
+/// Properties of a simulated garment.
 const SENSOR: Sensor = Sensor { gain_spread: 0.10, hysteresis: 0.03, noise: 0.02, half_n: 0.0 };
 
-/// What `taxel calibrate` takes.
+/// Arguments of `taxel calibrate`.
 #[derive(Debug, Clone, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct CalibrateArgs {
@@ -35,7 +35,7 @@ pub struct CalibrateArgs {
     /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// The garment, a preset or a TOML file [default: what the board wears]
+    /// The garment, a preset or a TOML file [default: the board's]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// What the plate under the weights covers
@@ -57,7 +57,7 @@ pub struct CalibrateArgs {
     /// File to write
     #[arg(long, short, value_name = "FILE", default_value = "calibration.toml")]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Also save the calibration to the board's flash
@@ -106,13 +106,14 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     Ok(())
 }
 
-/// Writes the calibration. Nobody puts the weights on twice: where it cannot be written, it is printed.
+/// Writes the calibration. If the file cannot be written, prints it, so that the weights need not be put on
+/// again.
 fn keep(made: &Calibration, output: Output) -> Result<()> {
     let text = made.text()?;
     output.write(text.as_bytes()).inspect_err(|_| println!("{text}"))
 }
 
-/// The weights in N, checked, ascending.
+/// The weights in N, validated, ascending.
 fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
     let unit = if args.kg { GRAVITY } else { 1.0 };
     let mut weights: Vec<f64> = args.weights.iter().map(|weight| weight * unit).collect();
@@ -177,7 +178,7 @@ fn tell(args: &CalibrateArgs, made: &Calibration) {
         percent(fit.noise)
     );
     if !made.silent.is_empty() {
-        println!("{} taxels show nothing: `taxel health` names them.", made.silent.len());
+        println!("{} taxels do not respond: `taxel health` lists them.", made.silent.len());
     }
     let kept =
         if args.save { "has stored its share" } else { "has its share until it restarts (--save keeps it)" };

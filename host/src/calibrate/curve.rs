@@ -1,21 +1,21 @@
-//! A curve from counts to newtons on a taxel: straight between knots, in integers.
+//! A piecewise linear curve from counts to newtons on a taxel, in integers.
 
 use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 
-/// Parts of a count in which a knot's place is given.
+/// Fractions of a count in a knot.
 pub const PARTS: u32 = 16;
 
 /// A point of the curve: `[1/16 count, uN]`.
 pub type Knot = [u32; 2];
 
-/// A curve that begins at no counts and no force, rises from knot to knot, and goes on straight after the last.
+/// A curve through the origin that rises from knot to knot, and continues straight after the last.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Curve(Vec<Knot>);
 
 impl Curve {
-    /// Of knots that rise in both.
+    /// A curve through knots that rise in both coordinates.
     pub fn new(knots: Vec<Knot>) -> Result<Curve> {
         ensure!(!knots.is_empty(), "a curve needs at least one knot");
         let rises = |at: usize| [&[[0, 0]], knots.as_slice()].concat().is_sorted_by(|a, b| a[at] < b[at]);
@@ -24,10 +24,10 @@ impl Curve {
         Ok(Curve(knots))
     }
 
-    /// Means of counts and of uN on a taxel, in rising order of force. Where noise makes the counts fall,
-    /// neighbours are put together.
+    /// A curve through mean counts and uN on a taxel, in rising order of force. Where noise makes the counts
+    /// fall, neighbouring points are merged.
     pub fn through(points: &[[f64; 2]]) -> Result<Curve> {
-        // Means of x and y, and how many points they are of.
+        // Means of x and y, and the number of points.
         let mut groups: Vec<[f64; 3]> = Vec::new();
         for [x, y] in points {
             let mut group = [x * f64::from(PARTS), *y, 1.0];
@@ -41,12 +41,12 @@ impl Curve {
         Curve::new(groups.iter().map(|[x, y, _]| [x.round() as u32, y.round() as u32]).collect())
     }
 
-    /// Its knots.
+    /// The knots.
     pub fn knots(&self) -> &[Knot] {
         &self.0
     }
 
-    /// Force on a taxel that shows that many 1/16 counts, uN.
+    /// Force on a taxel with this many 1/16 counts, uN.
     pub fn micronewtons(&self, parts: u32) -> u64 {
         let after = self.0.partition_point(|[x, _]| *x <= parts).min(self.0.len() - 1);
         let [x0, y0] = after.checked_sub(1).map_or([0, 0], |before| self.0[before]);
@@ -54,7 +54,7 @@ impl Curve {
         u64::from(y0) + u64::from(parts - x0) * u64::from(y1 - y0) / u64::from(x1 - x0)
     }
 
-    /// Counts a newton between nothing and the last knot.
+    /// Counts per newton between the origin and the last knot.
     pub fn counts_per_newton(&self) -> f64 {
         let [x, y] = self.0[self.0.len() - 1];
         f64::from(x) / f64::from(PARTS) / (f64::from(y) / 1e6)

@@ -1,4 +1,4 @@
-//! The weights, one after the other, on one plate after the other.
+//! Asks for the weights, one after the other, on one plate after the other.
 
 use super::plates::Plate;
 use super::reading::{Reading, Rest};
@@ -8,23 +8,23 @@ use anyhow::{Result, bail};
 use serde_json::json;
 use std::io::{IsTerminal, Write, stdout};
 
-/// Frames of the garment at rest.
+/// Frames for the codes at rest.
 const REST_FRAMES: usize = 64;
-/// Least step from nothing: counts, and times the noise at rest of one frame of the plate.
+/// Least step from no load: counts, and multiple of the plate's noise at rest in one frame.
 const FAINT: (f64, f64) = (2.0, 3.0);
-/// Least step to the next weight by what the last ones lead to expect, part of it.
+/// Least step to the next weight, as a share of the expected one.
 const STEP: f64 = 0.5;
 
-/// Part of what a plate usually shows under its first weight, from which on that is one.
+/// Share of a plate's usual signal under its first weight from which a load counts as the first weight.
 const FIRST: f64 = 0.25;
-/// Part of what it showed under its first weight, below which it is taken off.
+/// Share of the signal under the first weight below which the plate counts as unloaded.
 const OFF: f64 = 0.4;
 
-/// Least time from one frame to the next that is looked at, s: a small garment's frames come so fast that a
-/// weight on its way seems to rest.
+/// Least time between two evaluated frames, s: the frames of a small garment are so fast that a weight being
+/// put on seems to be steady.
 const APART: f64 = 0.004;
 
-/// Somebody before a board, who is asked for weights.
+/// A dialogue with a user who puts weights on a board's garment.
 pub struct Dialogue<'a> {
     /// The board, which sends raw codes.
     pub board: &'a mut RawBoard,
@@ -32,40 +32,40 @@ pub struct Dialogue<'a> {
     pub falling: bool,
     /// Seconds of the board to wait for a weight.
     pub wait: f64,
-    /// One JSON object a line instead of sentences.
+    /// Print JSON, one object per line.
     pub json: bool,
-    /// Time of the last frame that was looked at, s.
+    /// Time of the last evaluated frame, s.
     seen: f64,
 }
 
 impl<'a> Dialogue<'a> {
-    /// Before a board whose codes fall under pressure, or rise; a weight is waited for so many seconds.
+    /// A dialogue about a board whose codes fall or rise under pressure, with `wait` seconds for each weight.
     pub fn new(board: &'a mut RawBoard, falling: bool, wait: f64, json: bool) -> Dialogue<'a> {
         Dialogue { board, falling, wait, json, seen: f64::NEG_INFINITY }
     }
 
-    /// Says that nothing is to be touched now.
+    /// Asks the user not to touch the garment.
     pub fn ask_for_rest(&self) {
         self.say("Hands off for a moment.", json!({ "type": "rest" }));
     }
 
-    /// The garment at rest.
+    /// Reads the garment at rest.
     pub fn rest(&mut self) -> Result<Rest> {
         let frames: Vec<Vec<u16>> =
             (0..REST_FRAMES).map(|_| Ok(self.board.frame()?.codes)).collect::<Result<_>>()?;
         Ok(Rest::of(&frames))
     }
 
-    /// All weights (N, ascending) on each of the plates, and off again. A plate over one taxel that does not
-    /// feel the first is passed over.
+    /// Readings of all weights (N, ascending) on each plate, loading and unloading. A single taxel that does
+    /// not respond to the first weight is skipped.
     pub fn readings(&mut self, plates: &[Plate], weights: &[f64], rest: &Rest) -> Result<Vec<Reading>> {
         let mut readings: Vec<Reading> = Vec::new();
-        // Counts of a newton on a taxel.
+        // Counts per newton on a taxel.
         let mut usual = 0.0;
         for (index, plate) in plates.iter().enumerate() {
             let coming = weights.iter().map(|weight| (*weight, false));
             let going = weights.iter().rev().skip(1).map(|weight| (*weight, true));
-            // Weight and mean counts of what lies there.
+            // Last weight and its mean counts.
             let mut last = (0.0, 0.0);
             let mut per_newton = 0.0;
             let first = FIRST * usual * weights.first().copied().unwrap_or(0.0) / plate.taxels.len() as f64;
@@ -96,7 +96,7 @@ impl<'a> Dialogue<'a> {
         Ok(readings)
     }
 
-    /// One weight; none where it does not come in time.
+    /// Reads one weight; none if it is not put on in time.
     fn weigh(
         &mut self,
         index: usize,
@@ -105,7 +105,7 @@ impl<'a> Dialogue<'a> {
         mut steady: Steady,
         rest: &Rest,
     ) -> Result<Option<Reading>> {
-        let again = if going { "again only " } else { "" };
+        let again = if going { "only " } else { "" };
         let ask = json!({ "type": "ask", "plate": plate.name, "newtons": newtons, "going": going });
         self.say(&format!("{}: put {again}{newtons} N on the plate.", plate.name), ask);
         let (mut began, mut shown) = (None, 0.0);
@@ -127,7 +127,7 @@ impl<'a> Dialogue<'a> {
         }
     }
 
-    /// Waits until a plate shows less than that many counts: it would press on its neighbours, too.
+    /// Waits until a plate shows fewer counts than `below`: it would press on its neighbours, too.
     fn take_off(&mut self, plate: &Plate, below: f64, rest: &Rest) -> Result<()> {
         self.say("  Take it off.", json!({ "type": "off" }));
         let mut began = None;
@@ -142,7 +142,7 @@ impl<'a> Dialogue<'a> {
         }
     }
 
-    /// A frame some time after the last: its time, s, and counts above rest of the plate's taxels.
+    /// Reads a frame some time after the last: its time, s, and counts above rest of the plate's taxels.
     fn counts(&mut self, plate: &Plate, rest: &Rest) -> Result<(f64, Vec<f64>)> {
         let mut frame = self.board.frame()?;
         while (0.0..APART).contains(&(frame.time_us as f64 / 1e6 - self.seen)) {
@@ -170,7 +170,7 @@ impl<'a> Dialogue<'a> {
         if self.json { println!("{line}") } else { println!("{sentence}") }
     }
 
-    /// What the plate shows now, on a line that the next sentence overwrites.
+    /// Shows the plate's present counts on a line that the next sentence overwrites.
     fn progress(&self, counts: f64) {
         if !self.json && stdout().is_terminal() {
             print!("  {counts:7.1}\r");

@@ -1,58 +1,58 @@
-//! Whether a calibration still holds, and if not, why.
+//! Checks whether a calibration still holds, and if not, why.
 
 use super::file::Calibration;
 use crate::date::days_between;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Part of the last knot's counts by which the garment at rest may have moved (median over taxels).
+/// Tolerated movement of the garment at rest (median over taxels), as a share of the last knot's counts.
 const REST: f64 = 0.02;
-/// Taxels that may have fallen ill since, part of all.
+/// Tolerated share of taxels that have become faulty since.
 const ILL: f64 = 0.01;
-/// Least error of a known press that counts, part of it, and times the calibration's own error.
+/// Least significant error of a known press: share of it, and multiple of the calibration's own error.
 const PRESS: (f64, f64) = (0.05, 3.0);
 
-/// Degrees by which the board may have become warmer or colder. Cloths differ in what that does to them: a
-/// known press tells more.
+/// Tolerated change of the board's temperature, degrees. Fabrics differ in their response; a known press is a
+/// better test.
 const WARMTH: f64 = 10.0;
 
-/// What is found on the garment now.
+/// State of the garment now.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Seen {
-    /// What the board says of its calibration.
+    /// The calibration by the board's `Hello`.
     pub told: String,
     /// Codes at rest by taxel number.
     pub rest: Vec<f64>,
-    /// Taxels that are ill.
+    /// Faulty taxels.
     pub ill: BTreeSet<u16>,
     /// Today, year-month-day.
     pub today: String,
     /// Days after which a calibration is old.
     pub days: u64,
-    /// A known force, and what it is by the calibration, N.
+    /// A known force, and its value by the calibration, N.
     pub press: Option<(f64, f64)>,
-    /// Temperature of the board's converter, degrees; none: it has no thermometer.
+    /// Temperature of the board's converter, degrees; none if it has no thermometer.
     pub celsius: Option<f64>,
 }
 
-/// Why to calibrate again.
+/// Reason to calibrate again.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reason {
-    /// The board has none.
+    /// The board has no calibration.
     None,
-    /// The board has another, of that name.
+    /// The board has another calibration, with this description.
     Another(String),
-    /// The garment has that many taxels instead.
+    /// The garment has the first number of taxels, the calibration the second.
     Garment(usize, usize),
-    /// The garment at rest has moved by so many counts, median over taxels; that part of the last knot's.
+    /// Movement of the garment at rest: counts, median over taxels, and share of the last knot's.
     Rest(f64, f64),
-    /// So many taxels have fallen ill.
+    /// Number of taxels that have become faulty.
     Ill(usize),
-    /// It is so many days old.
+    /// Age, days.
     Old(u64),
-    /// A known press is felt as another: N, N.
+    /// Known force of a press, and its value by the calibration, N.
     Press(f64, f64),
-    /// The board's temperature was the first and is the second, degrees.
+    /// Temperature of the board at the calibration and now, degrees.
     Warmth(f64, f64),
 }
 
@@ -68,20 +68,20 @@ impl fmt::Display for Reason {
                  or something lies on it",
                 100.0 * part
             ),
-            Reason::Ill(count) => write!(f, "{count} taxels have fallen ill since: `taxel health` names them"),
+            Reason::Ill(count) => write!(f, "{count} taxels have become faulty since: `taxel health` lists them"),
             Reason::Old(days) => write!(f, "it is {days} days old"),
             Reason::Press(known, felt) => {
                 write!(f, "{known:.2} N are felt as {felt:.2} N ({:+.1} %)", 100.0 * (felt / known - 1.0))
             }
             Reason::Warmth(then, now) => write!(
                 f,
-                "the board is at {now:.0} degrees, and was at {then:.0}: let it come to that, or calibrate as warm as it is used"
+                "the board is at {now:.0} degrees, and was at {then:.0}: wait until it is there, or calibrate at the temperature of use"
             ),
         }
     }
 }
 
-/// Every reason to calibrate again.
+/// Returns all reasons to calibrate again.
 pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
     let mut reasons = Vec::new();
     if seen.told.is_empty() {
@@ -120,7 +120,7 @@ pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
     reasons
 }
 
-/// Median over the taxels of what each has moved at rest, counts.
+/// Median over the taxels of their movement at rest, counts.
 fn moved(calibration: &Calibration, seen: &Seen) -> f64 {
     let well = |taxel: &usize| !seen.ill.contains(&(*taxel as u16));
     let pairs = seen.rest.iter().zip(&calibration.rest).enumerate().filter(|(taxel, _)| well(taxel));

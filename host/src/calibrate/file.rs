@@ -1,4 +1,4 @@
-//! A calibration as a file: what it says, who made it, when and how, and how well it fits.
+//! Calibration files: data, author, date, method, and quality of the fit.
 
 use super::curve::Curve;
 use super::fit::Fitted;
@@ -20,29 +20,29 @@ pub struct Calibration {
     pub id: String,
     /// Name of the garment.
     pub garment: String,
-    /// Who made it.
+    /// Author.
     pub by: String,
-    /// When, year-month-day.
+    /// Date, year-month-day.
     pub date: String,
-    /// With which plates and weights.
+    /// Plates and weights used.
     pub how: String,
     /// Firmware and link of the board.
     pub board: String,
-    /// Temperature of the board's converter when it was made, degrees; none: it has no thermometer.
+    /// Temperature of the board's converter at the calibration, degrees; none if it has no thermometer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub celsius: Option<f64>,
-    /// How well it fits.
+    /// Quality of the fit.
     pub fit: Residuals,
-    /// How well each weight is given back.
+    /// Error at each weight.
     #[serde(default, rename = "weight")]
     pub weights: Vec<OfWeight>,
-    /// Taxels that show nothing.
+    /// Taxels that do not respond.
     pub silent: Vec<u16>,
-    /// Gain by taxel number, Q4.12: the board's share.
+    /// Gain by taxel number, Q4.12, as sent to the board.
     pub gains: Vec<u16>,
-    /// Code at rest by taxel number when it was made.
+    /// Code at rest by taxel number, at the calibration.
     pub rest: Vec<u16>,
-    /// The curves: the host's share.
+    /// Curves, used by the host.
     #[serde(rename = "panel")]
     pub panels: Vec<PanelCurve>,
 }
@@ -58,7 +58,7 @@ pub struct PanelCurve {
 }
 
 impl Calibration {
-    /// Of what was fitted, on this day, by this person.
+    /// Builds a calibration from a fit; `about` is author, date, method and board.
     pub fn of(fitted: Fitted, layout: &Layout, rest: &Rest, about: [&str; 4]) -> Calibration {
         let named = layout.areas().iter().zip(fitted.curves);
         let curve = |(area, curve): (&taxel_core::garment::Area, Option<Curve>)| {
@@ -94,7 +94,7 @@ impl Calibration {
         digest.finalize()
     }
 
-    /// Reads a file and checks it; errors name the file, and line and key where they can.
+    /// Reads and checks a file. Errors name the file, and line and key if known.
     pub fn read(file: &Path) -> Result<Calibration> {
         let name = file.display().to_string();
         crate::verbose::reads(file);
@@ -102,7 +102,7 @@ impl Calibration {
         Calibration::parse(&text, &name)
     }
 
-    /// Reads the text of a file of that name and checks it.
+    /// Parses and checks the text of a file with this name.
     pub fn parse(text: &str, name: &str) -> Result<Calibration> {
         let read: Calibration =
             toml::from_str(text).map_err(|error| anyhow!(crate::words::toml(&error, text, name)))?;
@@ -115,17 +115,17 @@ impl Calibration {
             Curve::new(panel.knots.knots().to_vec())
                 .with_context(|| format!("panel {}: knots", panel.name))?;
         }
-        ensure!(self.rest.len() == self.gains.len(), "`rest` and `gains` must be as long as each other");
+        ensure!(self.rest.len() == self.gains.len(), "`rest` and `gains` must have the same length");
         ensure!(date::parts(&self.date).is_some(), "`date` must be a day, such as 2026-11-21");
         ensure!(self.fit.error.is_finite() && self.fit.error >= 0.0, "`fit.error` must be 0 or more");
         ensure!(
             self.id == format!("{:08x}", self.sum()),
-            "`id` is not that of its gains and knots: it was changed"
+            "`id` does not match the gains and knots: the file was changed"
         );
         Ok(())
     }
 
-    /// What is in the file.
+    /// The file's text.
     pub fn text(&self) -> Result<String> {
         toml::to_string(self).context("the calibration cannot be written as TOML")
     }
@@ -135,20 +135,20 @@ impl Calibration {
         Output::update(file)?.write(self.text()?.as_bytes())
     }
 
-    /// What the board is told of it.
+    /// Certificate sent to the board.
     pub fn certificate(&self) -> Certificate {
         let (year, month, day) = date::parts(&self.date).unwrap_or((2000, 1, 1));
         let error = (self.fit.error * 10_000.0).round().clamp(0.0, 65_535.0) as u16;
         Certificate { id: self.sum(), taxels: self.gains.len() as u16, year, month, day, error }
     }
 
-    /// Counts of a newton, mean over the panels: exact only where their curves are straight and alike.
+    /// Counts per newton, mean over the panels: exact only if their curves are straight and alike.
     pub fn counts_per_newton(&self) -> Option<f32> {
         let each = self.panels.iter().map(|panel| panel.knots.counts_per_newton());
         (!self.panels.is_empty()).then(|| (each.sum::<f64>() / self.panels.len() as f64) as f32)
     }
 
-    /// Whether a board that says this of its calibration has this one.
+    /// True if a board with this description of its calibration uses this one.
     pub fn is_in_force(&self, told: &str) -> bool {
         told.starts_with(&format!("id {},", self.id))
     }

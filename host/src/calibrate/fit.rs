@@ -11,27 +11,27 @@ use taxel_core::garment::Layout;
 
 /// Rounds of gains against the panel's mean, and back.
 const ROUNDS: usize = 4;
-/// What a mean over frames strays by: counts, and part of the signal.
+/// Error of a mean over frames: counts, and share of the signal.
 const STRAYS: (f64, f64) = (0.6, 0.01);
-/// A taxel with less than this part of its plate's median shows nothing.
+/// A taxel below this share of its plate's median counts as silent.
 const SILENT: f64 = 0.2;
 /// Signals below this many counts make no knot.
 const FAINT: f64 = 2.0;
-/// Gains that a taxel can have.
+/// Range of a taxel's gain.
 const GAINS: (f64, f64) = (0.25, 4.0);
 
-/// What was found.
+/// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// Gain by taxel number, Q4.12; 1 where nothing was measured.
+    /// Gain by taxel number, Q4.12; 1 for taxels that were not measured.
     pub gains: Vec<u16>,
-    /// Curve by panel; none where nothing was measured.
+    /// Curve by panel; none for panels that were not measured.
     pub curves: Vec<Option<Curve>>,
-    /// Taxels that show nothing.
+    /// Silent taxels.
     pub silent: Vec<u16>,
-    /// How well it fits.
+    /// Quality of the fit.
     pub residuals: Residuals,
-    /// How well each weight is given back, from the lightest.
+    /// Error at each weight, lightest first.
     pub weights: Vec<OfWeight>,
 }
 
@@ -71,8 +71,8 @@ pub fn fit(layout: &Layout, plates: &[Plate], readings: &[Reading]) -> Result<Fi
     })
 }
 
-/// Those that show nothing under the heaviest weight of their plate, though others do, and those of a plate
-/// that shows nothing.
+/// Taxels without response under the heaviest weight of their plate although others respond, and all taxels
+/// of a plate without response.
 fn silent(plates: &[Plate], readings: &[Reading]) -> Vec<u16> {
     let mut found = Vec::new();
     for (index, plate) in plates.iter().enumerate() {
@@ -90,13 +90,13 @@ fn silent(plates: &[Plate], readings: &[Reading]) -> Vec<u16> {
     found
 }
 
-/// Sets the gains of a panel's taxels; its curve.
+/// Sets the gains of a panel's taxels. Returns its curve.
 fn fit_panel(plates: &[Plate], readings: &[&Reading], silent: &[u16], gains: &mut [f64]) -> Result<Curve> {
     let mut levels: Vec<f64> = readings.iter().map(|reading| reading.each()).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     let points = points(plates, readings, silent, &levels);
-    ensure!(!points.is_empty(), "no taxel shows the weights");
+    ensure!(!points.is_empty(), "no taxel responds to the weights");
     let mut live: Vec<usize> = points.iter().map(|point| point.taxel).collect();
     live.sort_unstable();
     live.dedup();
@@ -114,7 +114,7 @@ fn fit_panel(plates: &[Plate], readings: &[&Reading], silent: &[u16], gains: &mu
         let scale = mean(live.iter().map(|taxel| gains[*taxel]));
         live.iter().for_each(|taxel| gains[*taxel] /= scale);
     }
-    // The curve is that of the gains as the board takes them.
+    // The curve is fitted to the gains as rounded for the board.
     let unity = f64::from(UNITY);
     live.iter().for_each(|taxel| gains[*taxel] = (gains[*taxel] * unity).round() / unity);
     let means = means(&points, levels.len(), gains);
@@ -123,7 +123,7 @@ fn fit_panel(plates: &[Plate], readings: &[&Reading], silent: &[u16], gains: &mu
     let loud: Vec<[f64; 2]> = knots.iter().copied().filter(|[counts, _]| *counts >= FAINT).collect();
     ensure!(!loud.is_empty(), "under {FAINT} counts a taxel under the heaviest weight: put on heavier ones");
     let full = f64::from(u16::MAX / PARTS as u16);
-    ensure!(loud.iter().all(|[counts, _]| *counts < full), "the weights are beyond the converter");
+    ensure!(loud.iter().all(|[counts, _]| *counts < full), "the weights exceed the range of the converter");
     Curve::through(&loud)
 }
 
@@ -141,7 +141,7 @@ fn points(plates: &[Plate], readings: &[&Reading], silent: &[u16], levels: &[f64
     points
 }
 
-/// Mean counts by level, coming and going alike.
+/// Mean counts by level, over loading and unloading.
 fn means(points: &[Point], levels: usize, gains: &[f64]) -> Vec<f64> {
     let mut sums = vec![[[0.0; 2]; 2]; levels];
     for point in points {

@@ -1,18 +1,18 @@
-//! Forces of images by a calibration.
+//! Computes forces of images by a calibration.
 
 use super::curve::{Curve, PARTS};
 use super::file::Calibration;
 use anyhow::{Result, ensure};
 use taxel_core::garment::{Layout, Place, Rect};
 
-/// The curves of a garment's panels.
+/// Curves of a garment's panels.
 #[derive(Debug, Clone)]
 pub struct Forces {
     curves: Vec<Option<Curve>>,
 }
 
 impl Forces {
-    /// Of a calibration for this garment.
+    /// Forces by a calibration for this garment. Error if it is for another garment.
     pub fn new(calibration: &Calibration, layout: &Layout) -> Result<Forces> {
         ensure!(
             calibration.gains.len() == layout.taxels(),
@@ -25,13 +25,13 @@ impl Forces {
         Ok(Forces { curves: layout.areas().iter().map(|area| curve(area.name.as_str())).collect() })
     }
 
-    /// Force on a taxel of a panel that shows that many counts, N; none where the panel is not calibrated.
+    /// Force on a taxel of a panel at these counts, N; none if the panel is not calibrated.
     pub fn taxel(&self, panel: usize, counts: u16) -> Option<f64> {
         let curve = self.curves.get(panel)?.as_ref()?;
         Some(curve.micronewtons(u32::from(counts) * PARTS) as f64 / 1e6)
     }
 
-    /// Force on the taxels of a rectangle, N, of an image by taxel number (counts); none where the panel is
+    /// Force on the taxels of a rectangle, N, from an image by taxel number (counts); none if the panel is
     /// not calibrated.
     pub fn within(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
         let curve = self.curves.get(usize::from(bounds.panel))?.as_ref()?;
@@ -46,8 +46,8 @@ impl Forces {
         Some(sum as f64 / 1e6)
     }
 
-    /// Force of a contact within these bounds, N: what lies beside them counts, too, because it is part of it
-    /// below the contact's threshold.
+    /// Force of a contact with these bounds, N. Their surroundings are included, because a contact continues
+    /// below its threshold.
     pub fn contact(&self, layout: &Layout, image: &[u16], bounds: &Rect) -> Option<f64> {
         let area = layout.areas().get(usize::from(bounds.panel))?;
         let wider = Rect {
@@ -60,7 +60,7 @@ impl Forces {
         self.within(layout, image, &wider)
     }
 
-    /// Force on each panel, N; none where it is not calibrated.
+    /// Force on each panel, N; none for panels that are not calibrated.
     pub fn panels(&self, layout: &Layout, image: &[u16]) -> Vec<Option<f64>> {
         let whole = |(panel, area): (u8, &taxel_core::garment::Area)| Rect {
             panel,

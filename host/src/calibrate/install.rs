@@ -1,15 +1,15 @@
-//! Tells a board its share of a calibration.
+//! Sends a calibration to a board.
 
 use super::file::Calibration;
 use crate::raw::RawBoard;
 use anyhow::Result;
 use taxel_core::wire::Request;
 
-/// Gains of a request.
+/// Gains per request.
 const CHUNK: usize = 64;
 
 impl Calibration {
-    /// The gains, then whose they are.
+    /// Requests for the gains, then for the certificate.
     pub fn requests(&self) -> impl Iterator<Item = Request<'static>> {
         let gains = |(index, gains): (usize, &[u16])| Request::SetGain {
             first: (index * CHUNK) as u16,
@@ -20,7 +20,7 @@ impl Calibration {
     }
 }
 
-/// Sets gains and certificate; the board's refusal is the error.
+/// Sets gains and certificate. Error if the board refuses.
 pub fn install(board: &mut RawBoard, calibration: &Calibration) -> Result<()> {
     calibration.requests().try_for_each(|request| board.ask(&request))
 }

@@ -1,10 +1,10 @@
 //! Calibration: from counts to newtons, by known weights on a plate.
 //!
-//! The board is told a gain for each taxel, which makes the taxels of a panel alike ([`fit()`]); the panel's
-//! [`Curve`], from counts to newtons on a taxel, stays on the host, in a [`Calibration`] file beside who made
-//! it, when, how and how well it fits. The board names the file's id in each `Hello`, so that a stream says
-//! which is in force. What a plate weighs is spread evenly over the taxels that it covers; coming and going
-//! are measured alike, and the mean of both is what counts.
+//! The board gets a gain for each taxel, which makes the taxels of a panel alike ([`fit()`]). The panel's
+//! [`Curve`], from counts to newtons on a taxel, stays on the host in a [`Calibration`] file, with author,
+//! date, method and quality of the fit. The board sends the file's id in each `Hello`, so that a stream names
+//! its calibration. The weight of a plate is spread evenly over the taxels that it covers. Loading and
+//! unloading are measured alike, and their mean is used.
 
 mod check;
 mod command;

@@ -1,4 +1,4 @@
-//! Somebody who puts the weights on a simulated garment.
+//! Simulates a user who puts weights on a garment.
 
 use super::plates::Plate;
 use crate::sim::{Script, Sensor};
@@ -7,9 +7,9 @@ use taxel_core::garment::Layout;
 
 /// Rest before the first weight, and between plates, s.
 const REST_S: (f64, f64) = (40.0, 1.0);
-/// Time to put a weight on or take it off, and for which it lies there, s.
+/// Time to put a weight on or take it off, and time for which it stays, s.
 const EACH_S: (f64, f64) = (0.3, 0.6);
-/// Pitch where the garment does not say, mm: that of a simulation.
+/// Pitch of a simulated garment without one, um.
 const PITCH_UM: u32 = 10_000;
 
 /// A script in which each plate is loaded with all weights (N, ascending) and unloaded again.

@@ -1,9 +1,9 @@
-//! Where the weights are put: plates that cover a panel, a block, or one taxel.
+//! Places for the weights: plates that cover a panel, a block, or one taxel.
 
 use anyhow::{Result, anyhow};
 use taxel_core::garment::{Garment, Layout, Place, Rect};
 
-/// What a plate covers.
+/// Area covered by a plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Over {
     /// all taxels of a panel
@@ -15,7 +15,7 @@ pub enum Over {
 }
 
 impl Over {
-    /// Weights for it where nobody says which, N.
+    /// Default weights, N.
     pub fn weights(self) -> &'static [f64] {
         match self {
             Over::Panel | Over::Block => &[5.0, 10.0, 20.0, 50.0, 100.0],
@@ -24,18 +24,18 @@ impl Over {
     }
 }
 
-/// A place of the plate, and what it presses there.
+/// A place of the plate, and the taxels that it presses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plate {
-    /// In words.
+    /// Name of the place.
     pub name: String,
-    /// The taxels between its edges.
+    /// Taxels between its edges.
     pub bounds: Rect,
-    /// Numbers of those that are there.
+    /// Numbers of those that exist.
     pub taxels: Vec<u16>,
 }
 
-/// The places of the plate on a garment, one after the other.
+/// Places of the plate on a garment, in order.
 pub fn plates(garment: &Garment, layout: &Layout, over: Over) -> Result<Vec<Plate>> {
     let mut found = Vec::new();
     let mut add = |name: String, bounds: Rect| {
@@ -73,7 +73,7 @@ pub fn plates(garment: &Garment, layout: &Layout, over: Over) -> Result<Vec<Plat
         }
     }
     if found.is_empty() {
-        return Err(anyhow!("garment {}: it has nothing that a plate could cover", garment.name));
+        return Err(anyhow!("garment {}: it has no taxels that a plate could cover", garment.name));
     }
     Ok(found)
 }

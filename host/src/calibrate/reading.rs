@@ -1,4 +1,4 @@
-//! What taxels showed at rest, and under a known force.
+//! Readings of taxels at rest and under a known force.
 
 use super::steady::mean;
 
@@ -12,7 +12,7 @@ pub struct Rest {
 }
 
 impl Rest {
-    /// Of the codes of some frames.
+    /// Rest from the codes of some frames.
     pub fn of(frames: &[Vec<u16>]) -> Rest {
         let taxels = frames.iter().map(Vec::len).min().unwrap_or(0);
         let column = |taxel: usize| frames.iter().map(move |codes| f64::from(codes[taxel]));
@@ -29,11 +29,11 @@ pub struct Reading {
     pub plate: usize,
     /// Weight on it, N.
     pub newtons: f64,
-    /// The weight before was heavier.
+    /// True if the weight before was heavier (unloading).
     pub going: bool,
     /// Counts above rest by taxel of the plate.
     pub counts: Vec<f64>,
-    /// Standard deviation of one frame's by taxel of the plate, counts.
+    /// Standard deviation in one frame, by taxel of the plate, counts.
     pub noise: Vec<f64>,
 }
 

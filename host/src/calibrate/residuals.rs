@@ -1,4 +1,4 @@
-//! How well a calibration gives back the weights that it was made with.
+//! Errors of a calibration at the weights that it was made with.
 
 use super::curve::{Curve, PARTS};
 use super::plates::Plate;
@@ -7,15 +7,15 @@ use super::steady::mean;
 use serde::{Deserialize, Serialize};
 use taxel_core::condition::UNITY;
 
-/// How well a calibration fits: parts of 1, but for the last.
+/// Quality of a calibration, as shares of 1 except for the last.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
-    /// Error of the forces, rms over all weights, coming and going.
+    /// Error of the forces, rms over all weights, loading and unloading.
     pub error: f64,
-    /// The greatest of them.
+    /// Greatest error.
     pub worst: f64,
-    /// Most that going differs from coming under the same weight.
+    /// Largest difference between loading and unloading at the same weight.
     pub hysteresis: f64,
     /// Noise of one taxel in one frame under the heaviest weight, rms.
     pub noise: f64,
@@ -24,18 +24,18 @@ pub struct Residuals {
     pub rest: f64,
 }
 
-/// What a weight is by the calibration.
+/// Error at one weight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfWeight {
     /// The weight, N.
     pub newtons: f64,
-    /// What it is taken for when it comes, N, mean over the plates.
+    /// Its value while loading, N, mean over the plates.
     pub coming: f64,
-    /// And when it goes, N; none: it was the heaviest.
+    /// Its value while unloading, N; none for the heaviest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub going: Option<f64>,
-    /// Error of both, rms over the plates, part of the weight.
+    /// Error of both, rms over the plates, as a share of the weight.
     pub error: f64,
 }
 
@@ -54,7 +54,7 @@ impl Felt {
 }
 
 impl Residuals {
-    /// Of what was fitted to readings.
+    /// Errors of a fit to readings.
     pub(super) fn of(readings: &[Reading], felt: &[Felt]) -> Residuals {
         Residuals {
             error: rms(felt.iter().map(Felt::error)),
@@ -66,7 +66,7 @@ impl Residuals {
     }
 }
 
-/// All readings by the calibration.
+/// Forces of all readings by the calibration.
 pub(super) fn felt(
     plates: &[Plate],
     readings: &[Reading],
@@ -83,7 +83,7 @@ pub(super) fn felt(
     readings.iter().filter_map(one).collect()
 }
 
-/// The same by weight, from the lightest.
+/// Errors by weight, lightest first.
 pub(super) fn of_weights(all: &[Felt]) -> Vec<OfWeight> {
     let mut weights: Vec<f64> = all.iter().map(|felt| felt.newtons).collect();
     weights.sort_by(f64::total_cmp);
@@ -105,7 +105,7 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
     mean(values.map(|value| value * value)).sqrt()
 }
 
-/// Force of a reading by the calibration, N; a silent taxel counts as the mean of the others.
+/// Force of a reading by the calibration, N; silent taxels count as the mean of the others.
 fn force(reading: &Reading, plate: &Plate, gains: &[u16], curve: &Curve, silent: &[u16]) -> f64 {
     let live = plate.taxels.iter().zip(&reading.counts).filter(|(taxel, _)| !silent.contains(taxel));
     let forces = live.map(|(taxel, counts)| {

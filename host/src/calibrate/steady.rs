@@ -1,16 +1,16 @@
-//! When a load rests: the mean over the plate has left the last load, and stands still.
+//! Detects a steady load: the mean over the plate has left the last load, and stands still.
 
 use std::collections::VecDeque;
 
 /// Frames of a steady load.
 const FRAMES: usize = 32;
-/// Standard errors that two halves of them may differ by, and the part of the load that they may differ by
-/// where that is more.
+/// Tolerated difference of the two halves of these frames: standard errors, or share of the load if that is
+/// more.
 const STILL: (f64, f64) = (3.0, 0.004);
-/// Standard errors by which a load differs from the one before.
+/// Least difference from the load before, standard errors.
 const MOVED: f64 = 6.0;
 
-/// Means by taxel, and what one frame strays from them.
+/// A steady load: means by taxel, and noise of one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
     /// Mean, counts.
@@ -19,18 +19,18 @@ pub struct Held {
     pub noise: Vec<f64>,
 }
 
-/// Waits for a load.
+/// Detects a load.
 #[derive(Debug)]
 pub struct Steady {
     frames: VecDeque<Vec<f64>>,
-    /// Mean over the plate that is to be left: the last load's, and how far at least.
+    /// Last load's mean over the plate, and least difference from it.
     from: f64,
     least: f64,
 }
 
 impl Steady {
-    /// A load that differs from `from` (mean over the plate, counts) by more than `least` counts, and by more
-    /// than noise.
+    /// Detects a load that differs from `from` (mean over the plate, counts) by more than `least` counts, and
+    /// by more than noise.
     pub fn away_from(from: f64, least: f64) -> Steady {
         Steady { frames: VecDeque::new(), from, least }
     }
@@ -40,7 +40,7 @@ impl Steady {
         self.frames.back().map_or(0.0, |frame| mean(frame.iter().copied()))
     }
 
-    /// Takes a frame of the plate's taxels, counts above rest; the load, as soon as it rests.
+    /// Takes a frame of the plate's taxels, counts above rest. Returns the load once it is steady.
     pub fn take(&mut self, counts: Vec<f64>) -> Option<Held> {
         if self.frames.len() == FRAMES {
             self.frames.pop_front();
@@ -53,7 +53,7 @@ impl Steady {
         let (early, late) = totals.split_at(FRAMES / 2);
         let (early, late) = (mean(early.iter().copied()), mean(late.iter().copied()));
         let all = (early + late) / 2.0;
-        // From frame to frame, so that a slow change is no noise.
+        // From frame to frame, so that a slow change does not count as noise.
         let steps = totals.windows(2).map(|pair| (pair[1] - pair[0]).powi(2) / 2.0);
         let error = (mean(steps) / FRAMES as f64).sqrt();
         let still = (late - early).abs() <= (2.0 * STILL.0 * error).max(STILL.1 * all.abs());
@@ -70,7 +70,7 @@ impl Steady {
     }
 }
 
-/// The mean; 0 of nothing.
+/// Mean; 0 for no values.
 pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }

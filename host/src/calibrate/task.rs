@@ -1,4 +1,4 @@
-//! A whole calibration on a board.
+//! A complete calibration on a board.
 
 use super::dialogue::Dialogue;
 use super::file::Calibration;
@@ -10,27 +10,27 @@ use anyhow::{Context, Result};
 use taxel_core::garment::Layout;
 use taxel_core::wire::Request;
 
-/// Frames over which the board is tared.
+/// Frames averaged by the tare.
 const TARE: u16 = 64;
 
-/// What is to be done.
+/// What to calibrate, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Task {
     /// What the plate covers.
     pub over: Over,
     /// The weights, N, ascending.
     pub weights: Vec<f64>,
-    /// Who does it.
+    /// Author.
     pub by: String,
     /// Seconds of the board to wait for a weight.
     pub wait: f64,
-    /// The dialogue is printed as JSON.
+    /// Print the dialogue as JSON.
     pub json: bool,
 }
 
-/// Tares the board, asks for the weights and fits; the board's own calibration stays as it is.
+/// Tares the board, asks for the weights and fits. The board's own calibration is not changed.
 pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
-    let worn = board.worn().context("the board has not said what it wears").board()?;
+    let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, task.over)?;

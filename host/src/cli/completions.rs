@@ -1,4 +1,4 @@
-//! `taxel completions`: what a shell needs to complete the command line.
+//! `taxel completions`: completions of the command line for a shell.
 
 use anyhow::Result;
 use clap_complete::{Shell, generate};
@@ -10,7 +10,7 @@ pub struct CompletionsArgs {
     pub shell: Shell,
 }
 
-/// Prints the completions; the text is written whole, so that a closed pipe is told as an error.
+/// Prints the completions. The text is written in one call, so that a closed pipe is reported as an error.
 pub fn run(args: &CompletionsArgs, mut command: clap::Command) -> Result<()> {
     let mut text = Vec::new();
     generate(args.shell, &mut command, "taxel", &mut text);

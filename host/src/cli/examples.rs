@@ -25,7 +25,7 @@ pub(super) const VIEW: &str = "Examples:
 
 pub(super) const FOXGLOVE: &str = if cfg!(feature = "foxglove") { SERVED } else { NOT_BUILT };
 
-/// What this build has not.
+/// The example of a build without the feature.
 const NOT_BUILT: &str = "Example, in the folder of taxel:
   cargo run --release --features foxglove -- foxglove --source sim:pat";
 

@@ -1,17 +1,17 @@
-//! `taxel foxglove` in a program that was built without it.
+//! Stand-in for `taxel foxglove` in a build without the feature: says how to build it in.
 
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 
-/// Whatever the command would take.
+/// Accepts any arguments, and repeats them in the error.
 #[derive(Debug, Clone, clap::Args)]
 pub struct FoxgloveArgs {
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     args: Vec<OsString>,
 }
 
-/// Says how the command is built in.
+/// Returns the error that says how the command is built in.
 pub fn run(args: FoxgloveArgs) -> Result<()> {
     let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
     bail!(Fault::usage(format!(

@@ -1,41 +1,41 @@
-//! Sets a board again that has started anew: one request after the other, each answered before the next is
-//! made.
+//! Restores the settings of a restarted board: one request after the other, each sent once the last is
+//! answered.
 
 use super::wanted::Wish;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// How long an answer may take before the request is made again, and how long that of a tare, which comes when
-/// it is done.
+/// Time after which an unanswered request is repeated; that of a tare is longer, because the board answers
+/// when it is done.
 const PATIENCE: Duration = Duration::from_secs(2);
 const TARE_PATIENCE: Duration = Duration::from_secs(90);
-/// Times that a request is made.
+/// Attempts for each request.
 const TRIES: u8 = 3;
-/// Number of `Tare`.
+/// Request number of `Tare`.
 const TARE: u8 = 2;
-/// Number in the answer to a request that could not be read.
+/// Request number in the answer to an unreadable request.
 const UNREADABLE: u8 = 255;
 
-/// How it ended.
+/// Result of a restore.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Restored {
-    /// All has been set.
+    /// All requests were answered.
     Done {
-        /// The numbers of the requests, in their order.
+        /// Numbers of the requests, in order.
         set: Vec<u8>,
-        /// Why there is no new tare. The board has a baseline in this life: it refuses none before it has.
+        /// Why there is no new tare. The board refuses a tare only if it has had a baseline since its start.
         untared: Option<String>,
     },
-    /// The board refuses a request of this number, and why.
+    /// The board refuses the request with this number, and why.
     Refused(u8, String),
-    /// The board does not answer a request of this number.
+    /// The board does not answer the request with this number.
     Silent(u8),
 }
 
-/// What is under way.
+/// A restore in progress.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Again {
-    /// What is still to be asked for.
+    /// Requests still to be sent.
     left: VecDeque<Wish>,
     waits: Option<Waiting>,
     done: Vec<u8>,
@@ -51,18 +51,18 @@ struct Waiting {
 }
 
 impl Again {
-    /// Begins with these requests, whatever was under way.
+    /// Starts with these requests; drops a restore in progress.
     pub fn begin(&mut self, wishes: VecDeque<Wish>) {
         *self = Again { left: wishes, ..Again::default() };
         self.end_if_over();
     }
 
-    /// Whether something is still to be asked for, or an answer to come.
+    /// True while requests are to be sent or answers are awaited.
     pub fn is_under_way(&self) -> bool {
         self.waits.is_some() || !self.left.is_empty()
     }
 
-    /// The frame that is to be sent now, if one is.
+    /// Returns the frame to send now, if any.
     pub fn due(&mut self) -> Option<Vec<u8>> {
         if let Some(waiting) = &mut self.waits {
             let patience = if waiting.wish.number == TARE { TARE_PATIENCE } else { PATIENCE };
@@ -84,11 +84,11 @@ impl Again {
         Some(frame)
     }
 
-    /// Takes an answer of the board.
+    /// Handles an answer of the board.
     pub fn answered(&mut self, number: u8, refusal: Option<&str>) {
         let Some(waiting) = &mut self.waits else { return };
         if number == UNREADABLE {
-            // The line was noisy: it is made again at once.
+            // The line was noisy: repeat at once.
             waiting.since = waiting.since.checked_sub(TARE_PATIENCE).unwrap_or(waiting.since);
             return;
         }
@@ -115,7 +115,7 @@ impl Again {
         *self = Again { ended: Some(how), ..Again::default() };
     }
 
-    /// How it ended, told once.
+    /// Returns the result, once.
     pub fn ended(&mut self) -> Option<Restored> {
         self.ended.take()
     }

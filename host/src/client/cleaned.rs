@@ -1,4 +1,4 @@
-//! Names that a board says, without what a terminal would obey: they are shown in many places.
+//! Removes control characters from a board's names, which are shown in many places.
 
 use crate::words::printable;
 use taxel_core::format::Name;
@@ -6,14 +6,14 @@ use taxel_core::garment::Garment;
 use taxel_core::react::Cause;
 use taxel_core::scene::Scene;
 
-/// What is replaced becomes no longer by it.
+/// Cleans a name. Replacements are never longer.
 pub fn name(name: &mut Name) {
     if let std::borrow::Cow::Owned(clean) = printable(name) {
         *name = taxel_core::format::name(&clean);
     }
 }
 
-/// All names of a garment.
+/// Cleans all names of a garment.
 pub fn garment(garment: &mut Garment) {
     name(&mut garment.name);
     for panel in &mut garment.panels {
@@ -21,7 +21,7 @@ pub fn garment(garment: &mut Garment) {
     }
 }
 
-/// All names of a scene.
+/// Cleans all names of a scene.
 pub fn scene(scene: &mut Scene) {
     name(&mut scene.name);
     scene.friendliness.iter_mut().for_each(|entry| name(&mut entry.region));

@@ -1,8 +1,8 @@
-//! What is counted on the line.
+//! Counters of a connection.
 
 use taxel_core::wire::WireError;
 
-/// Counters of one connection, all since it began.
+/// Counters since the connection began.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Counts {
     /// Bytes received.
@@ -11,13 +11,13 @@ pub struct Counts {
     pub messages: u64,
     /// Frames (images) received.
     pub frames: u64,
-    /// Messages that the board sent and that did not come: gaps of `seq`.
+    /// Messages lost on the link: gaps of `seq`.
     pub lost: u64,
-    /// Images that the board left out: gaps of `frame` that no loss explains, in a scene that sends every one.
+    /// Images that the board left out: gaps of `frame` without a loss, in a scene that sends every image.
     pub thinned: u64,
     /// Images and raw codes that could not be decoded.
     pub undecoded: u64,
-    /// Times that the board started anew.
+    /// Restarts of the board.
     pub restarts: u64,
     kinds: Vec<(WireError, u64)>,
     next: Option<u32>,
@@ -26,12 +26,12 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// What was received and is no message, by kind.
+    /// Refused frames, by kind.
     pub fn refused_by_kind(&self) -> &[(WireError, u64)] {
         &self.kinds
     }
 
-    /// What was received and is no message.
+    /// Number of refused frames.
     pub fn refused(&self) -> u64 {
         self.kinds.iter().map(|(_, count)| count).sum()
     }
@@ -43,11 +43,11 @@ impl Counts {
         }
     }
 
-    /// Takes a message's number; whether the board has started anew.
+    /// Handles a message's number. Returns true if the board has restarted.
     pub(super) fn sequence(&mut self, seq: u32) -> bool {
         let gap = self.next.map_or(0, |next| seq.wrapping_sub(next));
         self.next = Some(seq.wrapping_add(1));
-        // Half of all numbers lie behind.
+        // A gap of more than half of the numbers is a step back.
         if gap > u32::MAX / 2 {
             self.restarts += 1;
             self.last_frame = None;
@@ -59,7 +59,7 @@ impl Counts {
         false
     }
 
-    /// Takes an image's number; `every` scan's image is to be sent.
+    /// Handles an image's number; `every`: the scene sends the image of every scan.
     pub(super) fn frame(&mut self, frame: u32, every: bool) {
         self.frames += 1;
         let skipped = self.last_frame.map_or(0, |last| frame.wrapping_sub(last).saturating_sub(1));

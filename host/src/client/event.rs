@@ -1,4 +1,4 @@
-//! What came over the wire.
+//! Events from the wire.
 
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
@@ -8,12 +8,12 @@ use taxel_core::wire::{
     ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
 };
 
-/// Something that came; what lasts is then found in the [`Client`](super::Client).
+/// An event; persistent state is found in the [`Client`](super::Client).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Event {
-    /// Garment and scene are known, or known anew.
+    /// Garment and scene were received.
     Hello,
-    /// How the board came to start; the `Hello` before it told the rest.
+    /// Cause of the board's start, sent after the `Hello`.
     Boot(Boot),
     /// A `Hello` that this program cannot use, and why.
     Unusable(String),
@@ -23,76 +23,76 @@ pub enum Event {
         frame: u32,
         /// Start of the scan.
         time: Micros,
-        /// It stands alone.
+        /// True for a key frame.
         alone: bool,
-        /// Whether it could be decoded.
+        /// Result of decoding.
         image: ImageNews,
     },
-    /// Contacts; those that are there are in the client.
+    /// Contacts; the present ones are in the client.
     Contacts {
         /// Number of the scan.
         frame: u32,
         /// Start of the scan.
         time: Micros,
-        /// Contacts that did not fit.
+        /// Number of contacts that did not fit.
         dropped: u16,
-        /// Those that have gone.
+        /// Released contacts.
         released: Vec<Placed>,
     },
-    /// What was said of contacts.
+    /// Symbols of contacts.
     Symbols(Box<SymbolList>),
-    /// What the touch means.
+    /// Intention of the touch.
     Intent(Box<IntentReport>),
-    /// Which gesture goes on; how sure that is, is found in the client.
+    /// Gesture of a touch; its confidence is in the client.
     Gesture(GestureReport),
-    /// How sure the gesture is that is told next.
+    /// Confidence of the next gesture report.
     Confidence(ConfidenceReport),
-    /// Which contacts may be drift; they are in the client, too.
+    /// Contacts that may be drift; they are in the client, too.
     Unsure(Box<UnsureReport>),
-    /// How old the forms are of the contacts that are told next; they are in the client, too.
+    /// Ages of the forms of the next contacts; they are in the client, too.
     Forms(Box<FormsReport>),
-    /// What the board was taught; the names are in the client, too.
+    /// The base of shapes; the names are in the client, too.
     Shapes {
-        /// Names of the classes; none: the built-in base is in force.
+        /// Names of the classes; empty while the built-in base is in use.
         names: Vec<String>,
-        /// Prototypes.
+        /// Number of prototypes.
         prototypes: u16,
     },
-    /// Something the garment did by itself.
+    /// A reaction of the garment.
     Reaction(ReactionReport),
-    /// A reaction began within a frame.
+    /// A reaction within a frame.
     Reflex(ReflexReport),
     /// Counters of the board.
     Health(Health),
-    /// Where the board's time goes.
+    /// Time budget of the board.
     Budget(Budget),
-    /// How warm the board is.
+    /// Temperature of the board.
     Temperature(Temperature),
-    /// Which taxels are ill; they are in the client.
+    /// Faulty taxels; they are in the client.
     HealthMap {
         /// The board's time.
         time: Micros,
-        /// The map is complete; else more of it follows.
+        /// The map is complete; else more parts follow.
         whole: bool,
     },
-    /// How lines and inputs are.
+    /// State of lines and inputs.
     SelfTest(SelfTestReport),
-    /// A sentence of the board.
+    /// A log message of the board.
     Log {
         /// The board's time.
         time: Micros,
-        /// How grave.
+        /// Severity.
         level: Level,
-        /// The sentence.
+        /// Text.
         text: String,
     },
     /// Answer to `Sync`.
     Sync(SyncReport),
     /// Answer to another request.
     Answer {
-        /// Number of the request's variant; 255: it could not be read.
+        /// Number of the request; 255 if it was unreadable.
         request: u8,
-        /// It was done; else why not.
+        /// Why it was refused; none if it was done.
         refusal: Option<String>,
     },
     /// Raw codes.
@@ -101,20 +101,20 @@ pub enum Event {
         frame: u32,
         /// Start of the scan.
         time: Micros,
-        /// They could be decoded.
+        /// True if they could be decoded.
         whole: bool,
     },
-    /// Bytes that are no message.
+    /// Bytes that are not a message.
     Refused(WireError),
 }
 
-/// Whether an image could be decoded; where not, the next that stands alone is asked for.
+/// Result of decoding an image; on failure the next key frame is requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImageNews {
-    /// Decoded, and the checksum of the board's own image is right.
+    /// Decoded, with the board's checksum.
     Whole,
-    /// It differs from an image that did not come.
+    /// Its base image is missing.
     NoBase,
-    /// The code or the checksum is wrong.
+    /// Code or checksum is wrong.
     Wrong,
 }

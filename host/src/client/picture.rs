@@ -1,23 +1,23 @@
-//! The image, from the differences that are sent.
+//! Reconstructs images from the differences that are sent.
 
 use super::event::ImageNews;
 use taxel_core::wire::{Frame, decode_image, image_sum};
 
-/// Images without a base after which a key frame is asked for again.
+/// Undecoded images after which a key frame is requested again.
 const PATIENCE: u32 = 100;
 
 #[derive(Debug, Default, Clone)]
 pub(super) struct Picture {
-    /// Number of the frame that `values` shows; none: `values` is of no use.
+    /// Frame number of `values`; none if they are invalid.
     frame: Option<u32>,
     values: Vec<u16>,
     next: Vec<u16>,
-    /// Images in a row that could not be decoded.
+    /// Consecutive undecoded images.
     missed: u32,
 }
 
 impl Picture {
-    /// Takes an image of `taxels` taxels.
+    /// Handles an image of `taxels` taxels.
     pub fn take(&mut self, frame: &Frame<'_>, taxels: usize) -> ImageNews {
         let news = self.decode(frame, taxels);
         if news == ImageNews::Whole {
@@ -25,7 +25,7 @@ impl Picture {
             self.frame = Some(frame.frame);
             self.missed = 0;
         } else {
-            // The board takes this image for the base of the next.
+            // The board uses this image as the base of the next.
             self.frame = None;
             self.missed += 1;
         }
@@ -45,7 +45,7 @@ impl Picture {
         }
     }
 
-    /// A key frame is to be asked for now.
+    /// True if a key frame is to be requested now.
     pub fn wants_key(&self) -> bool {
         self.missed % PATIENCE == 1
     }

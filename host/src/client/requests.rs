@@ -1,4 +1,4 @@
-//! What the host asks of the board.
+//! Requests to the board.
 
 use super::Client;
 use super::wanted::Sets;
@@ -6,21 +6,21 @@ use anyhow::{Context, Result, bail};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
 
-/// Requests that wait for their answers at most: a board keeps eight answers, and those beyond would be lost.
+/// Most requests awaiting answers: a board queues eight answers and drops further ones.
 const WINDOW: usize = 4;
 
-/// A scene as a `SetScene` carries it. An error says that it is too long for a request.
+/// Encodes a scene for `SetScene`. Error if it is too long for a request.
 pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
     let bytes = postcard::to_allocvec(scene).context("the scene cannot be written")?;
     // The request around it: its number and the length.
     let room = LONGEST_REQUEST - 3;
     if bytes.len() > room {
-        bail!("the scene takes {} bytes, and a request holds {room} of it", bytes.len());
+        bail!("the scene takes {} bytes, and a request has room for {room}", bytes.len());
     }
     Ok(bytes)
 }
 
-/// The name of a request by its number.
+/// Name of a request, by its number.
 pub(crate) fn request_name(number: u8) -> &'static str {
     const NAMES: [&str; 22] = [
         "set-garment",
@@ -51,15 +51,15 @@ pub(crate) fn request_name(number: u8) -> &'static str {
 
 /// Requests.
 impl Client {
-    /// Asks for everything, also from a board that starts anew later, which is then asked for all that was set
-    /// before; and for a tare over `tare` frames, unless 0.
+    /// Requests the whole stream, and a tare over `tare` frames unless 0. A board that restarts later gets
+    /// these and all other settings again.
     pub fn start(&mut self, tare: u16) -> Result<(), WireError> {
         self.streaming = true;
         self.request(&Request::Start)?;
         if tare > 0 { self.request(&Request::Tare { frames: tare }) } else { Ok(()) }
     }
 
-    /// Queues a request. An error: it is too long.
+    /// Queues a request. Error if it is too long.
     pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
         let mut frame = [0; frame_bound(LONGEST_REQUEST)];
         let frame = encode(request, &mut frame)?;
@@ -67,7 +67,7 @@ impl Client {
             self.ages_asked = *ages;
         }
         if matches!(request, Request::Sync { .. } | Request::KeyFrame) {
-            // What depends on nothing that waits.
+            // This request does not depend on queued ones.
             self.requests.extend_from_slice(frame);
             return Ok(());
         }
@@ -76,8 +76,7 @@ impl Client {
         Ok(())
     }
 
-    /// Hands on what waits, in its order, while the board has not too much to answer and is not being set
-    /// again.
+    /// Sends held requests in order, while the board has answers to spare and is not being restored.
     pub(super) fn release(&mut self) {
         while !self.is_restoring()
             && let Some((frame, sets)) =
@@ -93,8 +92,8 @@ impl Client {
         Ok(self.request(&Request::SetScene(&scene_bytes(scene)?))?)
     }
 
-    /// Asks for the raw codes of every frame where none come; whether it did. Nothing is known of the board:
-    /// nothing is asked.
+    /// Requests the raw codes of every frame, if none are received. Returns whether it did; false before the
+    /// first `Hello`.
     pub fn request_codes(&mut self) -> Result<bool, WireError> {
         let asks = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.raw_hz == 0);
         if asks {
@@ -103,20 +102,20 @@ impl Client {
         Ok(asks)
     }
 
-    /// The bytes that wait to be sent to the board, also those that wait for answers.
+    /// Bytes to be sent to the board, including requests held back.
     pub fn queued(&self) -> Vec<u8> {
         let held = self.held.iter().flat_map(|(frame, _)| frame);
         self.requests.iter().chain(held).copied().collect()
     }
 
-    /// The bytes that are to be sent to the board.
+    /// Takes the bytes to be sent to the board.
     pub fn take_requests(&mut self) -> Vec<u8> {
         self.release();
         let again = if self.is_met() { self.life.again.due() } else { None };
         self.requests.extend(again.into_iter().flatten());
         let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };
         if let Some(sync) = sync {
-            // A request of a few bytes fits.
+            // A request of a few bytes always fits.
             let _ = self.request(&sync);
         }
         std::mem::take(&mut self.requests)

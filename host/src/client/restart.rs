@@ -1,4 +1,4 @@
-//! Whether a board has started anew, and what is asked of it then.
+//! Detects that a board has restarted, and requests its settings again.
 
 use super::again::{Again, Restored};
 use super::wanted::Wanted;
@@ -7,34 +7,35 @@ use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
 
-/// How far a board's clock may be from where it should be, besides a hundredth of the time that has passed, us.
+/// Tolerated error of a board's clock, besides a hundredth of the elapsed time, us.
 const SLACK_US: u64 = 250_000;
-/// `Hello`s after each other, and nothing else between them, by which a board says that nobody has started it.
+/// Number of `Hello`s in a row, without another message between them, that shows that the board has not been
+/// started.
 const LONELY: u8 = 2;
 
-/// What is known of a board's life.
+/// State of a board between restarts.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Life {
-    /// What was asked of it.
+    /// Settings that were requested.
     pub wanted: Wanted,
-    /// What is set again.
+    /// The restore in progress.
     pub again: Again,
-    /// It has answered `Start` since the last restart.
+    /// The board has answered `Start` since its last restart.
     started: bool,
     /// A `Hello` has come since the link was opened.
     met: bool,
-    /// The link was opened again, and nothing says yet whether the board has lived on.
+    /// The link was reopened, and it is not known yet whether the board has restarted.
     reopened: bool,
-    /// As far as can be told, the board did not restart when the link was lost last.
+    /// The board has probably kept running when the link was last lost.
     lived_on: bool,
-    /// `Hello`s since anything else came.
+    /// Number of `Hello`s since any other message.
     hellos: u8,
-    /// Its time when it was told last, and when that was.
+    /// Last known board time, and when it was received.
     clock: Option<(Micros, Instant)>,
 }
 
 impl Life {
-    /// Whether a clock that shows this time has gone on since it was told last.
+    /// True if a clock that shows this time has run on since it was last received.
     fn goes_on(&self, clock: Micros) -> bool {
         self.clock.is_some_and(|(then, told)| {
             let passed = u64::try_from(told.elapsed().as_micros()).unwrap_or(u64::MAX);
@@ -46,8 +47,8 @@ impl Life {
 
 /// Restarts.
 impl Client {
-    /// The link was lost and is open again: what is left of the last message is no part of the next, and the
-    /// board is asked to stream. Whether it has lived on meanwhile, its messages tell.
+    /// The link was reopened. Discards a partial message, and asks the board to stream; its messages show
+    /// whether it has restarted.
     pub fn reconnected(&mut self) {
         *self.receiver = Receiver::new();
         self.line.clear();
@@ -59,7 +60,7 @@ impl Client {
         self.ask_to_start();
     }
 
-    /// Asks a board that was asked to stream once more, at once.
+    /// Repeats `Start` at once, if the board was asked to stream.
     pub fn ask_to_start(&mut self) {
         let mut room = [0; frame_bound(8)];
         if self.streaming
@@ -69,32 +70,32 @@ impl Client {
         }
     }
 
-    /// Whether a `Hello` has come since the link was opened.
+    /// True once a `Hello` was received since the link was opened.
     pub fn is_met(&self) -> bool {
         self.life.met
     }
 
-    /// Whether the board is being set again.
+    /// True while the board's settings are being restored.
     pub fn is_restoring(&self) -> bool {
         self.life.again.is_under_way() || self.life.reopened
     }
 
-    /// Whether the board that was set again last seems to have lived on, and only its link was lost.
+    /// True if the board restored last has probably kept running, and only its link was lost.
     pub fn has_lived_on(&self) -> bool {
         self.life.lived_on
     }
 
-    /// How setting the board again has ended, told once.
+    /// Returns the result of a restore, once.
     pub fn restored(&mut self) -> Option<Restored> {
         self.life.again.ended()
     }
 
-    /// Whether the board has left a request without its answer for so long that it cannot have had it.
+    /// True if a request has been unanswered for so long that the board cannot have received it.
     pub fn is_overdue(&self, patience: Duration) -> bool {
         !self.is_restoring() && self.life.wanted.is_overdue(patience)
     }
 
-    /// Sets everything again that was set, as for a board that has started anew.
+    /// Restores all settings, as after a restart of the board.
     pub fn set_again(&mut self) {
         (self.life.reopened, self.life.lived_on) = (false, false);
         if self.streaming {
@@ -103,7 +104,7 @@ impl Client {
         }
     }
 
-    /// The numbers of messages say that the board has started anew: what it said before holds no more.
+    /// Handles a restart shown by the message numbers: discards earlier state.
     pub(super) fn begun_anew(&mut self) {
         self.forget();
         self.shapes.clear();
@@ -112,7 +113,7 @@ impl Client {
         self.set_again();
     }
 
-    /// A `Hello` of this board, which said `before` until now.
+    /// Handles a `Hello`, before it replaces the last one.
     pub(super) fn greeted(&mut self, now: &Worn) {
         self.life.met = true;
         self.life.hellos = self.life.hellos.saturating_add(1);
@@ -139,22 +140,22 @@ impl Client {
         self.told_time(now.clock);
     }
 
-    /// Something else than a `Hello` has come.
+    /// Handles any message except `Hello`.
     pub(super) fn spoken(&mut self) {
         self.life.hellos = 0;
     }
 
-    /// The board's time now.
+    /// Handles the current board time.
     pub(super) fn told_time(&mut self, clock: Micros) {
         self.life.clock = Some((clock, Instant::now()));
     }
 
-    /// The board's time when it was told last.
+    /// Last known board time.
     pub fn board_time(&self) -> Option<Micros> {
         self.life.clock.map(|(clock, _)| clock)
     }
 
-    /// An answer of the board.
+    /// Handles an answer of the board.
     pub(super) fn answered(&mut self, number: u8, refusal: Option<&str>) {
         self.life.started |= number == Request::Start.number() && refusal.is_none();
         self.life.wanted.answered(number, refusal.is_none());

@@ -6,17 +6,17 @@ use std::collections::VecDeque;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Request, SyncReport};
 
-/// Round trips at the start, and the time between two of them, us.
+/// Number of quick round trips at the start, and the time between them, us.
 const QUICK: (u32, u64) = (10, 100_000);
 /// Time between two round trips afterwards, us.
 const PERIOD: u64 = 1_000_000;
-/// Requests whose answers are waited for.
+/// Most requests awaiting answers.
 const OPEN: usize = 16;
 
-/// The host's side of the board's clock.
+/// The host's model of the board's clock.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Syncs {
-    /// The host's time; none: nobody tells it, and nothing is asked.
+    /// Host time; none if it is not provided, and then nothing is requested.
     now: Option<u64>,
     due: u64,
     made: u32,
@@ -26,11 +26,11 @@ pub(super) struct Syncs {
 }
 
 impl Syncs {
-    /// The request that is due, which is to be sent at once.
+    /// Returns the request that is due; it must be sent at once.
     pub fn next(&mut self) -> Option<Request<'static>> {
         let now = self.now.filter(|now| *now >= self.due)?;
         if self.made == 0 {
-            // Answers to a program that was here before are not taken for ours.
+            // Starts at the time, so that answers to an earlier program are not taken for ours.
             self.token = now as u32;
         }
         self.token = self.token.wrapping_add(1);
@@ -43,7 +43,7 @@ impl Syncs {
         Some(Request::Sync { token: self.token })
     }
 
-    /// Takes an answer.
+    /// Handles an answer.
     pub fn take(&mut self, report: &SyncReport) {
         let asked = self.open.iter().position(|(token, _)| *token == report.token);
         let Some((_, asked)) = asked.and_then(|index| self.open.remove(index)) else { return };
@@ -52,7 +52,7 @@ impl Syncs {
         self.clock.take(&RoundTrip { asked, received, sent, answered });
     }
 
-    /// The board has started anew.
+    /// The board has restarted.
     pub fn restart(&mut self) {
         self.clock.forget();
         self.open.clear();
@@ -62,16 +62,16 @@ impl Syncs {
 
 /// Time.
 impl Client {
-    /// Tells the host's time, microseconds since whatever epoch, never back: before
-    /// [`Client::take_requests`], whose bytes are then sent at once, and after each read of bytes, before
-    /// they are pushed. The client then asks a streaming board for its time, ten times in the first second,
-    /// once a second later.
+    /// Sets the host's time, microseconds since any epoch, never decreasing: before
+    /// [`Client::take_requests`], whose bytes must then be sent at once, and after each read, before the
+    /// bytes are pushed. The client then requests a streaming board's time, ten times in the first second,
+    /// then once per second.
     pub fn tell_time(&mut self, host_us: u64) {
         self.syncs.now = Some(host_us);
     }
 
-    /// The host's time of a time of the board, and how far from it the truth can be; none until the board has
-    /// answered, and where nobody tells the time.
+    /// Converts a board time to host time, with its uncertainty; none until the board has answered, or if the
+    /// host's time is not set.
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
         self.syncs.clock.host_time(board)
     }

@@ -1,4 +1,4 @@
-//! What was asked of a board that lasts until it restarts: a board that has started anew is asked for it again.
+//! Remembers settings that last until the board restarts, so that they can be restored.
 
 use super::{Worn, cleaned};
 use std::collections::{BTreeMap, VecDeque};
@@ -9,13 +9,13 @@ use taxel_core::intent::Feed;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, decode, encode, frame_bound};
 
-/// Number of `SetCalibration`.
+/// Request number of `SetCalibration`.
 const CALIBRATION: u8 = 15;
-/// Requests without an answer that are remembered at most; of more, the board is taken to have done the oldest.
+/// Most unanswered requests remembered; beyond that, the oldest is assumed to be done.
 const OPEN: usize = 4096;
 
-/// What a request sets, in the order in which everything is set again: the garment first, because it undoes the
-/// gains; the start before the tare, whose answer takes a while.
+/// What a request sets, in the order of restoring: the garment first, because it resets the gains; the start
+/// before the tare, whose answer takes a while.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Garment,
@@ -23,32 +23,32 @@ enum Key {
     /// From this taxel on.
     Gain(u16),
     Calibration,
-    /// The head of a base, and each part that follows it.
+    /// Head of a base, and each of its parts.
     Shapes(usize),
     Certainty,
     Gestures,
     Forms,
     Raw,
-    /// Of a slot.
+    /// Of this slot.
     Concept(u8),
-    /// Of a concept.
+    /// Of this concept.
     Feed(Name),
     Start,
     Tare,
     Budget,
 }
 
-/// A request that is remembered.
+/// A remembered request.
 #[derive(Debug, Clone)]
 struct Setting {
     number: u8,
-    /// In its frame of the wire.
+    /// The request as a frame of the wire.
     frame: Vec<u8>,
-    /// A value that grows old, and when it was told.
+    /// A feed, which ages, and when it was sent.
     feed: Option<(Feed, Instant)>,
-    /// It takes back what was set before, and leaves nothing to be set again.
+    /// It only undoes an earlier setting; nothing is to be restored.
     clears: bool,
-    /// The garment or the scene as it is sent.
+    /// Encoded garment or scene.
     body: Vec<u8>,
 }
 
@@ -56,26 +56,26 @@ struct Setting {
 #[derive(Debug, Clone)]
 pub(super) struct Sets(Key, Setting);
 
-/// A request that is to be made again.
+/// A request to be repeated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Wish {
-    /// Number of its variant.
+    /// Request number.
     pub number: u8,
-    /// In its frame of the wire.
+    /// The request as a frame of the wire.
     pub frame: Vec<u8>,
 }
 
-/// What is remembered.
+/// The remembered settings.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Wanted {
-    /// What the board has done.
+    /// Settings that the board has confirmed.
     done: BTreeMap<Key, Setting>,
-    /// What it has not answered yet, in the order in which it was asked, and since when.
+    /// Unanswered settings in order, and when they were sent.
     asked: VecDeque<(Key, Setting, Instant)>,
 }
 
 impl Wanted {
-    /// A request that sets something is on its way.
+    /// Remembers a request that is being sent.
     pub fn ask(&mut self, Sets(key, setting): Sets) {
         self.asked.push_back((key, setting, Instant::now()));
         if self.asked.len() > OPEN
@@ -85,12 +85,12 @@ impl Wanted {
         }
     }
 
-    /// Requests that wait for their answers.
+    /// Number of unanswered requests.
     pub fn asked(&self) -> usize {
         self.asked.len()
     }
 
-    /// Whether a board that says this of itself can have kept what it was told.
+    /// True if a board with this `Hello` may still have its settings.
     pub fn agrees(&self, worn: &Worn) -> bool {
         let body = |key| self.done.get(&key).map(|setting| setting.body.as_slice());
         let garment =
@@ -105,7 +105,7 @@ impl Wanted {
         garment.is_none_or(|garment| garment == worn.garment) && scene.is_none_or(|scene| scene == worn.scene)
     }
 
-    /// The board has answered a request of this number: what it refuses is not remembered.
+    /// Handles the answer to the request with this number; a refused setting is forgotten.
     pub fn answered(&mut self, number: u8, is_done: bool) {
         let at = self.asked.iter().position(|(_, setting, _)| setting.number == number);
         let Some((key, setting, _)) = at.and_then(|at| self.asked.remove(at)) else { return };
@@ -114,7 +114,7 @@ impl Wanted {
         }
     }
 
-    /// The board has done this: what it undoes by it is forgotten.
+    /// Remembers a confirmed setting; forgets the settings that it undoes.
     fn put(&mut self, key: Key, setting: Setting) {
         let key = match key {
             Key::Garment => {
@@ -141,13 +141,12 @@ impl Wanted {
         }
     }
 
-    /// Whether a request has waited that long for its answer. A tare takes its time.
+    /// True if a request has waited this long for its answer. A tare takes its time.
     pub fn is_overdue(&self, patience: Duration) -> bool {
         self.asked.iter().any(|(key, _, since)| *key != Key::Tare && since.elapsed() > patience)
     }
 
-    /// What a board is to be asked for that knows nothing, in order; what it has not answered counts as asked
-    /// for anew.
+    /// Requests that restore everything, in order; unanswered ones are included.
     pub fn all(&mut self) -> VecDeque<Wish> {
         self.settle();
         let start = encoded(&Request::Start).map(|frame| (Key::Start, frame));
@@ -158,8 +157,8 @@ impl Wanted {
         all.into_values().collect()
     }
 
-    /// What a board is to be asked for that seems to have lived on: what it has not answered, and what its
-    /// `Hello` does not prove, but no tare.
+    /// Requests for a board that has probably kept its settings: unanswered ones, and those that its `Hello`
+    /// does not prove, but no tare.
     pub fn unproven(&mut self) -> VecDeque<Wish> {
         let open: Vec<u8> = self.asked.iter().map(|(_, setting, _)| setting.number).collect();
         let proven = [
@@ -174,7 +173,7 @@ impl Wanted {
         all
     }
 
-    /// Takes everything for done: it is asked for once more, one after the other.
+    /// Counts everything as confirmed, because it will be sent again.
     fn settle(&mut self) {
         while let Some((key, setting, _)) = self.asked.pop_front() {
             self.put(key, setting);
@@ -183,7 +182,7 @@ impl Wanted {
 }
 
 impl Sets {
-    /// Of a request in its frame of the wire; none: it sets nothing that lasts.
+    /// Setting of a request in its frame of the wire; none if it sets nothing that lasts.
     pub fn of(request: &Request<'_>, frame: &[u8]) -> Option<Sets> {
         let (key, clears) = match request {
             Request::SetGarment(_) => (Key::Garment, false),
@@ -191,7 +190,7 @@ impl Sets {
             Request::SetGain { first, .. } => (Key::Gain(*first), false),
             Request::SetCalibration(_) => (Key::Calibration, false),
             Request::SetShapes(bytes) => (Key::Shapes(0), bytes.is_empty()),
-            // Its place among the parts is found when it is done.
+            // Its position among the parts is known once it is confirmed.
             Request::AddShapes(_) => (Key::Shapes(1), false),
             Request::SetCertainty(_) => (Key::Certainty, false),
             Request::SetGestures(config) => (Key::Gestures, config.is_none()),
@@ -201,7 +200,7 @@ impl Sets {
             Request::Feed(feed) => (Key::Feed(feed.concept.clone()), false),
             Request::Tare { .. } => (Key::Tare, false),
             Request::Budget { .. } => (Key::Budget, false),
-            // What lasts no longer than its answer; a posture is told again by whoever measures it.
+            // These have no lasting effect; a posture is sent again by whoever measures it.
             _ => return None,
         };
         let feed =
@@ -225,7 +224,7 @@ impl Setting {
     }
 }
 
-/// A request in its frame of the wire; none: it is too long.
+/// Encodes a request as a frame of the wire; none if it is too long.
 fn encoded(request: &Request<'_>) -> Option<Vec<u8>> {
     let mut room = [0; frame_bound(LONGEST_REQUEST)];
     encode(request, &mut room).ok().map(|frame| frame.to_vec())
@@ -289,7 +288,7 @@ mod tests {
             wanted.answered(request.number(), is_done);
         }
         assert_eq!(numbers(&mut wanted), [0, start], "a garment undoes gains and tare");
-        // What the board has not answered counts as asked for.
+        // Unanswered requests count as sent.
         ask(&mut wanted, &Request::SetScene(&[7]));
         ask(&mut wanted, &Request::Budget { hz: 3 });
         assert_eq!(wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>(), [1, start, 12]);

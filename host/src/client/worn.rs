@@ -1,4 +1,4 @@
-//! What a board says of itself.
+//! Contents of a board's `Hello`.
 
 use super::cleaned;
 use crate::words::printable;
@@ -17,11 +17,11 @@ pub struct Worn {
     pub garment: Garment,
     /// Its geometry.
     pub layout: Layout,
-    /// What it is used for.
+    /// The scene.
     pub scene: Scene,
-    /// Id, date and fit error of the calibration in force; empty: pressure is in counts.
+    /// Id, date and fit error of the calibration in use; empty if pressure is in counts.
     pub calibration: String,
-    /// The board's time when it said so.
+    /// The board's time of the `Hello`.
     pub clock: Micros,
 }
 
@@ -31,10 +31,10 @@ impl Worn {
         self.scene.intent.as_ref().map_or(&[], |intent| intent.map.concepts.as_slice())
     }
 
-    /// Reads a `Hello`, or says why not.
+    /// Decodes a `Hello`, or says why not.
     pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
         if hello.magic != MAGIC {
-            return Err("the Hello of something that is no taxel board".into());
+            return Err("the Hello of something that is not a taxel board".into());
         }
         if hello.protocol != PROTOCOL {
             return Err(format!(
@@ -45,12 +45,12 @@ impl Worn {
         let text = |bytes: &[u8]| printable(&String::from_utf8_lossy(bytes)).into_owned();
         let mut garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
         cleaned::garment(&mut garment);
-        // Exactness depends on the board's full scale, which it has checked itself.
+        // Exactness depends on the board's full scale, which the board has checked.
         let layout = Layout::build(&garment, usize::from(u16::MAX), 1)
             .map_err(|e| format!("garment {} in Hello: {e}", garment.name))?;
         let mut scene: Scene = decode(hello.scene).map_err(|e| format!("scene in Hello: {e}"))?;
         cleaned::scene(&mut scene);
-        // What a board plays it has checked in the same way; what is shown of it here takes that for granted.
+        // The board has checked its scene like this; the display relies on it.
         Pipeline::build(&scene, &layout).map_err(|e| format!("scene in Hello: {e}"))?;
         Ok(Worn {
             firmware: text(hello.firmware),

@@ -1,4 +1,4 @@
-//! Whether the board that ships can wear a garment's file, and be used for a scene's.
+//! Checks that the standard board can run a garment's file and a scene's file.
 
 use crate::garments;
 use crate::source::SceneFile;
@@ -10,13 +10,13 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::SceneError;
 use taxel_core::scene::Scene;
 
-/// Taxels that the board that ships holds.
+/// Taxels that the standard board holds.
 const TAXELS: usize = 2048;
-/// The board that ships.
+/// The standard board.
 const BOARD: BoardInfo = BoardInfo::feather("");
 
-/// Checks a garment that comes with the program or a garment's file, and a scene's file; what it is, in a
-/// sentence. Errors name file, line and key.
+/// Checks a preset or a garment's file, and a scene's file. Returns a sentence about them. Errors name file,
+/// line and key.
 pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
     let read = garments::read(garment)?;
     let garments::Read { name, garment, .. } = &read;
@@ -44,19 +44,19 @@ pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
     Ok(sentence(name, garment, &setup.layout) + &said + ".")
 }
 
-/// The scene that ships without reactions: those assert pins that a garment of one's own may need.
+/// The shipped scene without reactions, whose pins a user's garment may need.
 fn bare() -> Scene {
     Scene { react: Default::default(), ..Scene::shipped() }
 }
 
-/// Whether a frame of the scene takes too long without a mean, too.
+/// True if a frame of the scene takes too long even without averaging.
 fn wears_slowly(garment: &Garment, scene: &Scene) -> bool {
     let mut plain = Scene { plan: scene.plan, ..bare() };
     plain.plan.depth = Depth::Twelve;
     matches!(Setup::build(&BOARD, garment.clone(), plain, TAXELS), Err(SetupError::Slow(_)))
 }
 
-/// The path of the key of a scene's file that an error is about.
+/// Path of the key of a scene's file that an error is about.
 fn scene_key(error: &SceneError) -> String {
     use taxel_core::intent::MapError;
     match error {

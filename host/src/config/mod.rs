@@ -1,4 +1,4 @@
-//! `taxel config`: the files of a garment and of a scene, begun, checked, and explained to editors.
+//! `taxel config`: creates garment and scene files, checks them, and prints their schemas.
 
 mod check;
 mod scene;
@@ -12,19 +12,19 @@ use clap::{Args, Subcommand, ValueEnum};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Of what a file is.
+/// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
-    /// what is worn: panels, blocks, pins, links of the body
+    /// panels, blocks, pins, links of the body
     Garment,
-    /// what it is used for: limits, map, reactions, stream
+    /// limits, map, reactions, stream of a deployment
     Scene,
-    /// who touches a simulated garment where, when and how hard
+    /// touches of a simulated garment: place, time, force
     Touches,
 }
 
 impl Kind {
-    /// The JSON schema of such a file.
+    /// JSON schema of such a file.
     pub fn schema(self) -> &'static str {
         match self {
             Kind::Garment => include_str!("../../schemas/garment.json"),
@@ -43,7 +43,7 @@ impl Kind {
     }
 }
 
-/// What `taxel config` takes.
+/// Arguments of `taxel config`.
 #[derive(Debug, Clone, Args)]
 pub struct ConfigArgs {
     #[command(subcommand)]
@@ -52,41 +52,41 @@ pub struct ConfigArgs {
 
 #[derive(Debug, Clone, Subcommand)]
 enum What {
-    /// Begin a garment's file, and its schema beside it, which editors read
+    /// Create a garment file, and beside it its schema for editors
     #[command(after_help = "Example:\n  taxel config new mine.toml --like reference")]
     New {
         /// The file to write
         file: PathBuf,
-        /// Whether it is replaced.
+        /// Whether an existing file is replaced.
         #[command(flatten)]
         force: Force,
         /// The garment to begin with: a preset or a TOML file
         #[arg(long, value_name = "G", default_value = "block-4x16")]
         like: String,
     },
-    /// Begin a scene's file with all that ships, and its schema beside it
+    /// Create a scene file with the shipped values, and beside it its schema
     #[command(after_help = "Example:\n  taxel config scene calm.toml")]
     Scene {
         /// The file to write
         file: PathBuf,
-        /// Whether it is replaced.
+        /// Whether an existing file is replaced.
         #[command(flatten)]
         force: Force,
     },
-    /// Check a garment's file, and a scene's with it; errors name line and key
+    /// Check a garment file, and a scene file with it; errors name line and key
     #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
     Check {
         /// The garment: a TOML file or a preset
         #[arg(value_name = "GARMENT")]
         garment: String,
-        /// A scene that the garment is to be used for
+        /// A scene for this garment
         #[arg(long, value_name = "FILE")]
         scene: Option<PathBuf>,
     },
-    /// Print the JSON schema of a garment's or a scene's file, or of a script of touches
+    /// Print the JSON schema of garment files, scene files or scripts of touches
     #[command(after_help = "Example:\n  taxel config schema scene > taxel-scene.schema.json")]
     Schema {
-        /// Of what
+        /// Kind of file
         #[arg(value_enum, default_value_t = Kind::Garment)]
         of: Kind,
     },
@@ -103,7 +103,7 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
         }
         What::Scene { file, force } => {
             let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
-            let comment = format!("# As it ships; what is left out stays so. {next}\n");
+            let comment = format!("# The shipped scene; missing keys keep these values. {next}\n");
             let none: [&Path; 0] = [];
             let output = Output::file(file, *force, none)?;
             begin(output, *force, Kind::Scene, &(comment + &scene::text()?))
@@ -119,8 +119,7 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
     }
 }
 
-/// A file's text without the first line that names its schema: a file that is begun like it gets a line of its
-/// own.
+/// A file's text without the first line that names its schema; a new file gets such a line of its own.
 fn without_schema(text: &str) -> &str {
     match text.strip_prefix("#:schema") {
         Some(rest) => rest.split_once('\n').map_or("", |(_, rest)| rest),
@@ -138,7 +137,7 @@ fn begin(output: Output, force: Force, kind: Kind, text: &str) -> Result<()> {
     let schema = file.with_file_name(kind.schema_file());
     let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
     let beside = (!is_known).then(|| Output::file(&schema, force, [&file])).transpose()?;
-    // First: where the file itself cannot be written, the command can be typed again as it was.
+    // First the schema: if the file cannot be written, the command can be repeated unchanged.
     beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
     // Editors look for `#:schema` in the first line.
     output.write(format!("#:schema ./{}\n{text}", kind.schema_file()).as_bytes())?;

@@ -1,11 +1,11 @@
-//! The scene that ships, as a file to change.
+//! The shipped scene, as a file to edit.
 
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use taxel_core::scene::Scene;
 
-/// As TOML: the map by its name, and without what TOML cannot say (all blocks, which is a mask of 64 bits;
-/// null).
+/// The scene as TOML: the map by its name, and without what TOML cannot represent (all blocks, a mask of 64
+/// bits; null).
 pub(super) fn text() -> Result<String> {
     let mut scene = serde_json::to_value(Scene::shipped())?;
     scene["intent"]["map"] = json!("tactile");

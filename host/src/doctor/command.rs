@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
 
-/// What `taxel doctor` takes.
+/// Arguments of `taxel doctor`.
 #[derive(Debug, Clone, Args)]
 pub struct DoctorArgs {
     /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`, `file:FILE`
@@ -25,7 +25,7 @@ pub struct DoctorArgs {
     pub json: bool,
 }
 
-/// Runs the command; an error where the board does not work.
+/// Runs the command. Error if the board does not work.
 pub fn run(args: &DoctorArgs) -> Result<()> {
     ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
     let options = SourceOptions { seconds: Some(args.seconds), ..SourceOptions::default() };

@@ -1,4 +1,4 @@
-//! What is seen of a board in some seconds.
+//! Observations of a board over some seconds.
 
 use crate::client::{Client, Event};
 use crate::live::Show;
@@ -8,46 +8,46 @@ use taxel_core::garment::Garment;
 use taxel_core::selftest::Findings;
 use taxel_core::wire::{Health, Request};
 
-/// What was seen.
+/// What was observed.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Facts {
-    /// It is a simulation.
+    /// The board is simulated.
     pub simulated: bool,
-    /// Name and version of the firmware; none: no `Hello` came.
+    /// Name and version of the firmware; none if no `Hello` came.
     pub firmware: Option<String>,
-    /// How the board came to start; none: it does not say.
+    /// Cause of the board's start; none if it does not report one.
     pub boot: Option<Boot>,
     /// Why a `Hello` could not be used.
     pub unusable: Option<String>,
-    /// Taxels of the garment.
+    /// Number of taxels of the garment.
     pub taxels: usize,
-    /// Id, date and fit error of the calibration; empty: there is none.
+    /// Id, date and fit error of the calibration; empty if there is none.
     pub calibration: String,
     /// First and last image: number of the scan, and its time, us.
     pub frames: Option<[(u32, u64); 2]>,
-    /// Images that came, were left out for want of room, and could not be decoded.
+    /// Images received, thinned out, and received but not decodable.
     pub images: [u64; 3],
-    /// Messages that were lost on the way, and frames that were refused.
+    /// Messages lost on the link, and frames refused.
     pub lost: [u64; 2],
-    /// The board's counters when they were told first and last.
+    /// The board's counters, first and last report.
     pub health: Option<[Health; 2]>,
-    /// Taxels that are ill.
+    /// Number of faulty taxels.
     pub ill: usize,
-    /// How far the host's time of a frame may be off, us; none: the board does not live in real time, or has
-    /// not answered.
+    /// Uncertainty of the host's time of a frame, us; none if the board is not real-time, or has not
+    /// answered.
     pub clock_us: Option<u64>,
-    /// The answer to a self-test: none, passed, or why not.
+    /// Answer to a self-test: none yet, passed, or the reason for refusal.
     pub self_test: Option<Result<(), String>>,
-    /// What the last self-test has found of the lines and inputs of a garment.
+    /// Lines and inputs of a garment, and what the last self-test found of them.
     pub pins: Option<(Garment, Findings)>,
-    /// Sentences of the board that something does not work.
+    /// Errors that the board has logged.
     pub told: Vec<String>,
-    /// A self-test was asked for.
+    /// A self-test was requested.
     pub asked: bool,
 }
 
 impl Facts {
-    /// Nothing yet, of the source of that label.
+    /// No observations yet, of the source with this label.
     pub fn of(label: &str) -> Facts {
         Facts { simulated: label.starts_with("sim:"), ..Facts::default() }
     }

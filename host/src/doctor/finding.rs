@@ -1,44 +1,44 @@
-//! Something that was found, and what to do about it.
+//! One finding and its remedy.
 
 use serde::Serialize;
 
-/// How grave it is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// as it should be
+    /// It works as it should.
     Good,
-    /// it works, with less than it could
+    /// It works, but not fully.
     Weak,
-    /// it does not work
+    /// It does not work.
     Bad,
 }
 
-/// One finding.
+/// Something that was found, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// How grave.
+    /// Severity.
     pub grade: Grade,
-    /// Of what.
+    /// Subject of the finding.
     pub of: &'static str,
     /// What was found.
     pub what: String,
-    /// What to do; empty where nothing is to be done.
+    /// Remedy; empty if nothing is to be done.
     pub cure: &'static str,
 }
 
 impl Finding {
-    /// As it should be.
+    /// A finding without fault.
     pub fn good(of: &'static str, what: impl Into<String>) -> Finding {
         Finding { grade: Grade::Good, of, what: what.into(), cure: "" }
     }
 
-    /// Less than it could be.
+    /// A finding of something that works, but not fully.
     pub fn weak(of: &'static str, what: impl Into<String>, cure: &'static str) -> Finding {
         Finding { grade: Grade::Weak, of, what: what.into(), cure }
     }
 
-    /// It does not work.
+    /// A finding of something that does not work.
     pub fn bad(of: &'static str, what: impl Into<String>, cure: &'static str) -> Finding {
         Finding { grade: Grade::Bad, of, what: what.into(), cure }
     }

@@ -1,4 +1,4 @@
-//! What the facts mean.
+//! Judges the facts.
 
 use super::facts::Facts;
 use super::finding::Finding;
@@ -8,17 +8,17 @@ use crate::starts;
 use taxel_core::boot::{Aside, Boot};
 use taxel_core::wire::Health;
 
-/// Part of the taxels that may be ill before the garment is.
+/// Share of taxels that may be faulty before the garment counts as faulty.
 const ILL: f64 = 0.05;
 /// Days after which a calibration is old.
 const OLD: u64 = 180;
-/// How far the host's time may be off, us.
+/// Tolerated uncertainty of the host's time, us.
 const CLOCK_US: u64 = 5_000;
 
-/// Frames a second from which a blow of 20 ms is seen twice, and its rise with it.
+/// Frame rate from which a blow of 20 ms is seen in two frames, so that its rise is seen.
 const RESOLVING: f64 = 100.0;
 
-/// All findings, the host's own version and the day (year-month-day) being these.
+/// Returns all findings, given the host's version and today's date (year-month-day).
 pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     let Some(firmware) = &facts.firmware else {
         let what = facts.unusable.clone().unwrap_or_else(|| "no Hello of a board came".into());
@@ -61,11 +61,11 @@ fn start(boot: &Boot) -> Finding {
     let cause = format!("started by: {}", starts::cause(boot));
     let resets = match boot.resets {
         0 => String::new(),
-        resets => format!("; {resets} resets without a minute of life"),
+        resets => format!("; {resets} resets without running for a minute"),
     };
     let what = match starts::aside(boot) {
         Some(why) => {
-            format!("{cause}{resets}; it began with what ships and keeps saved settings aside, as {why}")
+            format!("{cause}{resets}; it runs the shipped settings and keeps the saved ones aside: {why}")
         }
         None => format!("{cause}{resets}"),
     };
@@ -155,14 +155,14 @@ fn scans(first: &Health, last: &Health) -> Finding {
 }
 
 fn taxels(facts: &Facts) -> Finding {
-    let what = format!("{} of {} taxels are ill", facts.ill, facts.taxels);
+    let what = format!("{} of {} taxels are faulty", facts.ill, facts.taxels);
     match facts.ill {
         0 => Finding::good("taxels", what),
         ill if (ill as f64) < ILL * facts.taxels as f64 => {
-            Finding::weak("taxels", what, "`taxel health` names them; the filter bridges single ones")
+            Finding::weak("taxels", what, "`taxel health` lists them; the filter bridges single ones")
         }
         _ => {
-            Finding::bad("taxels", what, "`taxel health` names them: a whole row, column or block is a wire")
+            Finding::bad("taxels", what, "`taxel health` lists them: a whole row, column or block is a wire")
         }
     }
 }
@@ -190,7 +190,7 @@ fn calibration(told: &str, today: &str) -> Finding {
         Some(days) if days > OLD => Finding::weak(
             "calibration",
             format!("{told}: {days} days old"),
-            "`taxel calibrate check FILE` tells whether it holds",
+            "`taxel calibrate check FILE` checks whether it still holds",
         ),
         _ => Finding::good("calibration", told),
     }

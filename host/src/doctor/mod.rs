@@ -1,4 +1,4 @@
-//! `taxel doctor`: what a board tells in some seconds, judged: one verdict, with what to do.
+//! `taxel doctor`: observes a board for some seconds, and reports one verdict with remedies.
 
 mod command;
 mod facts;

@@ -1,31 +1,32 @@
-//! An archive that is given up in silence: the library's own ends itself when it is dropped, and prints in its
-//! own words where that fails.
+//! A ZIP archive that can be abandoned silently: the library's own writes its end when dropped, and prints an
+//! error if that fails.
 
 use std::cell::Cell;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::rc::Rc;
 use zip::ZipWriter;
 
-/// No head of an entry is longer. What goes nowhere leaps that far, for an entry lies behind its head.
+/// Upper limit of an entry's header. Discarded writes advance that far, because an entry begins behind its
+/// header.
 const HEAD: u64 = 1 << 18;
 
 /// An archive being written.
 pub struct Archive<W: Write + Seek> {
-    /// Before `zip`: it is dropped first.
+    /// Declared before `zip`, so that it is dropped first.
     given_up: GivenUp,
-    /// What takes the entries.
+    /// Writer of the entries.
     pub zip: ZipWriter<Gate<W>>,
 }
 
 impl<W: Write + Seek> Archive<W> {
-    /// Begins one.
+    /// Begins an archive.
     pub fn new(out: W) -> Archive<W> {
         let given_up = Rc::new(Cell::new(false));
         let gate = Gate { out, given_up: given_up.clone(), at: 0, end: 0 };
         Archive { given_up: GivenUp(given_up), zip: ZipWriter::new(gate) }
     }
 
-    /// Writes its end; what was written to.
+    /// Writes its end. Returns the underlying writer.
     pub fn finish(self) -> zip::result::ZipResult<W> {
         let Archive { given_up: _given_up, zip } = self;
         Ok(zip.finish()?.out)
@@ -41,11 +42,11 @@ impl Drop for GivenUp {
     }
 }
 
-/// Passes bytes on until one could not be written, or the archive is given up; then they go nowhere.
+/// Passes bytes on until a write fails or the archive is abandoned; discards them from then on.
 pub struct Gate<W> {
     out: W,
     given_up: Rc<Cell<bool>>,
-    /// Where the next byte goes, and where the last one ends: the library insists on places that fit together.
+    /// Offset of the next byte, and of the end: the library requires consistent offsets.
     at: u64,
     end: u64,
 }
@@ -96,7 +97,7 @@ mod tests {
     use std::io::{Cursor, ErrorKind};
     use zip::write::SimpleFileOptions;
 
-    /// Fails at one of its calls, and at those that follow.
+    /// Fails at one of its calls, and at all later ones.
     struct Failing(Cursor<Vec<u8>>, usize);
 
     impl Failing {

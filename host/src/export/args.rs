@@ -1,4 +1,4 @@
-//! What `taxel export` takes.
+//! Arguments of `taxel export`.
 
 use crate::fault::Fault;
 use crate::output::Force;
@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use std::num::{NonZeroU16, NonZeroU64};
 use std::path::PathBuf;
 
-/// What a recording becomes.
+/// Format of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Form {
     /// A table
@@ -20,7 +20,7 @@ pub enum Form {
     Lerobot,
 }
 
-/// What `taxel export` takes.
+/// Arguments of `taxel export`.
 #[derive(Debug, Clone, Args)]
 pub struct ExportArgs {
     /// Recording: .mcap; for LeRobot one or more
@@ -32,16 +32,16 @@ pub struct ExportArgs {
     /// File to write, `-` for standard output (CSV); for images and LeRobot the folder
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Replace the output.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// CSV: only taxels with pressure
     #[arg(long)]
     pub touched: bool,
-    /// CSV: the contacts alone, one row a contact and frame
+    /// CSV: only the contacts, one row per contact and frame
     #[arg(long, conflicts_with = "touched")]
     pub contacts: bool,
-    /// CSV, LeRobot: write counts even where newtons are known; images: grey is counts
+    /// CSV, LeRobot: counts even if newtons are known; images: grey levels are counts
     #[arg(long)]
     pub counts: bool,
     /// CSV: reference voltage of the converter, V
@@ -59,7 +59,7 @@ pub struct ExportArgs {
 }
 
 impl ExportArgs {
-    /// All of these recordings, with nothing else asked for.
+    /// All of these recordings, with all options at their defaults.
     pub fn of(files: Vec<PathBuf>, to: Form, output: PathBuf) -> ExportArgs {
         ExportArgs {
             files,
@@ -76,7 +76,7 @@ impl ExportArgs {
         }
     }
 
-    /// Refuses options of another form.
+    /// Refuses options of other formats.
     pub fn check(&self) -> Result<()> {
         let refuse = Fault::usage;
         ensure!(

@@ -1,14 +1,14 @@
-//! A table of the contacts alone: one row a contact and frame, a thousandth of the table of all taxels.
+//! A table of contacts: one row per contact and frame, a thousandth of the table of all taxels.
 //!
 //! | column | what |
 //! |---|---|
-//! | `time`, `frame` | start of the scan, the board's, s; its number |
-//! | `id`, `panel`, `link` | the contact, which keeps its number; where it is |
+//! | `time`, `frame` | start of the scan in board time, s; its number |
+//! | `id`, `panel`, `link` | the contact, by its persistent number; its place |
 //! | `column`, `row` | its centroid, taxels |
-//! | `x`, `y` | the same, mm from the first taxel; empty where the pitch is unknown |
-//! | `total`, `force` | sum of its pressure, counts, and N; empty where no scale for a sum is known |
+//! | `x`, `y` | its centroid, mm from the first taxel; empty if the pitch is unknown |
+//! | `total`, `force` | sum of its pressure, counts, and N; empty if no scale for a sum is known |
 //! | `peak`, `area` | greatest pressure, counts; taxels |
-//! | `azimuth`, `nmi` | of its main axis, rad, empty: none; normalised moment of inertia |
+//! | `azimuth`, `nmi` | azimuth of its major axis, rad, empty if none; normalised moment of inertia |
 
 use super::csv::{quoted, time};
 use super::frames::{Frame, Frames};
@@ -17,7 +17,7 @@ use std::fmt::Display;
 use std::io::Write;
 use taxel_core::body::Placed;
 
-/// Writes the table; the number of frames.
+/// Writes the table. Returns the number of frames.
 pub fn write(frames: &Frames<'_>, out: &mut impl Write) -> Result<u64> {
     writeln!(out, "time,frame,id,panel,link,column,row,x,y,total,force,peak,area,azimuth,nmi")?;
     frames.each("exporting", |frame| frame.contacts.iter().try_for_each(|placed| row(frame, placed, out)))

@@ -1,16 +1,16 @@
-//! A table: one row a taxel and frame.
+//! A table: one row per taxel and frame.
 //!
 //! | column | what |
 //! |---|---|
-//! | `time` | the board's, s |
-//! | `panel`, `row`, `column` | where the taxel is |
-//! | `x`, `y` | on its panel, mm from the first taxel; empty where the pitch is unknown |
-//! | `link` | of the robot |
-//! | `X`, `Y`, `Z` | in the link's frame, m; empty: a garment does not say yet how a panel lies on its link |
-//! | `volts` | at the converter; empty where no raw codes of the scan were recorded (`taxel record --raw`) |
-//! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel where the pitch is unknown, `counts` where nothing says what a newton shows |
+//! | `time` | board time, s |
+//! | `panel`, `row`, `column` | place of the taxel |
+//! | `x`, `y` | on its panel, mm from the first taxel; empty if the pitch is unknown |
+//! | `link` | link of the robot |
+//! | `X`, `Y`, `Z` | in the link's frame, m; empty, because a garment does not give the place of a panel on its link |
+//! | `volts` | at the converter; empty if the scan's raw codes were not recorded (`taxel record --raw`) |
+//! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel if the pitch is unknown, `counts` if the counts per newton are unknown |
 //!
-//! A row is put together of texts that are made once: what a taxel's rows begin with, each voltage, each
+//! Rows are assembled from texts that are formatted once: the beginning of a taxel's rows, each voltage, each
 //! pressure.
 
 use super::frames::{self, Frame, Frames, Worn};
@@ -19,22 +19,22 @@ use std::io::Write;
 use std::rc::Rc;
 use taxel_core::garment::Area;
 
-/// The converter's largest code, whatever the bits that are kept: fewer bits are spread over the same range.
+/// The converter's largest code at any depth: fewer bits are spread over the same range.
 const GREATEST: f64 = 4095.0;
-/// Bytes that are written at a time.
+/// Bytes written at once.
 const PIECE: usize = 1 << 16;
 
-/// What the table holds.
+/// Options of the table.
 #[derive(Debug, Clone, Copy)]
 pub struct Table {
     /// Only taxels with pressure.
     pub touched: bool,
-    /// The converter's reference, V.
+    /// Reference voltage of the converter, V.
     pub reference: f64,
 }
 
 impl Table {
-    /// Writes the table; the number of frames, and of those with volts.
+    /// Writes the table. Returns the number of frames, and of those with voltages.
     pub fn write(&self, frames: &Frames<'_>, out: &mut impl Write) -> Result<[u64; 2]> {
         let mut texts = Texts::default();
         texts.buffer.extend(b"time,panel,row,column,x,y,link,X,Y,Z,volts,pressure,unit\n");
@@ -80,14 +80,14 @@ impl Table {
     }
 }
 
-/// What a row ends with: pressure and unit.
+/// End of a row: pressure and unit.
 fn tail(worn: &Rc<Worn>, panel: usize, counts: u16) -> String {
     let (unit, value) = (worn.units.name(panel), worn.units.value(panel, counts));
     let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
     format!(",{pressure},{unit}\n")
 }
 
-/// The texts of a recording, and rows that are not written yet.
+/// Texts of a recording, and rows to be written.
 #[derive(Default)]
 struct Texts {
     buffer: Vec<u8>,
@@ -95,7 +95,7 @@ struct Texts {
     volts: Memo,
 }
 
-/// What the rows of each taxel begin with behind the time, and what those of each pressure end with.
+/// Beginnings of the rows of each taxel after the time, and ends of the rows by pressure.
 struct Panel {
     heads: Vec<String>,
     tails: Memo,
@@ -116,7 +116,7 @@ impl Panel {
     }
 }
 
-/// Texts by number, each made once.
+/// Texts by number, each formatted once.
 #[derive(Default)]
 struct Memo(Vec<Option<Box<str>>>);
 
@@ -131,12 +131,12 @@ impl Memo {
     }
 }
 
-/// A time in us as seconds.
+/// Formats a time in us as seconds.
 pub fn time(us: u64) -> String {
     format!("{}.{:06}", us / 1_000_000, us % 1_000_000)
 }
 
-/// A name as a field. One that a spreadsheet would take for a formula has an apostrophe before it.
+/// Formats a name as a field. An apostrophe precedes a name that a spreadsheet would take for a formula.
 pub fn quoted(name: &str) -> String {
     let before = if name.starts_with(['=', '+', '-', '@', '\t', '\r']) { "'" } else { "" };
     let quote = if name.contains([',', '"', '\n', '\r']) { "\"" } else { "" };

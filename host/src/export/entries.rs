@@ -1,20 +1,19 @@
-//! Names of the arrays of an archive: a garment's panel may be called whatever its author likes, and an archive
-//! is unpacked.
+//! Names of arrays in an archive: a panel may have any name, and an archive is unpacked to files.
 
 use std::collections::BTreeSet;
 
-/// Names that are taken.
+/// Names in use.
 #[derive(Debug, Default)]
 pub struct Entries(BTreeSet<String>);
 
 impl Entries {
-    /// With these to begin with.
+    /// Begins with these names in use.
     pub fn of<'a>(names: impl Iterator<Item = &'a str>) -> Entries {
         Entries(names.map(String::from).collect())
     }
 
-    /// The name of the array of a panel: letters, digits, spaces, `-`, `_` and `.` as they are, anything else
-    /// as `_`; none begins with a dot, and none is another array's.
+    /// Name of a panel's array: letters, digits, spaces, `-`, `_` and `.` are kept, anything else becomes
+    /// `_`; it does not begin with a dot, and is unique.
     pub fn add(&mut self, panel: &str) -> String {
         let plain = |sign: char| if sign.is_alphanumeric() || " -_.".contains(sign) { sign } else { '_' };
         let mut name: String = panel.chars().map(plain).collect();

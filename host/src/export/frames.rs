@@ -1,4 +1,4 @@
-//! The images of a recording, with what belongs to each.
+//! Images of a recording, with the data that belongs to each.
 
 use super::units::{Scale, Units};
 use crate::client::{Client, Event, ImageNews};
@@ -14,27 +14,27 @@ use taxel_core::body::Placed;
 use taxel_core::format::{Name, Q15};
 use taxel_core::garment::{Area, Layout};
 
-/// Which images of which recording.
+/// Selected images of a recording.
 #[derive(Debug)]
 pub struct Frames<'a> {
     file: &'a Path,
     every: NonZeroU64,
-    /// None: counts.
+    /// Scale; none for counts.
     scale: Option<Scale>,
-    /// What was damaged when it was gone through last.
+    /// Damage found in the last pass.
     skipped: Cell<Skipped>,
 }
 
-/// What holds for all images.
+/// Properties that hold for all images.
 #[derive(Debug)]
 pub struct Worn {
-    /// The garment's geometry.
+    /// Geometry of the garment.
     pub layout: Layout,
     /// Units of its panels.
     pub units: Units,
     /// Concepts of the scene's map.
     pub concepts: Vec<Name>,
-    /// What the board says of its calibration.
+    /// Calibration, as described by the board.
     calibration: String,
 }
 
@@ -43,24 +43,24 @@ pub struct Worn {
 pub struct Frame {
     /// Number of the scan.
     pub number: u32,
-    /// Start of the scan, the board's time, us.
+    /// Start of the scan in board time, us.
     pub board_us: u64,
-    /// The host's time of it, us since 1970.
+    /// Host time of the start, us since 1970.
     pub host_us: u64,
-    /// What the board wears.
+    /// Properties of the board.
     pub worn: Rc<Worn>,
     /// Pressure by taxel number, counts.
     pub values: Vec<u16>,
-    /// Raw code by taxel number; empty where none were recorded of this scan.
+    /// Raw code by taxel number; empty if none were recorded for this scan.
     pub codes: Vec<u16>,
-    /// The contacts that are there.
+    /// Present contacts.
     pub contacts: Vec<Placed>,
     /// Activation of each concept.
     pub activations: Vec<Q15>,
 }
 
 impl<'a> Frames<'a> {
-    /// Each N-th image of a file; in counts, or in the unit that the file knows.
+    /// Every N-th image of a file, in counts or in the unit that the file knows.
     pub fn new(file: &'a Path, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
         let scale = if counts { None } else { Some(Scale::of(&Overview::of(file)?, file)?) };
         Ok(Frames { file, every, scale, skipped: Cell::default() })
@@ -71,13 +71,14 @@ impl<'a> Frames<'a> {
         self.file
     }
 
-    /// What was damaged when it was gone through last.
+    /// Damage found in the last pass.
     pub fn skipped(&self) -> Skipped {
         self.skipped.get()
     }
 
-    /// Goes through them, as `what`; their number. What is changed on the way is refused: the forms have one
-    /// garment, one map and one unit. Memory is that of one image, whatever the recording's length.
+    /// Iterates over the images, with progress shown as `what`. Returns their number. Changes of garment, map
+    /// or unit are refused, because the formats have one of each. Memory is that of one image, whatever the
+    /// recording's length.
     pub fn each(&self, what: &str, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
         let mut play = Play::open(self.file)?;
         let total = play.passed()[1];
@@ -137,7 +138,7 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// The image that is put together, in memory that serves all of them. Codes come after their image, if they
+/// The image being assembled, in reused memory. Raw codes, if any, follow their image.
 /// come.
 #[derive(Default)]
 struct Current {
@@ -150,7 +151,7 @@ impl Current {
         self.image.as_ref().map(|image| &image.worn)
     }
 
-    /// The image whose codes may come.
+    /// The image whose raw codes may follow.
     fn waiting(&mut self) -> Option<&mut Frame> {
         self.image.as_mut().filter(|_| self.waits)
     }
@@ -182,7 +183,7 @@ impl Current {
     }
 }
 
-/// The values of a panel, row by row.
+/// Values of a panel, row by row.
 pub fn panel<'v>(area: &Area, values: &'v [u16]) -> &'v [u16] {
     let start = usize::from(area.base);
     values.get(start..start + usize::from(area.rows) * usize::from(area.columns)).unwrap_or(&[])

@@ -1,13 +1,13 @@
-//! `taxel export`: recordings in the forms of other programs.
+//! `taxel export`: converts recordings to other formats.
 //!
 //! | `--to` | what |
 //! |---|---|
-//! | `csv` | one row a taxel and frame: where it is, volts, pressure in its unit, see `csv.rs`; with `--contacts` one a contact and frame, see `contacts.rs` |
+//! | `csv` | one row per taxel and frame: place, volts, pressure with unit, see `csv.rs`; with `--contacts` one per contact and frame, see `contacts.rs` |
 //! | `npz` | NumPy arrays: an array of frames for each panel, times, contacts, see `npz.rs` |
-//! | `png` | a folder with an image of 16 bits for each frame, see `png.rs` |
-//! | `lerobot` | a folder with a data set for LeRobot, one episode a recording, see `lerobot/mod.rs`; needs the feature `lerobot` |
+//! | `png` | a folder with a 16-bit image for each frame, see `png.rs` |
+//! | `lerobot` | a folder with a data set for LeRobot, one episode per recording, see `lerobot/mod.rs`; needs the feature `lerobot` |
 //!
-//! Each goes through the recording image by image: memory does not grow with its length.
+//! Each export reads the recording image by image: memory does not grow with its length.
 
 mod archive;
 mod args;
@@ -33,7 +33,7 @@ use std::io::Write;
 /// Runs the command.
 pub fn run(args: ExportArgs) -> Result<()> {
     args.check()?;
-    // The others hold counts, and say in their own way what they are.
+    // The others hold counts, and describe them in their own way.
     let in_units = matches!(args.to, Form::Csv | Form::Lerobot) && !args.counts;
     let frames = |file| Frames::new(file, args.every, !in_units);
     let recordings = args.files.iter().map(|file| frames(file)).collect::<Result<Vec<_>>>()?;
@@ -54,12 +54,12 @@ pub fn run(args: ExportArgs) -> Result<()> {
     Ok(())
 }
 
-/// What was going on when an error came; where a recording is at fault, the error names it.
+/// Context of an error; errors of a recording name it.
 fn to(args: &ExportArgs) -> String {
     format!("exporting to {}", args.output.display())
 }
 
-/// Writes a table; the number of frames.
+/// Writes a table. Returns the number of frames.
 fn csv(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
     let mut draft = Output::stream(&args.output, args.force, &args.files)?.draft()?;
     let count =
@@ -83,7 +83,7 @@ fn png(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
     Ok(count)
 }
 
-/// Writes the table of taxels, and says where its volts are.
+/// Writes the table of taxels, and reports missing voltages.
 fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Result<u64> {
     let [count, with_volts] =
         csv::Table { touched: args.touched, reference: args.reference }.write(frames, out)?;
@@ -92,7 +92,7 @@ fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Resul
             "No raw codes were recorded, so the column of volts is empty: `taxel record --raw` records them."
         );
     } else if with_volts < count {
-        eprintln!("Raw codes came with {with_volts} of {count} frames: the others have no volts.");
+        eprintln!("Raw codes were recorded with {with_volts} of {count} frames: the others have no volts.");
     }
     Ok(count)
 }

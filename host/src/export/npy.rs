@@ -1,5 +1,5 @@
-//! NumPy arrays inside an archive, each written to a file of its own until all are complete: an archive takes
-//! one after the other, a recording tells all at once.
+//! NumPy arrays of an archive, each written to a file of its own until all are complete: an archive takes one
+//! after the other, a recording yields all at once.
 
 use super::archive::Archive;
 use crate::output::Scratch;
@@ -10,14 +10,15 @@ use std::path::Path;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive};
 
-/// Of deflate: most of a garment is 0 most of the time, which the fastest level compresses to a hundredth, too.
+/// Deflate level: most of a garment is 0 most of the time, which even the fastest level compresses to a
+/// hundredth.
 const LEVEL: i64 = 1;
-/// Bytes that are compressed at a time.
+/// Bytes compressed at once.
 const PIECE: usize = 1 << 16;
 
-/// A number as NumPy's little-endian types have it.
+/// A number with a little-endian NumPy type.
 pub trait Number: Copy {
-    /// What NumPy calls it.
+    /// Name of the type in NumPy.
     const KIND: &'static str;
     /// Appends its bytes.
     fn put(self, out: &mut Vec<u8>);
@@ -44,7 +45,7 @@ pub struct Array {
 }
 
 impl Array {
-    /// Begins an array of this name, type and shape, beside the `output`.
+    /// Begins an array with this name, type and shape, beside the `output`.
     pub fn begin(output: &Path, name: &str, kind: &str, shape: &[u64]) -> Result<Array> {
         let scratch = Scratch::beside(output)?;
         let mut archive = Archive::new(BufWriter::new(scratch.file.try_clone()?));
@@ -73,12 +74,12 @@ impl Array {
     }
 }
 
-/// What stands before an array's values: version 1 of the format, filled up to a multiple of 64 bytes.
+/// Header of an array: version 1 of the format, padded to a multiple of 64 bytes.
 fn head(kind: &str, shape: &[u64]) -> Vec<u8> {
     let sizes: String = shape.iter().map(|size| format!("{size}, ")).collect();
     let mut text =
         format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());
-    // Magic, version, length of the text; the text ends with a line's end.
+    // Magic, version, length of the text; the text ends with a newline.
     let before = 10;
     while (before + text.len() + 1) % 64 != 0 {
         text.push(' ');

@@ -2,12 +2,12 @@
 //!
 //! | array | type, shape | what |
 //! |---|---|---|
-//! | `PANEL` | u16 \[n, rows, columns\] | pressure, counts; `taxel process` reads them back; see `entries.rs` for names that are no panel's |
+//! | `PANEL` | u16 \[n, rows, columns\] | pressure, counts; `taxel process` reads them back; see `entries.rs` for the names |
 //! | `frame` | u32 \[n\] | number of the scan |
-//! | `time_us`, `host_time_us` | u64 \[n\] | its start, the board's time and the host's |
-//! | `intent` | f64 \[n, concepts\] | activation of each concept of the scene's map, -1 ..= 1; where there is one |
-//! | `concepts` | text \[concepts\] | what the columns of `intent` are called |
-//! | `contact_frame` | u32 \[m\] | the scan of each contact; a contact has an entry for each frame in which it is |
+//! | `time_us`, `host_time_us` | u64 \[n\] | its start in board time and host time |
+//! | `intent` | f64 \[n, concepts\] | activation of each concept of the scene's map, -1 ..= 1; if there is a map |
+//! | `concepts` | text \[concepts\] | names of the columns of `intent` |
+//! | `contact_frame` | u32 \[m\] | scan of each entry; a contact has an entry for each of its frames |
 //! | `contact_id`, `_panel`, `_total`, `_peak`, `_area` | u32 \[m\] | |
 //! | `contact_x`, `_y`, `_azimuth`, `_nmi` | f64 \[m\] | taxels, taxels, rad (NaN: none), 1 |
 
@@ -21,10 +21,10 @@ use std::path::Path;
 use std::rc::Rc;
 use taxel_core::body::Placed;
 
-/// An array's name, and its value for a contact.
+/// Name of an array, and its value for a contact.
 type Column<T> = (&'static str, fn(&Placed) -> T);
 
-/// What is told of a contact in whole numbers, and in others.
+/// Arrays of contacts, with integers and with floats.
 const WHOLE: [Column<u32>; 5] = [
     ("contact_id", |placed| placed.contact.id),
     ("contact_panel", |placed| placed.contact.panel.into()),
@@ -39,11 +39,11 @@ const REAL: [Column<f64>; 4] = [
     ("contact_nmi", |placed| placed.shape.nmi.to_f64()),
 ];
 
-/// The other arrays that are no panel's.
+/// Names of the other arrays besides panels.
 const OWN: [&str; 6] = ["frame", "time_us", "host_time_us", "intent", "concepts", "contact_frame"];
 
-/// Writes the archive to `out`, which is at `output`; the number of frames. It goes through the recording
-/// twice: arrays begin with their sizes.
+/// Writes the archive to `out`, which is at `output`. Returns the number of frames. Reads the recording
+/// twice, because arrays begin with their sizes.
 pub fn write(frames: &Frames<'_>, output: &Path, out: impl Write + Seek) -> Result<u64> {
     let (mut contacts, mut worn) = (0, None);
     let count = frames.each("counting", |frame| {
@@ -66,7 +66,7 @@ struct Arrays {
     numbers: Array,
     times: Array,
     host_times: Array,
-    /// Activations, and the concepts' names.
+    /// Activations, and names of the concepts.
     intent: Option<[Array; 2]>,
     of: Array,
     whole: Vec<Array>,
@@ -74,7 +74,7 @@ struct Arrays {
 }
 
 impl Arrays {
-    /// Of so many frames and contacts.
+    /// Arrays for this many frames and contacts.
     fn begin(output: &Path, worn: &Rc<Worn>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
         let list = |name: &str, kind: &str, size: u64| Array::begin(output, name, kind, &[size]);
         let mut taken =
@@ -128,7 +128,7 @@ impl Arrays {
     }
 }
 
-/// The concepts' names as NumPy has texts: all of one length, four bytes a character.
+/// Names of the concepts as NumPy texts: all of one length, four bytes per character.
 fn names(output: &Path, worn: &Worn) -> Result<Array> {
     let names = worn.concepts.iter().map(|name| name.chars().map(u32::from).collect::<Vec<_>>());
     let longest = names.clone().map(|name| name.len()).max().unwrap_or(0).max(1);

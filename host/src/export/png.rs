@@ -1,12 +1,12 @@
-//! Images: one of 16 bits for each frame, `FOLDER/THOUSAND/FRAME.png`, and `FOLDER/scale.json`.
+//! Images: a 16-bit image for each frame, `FOLDER/THOUSAND/FRAME.png`, and `FOLDER/scale.json`.
 //!
-//! The panels stand side by side in the order of the garment, `scale.json` tells where; an image of each
-//! panel alone would take four times as many files, which is what takes the time. A folder holds the images
-//! of 1,000 scans: few programs open one of 350,000.
+//! The panels are side by side in the order of the garment, at places listed in `scale.json`. Separate images
+//! of panels would be four times as many files, whose number determines the time. A folder holds the images
+//! of 1,000 scans: few programs can open one with 350,000.
 //!
-//! Grey is counts times a whole number, the same in all images of a recording: the greatest that leaves room
-//! for the greatest pressure in it, so that images are bright and nothing is rounded. `scale.json` and each
-//! image's comment tell it; with `--counts` it is 1.
+//! Grey is counts times an integer, which is the same in all images of a recording: the largest for which the
+//! greatest pressure fits, so that images are bright without rounding. `scale.json` and each image's comment
+//! contain it; with `--counts` it is 1.
 
 use super::frames::{self, Frames};
 use crate::output::Folder;
@@ -18,17 +18,17 @@ use std::path::Path;
 use std::sync::mpsc::sync_channel;
 use taxel_core::garment::Area;
 
-/// Scans of one folder.
+/// Scans per folder.
 const THOUSAND: u32 = 1000;
-/// Images that wait for a thread at most: while it writes one folder, the next can be read for another.
+/// Most images queued for a thread: while it writes to one folder, the next can be read for another.
 const WAITING: usize = THOUSAND as usize;
-/// Threads that write: the system lets one at a time into a folder, and a disk is not faster for more.
+/// Writing threads: the system admits one at a time to a folder, and a disk is not faster with more.
 const THREADS: usize = 4;
-/// The file that tells what grey means, and where the panels are.
+/// The file with the scale of grey, and the places of the panels.
 const SCALE: &str = "scale.json";
 
-/// Writes the images; the number of frames. It goes through the recording twice: the scale is that of the
-/// whole.
+/// Writes the images. Returns the number of frames. Reads the recording twice, because the scale depends on
+/// all of it.
 pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> {
     let (mut greatest, mut areas) = (0, Vec::new());
     frames.each("measuring", |frame| {
@@ -68,19 +68,19 @@ pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> 
         });
         drop(queues);
         for work in work {
-            // What a thread has to say is why nobody takes its images any more.
+            // The thread's error is the reason why it takes no more images.
             work.join().map_err(|_| anyhow!("a thread has panicked"))??;
         }
         count
     })
 }
 
-/// Whether a file in an output folder is one of ours.
+/// True if a file in an output folder is of such an export.
 pub fn is_ours(inside: &Path) -> bool {
     inside == Path::new(SCALE) || inside.extension().is_some_and(|extension| extension == "png")
 }
 
-/// Where the panels are in an image.
+/// Places of the panels in an image.
 struct Sheet {
     /// Each panel, and its first column.
     panels: Vec<(Area, usize)>,
@@ -110,7 +110,7 @@ impl Sheet {
     }
 }
 
-/// Memory that serves all images.
+/// Memory reused for all images.
 struct Image {
     factor: u16,
     grey: Vec<u8>,

@@ -1,4 +1,4 @@
-//! In which unit pressure is told.
+//! Units of pressure in exports.
 
 use crate::calibrate::{Calibration, Forces};
 use crate::record::CALIBRATION;
@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use std::path::Path;
 use taxel_core::garment::Layout;
 
-/// What a recording says of newtons.
+/// A recording's scale of force.
 #[derive(Debug, Default, Clone)]
 pub struct Scale {
     calibration: Option<Calibration>,
@@ -15,21 +15,21 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The calibration that is attached, else the counts of a newton that its source knew.
+    /// The attached calibration, else the counts per newton of its source.
     pub fn of(overview: &Overview, path: &Path) -> Result<Scale> {
         let attached = overview.attached(CALIBRATION)?;
         let name = format!("{CALIBRATION} of {}", path.display());
         let parsed = attached.map(|bytes| {
-            let text = String::from_utf8(bytes).with_context(|| format!("{name} is no text"))?;
+            let text = String::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
             Calibration::parse(&text, &name)
         });
         Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton() })
     }
 
-    /// For a garment whose board names this calibration.
+    /// Units for a garment whose board reports this calibration.
     pub fn on(&self, layout: &Layout, in_force: &str) -> Result<Units> {
         let made = self.calibration.as_ref().filter(|made| made.is_in_force(in_force));
-        // The mean of a calibration's curves says less than the curves.
+        // The curves of a calibration are more exact than their mean.
         let counts_per_newton = self.counts_per_newton.filter(|_| made.is_none());
         let forces = made.map(|made| Forces::new(made, layout)).transpose()?;
         let panel = |(panel, area): (usize, &taxel_core::garment::Area)| {
@@ -47,18 +47,18 @@ impl Scale {
     }
 }
 
-/// The unit of a panel.
+/// Unit of a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Unit {
     name: &'static str,
-    /// Of a newton on a taxel.
+    /// Units per newton on a taxel.
     per_newton: f64,
 }
 
 const COUNTS: Unit = Unit { name: "counts", per_newton: 0.0 };
 
-/// From counts to pressure: `kPa` on the square of a taxel's pitch, `N` on the taxel where the pitch is
-/// unknown, `counts` where nothing says what a newton shows.
+/// Converts counts to pressure: `kPa` on the square of a taxel's pitch, `N` on the taxel if the pitch is
+/// unknown, `counts` if the counts per newton are unknown.
 #[derive(Debug, Clone)]
 pub struct Units {
     panels: Vec<Unit>,
@@ -67,22 +67,22 @@ pub struct Units {
 }
 
 impl Units {
-    /// Counts as they are.
+    /// Counts without conversion.
     pub fn counts(layout: &Layout) -> Units {
         Units { panels: vec![COUNTS; layout.areas().len()], forces: None, counts_per_newton: None }
     }
 
-    /// Of a panel.
+    /// Unit of a panel.
     pub fn name(&self, panel: usize) -> &'static str {
         self.panels.get(panel).unwrap_or(&COUNTS).name
     }
 
-    /// A sum of counts in newtons; none where no one number of counts is a newton.
+    /// Converts a sum of counts to newtons; none if there is no single scale.
     pub fn newtons(&self, total: u32) -> Option<f64> {
         self.counts_per_newton.map(|per_newton| f64::from(total) / per_newton)
     }
 
-    /// What a taxel of a panel shows, in its unit.
+    /// Value of a taxel of a panel, in its unit.
     pub fn value(&self, panel: usize, counts: u16) -> f64 {
         let unit = self.panels.get(panel).unwrap_or(&COUNTS);
         if *unit == COUNTS {

@@ -1,8 +1,8 @@
-//! One weight from several: fuzzy sets aggregated, and the centroid of what they form.
+//! Combines several fuzzy weights into one: aggregates the sets and takes the centroid.
 
 use super::terms::Triangle;
 
-/// How sets become one.
+/// How memberships of several sets are aggregated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Aggregation {
     /// Add memberships: repeated statements count.
@@ -11,7 +11,7 @@ pub enum Aggregation {
     Max,
 }
 
-/// The centroid of the aggregated sets; 0 without any.
+/// Centroid of the aggregated sets; 0 without any.
 pub fn centroid(sets: &[Triangle], how: Aggregation) -> f64 {
     let (area, moment) = match how {
         // The area under a sum is the sum of the areas.
@@ -23,8 +23,8 @@ pub fn centroid(sets: &[Triangle], how: Aggregation) -> f64 {
     if area > 0.0 { moment / area } else { 0.0 }
 }
 
-/// Area and first moment under the greatest of the memberships, exactly: it is straight between the corners
-/// and crossings.
+/// Exact area and first moment under the maximum of the memberships, which is linear between corners and
+/// crossings.
 fn envelope(sets: &[Triangle]) -> (f64, f64) {
     let mut points: Vec<f64> = sets.iter().flat_map(|set| [set.from, set.peak, set.to]).collect();
     points.sort_by(f64::total_cmp);
@@ -55,7 +55,7 @@ fn envelope(sets: &[Triangle]) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// The same by counting a million strips.
+    /// Centroid by summing a million strips.
     fn counted(sets: &[Triangle], how: Aggregation) -> f64 {
         let strips = 1_000_000;
         let (mut area, mut moment) = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! `taxel fcm bench`: the time of one inference beside other programs, all in one run.
+//! `taxel fcm bench`: times one inference against other programs, all in one run.
 
 use super::board::BoardMap;
 use super::decimal::Decimal;
@@ -22,14 +22,14 @@ pub struct BenchArgs {
     pub json: bool,
 }
 
-/// Inferences that are timed together, and how often; the median counts.
+/// Inferences per timing, and number of timings, whose median is reported.
 const REPEATED: u32 = 2000;
 const ROUNDS: usize = 31;
-/// An inference ends where no activation moves farther.
+/// An inference ends once no activation moves by more than this.
 const STILL: f64 = 1e-3;
-/// How far apart the ends of two programs may be.
+/// Tolerated difference between the results of two programs.
 const EQUAL: f64 = 5e-3;
-/// Where the map starts.
+/// Initial activations.
 const START: [(&str, &str); 4] = [("press", "0.8"), ("shape", "0.2"), ("location", "0.5"), ("time", "0.1")];
 
 /// Runs the command.
@@ -43,11 +43,11 @@ pub fn run(args: BenchArgs) -> Result<()> {
     Ok(())
 }
 
-/// One row for each program: `program`, `us` (null where it is not installed), `equal`.
+/// One row for each program: `program`, `us` (null if not installed), `equal`.
 fn rows() -> Result<Vec<Value>> {
     let mut file = load::map("tactile")?;
     (file.transfer, file.lambda) = (Transfer::Sigmoid, 1.0);
-    // Not all programs can hold a concept: here each has a cause.
+    // Not all programs can hold a concept's value: here each concept has a cause.
     file.input.clear();
     for (entry, _) in START {
         let (from, to, weight) = ("politeness".into(), entry.into(), Weight::Number(0.1));
@@ -89,14 +89,14 @@ fn table(rows: &[Value]) -> String {
         let program = row["program"].as_str().unwrap_or_default();
         let _ = match (row["us"].as_f64(), row["equal"].as_bool()) {
             (Some(us), Some(true)) => writeln!(text, "{program:<40} {us:>10.2} us"),
-            (Some(us), _) => writeln!(text, "{program:<40} {us:>10.2} us (void: it ends elsewhere)"),
+            (Some(us), _) => writeln!(text, "{program:<40} {us:>10.2} us (void: another result)"),
             (None, _) => writeln!(text, "{program:<40} {:>10}", "not installed"),
         };
     }
     text
 }
 
-/// A map as a matrix by effect and cause, in f64.
+/// A map as a dense matrix by effect and cause, in f64.
 struct Dense {
     n: usize,
     weights: Vec<f64>,
@@ -120,7 +120,7 @@ impl Dense {
         }
     }
 
-    /// Rule kosko or mkosko, sigmoid.
+    /// Infers with rule kosko or mkosko, sigmoid.
     fn settle(&self) -> Vec<f64> {
         let mut x = self.start.clone();
         let mut next = x.clone();
@@ -140,7 +140,7 @@ impl Dense {
     }
 }
 
-/// Median microseconds of a call.
+/// Median duration of a call, us.
 fn time(mut call: impl FnMut()) -> f64 {
     let mut times = [0.0; ROUNDS];
     for time in &mut times {
@@ -152,8 +152,8 @@ fn time(mut call: impl FnMut()) -> f64 {
     times[ROUNDS / 2]
 }
 
-/// Median microseconds and the end of a Python program; none where it does not run. `W`, `x0`, `names` and
-/// `median` are given.
+/// Median duration, us, and result of a Python program; none if it does not run. `W`, `x0`, `names` and
+/// `median` are defined for it.
 fn python(script: &str, problem: &Problem) -> Option<(f64, Vec<f64>)> {
     let numbers: Vec<Vec<f64>> =
         problem.weights.iter().map(|row| row.iter().map(|w| w.to_f64()).collect()).collect();
@@ -172,7 +172,7 @@ fn python(script: &str, problem: &Problem) -> Option<(f64, Vec<f64>)> {
     Some((answer["us"].as_f64()?, end))
 }
 
-/// What every Python program begins with.
+/// Beginning of every Python program.
 const COMMON: &str = "
 import time
 W, x0, names = given['W'], given['x0'], given['names']

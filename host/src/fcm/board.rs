@@ -1,4 +1,4 @@
-//! A map file as the board would infer it.
+//! A map file in the arithmetic of the board.
 
 use super::decimal::Decimal;
 use super::engine::{Q15_CONCEPTS, Q15_EDGES};
@@ -8,31 +8,31 @@ use taxel_core::intent::{Inference, Map, Rule, Transfer};
 
 /// The core's map, with room for more concepts than the board has.
 pub type HostMap = Map<Q15_CONCEPTS, Q15_EDGES>;
-/// A state of it.
+/// A state of the map.
 pub type State = [i32; Q15_CONCEPTS];
 
-/// Steps after which a map that moves is called unsettled.
+/// Steps after which a map that still moves counts as unsettled.
 pub const STEPS: u16 = 1000;
 
 /// A map file in the arithmetic of the board.
 pub struct BoardMap {
     /// The core's map.
     pub map: Box<HostMap>,
-    /// What is summed.
+    /// Rule of the sum.
     pub rule: Rule,
-    /// What the sum becomes.
+    /// Transfer function of the sum.
     pub transfer: Transfer,
 }
 
 impl BoardMap {
-    /// Builds it; what the core refuses is said with the map's name.
+    /// Builds the core's map. Errors name the map.
     pub fn build(file: &MapFile) -> Result<BoardMap> {
         let config = file.to_config::<Q15_CONCEPTS, Q15_EDGES>()?;
         let map = Map::build(&*config).with_context(|| format!("map {}", file.name))?;
         Ok(BoardMap { map: Box::new(map), rule: file.rule, transfer: file.transfer })
     }
 
-    /// The state with these activations, by the number of the concept; all others 0.
+    /// State with these activations, by concept number; all others 0.
     pub fn state(&self, activations: impl IntoIterator<Item = (usize, Decimal)>) -> State {
         let mut state = [0; Q15_CONCEPTS];
         for (concept, value) in activations {
@@ -43,12 +43,12 @@ impl BoardMap {
         state
     }
 
-    /// Runs until it settles, at most [`STEPS`] steps.
+    /// Runs until the map settles, for at most [`STEPS`] steps.
     pub fn infer(&self, start: &State) -> Inference<Q15_CONCEPTS> {
         self.map.infer(start, STEPS)
     }
 
-    /// An activation as a number.
+    /// Converts an activation to a number.
     pub fn value(&self, activation: i32) -> f64 {
         f64::from(activation) / f64::from(self.map.one())
     }

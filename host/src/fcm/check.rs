@@ -1,4 +1,4 @@
-//! `taxel fcm check`: what is wrong with a map, and what its author may not have meant.
+//! `taxel fcm check`: finds faults of a map, and what its author may not have intended.
 
 use super::board::{BoardMap, STEPS};
 use super::decimal::Decimal;
@@ -22,14 +22,14 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
-/// What was found.
+/// Results of a check.
 #[derive(Debug, Clone)]
 pub struct Findings {
-    /// Why the board cannot use the map.
+    /// Reasons why the board cannot use the map.
     pub faults: Vec<String>,
-    /// What is probably not meant.
+    /// What is probably not intended.
     pub warnings: Vec<String>,
-    /// How it behaves.
+    /// Behaviour of the map.
     pub sweep: Sweep,
 }
 
@@ -49,7 +49,7 @@ pub fn run(args: CheckArgs) -> Result<()> {
     }
 }
 
-/// Looks at everything; an error is what not even the host's engine takes.
+/// Checks a map. Error if not even the host's engine accepts it.
 pub fn check(map: &MapFile) -> Result<Findings> {
     BoardMap::build(map)?;
     let sweep = sweep(map)?;
@@ -62,23 +62,25 @@ pub fn check(map: &MapFile) -> Result<Findings> {
     })
 }
 
-/// Whether the board can hold the map and decide by it.
+/// Checks that the board can hold the map and announce intentions by it.
 fn board(map: &MapFile) -> Result<()> {
     let config: MapConfig = *map.to_config()?;
     let mut scene = Scene::shipped();
-    // Reactions speak of concepts of the shipped map.
+    // The shipped reactions name concepts of the shipped map.
     scene.react.clear();
     scene.intent = Some(IntentConfig::new(config));
     scene_bytes(&scene).context("with this map as the shipped one").map(drop)
 }
 
-/// What the edges do not reach.
+/// Warnings about unconnected concepts and rings.
 fn structure(map: &MapFile) -> Vec<String> {
     let mut found = Vec::new();
     let fed = |name: &str| map.input.iter().any(|input| input.concept == name);
     for concept in map.entries() {
         if !fed(concept) {
-            found.push(format!("concept {concept} has neither an input nor a cause: it stays as it starts"));
+            found.push(format!(
+                "concept {concept} has neither an input nor a cause: it keeps its initial value"
+            ));
         }
         if !map.edge.iter().any(|edge| edge.from == concept) {
             found.push(format!("concept {concept} causes nothing"));
@@ -100,7 +102,7 @@ fn structure(map: &MapFile) -> Vec<String> {
     found
 }
 
-/// Concepts that an input reaches, in the order in which they are found.
+/// Concepts reached from an input, in the order of the search.
 fn reached(map: &MapFile) -> Vec<&str> {
     let mut reached: Vec<&str> = map.input.iter().map(|input| input.concept.as_str()).collect();
     let mut next = 0;
@@ -117,7 +119,7 @@ fn reached(map: &MapFile) -> Vec<&str> {
 
 /// One ring of causes, beginning and ending with the same concept.
 fn ring(map: &MapFile) -> Option<Vec<&str>> {
-    // What remains when concepts without a cause are taken away again and again lies on a ring or behind one.
+    // After repeated removal of concepts without a cause, the rest is on a ring or behind one.
     let mut left: Vec<&str> = map.concept.iter().map(|c| c.name.as_str()).collect();
     let causes = |to: &str, left: &[&str]| {
         let edges = map.edge.iter().filter(|edge| edge.to == to && edge.weight.value() != 0.0);
@@ -139,7 +141,7 @@ fn ring(map: &MapFile) -> Option<Vec<&str>> {
     }
 }
 
-/// How it ends, with the inputs.
+/// Warnings about maps that cycle or do not settle.
 fn behaviour(sweep: &Sweep) -> Vec<String> {
     let mut found = Vec::new();
     if let (count, Some((inputs, period))) = &sweep.cycles {
@@ -181,7 +183,7 @@ pub fn report(map: &MapFile, found: &Findings) -> Value {
     })
 }
 
-/// The readable form.
+/// Readable form.
 pub fn in_words(map: &MapFile, found: &Findings) -> String {
     let Findings { faults, warnings, sweep } = found;
     let mut text = format!(

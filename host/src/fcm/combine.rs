@@ -1,4 +1,4 @@
-//! `taxel fcm combine` and `taxel fcm merge`: several maps as one, with their disagreement.
+//! `taxel fcm combine` and `taxel fcm merge`: combine several maps into one, and report disagreements.
 
 use super::aggregate::Aggregation;
 use super::board::BoardMap;
@@ -13,13 +13,13 @@ use std::path::PathBuf;
 /// Arguments of `taxel fcm combine`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct CombineArgs {
-    /// Maps of one thing, each by another expert
+    /// Maps of one subject, each by another expert
     #[arg(required = true, num_args = 2..)]
     pub maps: Vec<String>,
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// How the fuzzy sets of an edge's weights are aggregated before the centroid is taken
@@ -33,13 +33,13 @@ pub struct CombineArgs {
 /// Arguments of `taxel fcm merge`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct MergeArgs {
-    /// Maps of different things that share concepts
+    /// Maps of different subjects that share concepts
     #[arg(required = true, num_args = 2..)]
     pub maps: Vec<String>,
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Aggregate weights that differ, instead of refusing them
@@ -50,20 +50,20 @@ pub struct MergeArgs {
     pub json: bool,
 }
 
-/// Runs `combine`: who knows both concepts and draws no edge says `none`.
+/// Runs `combine`: a map with both concepts but no edge votes `none`.
 pub fn combine(args: CombineArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, &args.maps)?;
     write(&args.maps, output, Shared::Vote(args.how), args.json)
 }
 
-/// Runs `merge`: who draws no edge says nothing.
+/// Runs `merge`: a map without an edge has no vote.
 pub fn merge(args: MergeArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, &args.maps)?;
     write(&args.maps, output, args.combine.map_or(Shared::Agree, Shared::Combine), args.json)
 }
 
 fn write(paths: &[String], output: Output, shared: Shared, as_json: bool) -> Result<()> {
-    // Told apart by their files: what experts draw of one thing mostly has one name.
+    // Distinguished by file name: maps of one subject mostly have the same name.
     let named = |path: &String| Ok(MapFile { name: path.clone(), ..load::map(path)? });
     let maps = paths.iter().map(named).collect::<Result<Vec<_>>>()?;
     let (name, is_standard) = (load::name(&output)?, output.is_standard());
@@ -85,7 +85,7 @@ pub fn report(united: &United) -> Value {
     })
 }
 
-/// The readable form: one line for each edge, the widest disagreement first.
+/// Readable form: one line for each edge, the largest disagreement first.
 pub fn table(united: &United) -> String {
     let mut edges: Vec<_> = united.edges.iter().collect();
     edges.sort_by(|a, b| b.spread().total_cmp(&a.spread()));

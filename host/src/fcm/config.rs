@@ -1,4 +1,4 @@
-//! Between a map file and the core's configuration, which numbers concepts and counts decimal steps.
+//! Converts a map file to the core's configuration, which numbers concepts and counts in decimal steps.
 
 use super::map::{ConceptFile, EdgeFile, MapFile};
 use super::member::InputFile;
@@ -11,7 +11,7 @@ use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};
 
 impl MapFile {
-    /// The map in the core's decimal steps; the step is the finest one that the file uses.
+    /// The map in the core's decimal steps, as fine as the file's numbers need.
     pub fn to_config<const N: usize, const E: usize>(&self) -> Result<Box<MapConfig<N, E>>> {
         self.check_numbers()?;
         let decimals = self.decimals();
@@ -61,7 +61,7 @@ impl MapFile {
         Ok(config)
     }
 
-    /// The readable form of a map.
+    /// The map file of a configuration.
     pub fn from_config<const N: usize, const E: usize>(config: &MapConfig<N, E>) -> MapFile {
         let step = 10f64.powi(config.decimals.into());
         let decimal = |steps: i16| f64::from(steps) / step;
@@ -97,7 +97,7 @@ impl MapFile {
     }
 }
 
-/// A text that must fit into a [`Name`] whole: two that are cut could become one.
+/// A text as a [`Name`], which must not be truncated: two names could become equal.
 fn fitting(text: &str, what: &str) -> Result<Name> {
     let short = name(text);
     if short != text {

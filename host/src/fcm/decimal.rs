@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-/// The largest number of decimals: two of them multiply, and thousands add, within 128 bits.
+/// Most decimals: products of two such numbers, and sums of thousands, fit into 128 bits.
 pub const MOST_DECIMALS: u32 = 17;
 
-/// `digits` * 10^-`decimals`, without trailing zeros.
+/// The number `digits` * 10^-`decimals`, without trailing zeros.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Decimal {
     /// The number without its point.
@@ -15,8 +15,8 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// From decimal text such as `-0.25`, `1`, `2.5e-3`; none if it is no number or has more than 17 decimals
-    /// or more than 20 digits before the point.
+    /// Parses decimal text such as `-0.25`, `1`, `2.5e-3`; none if it is not a number, or has more than 17
+    /// decimals or more than 20 digits before the point.
     pub fn parse(text: &str) -> Option<Decimal> {
         let (mantissa, exponent) = match text.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
@@ -39,7 +39,7 @@ impl Decimal {
         fits.then_some(Decimal { digits, decimals })
     }
 
-    /// The decimal number that a float is written as, in the shortest form that reads back as the same float.
+    /// Decimal number with the shortest text that reads back as this float.
     pub fn from_f64(value: f64) -> Option<Decimal> {
         value.is_finite().then(|| Decimal::parse(&value.to_string())).flatten()
     }
@@ -50,12 +50,12 @@ impl Decimal {
         self.to_string().parse().expect("a decimal number is a float")
     }
 
-    /// Whether the number is in -1 ..= 1.
+    /// True if the number is in -1 ..= 1.
     pub fn is_fraction(self) -> bool {
         self.digits.unsigned_abs() <= 10u128.pow(self.decimals)
     }
 
-    /// In units of 1 / `one`, rounded to the nearest, halves away from zero.
+    /// The number in units of 1 / `one`, rounded to nearest, halves away from zero.
     pub fn scaled(self, one: i128) -> i128 {
         let unit = 10i128.pow(self.decimals);
         let twice = 2 * self.digits * one + self.digits.signum() * unit;

@@ -1,6 +1,6 @@
-//! `taxel fcm draw`: the graph of a map as SVG. Width is strength; blue and unbroken increases, vermilion and
-//! dashed decreases, so that neither colour nor dash is needed to tell; the fill of a concept is its
-//! activation, which is also written.
+//! `taxel fcm draw`: draws the graph of a map as SVG. Width is strength; blue solid edges increase, vermilion
+//! dashed ones decrease, so that either colour or dash suffices; the fill of a concept is its activation,
+//! which is also written.
 
 use super::board::BoardMap;
 use super::decimal::Decimal;
@@ -22,24 +22,24 @@ pub struct DrawArgs {
     /// File to write (.svg)
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
-    /// Or a source, whose activations are drawn.
+    /// Alternatively a source, whose activations are drawn.
     #[command(flatten)]
     pub told: ToldArgs,
 }
 
-/// Distance of layers and of concepts in one, and the size of a concept, pixels.
+/// Distance between layers and between concepts of a layer, and size of a concept, pixels.
 const LAYER: f64 = 190.0;
 const PLACE: f64 = 74.0;
 const WIDTH: f64 = 122.0;
 const HEIGHT: f64 = 38.0;
 const MARGIN: f64 = 30.0;
-/// Colours of Okabe and Ito, which stay apart for all kinds of sight.
+/// Colours of Okabe and Ito, distinguishable with any colour vision.
 const MORE: &str = "#0072b2";
 const LESS: &str = "#d55e00";
 
@@ -68,7 +68,7 @@ fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {
     Ok(run.state.iter().take(map.concept.len()).map(|x| board.value(*x)).collect())
 }
 
-/// The graph; `activations` are by the number of the concept.
+/// Draws the graph; `activations` are by concept number.
 pub fn svg(map: &MapFile, activations: Option<&[f64]>) -> String {
     let layers = layers::of_map(map);
     let last = layers.iter().max().copied().unwrap_or(0);
@@ -77,7 +77,7 @@ pub fn svg(map: &MapFile, activations: Option<&[f64]>) -> String {
     let place = |at: usize| {
         let above = layers[..at].iter().filter(|layer| **layer == layers[at]).count();
         let top = (tallest - count(layers[at])) as f64 / 2.0;
-        // Layers stand a little askew, so that an edge does not run through the concepts between its ends.
+        // Layers are slightly skewed, so that an edge does not cross the concepts between its ends.
         let askew = if layers[at].is_multiple_of(2) { 0.0 } else { PLACE * 0.37 };
         (MARGIN + layers[at] as f64 * LAYER, MARGIN + (above as f64 + top) * PLACE + askew)
     };
@@ -98,14 +98,14 @@ pub fn svg(map: &MapFile, activations: Option<&[f64]>) -> String {
     }
     let _ = writeln!(
         text,
-        "<text x=\"{MARGIN}\" y=\"{:.0}\" font-size=\"11\"><tspan fill=\"{MORE}\">unbroken: increases</tspan> \
+        "<text x=\"{MARGIN}\" y=\"{:.0}\" font-size=\"11\"><tspan fill=\"{MORE}\">solid: increases</tspan> \
          <tspan fill=\"{LESS}\" dx=\"12\">dashed: decreases</tspan></text>\n</svg>",
         height - 10.0
     );
     text
 }
 
-/// From the right side of the cause to the left side of the effect; what leads back goes round below.
+/// From the right side of the cause to the left side of the effect; backward edges run around below.
 fn arrow(edge: &EdgeFile, from: (f64, f64), to: (f64, f64), onwards: bool) -> String {
     let weight = edge.weight.value();
     let (x0, y0) = (from.0 + WIDTH, from.1 + HEIGHT / 2.0);
@@ -117,7 +117,7 @@ fn arrow(edge: &EdgeFile, from: (f64, f64), to: (f64, f64), onwards: bool) -> St
     if !edge.note.is_empty() {
         title += &format!(" ({})", edge.note);
     }
-    // A quarter of the way along the curve.
+    // A quarter along the curve.
     let label = |a: f64, b: f64, c: f64, d: f64| (27.0 * a + 27.0 * b + 9.0 * c + d) / 64.0;
     let (lx, ly) = (label(x0, x0 + reach, x1 - reach, x1), label(y0, y0 + sag, y1 + sag, y1));
     format!(

@@ -1,7 +1,7 @@
-//! Inference on the host: an f64 engine, an exact one for threshold maps, and the core's own arithmetic
-//! beside them.
+//! Inference on the host: an f64 engine, an exact one for threshold maps, and the core's arithmetic for
+//! comparison.
 //!
-//! The f64 and the exact engine share no code with the core: they are what it is compared with.
+//! The f64 and the exact engine share no code with the core, because they are its reference.
 
 use super::decimal::Decimal;
 use anyhow::{Context, Result, bail};
@@ -15,16 +15,16 @@ pub const Q15_CONCEPTS: usize = 128;
 /// Every pair of them may have an edge.
 pub const Q15_EDGES: usize = Q15_CONCEPTS * Q15_CONCEPTS;
 
-/// A map and where it starts, as read from a file: all numbers decimal, in -1 ..= 1.
+/// A map and its initial state, as read from a file: all numbers decimal, in -1 ..= 1.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Problem {
     /// Names of the concepts.
     pub names: Vec<String>,
     /// `weights[i][j]` is the causality value of the edge i -> j.
     pub weights: Vec<Vec<Decimal>>,
-    /// The first state.
+    /// Initial state.
     pub start: Vec<Decimal>,
-    /// Thresholds of single concepts, in the place of that of all; may be shorter than the list of concepts.
+    /// Thresholds of single concepts, instead of the common one; may be shorter than the list of concepts.
     pub thresholds: Vec<Option<Decimal>>,
 }
 
@@ -35,37 +35,37 @@ impl Problem {
     }
 }
 
-/// How to run it.
+/// Settings of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// What is summed.
+    /// Rule of the sum.
     pub rule: Rule,
-    /// What the sum becomes.
+    /// Transfer function of the sum.
     pub transfer: Transfer,
     /// Steepness of the smooth transfer functions.
     pub lambda: f64,
     /// Threshold of every concept.
     pub threshold: Decimal,
-    /// Whether concepts without an incoming edge keep their value.
+    /// True if concepts without an incoming edge keep their value.
     pub held: bool,
 }
 
 impl Default for Settings {
-    /// What applies where nothing is said: kosko, tanh, lambda 1, no threshold, inputs held.
+    /// Defaults: kosko, tanh, lambda 1, threshold 0, inputs held.
     fn default() -> Settings {
         let (rule, transfer) = (Rule::Kosko, Transfer::Tanh);
         Settings { rule, transfer, lambda: 1.0, threshold: Decimal::default(), held: true }
     }
 }
 
-/// States one after the other, and how they ended.
+/// Sequence of states, and its outcome.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    /// The first state and one for each step asked for, also beyond the step at which nothing changed any more.
+    /// Initial state, and one for each requested step, also after the map has settled.
     pub states: Vec<Vec<f64>>,
-    /// Steps until it was settled: until a state was seen for the second time. All of them where it never was.
+    /// Steps until a state was repeated; all steps if none was.
     pub steps: usize,
-    /// How it ended; a period that 16 bits do not hold is given as the largest they do.
+    /// Outcome; a period that exceeds 16 bits is given as 65,535.
     pub outcome: Outcome,
 }
 
@@ -75,15 +75,15 @@ impl Trajectory {
         self.states.last().map_or(&[], Vec::as_slice)
     }
 
-    /// Judges states: fixed where no value moves by more than `still`, or where a cycle takes none further than
-    /// `wobble` (rounding of a fixed point).
+    /// Judges states: fixed if no value moves by more than `still`, or if a cycle's values move by at most
+    /// `wobble` (rounding around a fixed point).
     fn judged(states: Vec<Vec<f64>>, still: f64, wobble: f64) -> Trajectory {
         let mut seen = HashMap::new();
         for (at, state) in states.iter().enumerate() {
             if at > 0 && apart(state, &states[at - 1]) <= still {
                 return Trajectory { states, steps: at, outcome: Outcome::Fixed };
             }
-            // + 0.0 makes one of the two zeros.
+            // + 0.0 turns -0.0 into 0.0.
             let key: Vec<u64> = state.iter().map(|v| (v + 0.0).to_bits()).collect();
             if let Some(first) = seen.insert(key, at) {
                 let small = states[first..at].iter().all(|other| apart(other, state) <= wobble);
@@ -97,7 +97,7 @@ impl Trajectory {
     }
 }
 
-/// The largest difference between two states.
+/// Largest difference between two states.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -111,7 +111,7 @@ pub fn run(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
     }
 }
 
-/// Whether concept `j` keeps its value.
+/// True if concept `j` keeps its value.
 fn keeps(problem: &Problem, settings: &Settings, j: usize) -> bool {
     settings.held && problem.weights.iter().all(|row| row[j].digits == 0)
 }
@@ -141,7 +141,7 @@ fn float(problem: &Problem, settings: &Settings, steps: usize) -> Trajectory {
         let next = next.collect();
         states.push(next);
     }
-    // A change of one rounding of 1.0 is none; a cycle of a few of them is a fixed point.
+    // A change by one rounding of 1.0 counts as none; a cycle of a few of them is a fixed point.
     Trajectory::judged(states, f64::EPSILON, 1e-12)
 }
 
@@ -193,7 +193,7 @@ pub fn q15(problem: &Problem, settings: &Settings, steps: usize) -> Result<Traje
     Ok(Trajectory::judged(states, 0.0, wobble))
 }
 
-/// The map as the core builds it.
+/// Builds the core's map.
 pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Box<Map<Q15_CONCEPTS, Q15_EDGES>>> {
     if problem.names.len() > Q15_CONCEPTS {
         bail!("{} concepts: the core's arithmetic is run for up to {Q15_CONCEPTS}", problem.names.len());
@@ -212,7 +212,8 @@ pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Box<Map<Q15_CO
     (config.rule, config.transfer, config.held) = (settings.rule, settings.transfer, settings.held);
     (config.lambda, config.threshold) = (lambda as u16, settings.threshold.scaled(step) as i16);
     for index in 0..problem.names.len() {
-        // Two long names may agree in what fits: the core only needs them to differ.
+        // Index instead of name: long names may be equal after truncation, and the core only needs them to
+        // differ.
         config.concepts.push(name(&index.to_string())).ok().context("too many concepts")?;
     }
     for (concept, own) in problem.thresholds.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Maps as JSON: the form of the reference cases (`names`, `W`, `x0`).
+//! Maps as JSON, in the form of the reference cases (`names`, `W`, `x0`).
 
 use super::decimal::Decimal;
 use super::engine::Problem;
@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;
 use std::path::Path;
 
-/// Reads a JSON map. Every error is a sentence with the file, the field and the value.
+/// Reads a JSON map. Errors are sentences with file, field and value.
 pub fn read(path: &Path) -> Result<Problem> {
     let file = path.display();
     crate::verbose::reads(path);
@@ -14,7 +14,7 @@ pub fn read(path: &Path) -> Result<Problem> {
     parse(&text).map_err(|error| anyhow!("{file}: {error}"))
 }
 
-/// Reads the text of a JSON map.
+/// Parses the text of a JSON map.
 pub fn parse(text: &str) -> Result<Problem> {
     let value: Value = serde_json::from_str(text).map_err(|error| not_json(text, &error))?;
     let names = array(&value, "names")?;

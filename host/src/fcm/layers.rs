@@ -1,9 +1,9 @@
-//! Where the concepts of a drawn map stand: causes left of their effects.
+//! Layers of a drawn map: causes left of their effects.
 
 use super::map::MapFile;
 
-/// The layer of each concept: 0 for those without a cause, else one behind the farthest of its causes. Edges
-/// that close a ring are left out of account.
+/// Layer of each concept: 0 without a cause, else one more than the highest layer of its causes. Edges that
+/// close a ring are ignored.
 pub fn of_map(map: &MapFile) -> Vec<usize> {
     let number = |name: &str| map.find(name);
     let edges = map.edge.iter().filter(|edge| edge.weight.value() != 0.0);
@@ -12,7 +12,7 @@ pub fn of_map(map: &MapFile) -> Vec<usize> {
     layers(map.concept.len(), &edges)
 }
 
-/// The layer of each of `n` concepts, from the edges as pairs of cause and effect.
+/// Layer of each of `n` concepts, from the edges as pairs of cause and effect.
 pub fn layers(n: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let forward = forward(n, edges);
     let mut layers = vec![0; n];
@@ -25,11 +25,11 @@ pub fn layers(n: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     layers
 }
 
-/// The edges without those that a search in depth finds to lead back to where it came from.
+/// The edges except for those that a depth-first search finds to close a ring.
 fn forward(n: usize, edges: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut kept = Vec::new();
     let mut done = vec![false; n];
-    // Those that nothing causes first, so that rings are entered where the map is.
+    // Concepts without a cause first, so that rings are entered from outside.
     let mut starts: Vec<usize> = (0..n).collect();
     starts.sort_by_key(|at| edges.iter().any(|(_, to)| to == at));
     for start in starts {

@@ -1,4 +1,4 @@
-//! `taxel fcm learn`: better weights from labelled touches, within what the expert fixed.
+//! `taxel fcm learn`: improves weights by labelled touches, within the limits set by the expert.
 
 use super::board::BoardMap;
 use super::load;
@@ -15,17 +15,17 @@ use std::path::PathBuf;
 pub struct LearnArgs {
     /// TOML file, or the name of a shipped map
     pub map: String,
-    /// CSV file: a column for each input concept (activations), `label` (an intention, or none), perhaps
+    /// CSV file: a column for each input concept (activations), `label` (an intention, or none), optionally
     /// `group`
     #[arg(long)]
     pub touches: PathBuf,
     /// File to write
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
-    /// Parts of the cross-validation: groups, if the file has them
+    /// Folds of the cross-validation: by group, if the file has groups
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u8).range(2..=100))]
     pub folds: u8,
     /// Print JSON instead of sentences
@@ -33,16 +33,16 @@ pub struct LearnArgs {
     pub json: bool,
 }
 
-/// What learning did.
+/// Result of learning.
 #[derive(Debug, Clone)]
 pub struct Learned {
-    /// The map with its new weights.
+    /// Map with its new weights.
     pub map: MapFile,
-    /// The expert's map on all touches.
+    /// Judgement of the expert's map on all touches.
     pub before: Judged,
-    /// Each touch judged by a map that did not learn from its part.
+    /// Judgement of each touch by a map that was learnt without its fold.
     pub cross: Judged,
-    /// The new map on the touches it learned from.
+    /// Judgement of the new map on its training touches.
     pub after: Judged,
 }
 
@@ -63,7 +63,7 @@ pub fn run(args: LearnArgs) -> Result<()> {
     Ok(())
 }
 
-/// Learns from all touches, and cross-validates that.
+/// Learns from all touches, and cross-validates.
 pub fn learn(file: &MapFile, touches: &Touches, folds: usize) -> Result<Learned> {
     let classes = &touches.classes;
     let part = touches.folds(folds);
@@ -73,7 +73,7 @@ pub fn learn(file: &MapFile, touches: &Touches, folds: usize) -> Result<Learned>
             touches.touches.iter().zip(&part).filter(|(_, own)| **own == fold).map(|(touch, _)| touch);
         let count = left_out.clone().count();
         if count == touches.touches.len() {
-            bail!("all touches are of one part: there is nothing to learn from without it");
+            bail!("all touches are in one fold: nothing is left to learn from");
         }
         if count > 0 {
             let map = search(file, touches, |at| part[at] != fold)?;
@@ -89,7 +89,7 @@ pub fn learn(file: &MapFile, touches: &Touches, folds: usize) -> Result<Learned>
     Ok(Learned { map, before, cross, after })
 }
 
-/// Edges whose weight is not the expert's any more: cause, effect, before, after.
+/// Edges with a changed weight: cause, effect, before, after.
 pub fn changed<'a>(
     file: &'a MapFile,
     map: &'a MapFile,
@@ -98,8 +98,8 @@ pub fn changed<'a>(
     pairs.map(|(before, after)| (&*before.from, &*before.to, before.weight.value(), after.weight.value()))
 }
 
-/// `{"touches", "classes", "before", "cross", "after", "changed"}`; each of the three has `accuracy`, `loss`
-/// and `confusion`.
+/// `{"touches", "classes", "before", "cross", "after", "changed"}`; the three judgements have `accuracy`,
+/// `loss` and `confusion`.
 pub fn report(file: &MapFile, touches: &Touches, learned: &Learned) -> Value {
     let judged = |j: &Judged| json!({ "accuracy": j.accuracy(), "loss": j.loss, "confusion": j.confusion });
     let edge =
@@ -111,7 +111,7 @@ pub fn report(file: &MapFile, touches: &Touches, learned: &Learned) -> Value {
     })
 }
 
-/// The readable form.
+/// Readable form.
 pub fn text(file: &MapFile, touches: &Touches, learned: &Learned) -> String {
     let share = |judged: &Judged| format!("{:.1} %", 100.0 * judged.accuracy());
     let mut text = format!(

@@ -1,4 +1,4 @@
-//! Map files by path or by the name of a shipped one, and the words of the command line that speak of concepts.
+//! Reads map files by path or shipped maps by name, and parses concepts of the command line.
 
 use super::decimal::Decimal;
 use super::map::MapFile;
@@ -10,23 +10,22 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// The maps that ship.
+/// The shipped maps.
 pub const SHIPPED: [(&str, &str); 2] =
     [("tactile", include_str!("../../maps/tactile.toml")), ("shape", include_str!("../../maps/shape.toml"))];
 
-/// Reads a map: a TOML file, or a shipped one by its name. Every error is a sentence with the file, the place
-/// and the value.
+/// Reads a map: a TOML file, or a shipped one by name. Errors are sentences with file, place and value.
 pub fn map(name_or_path: &str) -> Result<MapFile> {
     parse(&text(name_or_path)?, name_or_path)
 }
 
-/// The text of a map: a shipped one by its name, else a file.
+/// Text of a map: a shipped one by name, else a file.
 pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
     let names = SHIPPED.map(|(name, _)| name);
     if let Some((_, text)) = SHIPPED.iter().find(|(name, _)| *name == name_or_path) {
         return Ok(Cow::Borrowed(text));
     }
-    // What is no path can only be a name.
+    // A text that cannot be a path is a name.
     if !name_or_path.contains(['.', '/', '\\']) && !Path::new(name_or_path).exists() {
         let known = words::unknown("map", name_or_path, names);
         bail!(Fault::usage(format!("{known}, or give a .toml file")));
@@ -38,7 +37,7 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
     })
 }
 
-/// Reads the text of a map from `place`.
+/// Parses the text of a map from `place`.
 pub fn parse(text: &str, place: &str) -> Result<MapFile> {
     let map: MapFile = toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, place)))?;
     map.check_numbers().map_err(|error| wrong::located(error, text, place))?;
@@ -50,7 +49,7 @@ pub fn save(map: &MapFile, output: Output) -> Result<()> {
     output.write(toml::to_string(map).context("the map cannot be written")?.as_bytes())
 }
 
-/// The name of a map that is written there: that of the file.
+/// Name of a map written there: that of the file.
 pub fn name(output: &Output) -> Result<String> {
     if output.is_standard() {
         return Ok("map".into());
@@ -59,7 +58,7 @@ pub fn name(output: &Output) -> Result<String> {
     Ok(stem.context("--output names no file")?.into())
 }
 
-/// `NAME=VALUE` with a value in -1 ..= 1.
+/// Parses `NAME=VALUE` with a value in -1 ..= 1.
 pub fn assignment(text: &str) -> Result<(String, Decimal), String> {
     let wrong = || "expected NAME=VALUE with a value in -1 ..= 1".to_string();
     let (name, value) = text.split_once('=').ok_or_else(wrong)?;

@@ -1,4 +1,4 @@
-//! Maps as people write them: TOML that names concepts instead of numbering them, with notes.
+//! Map files: TOML with named concepts and notes.
 
 use super::decimal::Decimal;
 use super::engine::{Problem, Settings};
@@ -12,19 +12,19 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use taxel_core::intent::{Rule, Transfer};
 
-/// The version of the format that this program reads and writes.
+/// Version of the format that this program reads and writes.
 pub const VERSION: u32 = 1;
 
 /// A concept of a [`MapFile`].
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ConceptFile {
-    /// What it is called; at most 16 bytes for the board.
+    /// Name; at most 16 bytes for the board.
     pub name: String,
-    /// What it stands for.
+    /// Meaning.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// T of this concept, in the place of the map's, -1 ..= 1.
+    /// Threshold of this concept, instead of the map's, -1 ..= 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<f64>,
 }
@@ -39,10 +39,10 @@ pub struct EdgeFile {
     pub to: String,
     /// Causality value: a number in -1 ..= 1 of at most four decimals, or a term.
     pub weight: Weight,
-    /// Learning leaves it as it is.
+    /// True if learning must not change it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub fixed: bool,
-    /// Why.
+    /// Reason for the edge.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
 }
@@ -54,15 +54,15 @@ pub struct MapFile {
     /// Version of the format; 1 if absent.
     #[serde(default = "version")]
     pub version: u32,
-    /// What the map is called.
+    /// Name of the map.
     pub name: String,
-    /// What it is for.
+    /// Purpose of the map.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// What is summed; kosko if absent.
+    /// Rule of the sum; kosko if absent.
     #[serde(default)]
     pub rule: Rule,
-    /// What the sum becomes; tanh if absent.
+    /// Transfer function of the sum; tanh if absent.
     #[serde(default)]
     pub transfer: Transfer,
     /// Steepness; 1 if absent.
@@ -71,7 +71,7 @@ pub struct MapFile {
     /// Threshold of every concept; 0 if absent.
     #[serde(default)]
     pub threshold: f64,
-    /// Whether concepts without an incoming edge keep their value; true if absent.
+    /// True if concepts without an incoming edge keep their value; true if absent.
     #[serde(default = "yes")]
     pub held: bool,
     /// Concepts, in the order of every state.
@@ -98,7 +98,7 @@ fn yes() -> bool {
 }
 
 impl MapFile {
-    /// A map without a concept, with the usual settings.
+    /// A map without concepts, with default settings.
     pub fn empty(name: &str) -> MapFile {
         MapFile {
             version: VERSION,
@@ -115,12 +115,12 @@ impl MapFile {
         }
     }
 
-    /// Number of a concept.
+    /// Number of a concept, if it exists.
     pub fn find(&self, concept: &str) -> Option<usize> {
         self.concept.iter().position(|c| c.name == concept)
     }
 
-    /// Number of a concept that must be there; `user` says what names it.
+    /// Number of a concept that must exist; `user` names what refers to it.
     pub fn index(&self, concept: &str, user: &str) -> Result<usize> {
         self.find(concept)
             .with_context(|| format!("map {}: {user} names the unknown concept {concept}", self.name))
@@ -131,18 +131,18 @@ impl MapFile {
         self.edge.iter().find(|edge| edge.from == from && edge.to == to)
     }
 
-    /// Whether an edge leads to a concept.
+    /// True if an edge leads to the concept.
     pub fn is_driven(&self, concept: &str) -> bool {
         self.edge.iter().any(|edge| edge.to == concept && edge.weight.value() != 0.0)
     }
 
-    /// Concepts that something outside of the map decides: those with an input, or else without a cause.
+    /// Concepts that are set from outside of the map: those with an input, else those without a cause.
     pub fn entries(&self) -> Vec<&str> {
         let names = self.concept.iter().map(|c| c.name.as_str());
         names.filter(|name| !self.is_driven(name)).collect()
     }
 
-    /// The most decimals of any number of the map, at most the core's four.
+    /// Most decimals of any number of the map, at most the core's four.
     pub fn decimals(&self) -> u32 {
         let weights = self.edge.iter().map(|e| e.weight.value());
         let ends = self.input.iter().flat_map(|i| i.at.unwrap_or([0.0, 1.0]));
@@ -173,7 +173,7 @@ impl MapFile {
         Ok((problem, Settings { rule, transfer, lambda, threshold: exact(threshold), held }))
     }
 
-    /// Whether every number is one, within its range, and every concept is named once.
+    /// Checks that every number is in its range, and every concept name is unique.
     pub fn check_numbers(&self) -> Result<()> {
         let wrong = |at: &[Step<'static>], why: &dyn Display| wrong(at, format!("map {}: {why}", self.name));
         if self.version != VERSION {

@@ -1,5 +1,4 @@
-//! Fuzzy memberships of what is measured: the forms of an input in a map file, and the ramps of the board
-//! that they become.
+//! Fuzzy memberships of inputs: their forms in a map file, and the ramps of the board that they become.
 //!
 //! | form | activation |
 //! |---|---|
@@ -8,8 +7,8 @@
 //! | `triangle = [a, b, c]` | `at[0]` outside a ..= c, `at[1]` at b |
 //! | `trapezoid = [a, b, c, d]` | `at[0]` outside a ..= d, `at[1]` in b ..= c |
 //!
-//! `at` is `[0, 1]` where it is not given; between the points are straight lines. Points are in the unit of
-//! the source. Triangle and trapezoid are two inputs of the board, whose activations add up.
+//! `at` defaults to `[0, 1]`; activations are linear between the points. Points are in the unit of the
+//! source. Triangle and trapezoid become two inputs of the board, whose activations add up.
 
 use super::steps::steps;
 use anyhow::{Result, bail};
@@ -22,13 +21,13 @@ use taxel_core::intent::{Input, Source};
 pub struct InputFile {
     /// Name of the concept.
     pub concept: String,
-    /// Where the value comes from.
+    /// Source of the value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<Source>,
-    /// Grows from the first point to the second.
+    /// Increases from the first point to the second.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<[i32; 2]>,
-    /// Shrinks from the first point to the second.
+    /// Decreases from the first point to the second.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fall: Option<[i32; 2]>,
     /// Greatest at the second of three points.
@@ -40,16 +39,16 @@ pub struct InputFile {
     /// Activation without and with full membership.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 2]>,
-    /// What the author has to say.
+    /// Note of the author.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
 }
 
-/// What a ramp is between: its two points, and its two activations in decimal steps.
+/// A ramp: its two points, and its two activations in decimal steps.
 type Ramp = ([i32; 2], [i16; 2]);
 
 impl InputFile {
-    /// One or two ramps for the concept of number `concept`, activations in steps of 10^-`decimals`.
+    /// One or two ramps for the concept with number `concept`, activations in steps of 10^-`decimals`.
     pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<Input>> {
         let Some(source) = self.source else { bail!("input {}: source is missing", self.concept) };
         let ramps = self.ramps(decimals)?;
@@ -85,8 +84,8 @@ impl InputFile {
         Ok(ramps)
     }
 
-    /// The readable form of the ramps of one concept, in steps of 10^-`decimals`; two that are a hill become
-    /// one.
+    /// Form of the ramps of one concept, in steps of 10^-`decimals`; two ramps that form a hill become one
+    /// input.
     pub fn of(concept: &str, inputs: &[&Input], decimals: u8) -> Vec<InputFile> {
         let step = 10f64.powi(decimals.into());
         let decimal = |steps: i16| f64::from(steps) / step;

@@ -1,4 +1,4 @@
-//! `taxel fcm new`: a map in four steps, asked for line by line. The answers may as well come from a file.
+//! `taxel fcm new`: creates a map in four steps by questions. The answers may also come from a file.
 
 use super::board::BoardMap;
 use super::load;
@@ -19,7 +19,7 @@ pub struct NewArgs {
     /// File to write; the map is named after it
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
@@ -31,7 +31,7 @@ pub fn run(args: NewArgs) -> Result<()> {
     let (name, is_standard) = (load::name(&output)?, output.is_standard());
     let input = std::io::stdin();
     let patient = input.is_terminal();
-    // A script is not asked.
+    // No questions if the answers are piped in.
     let questions: Box<dyn Write> =
         if patient { Box::new(std::io::stderr()) } else { Box::new(std::io::sink()) };
     let map = Dialog { answers: input.lock(), questions, patient, line: 0 }.map(&name)?;
@@ -43,13 +43,13 @@ pub fn run(args: NewArgs) -> Result<()> {
 
 /// Questions and answers.
 pub struct Dialog<R, W> {
-    /// Where answers come from.
+    /// Source of answers.
     pub answers: R,
-    /// Where questions go.
+    /// Destination of questions.
     pub questions: W,
-    /// Ask again after a bad answer, instead of giving up with its line.
+    /// Repeat a question after a bad answer, instead of failing with its line.
     pub patient: bool,
-    /// Lines read so far.
+    /// Number of lines read.
     pub line: usize,
 }
 
@@ -73,7 +73,7 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
             })?;
         }
         self.say(
-            "4. Threshold: what a sum becomes, and the level that it is measured from; empty: as in brackets",
+            "4. Threshold: the transfer function of a sum, and its threshold; empty: the value in brackets",
         )?;
         map.transfer =
             self.or("bivalent, trivalent, sigmoid, tanh or positive [tanh]", map.transfer, transfer)?;
@@ -95,14 +95,14 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
         Ok(writeln!(self.questions, "{text}")?)
     }
 
-    /// Lines up to an empty one; each is taken into the map or refused.
+    /// Reads lines up to an empty one; `take` adds each to the map or refuses it.
     fn list(&mut self, map: &mut MapFile, take: fn(&mut MapFile, &str) -> Result<()>) -> Result<()> {
         while self.one("", |text| if text.is_empty() { Ok(false) } else { take(map, text).map(|()| true) })? {
         }
         Ok(())
     }
 
-    /// An answer that may be empty.
+    /// Reads an answer; an empty one selects `usual`.
     fn or<T: Copy>(&mut self, question: &str, usual: T, read: fn(&str) -> Result<T, String>) -> Result<T> {
         self.one(
             question,
@@ -110,7 +110,7 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
         )
     }
 
-    /// One answer.
+    /// Reads one answer.
     fn one<T>(&mut self, question: &str, mut read: impl FnMut(&str) -> Result<T>) -> Result<T> {
         loop {
             write!(self.questions, "{question}> ")?;
@@ -143,7 +143,7 @@ fn edge(map: &mut MapFile, text: &str) -> Result<()> {
     let (from, to) = text.split_once('>').context("expected CAUSE > EFFECT")?;
     let (from, to) = (from.trim(), to.trim());
     for name in [from, to] {
-        map.find(name).with_context(|| format!("{name} is no concept"))?;
+        map.find(name).with_context(|| format!("{name} is not a concept"))?;
     }
     if map.edge(from, to).is_some() {
         bail!("edge {from} > {to} is given twice");
@@ -161,11 +161,11 @@ fn input(concept: &str, text: &str) -> Result<Option<InputFile>> {
             let slot = words.next().and_then(|slot| slot.parse().ok());
             Source::Host(slot.context("host needs the number of a slot")?)
         }
-        _ => serde_json::from_value(word.into()).with_context(|| format!("{word} is no source"))?,
+        _ => serde_json::from_value(word.into()).with_context(|| format!("{word} is not a source"))?,
     };
     let form = words.next().unwrap_or_default();
     let points: Vec<i32> = words
-        .map(|word| word.parse().with_context(|| format!("{word} is no whole number")))
+        .map(|word| word.parse().with_context(|| format!("{word} is not a whole number")))
         .collect::<Result<_>>()?;
     let mut input = InputFile { concept: concept.into(), source: Some(source), ..InputFile::default() };
     match (form, &points[..]) {

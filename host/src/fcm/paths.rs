@@ -1,43 +1,43 @@
-//! Which inputs made an activation, and along which paths: shares that add up exactly.
+//! Attributes an activation to inputs and paths, in shares that add up exactly.
 //!
-//! A concept's sum is what its causes contribute, by [`Map::why`](taxel_core::intent::Map::why). What a cause
-//! contributes is shared out to its own causes in proportion to what they contribute to its sum, and so on
-//! back to the inputs. Shares are whole units of 2^-15, rounded so that they add up to what is shared out.
-//! What no input answers for is the rest: thresholds, the activation that a concept has at rest (0.5 with the
-//! sigmoid), and what comes round in rings.
+//! A concept's sum is the contributions of its causes, by [`Map::why`](taxel_core::intent::Map::why). The
+//! contribution of a cause is divided among its own causes in proportion to their contributions to its sum,
+//! and so on back to the inputs. Shares are whole units of 2^-15, rounded so that they add up to what is
+//! divided. The rest is due to no input: thresholds, the activation of a concept at rest (0.5 with the
+//! sigmoid), and rings.
 
 use super::board::{BoardMap, State};
 use std::collections::BTreeMap;
 use taxel_core::intent::{Rule, Transfer, Why};
 
-/// Paths that are followed; what is left then goes to the rest.
+/// Most paths to follow; what is left then goes to the rest.
 const PATHS: usize = 10_000;
 
-/// What one path contributes.
+/// Contribution of one path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Path {
-    /// Concepts from the input to the cause of what is explained.
+    /// Concepts from the input to the last cause before the explained concept.
     pub concepts: Vec<usize>,
     /// Contribution in units of 2^-15.
     pub share: i64,
 }
 
-/// A sum in parts.
+/// Division of a sum.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Shares {
-    /// The greatest first.
+    /// Paths, the greatest share first.
     pub paths: Vec<Path>,
-    /// What no input answers for, by its reason.
+    /// Shares due to no input, by reason.
     pub rest: BTreeMap<String, i64>,
 }
 
 impl Shares {
-    /// Everything together.
+    /// Total of all shares.
     pub fn sum(&self) -> i64 {
         self.paths.iter().map(|path| path.share).sum::<i64>() + self.rest.values().sum::<i64>()
     }
 
-    /// By input: all its paths together, the greatest first.
+    /// Shares by input over all its paths, the greatest first.
     pub fn inputs(&self) -> Vec<(usize, i64)> {
         let mut inputs = BTreeMap::<usize, i64>::new();
         for path in &self.paths {
@@ -49,7 +49,7 @@ impl Shares {
     }
 }
 
-/// Shares out the sum of a concept in a settled state.
+/// Divides the sum of a concept in a settled state.
 pub fn shares(map: &BoardMap, state: &State, why: &Why<{ super::engine::Q15_CONCEPTS }>) -> Shares {
     let mut search = Search { map, state, found: Shares::default(), path: vec![why.concept.into()] };
     for part in &why.parts {
@@ -64,12 +64,12 @@ struct Search<'a> {
     map: &'a BoardMap,
     state: &'a State,
     found: Shares,
-    /// From what is explained backwards.
+    /// Concepts from the explained one backwards.
     path: Vec<usize>,
 }
 
 impl Search<'_> {
-    /// Shares out what `concept` contributes.
+    /// Divides the contribution of `concept`.
     fn follow(&mut self, concept: usize, share: i64) {
         if share == 0 {
             return;
@@ -99,11 +99,11 @@ impl Search<'_> {
             given = up_to;
         }
         self.path.pop();
-        // The parts less the threshold are the sum, so this is the share of the threshold.
+        // The parts minus the threshold are the sum, so this is the threshold's share.
         self.leave("threshold of", concept, share - given);
     }
 
-    /// The part of a contribution that the concept would make with a sum of 0.
+    /// Part of a contribution that the concept would make with a sum of 0.
     fn resting(&self, concept: usize, share: i64) -> i64 {
         let one = i64::from(self.map.map.one());
         let at_rest = if self.map.transfer == Transfer::Sigmoid { one / 2 } else { 0 };
@@ -122,7 +122,7 @@ impl Search<'_> {
     }
 }
 
-/// The quotient rounded to the nearest, halves away from zero.
+/// Quotient rounded to nearest, halves away from zero.
 fn rounded(product: i64, by: i64) -> i64 {
     let (size, unit) = (product.unsigned_abs(), by.unsigned_abs());
     let quotient = ((size + unit / 2) / unit) as i64;

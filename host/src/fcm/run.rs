@@ -12,29 +12,29 @@ use taxel_core::intent::{Outcome, Rule, Transfer};
 /// Arguments of `taxel fcm MAP`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RunArgs {
-    /// JSON file with the keys names (concepts), W (row i, column j is the edge i -> j) and x0 (the first
-    /// state); or a map as people write it: a TOML file, or the name of a shipped one
+    /// JSON file with the keys names (concepts), W (row i, column j is the edge i -> j) and x0 (the initial
+    /// state); or a map in TOML, by file or by the name of a shipped one
     pub map: String,
     /// Activation of a concept at the start, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
-    /// What is summed: kosko, mkosko or rescaled [default: as in the file, else kosko]
+    /// Rule of the sum: kosko, mkosko or rescaled [default: as in the file, else kosko]
     #[arg(long, value_parser = rule)]
     pub rule: Option<Rule>,
-    /// What the sum becomes: bivalent, trivalent, sigmoid, tanh or positive [default: as in the file, else
+    /// Transfer function: bivalent, trivalent, sigmoid, tanh or positive [default: as in the file, else
     /// tanh]
     #[arg(long, value_parser = transfer)]
     pub transfer: Option<Transfer>,
     /// Steepness of sigmoid, tanh and positive [default: as in the file, else 1]
     #[arg(long, value_parser = lambda, allow_negative_numbers = true)]
     pub lambda: Option<f64>,
-    /// Level that every sum is measured from, -1 ..= 1 [default: as in the file, else 0]
+    /// Threshold subtracted from every sum, -1 ..= 1 [default: as in the file, else 0]
     #[arg(long, value_parser = threshold, allow_negative_numbers = true)]
     pub threshold: Option<Decimal>,
     /// Let concepts without an incoming edge follow the rule, instead of keeping their value
     #[arg(long)]
     pub free: bool,
-    /// Steps to run; the trajectory has one state more
+    /// Number of steps; the trajectory has one state more
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub steps: u32,
     /// Print JSON instead of a table
@@ -51,7 +51,7 @@ fn rule(text: &str) -> Result<Rule, String> {
     }
 }
 
-/// Reads the option of that name.
+/// Parses the option of this name.
 pub fn transfer(text: &str) -> Result<Transfer, String> {
     match text {
         "bivalent" => Ok(Transfer::Bivalent),
@@ -63,18 +63,18 @@ pub fn transfer(text: &str) -> Result<Transfer, String> {
     }
 }
 
-/// Reads the option of that name.
+/// Parses the option of this name.
 pub fn lambda(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number".to_string())?;
     if (0.001..=65.535).contains(&value) { Ok(value) } else { Err("expected 0.001 ..= 65.535".into()) }
 }
 
-/// Reads the option of that name.
+/// Parses the option of this name.
 pub fn threshold(text: &str) -> Result<Decimal, String> {
     Decimal::parse(text).filter(|t| t.is_fraction()).ok_or_else(|| "expected a number in -1 ..= 1".into())
 }
 
-/// The map, started from the inputs, and how the file and the options want it run.
+/// The map with its initial state, and the settings of the file and the options.
 fn problem(args: &RunArgs) -> Result<(Problem, Settings)> {
     let (problem, file) = if args.map.ends_with(".json") {
         let mut problem = json::read(Path::new(&args.map))?;
@@ -111,7 +111,7 @@ pub fn run(args: RunArgs) -> Result<()> {
         )));
     }
     let float = engine::run(&problem, &settings, steps);
-    // A map that the core refuses (too large, too steep) still has its f64 answer.
+    // A map that the core refuses (too large, too steep) still has its f64 result.
     let fixed = engine::q15(&problem, &settings, steps);
     if args.json {
         println!("{}", report(&float, &fixed));
@@ -121,7 +121,7 @@ pub fn run(args: RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// `{"f64": ..., "q15": ...}`; `q15` is null where the core refuses the map, and `q15_error` then says why.
+/// `{"f64": ..., "q15": ...}`; if the core refuses the map, `q15` is null and `q15_error` is the reason.
 pub fn report(float: &Trajectory, fixed: &Result<Trajectory>) -> Value {
     match fixed {
         Ok(fixed) => json!({ "f64": trajectory(float), "q15": trajectory(fixed) }),
@@ -138,7 +138,7 @@ fn trajectory(t: &Trajectory) -> Value {
     json!({ "trajectory": t.states, "final": t.last(), "steps": t.steps, "outcome": outcome, "period": period })
 }
 
-/// A line of words on how it ended.
+/// Describes the outcome.
 fn ending(t: &Trajectory) -> String {
     match t.outcome {
         Outcome::Fixed => format!("fixed after {} steps", t.steps),
@@ -147,7 +147,7 @@ fn ending(t: &Trajectory) -> String {
     }
 }
 
-/// The readable form: one line for each concept.
+/// Readable form: one line for each concept.
 pub fn table(problem: &Problem, float: &Trajectory, fixed: &Result<Trajectory>) -> String {
     use std::fmt::Write as _;
     let width = problem.names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(7);

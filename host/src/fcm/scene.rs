@@ -1,5 +1,5 @@
-//! Maps in scene files: `intent.map` may be the name of a shipped map, the path of a map file, or such a map
-//! in place.
+//! Maps in scene files: `intent.map` may be the name of a shipped map, the path of a map file, or an inline
+//! map.
 
 use super::load;
 use super::map::MapFile;
@@ -8,8 +8,8 @@ use serde_json::Value;
 use std::path::Path;
 use taxel_core::intent::MapConfig;
 
-/// Puts the core's form of the map into a scene's `intent.map`. `folder` is where paths begin. What is
-/// written in the core's own form is left as it is.
+/// Replaces a scene's `intent.map` by the core's form of the map. Paths are relative to `folder`. A map in
+/// the core's own form stays unchanged.
 pub fn resolve(scene: &mut Value, folder: &Path) -> Result<()> {
     let Some(map) = scene.get_mut("intent").and_then(|intent| intent.get_mut("map")) else { return Ok(()) };
     let file: MapFile = match map {

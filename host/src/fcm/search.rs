@@ -1,11 +1,11 @@
-//! Learning: a search for weights with which a map tells labelled touches apart, one weight at a time.
+//! Searches for weights by which a map classifies labelled touches, one weight at a time.
 //!
-//! The loss of a touch is how far its own intention falls short of a `MARGIN` ahead of the strongest other
-//! class; `none` counts as a class with the activation at which an intention may lead. A weight is moved by
-//! 0.2, then 0.1, 0.05, 0.02 and 0.01 wherever that lowers the mean loss (and what it costs to leave the
-//! expert's weights), in the order of the map until nothing helps. No weight changes its sign or becomes 0,
-//! no edge is added, and those that are `fixed` stay. The arithmetic is that of the board, so the result is
-//! the same everywhere.
+//! The loss of a touch is the shortfall of its own intention from a lead of `MARGIN` over the strongest other
+//! class; `none` counts as a class whose activation is the level from which an intention may lead. A weight
+//! is moved by 0.2, then 0.1, 0.05, 0.02 and 0.01 wherever that lowers the mean loss (plus the cost of
+//! leaving the expert's weights), in the order of the map, until no move helps. No weight changes its sign or
+//! becomes 0, no edge is added, and `fixed` weights stay. The arithmetic is that of the board, so the result
+//! is the same everywhere.
 
 use super::board::BoardMap;
 use super::map::MapFile;
@@ -14,18 +14,18 @@ use super::weight::Weight;
 use crate::progress::{Progress, Unit};
 use anyhow::Result;
 
-/// Lead that is asked for.
+/// Required lead.
 const MARGIN: f64 = 0.2;
 /// Activation from which an intention may lead, as in a scene.
 const LEVEL: f64 = 0.5;
-/// Loss for each unit that all weights together are moved: what helps nothing stays.
+/// Loss per unit of movement over all weights, so that useless moves are not made.
 const PULL: f64 = 0.001;
 /// Moves, in hundredths.
 const MOVES: [i64; 5] = [20, 10, 5, 2, 1];
-/// Rounds over all weights with one size of move.
+/// Most rounds over all weights with one size of move.
 const ROUNDS: usize = 20;
 
-/// What a map makes of touches.
+/// Judgement of touches by a map.
 #[derive(Debug, Clone)]
 pub struct Judged {
     /// `confusion[label][answer]`, in the order of the classes.
@@ -42,7 +42,7 @@ impl Judged {
     }
 }
 
-/// Lets a map decide about some touches.
+/// Classifies touches by a map.
 pub fn judge<'a>(
     file: &MapFile,
     classes: &[String],
@@ -69,7 +69,7 @@ pub fn judge<'a>(
     Ok(judged)
 }
 
-/// Searches for weights by the touches whose number `is_taken`.
+/// Searches for weights on the touches for whose numbers `is_taken` is true.
 pub fn search(file: &MapFile, touches: &Touches, is_taken: impl Fn(usize) -> bool) -> Result<MapFile> {
     let taken: Vec<&Labelled> =
         touches.touches.iter().enumerate().filter(|(at, _)| is_taken(*at)).map(|(_, touch)| touch).collect();
@@ -110,7 +110,7 @@ pub fn search(file: &MapFile, touches: &Touches, is_taken: impl Fn(usize) -> boo
     Ok(with(file, &now, &expert))
 }
 
-/// The map with weights in hundredths; those that did not move stay as they are written.
+/// The map with weights in hundredths; unchanged ones keep their notation.
 fn with(file: &MapFile, weights: &[i64], expert: &[i64]) -> MapFile {
     let mut map = file.clone();
     for ((edge, weight), before) in map.edge.iter_mut().zip(weights).zip(expert) {

@@ -1,9 +1,9 @@
-//! Numbers of a map file in decimal steps, as the core counts them.
+//! Converts numbers of a map file to the core's decimal steps.
 
 use super::decimal::Decimal;
 use anyhow::{Context, Result, bail};
 
-/// `value` in steps of 10^-`decimals`; it must be a whole number of them.
+/// `value` in steps of 10^-`decimals`; error if it is not a whole number of steps.
 pub fn decimal(value: f64, decimals: u32, field: &str) -> Result<i128> {
     let exact = Decimal::from_f64(value).filter(|d| d.decimals <= decimals);
     let exact =

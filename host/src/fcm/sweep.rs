@@ -1,4 +1,4 @@
-//! How a map behaves over a sweep of its inputs.
+//! Behaviour of a map over a sweep of its inputs.
 
 use super::board::BoardMap;
 use super::decimal::Decimal;
@@ -6,29 +6,29 @@ use super::map::MapFile;
 use anyhow::Result;
 use taxel_core::intent::Outcome;
 
-/// Most starts of a sweep.
+/// Most initial states of a sweep.
 pub const STARTS: usize = 4096;
-/// Levels of an input, in quarters; a coarser list where there are many inputs.
+/// Levels of an input, in quarters; fewer of them if there are many inputs.
 const LEVELS: [&[i128]; 3] = [&[-4, -3, -2, -1, 0, 1, 2, 3, 4], &[-4, 0, 2, 4], &[-4, 4]];
 
 /// Activations by the name of the concept.
 pub type Inputs = Vec<(String, Decimal)>;
 
-/// What a sweep found.
+/// Results of a sweep.
 #[derive(Debug, Default, Clone)]
 pub struct Sweep {
-    /// Inferences that were run.
+    /// Number of inferences.
     pub starts: usize,
-    /// The most steps until a map settled.
+    /// Most steps until the map settled.
     pub steps: u16,
-    /// Inferences that end in a cycle, and the first of them: its inputs and its period.
+    /// Number of inferences that end in a cycle; inputs and period of the first.
     pub cycles: (usize, Option<(Inputs, u16)>),
-    /// Inferences that never settled, and the inputs of the first of them.
+    /// Number of inferences that did not settle; inputs of the first.
     pub unsettled: (usize, Option<Inputs>),
 }
 
-/// Runs a map from a grid of the activations of its entries (the finest of up to [`STARTS`] points; random
-/// ones of the same levels where even two levels are too many).
+/// Runs a map from a grid of activations of its entries: the finest grid of up to [`STARTS`] points; random
+/// points of the coarsest grid if that has more.
 pub fn sweep(file: &MapFile) -> Result<Sweep> {
     let map = BoardMap::build(file)?;
     let entries = file.entries();

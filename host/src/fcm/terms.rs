@@ -1,4 +1,4 @@
-//! Linguistic weights: what a word says of a causality value, as a fuzzy set over -1 ..= 1.
+//! Linguistic weights: fuzzy sets of causality values over -1 ..= 1.
 //!
 //! | term | triangle (from, peak, to) | stands for |
 //! |---|---|---|
@@ -8,13 +8,13 @@
 //! | strong | 0.5, 0.75, 1 | 0.75 |
 //! | very strong | 0.75, 1, 1 | 0.92 |
 //!
-//! A sign follows: `strong +` increases, `strong -` decreases (the triangle mirrored). The memberships of
-//! neighbours add up to 1. A term stands for the centroid of its set, in hundredths. A number is the set of a
-//! person who says just that number: a triangle of the same width around it, cut at -1 and 1.
+//! A sign follows: `strong +` increases, `strong -` decreases (the mirrored triangle). Memberships of
+//! neighbours add up to 1. A term stands for the centroid of its set, in hundredths. The set of a number is a
+//! triangle of the same width around it, cut at -1 and 1.
 
 use super::decimal::Decimal;
 
-/// Terms by rising strength, each with its triangle.
+/// Terms by rising strength, with their triangles.
 const TERMS: [(&str, [f64; 3]); 5] = [
     ("none", [-0.25, 0.0, 0.25]),
     ("weak", [0.0, 0.25, 0.5]),
@@ -23,23 +23,23 @@ const TERMS: [(&str, [f64; 3]); 5] = [
     ("very strong", [0.75, 1.0, 1.0]),
 ];
 
-/// Half the base of a number's triangle, which is that of the terms.
+/// Half the base of a number's triangle; the same as for terms.
 const HALF: f64 = 0.25;
 
-/// A fuzzy set: 0 up to `from`, 1 at `peak`, 0 from `to` on, straight lines between; where two are equal it
-/// ends steeply.
+/// A fuzzy set: 0 up to `from`, 1 at `peak`, 0 from `to` on, linear between; vertical where two of them are
+/// equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Triangle {
     /// Left end.
     pub from: f64,
-    /// Where the membership is 1.
+    /// Value with membership 1.
     pub peak: f64,
     /// Right end.
     pub to: f64,
 }
 
 impl Triangle {
-    /// The set of a term with its sign; none if there is no such term. `none` has no sign, all others need one.
+    /// Set of a term with its sign; none if there is no such term. `none` has no sign, all others need one.
     pub fn of_term(text: &str) -> Option<Triangle> {
         let text = text.trim();
         let (word, sign) = match text.strip_suffix('+').or_else(|| text.strip_suffix('-')) {
@@ -54,22 +54,22 @@ impl Triangle {
         Some(Triangle { from, peak: if sign < 0.0 { -peak } else { *peak }, to })
     }
 
-    /// The set of a number in -1 ..= 1.
+    /// Set of a number in -1 ..= 1.
     pub fn of_number(value: f64) -> Triangle {
         Triangle { from: (value - HALF).max(-1.0), peak: value, to: (value + HALF).min(1.0) }
     }
 
-    /// The area below the set.
+    /// Area under the set.
     pub fn area(self) -> f64 {
         (self.to - self.from) / 2.0
     }
 
-    /// Where its area would balance.
+    /// Centroid of the area.
     pub fn centroid(self) -> f64 {
         (self.from + self.peak + self.to) / 3.0
     }
 
-    /// The membership of a value.
+    /// Membership of a value.
     pub fn membership(self, x: f64) -> f64 {
         if x < self.from || x > self.to {
             0.0
@@ -83,17 +83,17 @@ impl Triangle {
     }
 }
 
-/// The weight that a term stands for.
+/// Weight of a term.
 pub fn weight_of(term: &str) -> Option<Decimal> {
     Triangle::of_term(term).map(|set| hundredths(set.centroid()))
 }
 
-/// A number in hundredths, halves away from zero.
+/// A number in hundredths, halves rounded away from zero.
 pub fn hundredths(value: f64) -> Decimal {
     Decimal::from_f64((value * 100.0).round() / 100.0).unwrap_or_default()
 }
 
-/// The terms as a person is told them.
+/// The terms in words.
 pub fn list() -> String {
     let words: Vec<&str> = TERMS[1..].iter().map(|(name, _)| *name).collect();
     format!("none, or {} followed by + or -", words.join(", "))

@@ -1,5 +1,5 @@
-//! What a board told of a touch, to be explained: from any source, when an intention is announced or at a
-//! given time.
+//! Captures a board's report of an intention to be explained: from any source, when an intention is announced
+//! or at a given time.
 
 use super::decimal::Decimal;
 use super::engine::Q15_CONCEPTS;
@@ -13,10 +13,10 @@ use taxel_core::format::Micros;
 use taxel_core::intent::{Feed, Inference, Leading};
 use taxel_core::wire::IntentReport;
 
-/// What commands take that show a map as a board has it.
+/// Arguments of commands that show a map in the state of a board.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ToldArgs {
-    /// In place of a map: a board or a recording, of which the first announced intention is shown:
+    /// Instead of a map: a board or a recording, whose first announced intention is shown:
     /// `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or
     /// `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
@@ -33,49 +33,49 @@ pub struct ToldArgs {
 }
 
 impl ToldArgs {
-    /// Names of the files that are read.
+    /// Paths of the input files.
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.iter().filter_map(SourceSpec::file).chain(self.scene.clone()).collect()
     }
 
-    /// What the source tells; none where none is given.
+    /// Report of the source, if one is given.
     pub fn listen(self) -> Result<Option<Told>> {
         let Some(source) = self.source else { return Ok(None) };
         listen(BoardArgs { scene: self.scene, feed: self.feed, ..BoardArgs::of(source) }, self.at).map(Some)
     }
 }
 
-/// A report of an intention, and the map that it came from.
+/// A report of an intention, and the map that produced it.
 #[derive(Debug, Clone)]
 pub struct Told {
     /// The map of the board's scene.
     pub map: MapFile,
-    /// What the board told.
+    /// The board's report.
     pub report: IntentReport,
-    /// Since the first frame of the stream.
+    /// Time since the first frame of the stream.
     pub seconds: f64,
 }
 
 impl Told {
-    /// Where the board's inference ended; `one` is 1.0 of the map's states.
+    /// Final state of the board's inference; `one` is 1.0 in the map's states.
     pub fn run(&self, one: i32) -> Inference<Q15_CONCEPTS> {
         let mut state = [0; Q15_CONCEPTS];
         for (slot, value) in state.iter_mut().zip(&self.report.concepts) {
-            // The board rounds what a threshold map counts in decimal steps, which are coarser than 2^-15, so
-            // this is its inverse.
+            // The board rounds activations of a threshold map from decimal steps, which are coarser than
+            // 2^-15, so this is the exact inverse.
             *slot = (f64::from(value.0) * f64::from(one) / 32768.0).round() as i32;
         }
         Inference { state, steps: self.report.steps, outcome: self.report.outcome }
     }
 
-    /// The concepts that the touch or the host has fed, with their activations.
+    /// Concepts set by the touch or the host, with their activations.
     pub fn inputs(&self) -> Vec<(String, Decimal)> {
         let value = |at: usize| self.report.concepts.get(at).and_then(|v| Decimal::from_f64(v.to_f64()));
         let entries = self.map.entries().into_iter();
         entries.filter_map(|name| Some((name.to_string(), value(self.map.find(name)?)?))).collect()
     }
 
-    /// When it was, and what it began from.
+    /// Time of the report, and its inputs.
     pub fn text(&self) -> String {
         let inputs = self.inputs();
         let inputs = inputs.iter().map(|(name, value)| format!("{name}={:.4}", value.to_f64()));
@@ -85,7 +85,7 @@ impl Told {
     }
 }
 
-/// Listens until an intention is announced, or for `at` seconds and takes what was told last.
+/// Listens until an intention is announced; with `at` for this many seconds, and returns the last report.
 pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
     let (source, _) = board.open(SourceOptions { seconds: at, ..SourceOptions::default() })?;
     let label = source.label.clone();
@@ -97,13 +97,13 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
     match (ear.found, at) {
         (Some(told), _) => Ok(told),
         (None, None) => {
-            bail!("{label}: no intention was announced; --at S explains what was told until then")
+            bail!("{label}: no intention was announced; --at S explains the state at that time")
         }
-        (None, Some(at)) => bail!("{label}: nothing was told of an intention in the first {at} s"),
+        (None, Some(at)) => bail!("{label}: no intention was reported in the first {at} s"),
     }
 }
 
-/// What is kept while listening.
+/// State while listening.
 struct Ear {
     at: Option<f64>,
     /// Time of the first frame.
@@ -115,7 +115,7 @@ struct Ear {
 }
 
 impl Ear {
-    /// The board's time is this.
+    /// Handles the board's time.
     fn clock(&mut self, time: Micros) {
         self.began.get_or_insert(time);
         self.now = time;

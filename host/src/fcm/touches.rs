@@ -1,4 +1,4 @@
-//! Labelled touches as a table: a CSV file with a column for each input concept, `label`, and perhaps `group`.
+//! Labelled touches from a CSV file: a column for each input concept, `label`, and optionally `group`.
 
 use super::board::{BoardMap, State};
 use super::decimal::Decimal;
@@ -6,24 +6,24 @@ use super::map::MapFile;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-/// The label of a touch that means nothing of what the map knows.
+/// Label of a touch without any intention of the map.
 pub const NONE: &str = "none";
 
 /// One touch.
 #[derive(Debug, Clone)]
 pub struct Labelled {
-    /// The start of its inference.
+    /// Initial state of its inference.
     pub start: State,
-    /// Its class: an index into the classes.
+    /// Index of its class.
     pub class: usize,
-    /// Who or what it is of; touches of one group are never on both sides of a cross-validation.
+    /// Group, such as a person; a cross-validation never splits a group.
     pub group: String,
 }
 
 /// All touches of a file.
 #[derive(Debug, Clone)]
 pub struct Touches {
-    /// The labels in the order of their first touch; a concept of the map each, or `none`.
+    /// Labels in the order of their first touch: concepts of the map, or `none`.
     pub classes: Vec<String>,
     /// The touches.
     pub touches: Vec<Labelled>,
@@ -37,7 +37,7 @@ pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     parse(&text, file, map).with_context(|| place.to_string())
 }
 
-/// Reads the text of a file.
+/// Parses the text of a file.
 pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let cells = |line: &str| -> Vec<String> { line.split(',').map(|cell| cell.trim().to_string()).collect() };
@@ -49,7 +49,7 @@ pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     let mut inputs = Vec::new();
     for (at, name) in header.iter().enumerate().filter(|(at, _)| *at != label && Some(*at) != group) {
         let concept =
-            file.find(name).with_context(|| format!("line 1: column {name} is no concept of the map"))?;
+            file.find(name).with_context(|| format!("line 1: column {name} is not a concept of the map"))?;
         if file.is_driven(name) {
             bail!("line 1: column {name} is a concept that has causes");
         }
@@ -91,8 +91,8 @@ impl Touches {
         Ok(self.classes.len() - 1)
     }
 
-    /// The part of each touch in a cross-validation by `folds`: by group where there are groups, else in turn
-    /// by class.
+    /// Fold of each touch in a cross-validation with `folds` folds: by group if there are groups, else in
+    /// turn by class.
     pub fn folds(&self, folds: usize) -> Vec<usize> {
         let mut groups: Vec<&str> = self.touches.iter().map(|touch| touch.group.as_str()).collect();
         groups.sort_unstable();

@@ -1,5 +1,5 @@
-//! Several maps as one: concepts and edges of all of them, shared edges agreed or combined, and what they
-//! disagree on.
+//! Unites several maps: all concepts and edges; shared edges must agree or are combined; disagreements are
+//! reported.
 
 use super::aggregate::{Aggregation, centroid};
 use super::map::{EdgeFile, MapFile};
@@ -9,44 +9,44 @@ use super::weight::Weight;
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
 
-/// What becomes of an edge that maps say differently.
+/// Treatment of an edge with different weights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shared {
-    /// They must say the same.
+    /// The weights must be equal.
     Agree,
-    /// What they say is aggregated; a map that has both concepts and no edge says nothing.
+    /// The weights are aggregated; a map with both concepts but no edge has no vote.
     Combine(Aggregation),
-    /// The same, and a map that has both concepts and no edge says `none`.
+    /// The weights are aggregated; a map with both concepts but no edge votes `none`.
     Vote(Aggregation),
 }
 
-/// What was said of an edge, and what became of it.
+/// Weights of an edge by map, and the result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opinions {
     /// The cause.
     pub from: String,
     /// The effect.
     pub to: String,
-    /// By the name of the map.
+    /// Weights by name of the map.
     pub said: Vec<(String, Weight)>,
-    /// The weight in the united map.
+    /// Weight in the united map.
     pub weight: Weight,
 }
 
 impl Opinions {
-    /// Distance of the farthest two.
+    /// Difference between the two extreme weights.
     pub fn spread(&self) -> f64 {
         let values = self.said.iter().map(|(_, weight)| weight.value());
         values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
     }
 
-    /// Whether one says that the cause increases the effect, and another that it decreases it.
+    /// True if weights of both signs occur.
     pub fn is_conflict(&self) -> bool {
         let any = |sign: f64| self.said.iter().any(|(_, weight)| weight.value() * sign > 0.0);
         any(1.0) && any(-1.0)
     }
 
-    /// For other programs.
+    /// Encodes as JSON.
     pub fn json(&self) -> Value {
         let said = self.said.iter().map(|(map, weight)| json!({ "map": map, "weight": weight }));
         json!({
@@ -56,14 +56,14 @@ impl Opinions {
     }
 }
 
-/// The united map, its edges as they came about, and what else the maps disagree on.
+/// The united map, its edges with their origin, and other disagreements.
 #[derive(Debug, Clone)]
 pub struct United {
     /// The map.
     pub map: MapFile,
     /// One for each edge of any map, in the order of the maps.
     pub edges: Vec<Opinions>,
-    /// Sentences.
+    /// Disagreements in sentences.
     pub conflicts: Vec<String>,
 }
 
@@ -83,7 +83,7 @@ pub fn unite(maps: &[MapFile], name: &str, shared: Shared) -> Result<United> {
             None => map.concept.push(concept.clone()),
             Some(at) if map.concept[at].threshold != concept.threshold => {
                 conflicts
-                    .push(format!("thresholds of {} differ: that of the first map counts", concept.name));
+                    .push(format!("thresholds of {} differ: that of the first map is used", concept.name));
             }
             Some(_) => {}
         }
@@ -104,7 +104,7 @@ pub fn unite(maps: &[MapFile], name: &str, shared: Shared) -> Result<United> {
     Ok(United { map, edges, conflicts })
 }
 
-/// Settings that not all have.
+/// Disagreements about settings.
 fn settings(maps: &[MapFile]) -> Vec<String> {
     let mut found = Vec::new();
     for other in &maps[1..] {
@@ -117,14 +117,17 @@ fn settings(maps: &[MapFile]) -> Vec<String> {
             ("held", first.held == other.held),
         ] {
             if !same {
-                found.push(format!("{what} of {} is not that of {}, which counts", other.name, first.name));
+                found.push(format!(
+                    "{what} of {} differs from that of {}, which is used",
+                    other.name, first.name
+                ));
             }
         }
     }
     found
 }
 
-/// What each map says of an edge that one of them has.
+/// Weights of an edge in each map.
 fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: Shared) -> Result<Opinions> {
     let EdgeFile { from, to, .. } = edge;
     let mut said = Vec::new();
@@ -147,19 +150,19 @@ fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: Shared) -> Result<Opinion
         Shared::Combine(how) | Shared::Vote(how) => Weight::Number(hundredths(centroid(&sets, how)).to_f64()),
         Shared::Agree => {
             let each: Vec<String> = said.iter().map(|(map, weight)| format!("{weight} in {map}")).collect();
-            bail!("edge {from} -> {to} is {}: --combine makes one of them", each.join(", "));
+            bail!("edge {from} -> {to} is {}: --combine makes them one", each.join(", "));
         }
     };
     Ok(Opinions { from: from.clone(), to: to.clone(), said, weight })
 }
 
-/// Inputs of concepts that nothing in the united map causes.
+/// Collects the inputs of concepts without causes in the united map.
 fn inputs(maps: &[MapFile], map: &mut MapFile, conflicts: &mut Vec<String>) {
     for one in maps {
         for concept in &one.concept {
             let of = |map: &MapFile| -> Vec<InputFile> {
                 let inputs = map.input.iter().filter(|input| input.concept == concept.name).cloned();
-                // What is said of an input makes no other input of it.
+                // Inputs that differ only in their notes are equal.
                 inputs.map(|input| InputFile { note: String::new(), ..input }).collect()
             };
             let (own, known) = (of(one), of(map));
@@ -168,14 +171,14 @@ fn inputs(maps: &[MapFile], map: &mut MapFile, conflicts: &mut Vec<String>) {
             }
             if map.is_driven(&concept.name) {
                 conflicts.push(format!(
-                    "{} is an input of {} and has causes in another: the causes count",
+                    "{} is an input of {} and has causes in another: the causes are used",
                     concept.name, one.name
                 ));
             } else if known.is_empty() {
                 map.input.extend(one.input.iter().filter(|input| input.concept == concept.name).cloned());
             } else if known != own {
                 conflicts.push(format!(
-                    "the input of {} in {} is not that of the map before, which counts",
+                    "the input of {} in {} differs from that of the map before, which is used",
                     concept.name, one.name
                 ));
             }

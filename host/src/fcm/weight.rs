@@ -1,4 +1,4 @@
-//! A causality value as its author wrote it: a number or a linguistic term.
+//! A causality value as written: a number or a linguistic term.
 
 use super::decimal::Decimal;
 use super::terms::{self, Triangle};
@@ -16,23 +16,23 @@ pub enum Weight {
 }
 
 impl Weight {
-    /// From what a person types; none if it is neither a number in -1 ..= 1 nor a term.
+    /// Parses typed text; none if it is neither a number in -1 ..= 1 nor a term.
     pub fn parse(text: &str) -> Option<Weight> {
         let number = Decimal::parse(text.trim()).filter(|number| number.is_fraction());
         let term = || terms::weight_of(text).map(|_| Weight::Term(text.trim().into()));
         number.map(|number| Weight::Number(number.to_f64())).or_else(term)
     }
 
-    /// The number that it stands for.
+    /// Number of the weight.
     pub fn value(&self) -> f64 {
         match self {
             Weight::Number(value) => *value,
-            // Terms are checked where they are read.
+            // Terms are checked when they are read.
             Weight::Term(term) => terms::weight_of(term).unwrap_or_default().to_f64(),
         }
     }
 
-    /// The fuzzy set that it stands for.
+    /// Fuzzy set of the weight.
     pub fn set(&self) -> Triangle {
         match self {
             Weight::Number(value) => Triangle::of_number(*value),
@@ -65,7 +65,7 @@ impl<'de> Deserialize<'de> for Weight {
     }
 }
 
-/// Not derived as untagged: the error would not say what is wrong.
+/// Not derived as untagged: such an error would not say what is wrong.
 struct WeightVisitor;
 
 impl Visitor<'_> for WeightVisitor {
@@ -89,6 +89,6 @@ impl Visitor<'_> for WeightVisitor {
 
     fn visit_str<E: Error>(self, term: &str) -> Result<Weight, E> {
         let known = terms::weight_of(term).map(|_| Weight::Term(term.trim().into()));
-        known.ok_or_else(|| E::custom(format!("{term:?} is no weight: expected {}", terms::list())))
+        known.ok_or_else(|| E::custom(format!("{term:?} is not a weight: expected {}", terms::list())))
     }
 }

@@ -1,4 +1,4 @@
-//! `taxel fcm why`: what made an activation, in numbers that add up, and what would change it.
+//! `taxel fcm why`: explains an activation in numbers that add up, and what would change it.
 
 use super::board::{BoardMap, State};
 use super::decimal::Decimal;
@@ -21,7 +21,7 @@ pub struct WhyArgs {
     /// Activation of a concept that nothing causes, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
     pub input: Vec<(String, Decimal)>,
-    /// Or a source.
+    /// Alternatively a source.
     #[command(flatten)]
     pub told: ToldArgs,
     /// Concept to explain [default: the announced or the strongest intention, else the strongest concept that
@@ -39,15 +39,15 @@ pub struct WhyArgs {
     pub json: bool,
 }
 
-/// A settled map and the reason for one of its activations.
+/// A settled map, and the explanation of one of its activations.
 pub struct Explained {
     /// The map in the arithmetic of the board.
     pub map: BoardMap,
-    /// Where it ended.
+    /// Final state.
     pub run: Inference<Q15_CONCEPTS>,
-    /// What each cause of the concept contributed.
+    /// Contribution of each cause.
     pub why: Why<Q15_CONCEPTS>,
-    /// The same by inputs and paths.
+    /// Contributions by inputs and paths.
     pub shares: Shares,
 }
 
@@ -85,7 +85,7 @@ pub fn explain(file: &MapFile, inputs: &[(String, Decimal)], of: Option<&str>) -
     explain_run(file, map, run, of)
 }
 
-/// Explains what a board told: the state that it ended in, not one that is inferred again.
+/// Explains a board's report, from its final state instead of a new inference.
 pub fn explain_told(told: &Told, of: Option<&str>) -> Result<Explained> {
     let map = BoardMap::build(&told.map)?;
     let run = told.run(map.map.one());
@@ -107,7 +107,7 @@ fn explain_run(
     let why = map
         .map
         .why(&run.state, concept)
-        .with_context(|| format!("{name} has no cause: it is as it was set"))?;
+        .with_context(|| format!("{name} has no cause: its value was set"))?;
     let shares = shares(&map, &run.state, &why);
     Ok(Explained { map, run, why, shares })
 }
@@ -126,7 +126,7 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
     Ok(map.state(numbered))
 }
 
-/// The strongest intention, or else the strongest concept with causes; the first of equals.
+/// The strongest intention, else the strongest concept with causes; the first of equals.
 fn strongest(file: &MapFile, state: &State) -> Option<usize> {
     let is_intention = |name: &str| Leading::INTENTIONS.iter().any(|leading| leading.as_str() == name);
     let driven: Vec<usize> =
@@ -137,7 +137,7 @@ fn strongest(file: &MapFile, state: &State) -> Option<usize> {
     among.into_iter().rev().max_by_key(|at| state[*at])
 }
 
-/// Where the map settles if some concepts are held.
+/// Settles the map with some concepts held.
 pub fn what_if(
     file: &MapFile,
     inputs: &[(String, Decimal)],
@@ -168,7 +168,7 @@ fn ending(run: &Inference<Q15_CONCEPTS>) -> String {
     }
 }
 
-/// Units of 2^-15 for other programs: they add up exactly.
+/// Encodes as JSON in units of 2^-15, which add up exactly.
 pub fn report(explained: &Explained, changed: Option<&Inference<Q15_CONCEPTS>>) -> Value {
     let Explained { map, run, why, shares } = explained;
     let names = map.map.concepts();
@@ -193,7 +193,7 @@ pub fn report(explained: &Explained, changed: Option<&Inference<Q15_CONCEPTS>>) 
     value
 }
 
-/// The readable form.
+/// Readable form.
 pub fn text(
     file: &MapFile,
     explained: &Explained,

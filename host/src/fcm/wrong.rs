@@ -1,4 +1,4 @@
-//! What is wrong with a map, and where that stands in its file.
+//! Errors about a map, with their place in its file.
 
 use crate::words::{Step, line_of};
 use anyhow::{Error, anyhow};
@@ -19,12 +19,12 @@ impl fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-/// An error about the value to which these steps lead from the top of the file.
+/// Error about the value at the end of these steps from the top of the file.
 pub fn wrong(at: &[Step<'static>], why: impl fmt::Display) -> Error {
     Wrong { at: at.to_vec(), why: why.to_string() }.into()
 }
 
-/// The error with file, line and key in front.
+/// Prefixes the error with file, line and key.
 pub fn located(error: Error, text: &str, file: &str) -> Error {
     let Some(found) = error.chain().find_map(|cause| cause.downcast_ref::<Wrong>()) else {
         return error.context(file.to_string());

@@ -1,14 +1,14 @@
-//! Between the board's one thread and those of the clients.
+//! Connects the board's thread with those of the clients.
 
 use super::protocol::{Channel, Wish};
 use super::subscriber::{Subscriber, Told};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Clients at a time.
+/// Most clients at a time.
 const CLIENTS: usize = 16;
 
-/// What all threads know.
+/// State shared by all threads.
 #[derive(Debug, Default)]
 pub struct Hub {
     shared: Mutex<Shared>,
@@ -17,17 +17,17 @@ pub struct Hub {
 #[derive(Debug, Default)]
 struct Shared {
     clients: Vec<Arc<Subscriber>>,
-    /// The last message of each channel, for who comes later.
+    /// Last message of each channel, for later clients.
     known: BTreeMap<Channel, Arc<Told>>,
 }
 
 impl Hub {
-    /// A thread that panicked leaves everything as it was.
+    /// Locks the state. A panic of another thread does not invalidate it.
     fn lock(&self) -> MutexGuard<'_, Shared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A new client; none: there are too many.
+    /// Adds a client; none if there are too many.
     pub fn join(&self) -> Option<Arc<Subscriber>> {
         let mut shared = self.lock();
         let client = Arc::new(Subscriber::default());
@@ -35,18 +35,18 @@ impl Hub {
         Some(client)
     }
 
-    /// A client has gone.
+    /// Removes a client.
     pub fn leave(&self, client: &Arc<Subscriber>) {
         client.close();
         self.lock().clients.retain(|other| !Arc::ptr_eq(other, client));
     }
 
-    /// Whether some client wants a channel.
+    /// True if a client subscribes to the channel.
     pub fn wants(&self, channel: Channel) -> bool {
         self.lock().clients.iter().any(|client| client.wants(channel))
     }
 
-    /// Does what a client wants.
+    /// Handles a client's request.
     pub fn wish(&self, client: &Subscriber, wish: Wish) {
         let shared = self.lock();
         match wish {
@@ -57,7 +57,7 @@ impl Hub {
         }
     }
 
-    /// Tells all who want to know.
+    /// Sends a message to all subscribers.
     pub fn tell(&self, told: Told) {
         let told = Arc::new(told);
         let mut shared = self.lock();

@@ -1,9 +1,9 @@
-//! `taxel foxglove`: what a board tells, live in Foxglove and whatever else speaks its WebSocket protocol.
+//! `taxel foxglove`: serves a board's stream to Foxglove and other programs with its WebSocket protocol.
 //!
 //! The channels are those of a recording, with their schemas (see [`record`](crate::record)). The server only
-//! tells: nothing can be asked of the board. It listens on this machine alone, and lets in programs, pages of
-//! this machine, and of other sites those of Foxglove alone and what `--allow-origin` names. A client that
-//! reads too slowly misses messages, and is told so; it never slows the board's stream.
+//! sends; clients cannot send requests to the board. It listens on this machine only, and admits programs,
+//! pages of this machine, and of other sites those of Foxglove and of `--allow-origin`. A client that reads
+//! too slowly misses messages, and is told so; it never delays the board's stream.
 
 mod hub;
 mod protocol;
@@ -41,7 +41,7 @@ pub struct FoxgloveArgs {
 /// Runs the command.
 pub fn run(args: FoxgloveArgs) -> Result<()> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, args.port)).with_context(|| {
-        format!("port {} of this machine cannot be used: --port takes another", args.port)
+        format!("port {} of this machine cannot be used: choose another with --port", args.port)
     })?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let (source, _) = args.board.open(options)?;

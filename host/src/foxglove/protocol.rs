@@ -1,30 +1,30 @@
-//! What is said in Foxglove's WebSocket protocol, as far as a server needs it that only tells.
+//! The part of Foxglove's WebSocket protocol that a send-only server needs.
 //!
 //! | message | from | what |
 //! |---|---|---|
-//! | `serverInfo`, `advertise`, `status` | server, text | who serves; the channels with their schemas; what a slow client has missed |
-//! | `subscribe`, `unsubscribe` | client, text | which channels it wants, under numbers of its own |
+//! | `serverInfo`, `advertise`, `status` | server, text | the server; the channels with their schemas; the losses of a slow client |
+//! | `subscribe`, `unsubscribe` | client, text | channels, each with a number chosen by the client |
 //! | 1 (u8), subscription (u32), time (u64, ns), data | server, binary, little-endian | a message of a channel |
 
 use crate::record::{JsonTopic, TOPICS};
 use serde_json::{Value, json};
 
-/// Names of the protocol, the newer first: what is said here is the same in both.
+/// Names of the protocol, the newer first; the messages used here are the same in both.
 pub const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
 /// Number of a channel: 1 for the first topic.
 pub type Channel = u32;
 
-/// What a client wants.
+/// A request of a client.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Wish {
     /// Numbers of subscriptions, each with its channel.
     Subscribe(Vec<(u32, Channel)>),
-    /// Numbers of subscriptions that end.
+    /// Numbers of ended subscriptions.
     Unsubscribe(Vec<u32>),
 }
 
-/// Reads what a client says; none: it is nothing that is done here.
+/// Parses a client's message; none if it is not supported.
 pub fn wish(text: &str) -> Option<Wish> {
     let said: Value = serde_json::from_str(text).ok()?;
     let number = |value: &Value| u32::try_from(value.as_u64()?).ok();
@@ -41,12 +41,12 @@ pub fn wish(text: &str) -> Option<Wish> {
     }
 }
 
-/// The channel of a topic.
+/// Channel of a topic.
 pub fn channel(topic: &str) -> Option<Channel> {
     (1..).zip(TOPICS).find(|(_, (name, _))| *name == topic).map(|(channel, _)| channel)
 }
 
-/// Who serves.
+/// Message about the server.
 pub fn server_info(label: &str) -> String {
     let program = concat!("taxel ", env!("CARGO_PKG_VERSION"));
     let name = format!("{program}: {label}");
@@ -57,7 +57,7 @@ pub fn server_info(label: &str) -> String {
     .to_string()
 }
 
-/// The channels: those of a recording.
+/// Message about the channels: those of a recording.
 pub fn advertise() -> String {
     let channel = |(id, (name, schema)): (Channel, JsonTopic)| {
         json!({
@@ -69,19 +69,19 @@ pub fn advertise() -> String {
     json!({ "op": "advertise", "channels": channels }).to_string()
 }
 
-/// That a client reads too slowly.
+/// Message about a slow client's losses.
 pub fn left_out(count: u64) -> String {
     let text = format!("{count} messages were left out: this program reads too slowly");
     json!({ "op": "status", "level": 1, "message": text, "id": "slow" }).to_string()
 }
 
-/// That a client wants too much.
+/// Message about too many subscriptions.
 pub fn too_many(most: usize) -> String {
-    let text = format!("a client has {most} subscriptions at most: the others are left out");
+    let text = format!("a client can have {most} subscriptions: the others are ignored");
     json!({ "op": "status", "level": 1, "message": text, "id": "subscriptions" }).to_string()
 }
 
-/// A message for a subscription.
+/// Encodes a message for a subscription.
 pub fn data(subscription: u32, ns: u64, data: &[u8]) -> Vec<u8> {
     let mut bytes = vec![1];
     bytes.extend(subscription.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Takes what a board tells, for the clients.
+//! Passes a board's stream to the clients.
 
 use super::hub::Hub;
 use super::protocol;
@@ -9,10 +9,10 @@ use crate::record::{self, Stamps};
 use anyhow::Result;
 use std::sync::Arc;
 
-/// The topic of images, the only one that costs something to write: left out while nobody wants it.
+/// Topic of images, the only one that is costly to encode; skipped if nobody subscribes.
 const LARGE: &str = "frames";
 
-/// Tells everything to the clients of a hub.
+/// Sends everything to the clients of a hub.
 #[derive(Debug)]
 pub struct Publisher {
     hub: Arc<Hub>,
@@ -20,7 +20,7 @@ pub struct Publisher {
 }
 
 impl Publisher {
-    /// From now on.
+    /// Starts now.
     pub fn new(hub: Arc<Hub>) -> Publisher {
         Publisher { hub, stamps: Stamps::start() }
     }

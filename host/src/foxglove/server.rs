@@ -1,4 +1,4 @@
-//! The server: what is read of a client's first words, and two threads for each.
+//! The server: admits clients, and runs two threads for each.
 
 use super::hub::Hub;
 use super::protocol::{self, PROTOCOLS};
@@ -12,15 +12,15 @@ use std::thread;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-/// Connections at a time beside those of clients.
+/// Connections at a time besides those of clients.
 const CONNECTIONS: usize = 16;
-/// Longest message of a client.
+/// Longest message from a client.
 const LONGEST: usize = 1 << 16;
-/// Where Foxglove itself is served from.
+/// Sites of Foxglove itself.
 const FOXGLOVE: [&str; 2] = ["https://app.foxglove.dev", "https://studio.foxglove.dev"];
 
-/// Serves a hub's channels of a source from a thread of its own; the port. Pages of these `sites` are let in
-/// beside Foxglove's own.
+/// Serves a hub's channels in a thread of its own. Returns the port. Pages of these `sites` are admitted
+/// besides Foxglove's own.
 pub fn serve(listener: TcpListener, hub: Arc<Hub>, label: &str, sites: &[String]) -> Result<u16> {
     let hello = [protocol::server_info(label), protocol::advertise()];
     let sites: Vec<String> = FOXGLOVE.into_iter().map(String::from).chain(sites.iter().cloned()).collect();
@@ -36,7 +36,7 @@ fn config() -> WebSocketConfig {
         .write_buffer_size(0)
 }
 
-/// Talks to a client until it goes, or does not read for a while.
+/// Serves a client until it closes, or does not read for a while.
 fn connection(
     mut stream: TcpStream,
     guest: &Guest,
@@ -46,7 +46,7 @@ fn connection(
     let Some(request) = http::read(&mut stream, Sites::Named(sites)) else { return Ok(()) };
     let agreed = request.and_then(|request| {
         let protocol = PROTOCOLS.iter().find(|name| request.protocols.iter().any(|offered| offered == *name));
-        let why = "this server speaks foxglove.sdk.v1 and foxglove.websocket.v1, for Foxglove and its like";
+        let why = "this server speaks foxglove.sdk.v1 and foxglove.websocket.v1, as Foxglove does";
         let refusal = Refusal { status: "400 Bad Request", why };
         Ok((request.key.ok_or(refusal)?, *protocol.ok_or(refusal)?, request.rest))
     });
@@ -69,7 +69,7 @@ fn connection(
 fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber, hello: &[String]) -> Result<()> {
     let (end, reading) = (stream.try_clone()?, stream.try_clone()?);
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
-    // From now on a client may say nothing for ever.
+    // A client may be silent for any time.
     reading.set_read_timeout(None)?;
     thread::scope(|scope| {
         let reader = thread::Builder::new().name("foxglove reader".into());
@@ -92,7 +92,7 @@ fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber, hello:
 
 fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber) {
     let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
-    // Any error ends it: the client has gone, or does not speak WebSocket.
+    // Any error ends it: the client is gone, or does not speak WebSocket.
     while let Ok(said) = socket.read() {
         match said {
             Message::Text(text) => {

@@ -1,4 +1,4 @@
-//! What waits for one client: a bounded amount, however slow it is.
+//! Outgoing messages of one client: a bounded amount, however slow it is.
 
 use super::protocol::{self, Channel};
 use crate::shared::Shared;
@@ -7,18 +7,18 @@ use std::sync::Arc;
 use std::time::Duration;
 use tungstenite::{Bytes, Message};
 
-/// Bytes that wait at most; the oldest messages give way.
+/// Most bytes queued; the oldest messages are dropped.
 const WAITING: usize = 8 << 20;
 
-/// Subscriptions of a client: some for each channel.
+/// Most subscriptions of a client: several for each channel.
 const MOST: usize = 64;
 
 /// A message of a channel.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Told {
-    /// Whose it is.
+    /// Its channel.
     pub channel: Channel,
-    /// The host's time of it, ns since 1970.
+    /// Host time, ns since 1970.
     pub ns: u64,
     /// JSON.
     pub data: Vec<u8>,
@@ -30,19 +30,19 @@ pub struct Subscriber(Shared<Waiting>);
 
 #[derive(Debug, Default)]
 struct Waiting {
-    /// Channels by the client's number.
+    /// Channels by the client's subscription number.
     subscriptions: BTreeMap<u32, Channel>,
     messages: VecDeque<(u32, Arc<Told>)>,
     bytes: usize,
     left_out: u64,
-    /// There was no place for a subscription.
+    /// A subscription was refused.
     full: bool,
     pong: Option<Bytes>,
     closed: bool,
 }
 
 impl Subscriber {
-    /// It wants a channel, and is told what is known there; of too many it is told that they are.
+    /// Subscribes to a channel, and sends its last message; refuses too many subscriptions with a status.
     pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<Told>>) {
         self.0.change(|waiting| {
             if waiting.subscriptions.len() >= MOST && !waiting.subscriptions.contains_key(&id) {
@@ -54,17 +54,17 @@ impl Subscriber {
         });
     }
 
-    /// It wants a channel no more.
+    /// Ends a subscription.
     pub fn unsubscribe(&self, id: u32) {
         self.0.change(|waiting| _ = waiting.subscriptions.remove(&id));
     }
 
-    /// Whether it wants a channel.
+    /// True if the client subscribes to the channel.
     pub fn wants(&self, channel: Channel) -> bool {
         self.0.lock().subscriptions.values().any(|wanted| *wanted == channel)
     }
 
-    /// Tells it, where it wants to know.
+    /// Queues a message if the client subscribes to its channel.
     pub fn tell(&self, told: &Arc<Told>) {
         self.0.change(|waiting| {
             let of = |(id, channel): (&u32, &Channel)| (*channel == told.channel).then_some(*id);
@@ -73,17 +73,17 @@ impl Subscriber {
         });
     }
 
-    /// It has pinged; of several pings the last is answered.
+    /// Answers the last of several pings.
     pub fn pong(&self, bytes: Bytes) {
         self.0.change(|waiting| waiting.pong = Some(bytes));
     }
 
-    /// It has gone.
+    /// Closes the queue.
     pub fn close(&self) {
         self.0.change(|waiting| waiting.closed = true);
     }
 
-    /// Waits for what is to be sent next; none: it has gone.
+    /// Waits for the next message; none once closed.
     pub fn next(&self) -> Option<Message> {
         let mut waiting = self.0.lock();
         loop {

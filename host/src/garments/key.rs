@@ -1,8 +1,8 @@
-//! Which key of a garment's file an error of the core is about.
+//! Maps errors of the core to keys of a garment's file.
 
 use taxel_core::garment::{Block, Garment, GarmentError, Line};
 
-/// The path of the key that is to be changed, as `blocks[3].input`.
+/// Path of the key to change, such as `blocks[3].input`.
 pub(super) fn key(error: &GarmentError, garment: &Garment) -> String {
     use GarmentError as E;
     let panel = |name: &str| garment.panels.iter().position(|panel| panel.name == name).unwrap_or(0);
@@ -16,7 +16,7 @@ pub(super) fn key(error: &GarmentError, garment: &Garment) -> String {
             let rows = garment.panels.get(index).is_some_and(|panel| panel.rows == 0);
             format!("panels[{index}].{}", if rows { "rows" } else { "columns" })
         }
-        // Of two, the second is the one too many.
+        // Of two panels, the second is reported.
         E::DuplicatePanel(name) => {
             let last = garment.panels.iter().rposition(|panel| panel.name == *name).unwrap_or(0);
             format!("panels[{last}].name")
@@ -84,8 +84,8 @@ fn no_such_panel(what: &str, index: usize, panel: u8, garment: &Garment) -> Stri
     }
 }
 
-/// Of a rectangle that is empty or leaves its panel: the size where it begins with the panel, else where it
-/// begins.
+/// Key of a rectangle that is empty or leaves its panel: its size if it begins with the panel, else its
+/// origin.
 fn outside(what: &str, index: usize, garment: &Garment) -> String {
     let (list, turned, [row, column, rows, columns], panel) =
         match (what, garment.blocks.get(index), garment.absent.get(index)) {

@@ -1,11 +1,10 @@
-//! Ghosts of a passive matrix: where three corners of a rectangle are pressed, current that runs through all
-//! three of them shows at the fourth as well, with at most a third of their signal where they are pressed
-//! alike.
+//! Ghosts of a passive matrix: if three corners of a rectangle are pressed, current through all three shows
+//! at the fourth corner as well, with at most a third of their signal if they are pressed equally.
 //!
-//! A contact is a candidate where three stronger ones lie at the other corners: one in its rows, one in its
-//! columns, one in the columns of the former and the rows of the latter, all within one block. It is only a
-//! candidate: four fingers may press the corners of a rectangle, one of them more lightly. Nothing is
-//! computed below four contacts.
+//! A contact is a candidate if three stronger ones are at the other corners: one in its rows, one in its
+//! columns, and one in the columns of the former and the rows of the latter, all within one block. It is only
+//! a candidate: four fingers may press the corners of a rectangle, one of them more lightly. Fewer than four
+//! contacts need no computation.
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -13,12 +12,12 @@ use std::ops::Range;
 use taxel_core::body::Placed;
 use taxel_core::garment::{Block, Garment, Place};
 
-/// Candidates by the place of their peak (panel, row, column), and in how many lists of contacts each was.
+/// Candidates by the place of their peak (panel, row, column), and the number of contact lists with each.
 #[derive(Debug, Default)]
 pub struct Ghosts(BTreeMap<(u8, u16, u16), u32>);
 
 impl Ghosts {
-    /// Takes the contacts of a frame.
+    /// Adds the contacts of a frame.
     pub fn take(&mut self, garment: &Garment, present: &[Placed]) {
         for placed in candidates(garment, present) {
             let Place { panel, row, column } = placed.contact.peak_at;
@@ -48,7 +47,7 @@ fn name_of(garment: &Garment, panel: u8) -> &str {
     garment.panels.get(usize::from(panel)).map_or("?", |panel| panel.name.as_str())
 }
 
-/// What of a contact lies in a block.
+/// Part of a contact within a block.
 struct Part<'a> {
     placed: &'a Placed,
     rows: Range<u16>,
@@ -61,7 +60,7 @@ impl Part<'_> {
     }
 }
 
-/// The contacts that three others of the same block may have made.
+/// Contacts that may be ghosts of three others in the same block.
 pub fn candidates<'a>(garment: &Garment, present: &'a [Placed]) -> Vec<&'a Placed> {
     let mut found: Vec<&Placed> = Vec::new();
     if present.len() < 4 {

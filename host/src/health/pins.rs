@@ -1,11 +1,10 @@
-//! Lines and inputs that a self-test has found to be at fault: where they are, and what that means for the
-//! garment.
+//! Lines and inputs found faulty by a self-test: their place, and the consequence for the garment.
 
 use serde_json::{Value, json};
 use taxel_core::garment::{Coding, Garment, Group};
 use taxel_core::selftest::{Fault, Findings, PinFault};
 
-/// `{"lines", "inputs", "faults": [{"gpio", "what", "where", "means"}]}`; null where nobody has examined them.
+/// `{"lines", "inputs", "faults": [{"gpio", "what", "where", "means"}]}`; null without a self-test.
 pub fn report(garment: &Garment, findings: Option<&Findings>) -> Value {
     let Some(findings) = findings else { return Value::Null };
     let fault = |found: &PinFault| {
@@ -18,14 +17,14 @@ pub fn report(garment: &Garment, findings: Option<&Findings>) -> Value {
     json!({ "lines": findings.lines, "inputs": findings.inputs, "faults": faults })
 }
 
-/// A line for each fault; one that says so where there is none.
+/// A line for each fault, or one that says that there is none.
 pub fn table(garment: &Garment, findings: Option<&Findings>) -> String {
     let Some(findings) = findings else {
-        return format!("{}: the board has not examined its lines and inputs.\n", garment.name);
+        return format!("{}: the board has not tested its lines and inputs yet.\n", garment.name);
     };
     if findings.faults.is_empty() {
         let Findings { lines, inputs, .. } = findings;
-        return format!("{}: {lines} select lines and {inputs} inputs are well.\n", garment.name);
+        return format!("{}: no faults on {lines} select lines and {inputs} inputs.\n", garment.name);
     }
     let line = |found: &PinFault| {
         let (place, meaning) = (place(garment, found.pin), meaning(garment, found));
@@ -34,13 +33,13 @@ pub fn table(garment: &Garment, findings: Option<&Findings>) -> String {
     findings.faults.iter().map(line).collect()
 }
 
-/// The groups of select lines, what they choose, and their lines.
+/// Groups of select lines: what they select, and their lines.
 fn groups(garment: &Garment) -> [(&'static str, &Group); 3] {
     let wiring = &garment.wiring;
     [("block", &wiring.block), ("row", &wiring.row), ("column", &wiring.column)]
 }
 
-/// The group of a select line, and its bit in that.
+/// Group of a select line, and its bit in it.
 fn line(garment: &Garment, pin: u8) -> Option<(&'static str, usize, Coding)> {
     groups(garment).into_iter().find_map(|(name, group)| {
         let bit = group.lines.iter().position(|line| line.pin == pin)?;
@@ -57,7 +56,7 @@ fn place(garment: &Garment, pin: u8) -> String {
     }
 }
 
-/// Names of the panels that an input reads.
+/// Names of the panels read by an input.
 fn panels(garment: &Garment, pin: u8) -> String {
     let read = |panel: usize| garment.blocks.iter().any(|b| usize::from(b.panel) == panel && b.input == pin);
     let names: Vec<&str> =
@@ -69,16 +68,16 @@ fn meaning(garment: &Garment, found: &PinFault) -> String {
     match found.fault {
         Fault::StuckHigh | Fault::StuckLow => match line(garment, found.pin) {
             Some((name, bit, Coding::Binary)) => {
-                format!("of two {name}s that differ in bit {bit} alone one is read twice, the other never")
+                format!("of two {name}s that differ only in bit {bit}, one is read twice, the other never")
             }
             Some((name, bit, Coding::OneHot)) => format!("{name} {bit} is always chosen, or never"),
             None => "the multiplexers are always enabled, or never".into(),
         },
         Fault::Bridged(other) => format!(
-            "the two cannot be told apart; whatever differs between them and GPIO {other} ({}) is misread",
+            "the two cannot be told apart; whatever distinguishes it from GPIO {other} ({}) is misread",
             place(garment, other)
         ),
-        Fault::Open => "nothing is connected to it: whatever it shows is no pressure".into(),
+        Fault::Open => "nothing is connected to it: its codes are not pressure".into(),
         Fault::Grounded => "its wire touches ground: nothing is read there".into(),
         Fault::Supplied => "its wire touches the supply: nothing is read there".into(),
     }
@@ -101,7 +100,7 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(
             lines[0],
-            "GPIO 8 (row line, bit 1) stuck high: of two rows that differ in bit 1 alone one is read twice, the \
+            "GPIO 8 (row line, bit 1) stuck high: of two rows that differ only in bit 1, one is read twice, the \
              other never"
         );
         assert!(lines[1].starts_with("GPIO 2 (block line, bit 0) bridged to GPIO 3: "), "{}", lines[1]);
@@ -110,7 +109,7 @@ mod tests {
         assert_eq!(report(&garment, Some(&found))["faults"][2]["gpio"], 27);
         assert_eq!(
             table(&garment, Some(&findings(&[]))),
-            "reference: 9 select lines and 4 inputs are well.\n"
+            "reference: no faults on 9 select lines and 4 inputs.\n"
         );
         assert!(table(&garment, None).contains("has not examined"));
     }

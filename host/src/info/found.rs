@@ -1,4 +1,4 @@
-//! What was found in a file.
+//! Contents of a recording, as reported by `taxel info`.
 
 use crate::progress::{Progress, Unit};
 use crate::record::{COUNTS, Play, Tally};
@@ -9,27 +9,26 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Files up to this are always read to their end, bytes: it takes a moment.
+/// Largest file that is always read to its end, bytes: it takes a moment.
 const SMALL: u64 = 8 << 20;
 /// The topic with a message for each frame.
 const FRAMES: &str = "/taxel/frames";
 
-/// What was found in a file.
+/// Contents and state of a file.
 pub struct Found<'a> {
     file: &'a Path,
     bytes: u64,
     overview: Overview,
     frames: u64,
-    /// What the board's messages say of the line; none: nobody has counted, and the file was not read.
+    /// Line counters of the board's messages; none if the file holds none and was not read.
     line: Option<Tally>,
-    /// What is damaged, and what of it readers pass over; none: the file was not read.
+    /// Damage, and what readers pass over; none if the file was not read.
     checked: Option<(Scan, Skipped)>,
     repaired: bool,
 }
 
 impl Found<'_> {
-    /// Of a file, by what it says of itself; read to its end where `check` asks for it or it takes a moment
-    /// only.
+    /// Inspects a file by its summary. Reads all of it if `check` is set or the file is small.
     pub fn of(file: &Path, check: bool, repaired: bool) -> Result<Found<'_>> {
         let bytes = std::fs::metadata(file).map_or(0, |known| known.len());
         let read = check || bytes <= SMALL || footer(file)?.is_none();
@@ -72,12 +71,12 @@ impl Found<'_> {
         if seconds > 0.0 { count.saturating_sub(1) as f64 / seconds } else { 0.0 }
     }
 
-    /// It has its end, and no damage is known.
+    /// True if the file has its end, and no damage is known.
     fn is_whole(&self) -> bool {
         self.checked.as_ref().map_or(self.overview.torn.is_none(), |(scan, _)| scan.whole)
     }
 
-    /// For programs; `null`: a large file that was not read to its end.
+    /// Encodes as JSON; values are `null` for a large file that was not read.
     pub fn json(&self) -> Value {
         let channel = |(info, count): (&ChannelInfo, u64)| {
             json!({
@@ -121,7 +120,7 @@ impl Found<'_> {
         })
     }
 
-    /// In a word or two: whole, without its end, damaged.
+    /// State in a few words: whole, without its end, damaged.
     fn state(&self) -> String {
         match &self.checked {
             None => "whole by its summary (--check reads all of it)".into(),
@@ -130,7 +129,7 @@ impl Found<'_> {
         }
     }
 
-    /// For people.
+    /// Formats for people.
     pub fn table(&self) -> String {
         let mut text =
             format!("{}: {:.2} MB, {}\n", self.file.display(), self.bytes as f64 / 1e6, self.state());
@@ -161,7 +160,7 @@ impl Found<'_> {
     }
 }
 
-/// What a board that is played counts as lost, thinned, restarted, and what of the file is damaged.
+/// Plays the file. Returns lost, thinned and restart counters, and the damage.
 fn played(file: &Path) -> Result<(Tally, Skipped)> {
     let mut play = Play::open(file)?;
     let mut progress =

@@ -1,4 +1,4 @@
-//! `taxel info`: what is in a recording.
+//! `taxel info`: shows a recording's contents.
 
 mod found;
 
@@ -9,7 +9,7 @@ use clap::Args;
 use found::Found;
 use std::path::PathBuf;
 
-/// What `taxel info` takes.
+/// Arguments of `taxel info`.
 #[derive(Debug, Clone, Args)]
 pub struct InfoArgs {
     /// Recording: .mcap

@@ -1,11 +1,11 @@
-//! What was taken for what.
+//! Confusion matrix.
 
 use serde_json::{Map, Value, json};
 
 /// Counts of answers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Confusion {
-    /// Names of the classes that there are.
+    /// Names of the true classes.
     pub classes: Vec<String>,
     /// Names of the answers; the last is "none".
     pub answers: Vec<String>,
@@ -14,24 +14,24 @@ pub struct Confusion {
 }
 
 impl Confusion {
-    /// Nothing counted yet.
+    /// An empty matrix.
     pub fn new(classes: &[String], known: &[String]) -> Confusion {
         let answers: Vec<String> = known.iter().cloned().chain(["none".to_string()]).collect();
         Confusion { classes: classes.to_vec(), counts: vec![vec![0; answers.len()]; classes.len()], answers }
     }
 
-    /// Counts an answer: an index of the known, or none.
+    /// Counts an answer: an index of the known classes, or none.
     pub fn count(&mut self, class: usize, answer: Option<usize>) {
         let column = answer.unwrap_or(self.answers.len() - 1);
         self.counts[class][column] += 1;
     }
 
-    /// Whether an answer is right: of a class that nobody taught, none is.
+    /// True if an answer is right; for a class that was not taught, the right answer is none.
     pub fn is_right(&self, class: usize, answer: Option<usize>) -> bool {
         answer == self.answers.iter().position(|name| *name == self.classes[class])
     }
 
-    /// The answers to a class: how often each, and whether it is right.
+    /// Answers to a class: name, count, and whether it is right.
     fn row(&self, class: usize) -> impl Iterator<Item = (&str, u32, bool)> {
         let none = self.answers.len() - 1;
         self.counts[class].iter().enumerate().map(move |(answer, count)| {
@@ -44,12 +44,12 @@ impl Confusion {
         self.row(class).filter(|(_, _, right)| *right).map(|(_, count, _)| count).sum()
     }
 
-    /// All that were counted.
+    /// Number of answers.
     pub fn all(&self) -> u32 {
         self.counts.iter().flatten().sum()
     }
 
-    /// Right answers, of 1.
+    /// Share of right answers.
     pub fn accuracy(&self) -> f64 {
         let right: u32 = (0..self.classes.len()).map(|class| self.right(class)).sum();
         f64::from(right) / f64::from(self.all().max(1))
@@ -76,7 +76,7 @@ impl Confusion {
         figures.as_object().cloned().unwrap_or_default()
     }
 
-    /// The classes with their right answers and what they were most often taken for instead.
+    /// Classes with their right answers and their most frequent wrong ones.
     pub fn table(&self) -> String {
         let width = self.classes.iter().map(String::len).max().unwrap_or(0);
         let line = |class: usize| {

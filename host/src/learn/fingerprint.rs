@@ -1,19 +1,19 @@
-//! Which file it was.
+//! Identifies files by size and hash.
 
 use anyhow::{Context, Result};
 use std::path::Path;
 
-/// What tells files apart that differ by chance, not by intent.
+/// Fingerprint of a file; it does not protect against intent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fingerprint {
-    /// Length of the file.
+    /// Size of the file.
     pub bytes: usize,
     /// FNV-1a of its bytes, 64 bits in hexadecimal.
     pub fnv1a: String,
 }
 
 impl Fingerprint {
-    /// Reads a file for it.
+    /// Reads a file and hashes it.
     pub fn of(path: &Path) -> Result<Fingerprint> {
         let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
         Ok(Fingerprint { bytes: bytes.len(), fnv1a: format!("{:016x}", fnv1a(&bytes)) })

@@ -1,16 +1,16 @@
-//! The little linear algebra that training takes: symmetric matrices, row after row.
+//! Linear algebra for training: symmetric matrices, stored by rows.
 
 /// A square matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Square {
-    /// Rows.
+    /// Number of rows.
     pub n: usize,
-    /// n x n
+    /// n x n values.
     pub cells: Vec<f64>,
 }
 
 impl Square {
-    /// All 0.
+    /// The zero matrix.
     pub fn zero(n: usize) -> Square {
         Square { n, cells: vec![0.0; n * n] }
     }
@@ -20,7 +20,7 @@ impl Square {
         &self.cells[i * self.n..][..self.n]
     }
 
-    /// Row `i`, to change.
+    /// Mutable row `i`.
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.cells[i * self.n..][..self.n]
     }
@@ -37,8 +37,7 @@ impl Square {
         }
     }
 
-    /// The lower triangle L with L L^T = self, for a positive definite matrix, of which only the lower half
-    /// is read.
+    /// Lower triangle L with L L^T = self, for a positive definite matrix; only the lower half is read.
     pub fn cholesky(&self) -> Square {
         let mut lower = Square::zero(self.n);
         for i in 0..self.n {
@@ -51,7 +50,7 @@ impl Square {
         lower
     }
 
-    /// Eigenvalues and eigenvectors of a symmetric matrix, the greatest first, by Jacobi's rotations.
+    /// Eigenvalues and eigenvectors of a symmetric matrix, largest first, by Jacobi rotations.
     pub fn eigen(mut self) -> Vec<(f64, Vec<f64>)> {
         let n = self.n;
         let mut vectors = Square::zero(n);
@@ -75,7 +74,7 @@ impl Square {
         pairs
     }
 
-    /// One rotation that makes the cells (p, q) and (q, p) vanish.
+    /// One rotation that zeroes the cells (p, q) and (q, p).
     fn rotate(&mut self, vectors: &mut Square, p: usize, q: usize) {
         let apq = self.row(p)[q];
         if apq == 0.0 {

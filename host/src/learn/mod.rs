@@ -1,4 +1,4 @@
-//! What training has in common, whatever is learned.
+//! Parts shared by all training.
 
 pub mod confusion;
 pub mod fingerprint;

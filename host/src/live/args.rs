@@ -1,4 +1,4 @@
-//! What `taxel live` takes, and what every command takes that asks something of a board before it watches it.
+//! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
 use super::{GestureModel, TaxelPlace, feed, forms};
 use crate::calibrate::Calibration;
@@ -10,23 +10,23 @@ use clap::Args;
 use std::path::PathBuf;
 use taxel_core::intent::Feed;
 
-/// A board, and what is asked of it before it is watched.
+/// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
     /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`,
     /// `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Garment that the board is to wear, real or simulated: a preset or a TOML file
+    /// Garment to send to the board, real or simulated: a preset or a TOML file
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
-    /// Scene to send to the board: a TOML file; keys that it leaves out keep the shipped values
+    /// Scene to send to the board: a TOML file; missing keys have the shipped values
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
     /// Calibration to send to the board, for forces in newtons: a file written by `taxel calibrate`
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
-    /// Take the mean of the first N frames as the baseline [default: what a simulated scene says, else 0]
+    /// Take the mean of the first N frames as the baseline [default: that of a simulated scene, else 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub tare: Option<u16>,
     /// Timing reports of the board per second; 65535: one for each frame [default: 1]
@@ -39,22 +39,22 @@ pub struct BoardArgs {
     /// [default: 1]
     #[arg(long, value_name = "G", requires = "gestures")]
     pub gesture_gain: Option<f64>,
-    /// With --gestures: announce a class as soon as the model is that sure, 0 to 0.999; the board keeps this
-    /// until it restarts [default: when it has led for 250 ms]
+    /// With --gestures: announce a class once the model's confidence reaches this share, 0 to 0.999; the
+    /// board keeps this until it restarts [default: when it has led for 250 ms]
     #[arg(long, value_name = "SHARE", requires = "gestures")]
     pub gesture_certainty: Option<f64>,
-    /// Forms (outline, azimuth, breadth, shape) that the board looks at in a frame, in turn: 1 to 254, or
-    /// all; asks for their ages too. The board keeps this until it restarts [default: 1]
+    /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
+    /// 254, or all; also requests the ages of the forms. The board keeps this until it restarts [default: 1]
     #[arg(long, value_name = "N", value_parser = forms)]
     pub forms: Option<u8>,
-    /// Set a concept: its value, -1 to 1; its age; the age from which the value no longer counts [default:
-    /// never]; the value that counts then [default: 0]
+    /// Set a concept: value, -1 to 1; its age; the age from which the value expires [default: never]; the
+    /// value that replaces it then [default: 0]
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
     /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[arg(long, value_name = "BASE")]
     pub shapes: Option<PathBuf>,
-    /// End when the board is gone, instead of waiting for it to come back
+    /// End when the connection to the board is lost, instead of waiting for the board
     #[arg(long)]
     pub once: bool,
     /// Seed of the simulation
@@ -63,7 +63,7 @@ pub struct BoardArgs {
 }
 
 impl BoardArgs {
-    /// A board as it is.
+    /// A source with all options at their defaults.
     pub fn of(source: SourceSpec) -> BoardArgs {
         BoardArgs {
             source,
@@ -83,14 +83,14 @@ impl BoardArgs {
         }
     }
 
-    /// Names of the files that are read, among them such that may be no files: no output may replace them.
+    /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
         let named = [self.garment.clone().map(PathBuf::from), self.source.file()];
         let told = [&self.scene, &self.calibration, &self.shapes].map(Clone::clone);
         named.into_iter().chain(told).flatten().collect()
     }
 
-    /// Refuses options that ask something of the board, where `label` is a recording: nobody hears them.
+    /// Refuses options that configure the board if `label` names a recording.
     pub fn check_recorded(&self, label: &str) -> Result<()> {
         let options = [
             ("--garment", self.garment.is_some()),
@@ -110,7 +110,7 @@ impl BoardArgs {
         }
     }
 
-    /// Opens the source, and the calibration where there is one; the source is then of its counts per newton.
+    /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
         let mut source = source::open(
             &self.source,
@@ -123,7 +123,7 @@ impl BoardArgs {
     }
 }
 
-/// What `taxel live` takes.
+/// Arguments of `taxel live`.
 #[derive(Debug, Clone, Args)]
 pub struct LiveArgs {
     /// The board.
@@ -132,8 +132,8 @@ pub struct LiveArgs {
     /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal's
-    /// picture repeats it]
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal
+    /// repeats it]
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Print messages as JSON, one per line
@@ -145,7 +145,7 @@ pub struct LiveArgs {
     /// Also save the received bytes, for --source file:FILE
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Print one taxel's time, code and pressure, frame by frame
@@ -160,12 +160,12 @@ pub struct LiveArgs {
 }
 
 impl LiveArgs {
-    /// Everything that comes from a source, as it is.
+    /// Everything from a source, with all options at their defaults.
     pub fn of(source: SourceSpec) -> LiveArgs {
         LiveArgs::on(BoardArgs::of(source))
     }
 
-    /// Everything that comes from a board.
+    /// Everything from a board, without limits.
     pub fn on(board: BoardArgs) -> LiveArgs {
         LiveArgs {
             board,
@@ -182,7 +182,7 @@ impl LiveArgs {
     }
 }
 
-/// Reads a time of the command line, s.
+/// Parses a time of the command line, s.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
     time.ok_or_else(|| "must be a time of 0 or more".into())

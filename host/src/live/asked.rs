@@ -1,4 +1,4 @@
-//! What the command line has asked of a board, and whether the board does it.
+//! The requests of the command line to a board, and the answers to them.
 
 use super::BoardArgs;
 use crate::client::{Event, request_name};
@@ -7,14 +7,14 @@ use taxel_core::wire::{self, Request};
 /// Requests that a board has not answered yet.
 #[derive(Debug, Default)]
 pub struct Asked {
-    /// Their numbers, in the order in which they are sent.
+    /// Numbers of the requests, in the order in which they are sent.
     numbers: Vec<u8>,
-    /// What the board has refused, in a sentence: the command cannot do what was asked for.
+    /// Sentence about the first refusal: the command cannot do what was asked for.
     pub refusal: Option<String>,
 }
 
 impl Asked {
-    /// Of frames of the wire that are about to be sent because of these options.
+    /// Collects the requests in frames of the wire that were queued because of these options.
     pub fn of(frames: &[u8], args: &BoardArgs) -> Asked {
         let number = |frame: &[u8]| wire::open(&mut frame.to_vec()).ok()?.first().copied();
         let mut numbers: Vec<u8> = frames.split(|byte| *byte == 0).filter_map(number).collect();
@@ -24,7 +24,7 @@ impl Asked {
         Asked { numbers, refusal: None }
     }
 
-    /// Takes an answer, if the event is one to a request that was asked for.
+    /// Handles an event that answers one of these requests.
     pub fn answered(&mut self, event: &Event) {
         let Event::Answer { request, refusal } = event else { return };
         let Some(at) = self.numbers.iter().position(|number| number == request) else { return };

@@ -1,17 +1,17 @@
-//! A concept's value on the command line, as a host feeds it to a board.
+//! Parses a concept's value from the command line.
 
 use anyhow::{Context, Result, bail};
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::Feed;
 
-/// Reads `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, how old it is (0 ms if not said),
-/// from which age on it no longer counts (never if not said, or 0), and what counts then (0 if not said).
+/// Parses `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, its age (default 0 ms), the age
+/// from which it expires (default never, as for 0), and the value that replaces it then (default 0).
 pub fn feed(text: &str) -> Result<Feed> {
     let (concept, values) =
         text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]")?;
     let short = name(concept);
     if short != concept || short.is_empty() {
-        bail!("{concept:?} is no name of a concept: 1 to 16 bytes");
+        bail!("{concept:?} is not a concept's name: 1 to 16 bytes");
     }
     let words: Vec<&str> = values.split(',').map(str::trim).collect();
     if words.len() > 4 {
@@ -19,7 +19,7 @@ pub fn feed(text: &str) -> Result<Feed> {
     }
     let word = |at: usize| words.get(at).copied();
     let ms = |at: usize| {
-        word(at).map_or(Ok(0), |text| text.parse().with_context(|| format!("{text:?} is no number of ms")))
+        word(at).map_or(Ok(0), |text| text.parse().with_context(|| format!("{text:?} is not a number of ms")))
     };
     Ok(Feed {
         concept: short,
@@ -53,11 +53,11 @@ mod tests {
     fn what_is_no_value_is_refused_in_one_sentence() {
         for (text, why) in [
             ("warmth", "expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]"),
-            ("=1", "\"\" is no name of a concept: 1 to 16 bytes"),
-            ("seventeen-letters=1", "\"seventeen-letters\" is no name of a concept: 1 to 16 bytes"),
+            ("=1", "\"\" is not a concept's name: 1 to 16 bytes"),
+            ("seventeen-letters=1", "\"seventeen-letters\" is not a concept's name: 1 to 16 bytes"),
             ("warmth=1.5", "\"1.5\" is not a number in -1 ..= 1"),
             ("warmth=NaN", "\"NaN\" is not a number in -1 ..= 1"),
-            ("warmth=1,-3", "\"-3\" is no number of ms"),
+            ("warmth=1,-3", "\"-3\" is not a number of ms"),
             ("warmth=1,0,5,2", "\"2\" is not a number in -1 ..= 1"),
             ("warmth=1,0,0,0,0", "warmth=1,0,0,0,0: 5 values, expected 1 to 4"),
         ] {

@@ -1,10 +1,10 @@
-//! How many forms a frame, on the command line.
+//! Parses the number of forms per frame from the command line.
 
 use anyhow::{Result, bail};
 #[cfg(doc)]
 use taxel_core::contact::Forms;
 
-/// Reads 1 to 254, or `all`; what [`Forms::of`] takes.
+/// Parses 1 to 254, or `all`. Returns the argument of [`Forms::of`].
 pub fn forms(text: &str) -> Result<u8> {
     match text.parse() {
         Ok(count @ 1..=254) => Ok(count),

@@ -1,4 +1,4 @@
-//! Plain lines for people: one for each event, one a second of the board; never a control code.
+//! Plain text output: one line for each event, one summary per second of board time. No control codes.
 
 use super::Show;
 use super::narrate::{Narrator, seconds};
@@ -13,12 +13,12 @@ pub struct Lines<W> {
     label: String,
     narrator: Narrator,
     out: W,
-    /// Time and number of the frame of the last summary.
+    /// Time and frame number of the last summary.
     summed: Option<(Micros, u32)>,
 }
 
 impl<W: Write> Lines<W> {
-    /// For what comes from a source.
+    /// Output for a source.
     pub fn new(source: &Source, out: W) -> Lines<W> {
         Lines {
             label: source.label.clone(),
@@ -74,7 +74,7 @@ impl<W: Write> Show for Lines<W> {
     }
 }
 
-/// What was counted in all.
+/// Returns the totals.
 pub(super) fn total(client: &Client) -> String {
     let counts = client.counts();
     let mut text = format!(

@@ -1,4 +1,4 @@
-//! Panels as maps of pressure, two pixels in a character cell.
+//! Draws panels as pressure maps, two pixels in a character cell.
 
 use super::ramp::{Paint, Rgb, color, glyph, mix, pressure};
 use crate::client::Client;
@@ -10,10 +10,10 @@ use taxel_core::garment::{Area, Layout};
 const WHITE: Rgb = [255; 3];
 /// Characters between two panels.
 const GAP: u16 = 2;
-/// A place of a panel without a taxel.
+/// Colour of a position without a taxel.
 const ABSENT: Rgb = [0; 3];
 
-/// Pixels per taxel, or taxels per pixel where there is no room.
+/// Pixels per taxel, or taxels per pixel where space is short.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Zoom {
     Up(u16),
@@ -21,7 +21,7 @@ enum Zoom {
 }
 
 impl Zoom {
-    /// The largest that fits a panel into so many pixels.
+    /// Returns the largest zoom at which a panel fits into `width` by `height` pixels.
     fn fit(area: &Area, width: u16, height: u16) -> Zoom {
         let (columns, rows) = (area.columns.max(1), area.rows.max(1));
         match (width / columns).min(height / rows) {
@@ -30,7 +30,7 @@ impl Zoom {
         }
     }
 
-    /// Pixels for so many taxels.
+    /// Number of pixels for `taxels` taxels.
     fn pixels(self, taxels: u16) -> u16 {
         match self {
             Zoom::Up(up) => taxels.saturating_mul(up),
@@ -47,7 +47,7 @@ impl Zoom {
         (first, last.min(count.saturating_sub(1)))
     }
 
-    /// The pixel of a position in taxels.
+    /// Pixel of a position in taxels.
     fn place(self, at: f64) -> f64 {
         match self {
             Zoom::Up(up) => (at + 0.5) * f64::from(up),
@@ -56,7 +56,7 @@ impl Zoom {
     }
 }
 
-/// How the panels are laid out: `across` of them beside each other, each in a cell of so many characters.
+/// Layout of the panels: `across` of them side by side, each in a cell of this many characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grid {
     across: u16,
@@ -64,7 +64,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid that shows all panels of a garment as large as they fit; none where nothing fits.
+    /// Returns the grid that shows all panels of a garment as large as possible; none if nothing fits.
     pub fn fit(layout: &Layout, space: Rect) -> Option<Grid> {
         let count = layout.areas().len() as u16;
         let grid = |across: u16| Grid {
@@ -78,7 +78,7 @@ impl Grid {
             };
             layout.areas().iter().map(fits).min()
         };
-        // Of equals the narrowest, so that most is left beside.
+        // Among equals the narrowest, which leaves most space beside it.
         let mut grid = grid((1..=count).rev().max_by_key(size)?);
         if grid.cell[0] < 2 || grid.cell[1] < 2 {
             return None;
@@ -88,18 +88,18 @@ impl Grid {
         Some(grid)
     }
 
-    /// Characters from left to right.
+    /// Width, characters.
     pub fn width(&self) -> u16 {
         self.across * self.cell[0]
     }
 
-    /// The zoom of a panel in its cell, of which the first row is its name and the last column is a gap.
+    /// Zoom of a panel in its cell. The cell's first row is the name, its last column a gap.
     fn zoom(&self, area: &Area) -> Zoom {
         let [width, height] = self.cell;
         Zoom::fit(area, width.saturating_sub(1), height.saturating_sub(1) * 2)
     }
 
-    /// Draws all panels, on a scale that ends at `top` counts.
+    /// Draws all panels on a scale that ends at `top` counts.
     pub fn draw(&self, client: &Client, (top, paint): (u16, Paint), space: Rect, buffer: &mut Buffer) {
         let Some(layout) = client.layout() else { return };
         let [width, height] = self.cell;
@@ -122,7 +122,7 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// The name, and below it the map.
+    /// Draws the name, and the map below it.
     fn draw(&self, zoom: Zoom, place: Rect, buffer: &mut Buffer) {
         let bold = Style::new().add_modifier(Modifier::BOLD);
         buffer.set_stringn(place.x, place.y, &self.area.name, usize::from(place.width), bold);
@@ -148,7 +148,7 @@ impl Panel<'_> {
         self.markers(zoom, below, buffer);
     }
 
-    /// The greatest value under a pixel; none where there is no taxel.
+    /// Returns the greatest value under a pixel; none where there is no taxel.
     fn value(&self, zoom: Zoom, x: u16, y: u16) -> Option<u16> {
         let (top, bottom) = zoom.taxels(y, self.area.rows);
         let (left, right) = zoom.taxels(x, self.area.columns);
@@ -161,7 +161,7 @@ impl Panel<'_> {
         (top..=bottom).flat_map(|row| (left..=right).filter_map(move |column| at(row, column))).max()
     }
 
-    /// Whether a pixel belongs to a contact.
+    /// True if a pixel belongs to a contact.
     fn inside(&self, zoom: Zoom, x: Option<u16>, y: Option<u16>) -> bool {
         let low = self.client.worn().map_or(1, |worn| worn.scene.contact.low.max(1));
         let (Some(x), Some(y)) = (x, y) else { return false };
@@ -169,7 +169,7 @@ impl Panel<'_> {
         on_map && self.value(zoom, x, y).is_some_and(|value| value >= low)
     }
 
-    /// Pressure, lighter along the contour of a contact.
+    /// Colour of a pixel's pressure, lighter along the contour of a contact.
     fn color(&self, zoom: Zoom, x: u16, y: u16) -> Rgb {
         let Some(value) = self.value(zoom, x, y) else { return ABSENT };
         let plain = pressure(value, self.top);
@@ -184,7 +184,7 @@ impl Panel<'_> {
         if edge { mix(plain, WHITE, 0.5) } else { plain }
     }
 
-    /// The id of each contact at its centroid.
+    /// Draws the id of each contact at its centroid.
     fn markers(&self, zoom: Zoom, place: Rect, buffer: &mut Buffer) {
         for placed in self.client.contacts().iter().filter(|p| p.contact.panel == self.index) {
             let id = placed.contact.id.to_string();

@@ -1,10 +1,10 @@
-//! Messages as JSON, one a line, each with its `type`.
+//! JSON output: one message per line, each with its `type`.
 //!
-//! A line of type `frame` holds what `taxel process` prints for a frame: the contacts that are there, those
-//! that have gone (`released`), the intention; and what was lost and thinned so far. `time_us` is the board's
-//! time. Lines of a board that lives in real time (a serial port, TCP) also have `host_time_us`, the host's
-//! time of it in microseconds since 1970, and `host_time_uncertainty_us`, how far from that the truth can be,
-//! as soon as the board has answered a `Sync`; nothing else in a line depends on the host's time.
+//! A line of type `frame` holds what `taxel process` prints for a frame: the present contacts, the released
+//! ones (`released`) and the intention; and the counts of lost and thinned messages so far. `time_us` is the
+//! board's time. For a real-time board (serial port, TCP) a line also has `host_time_us`, the host's time of
+//! the message in microseconds since 1970, and `host_time_uncertainty_us`, the bound of its error, once the
+//! board has answered a `Sync`. Nothing else in a line depends on the host's time.
 
 use super::Show;
 use crate::calibrate::{Calibration, Forces};
@@ -27,13 +27,13 @@ pub struct Messages<W> {
 }
 
 impl<W: Write> Messages<W> {
-    /// With the pressure of every taxel, or without.
+    /// Output with or without the pressure of every taxel.
     pub fn new(pixels: bool, out: W) -> Messages<W> {
         Messages { pixels, calibration: None, out }
     }
 
-    /// The same, with the force on each panel (`force_n`, in the order of `panels`) and of each contact where
-    /// the board has this calibration.
+    /// Adds the force on each panel (`force_n`, in the order of `panels`) and of each contact while the board
+    /// uses this calibration.
     pub fn calibrated(self, calibration: Option<Calibration>) -> Messages<W> {
         Messages { calibration, ..self }
     }
@@ -71,7 +71,7 @@ impl<W: Write> Show for Messages<W> {
     }
 }
 
-/// One event as a JSON object.
+/// Encodes one event as a JSON object.
 pub fn message(client: &Client, event: &Event) -> Value {
     match event {
         Event::Hello => hello(client),
@@ -127,7 +127,7 @@ pub fn message(client: &Client, event: &Event) -> Value {
     }
 }
 
-/// The rarer ones.
+/// Encodes the less frequent events.
 fn small(client: &Client, event: &Event) -> Value {
     match event {
         Event::Symbols(list) => {
@@ -207,7 +207,7 @@ fn self_test(report: &SelfTestReport) -> Value {
     line
 }
 
-/// A model is fitted to score 2^18 for what a touch is and -2^18 for the others.
+/// Encodes a gesture. Models are fitted to score 2^18 for the right class and -2^18 for the others.
 fn gesture(client: &Client, report: &GestureReport) -> Value {
     let mut line = at("gesture", report.frame, report.time);
     let more = json!({
@@ -236,14 +236,14 @@ fn merge(line: &mut Value, more: Value) {
     }
 }
 
-/// The board's `time` is in microseconds, and says so here.
+/// Renames `time` to `time_us`, its unit.
 fn rename_time(line: &mut Value) {
     if let Some(time) = line.as_object_mut().and_then(|line| line.remove("time")) {
         line["time_us"] = time;
     }
 }
 
-/// The region's name in the place of its number; shapes likewise.
+/// Replaces the numbers of region and shape by their names.
 fn named(client: &Client, mut value: Value, region: u8) -> Value {
     value["region"] = json!(super::narrate::region_name(client, region));
     if let Some(class) = value.pointer_mut("/words/class") {
@@ -298,7 +298,7 @@ fn hello(client: &Client) -> Value {
     })
 }
 
-/// Force on each panel and of each contact, N; none where the board has another calibration.
+/// Forces on each panel and of each contact, N; none if the board uses another calibration.
 fn forces(client: &Client, calibration: &Calibration) -> Option<[Vec<Option<f64>>; 2]> {
     let (worn, (_, image)) = (client.worn()?, client.image()?);
     let meter =
@@ -307,7 +307,7 @@ fn forces(client: &Client, calibration: &Calibration) -> Option<[Vec<Option<f64>
     Some([meter.panels(&worn.layout, image), client.contacts().iter().map(contact).collect()])
 }
 
-/// The image, panel by panel, row by row.
+/// Pressures of the image by panel and row.
 fn pixels(client: &Client) -> Value {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return json!([]) };
     let panel = |area: &taxel_core::garment::Area| {

@@ -1,4 +1,4 @@
-//! `taxel live`: what a board tells, as a picture in the terminal, as lines, or as JSON.
+//! `taxel live`: shows a board's stream in the terminal, as lines of text or as JSON.
 
 mod args;
 mod asked;
@@ -35,31 +35,30 @@ use crate::source::SourceOptions;
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
 
-/// Something that shows what comes.
+/// Receiver of a stream: shows or stores it.
 pub trait Show {
-    /// Bytes have come; the events that they make are told next.
+    /// Handles received bytes; their events follow in [`event`](Show::event).
     fn bytes(&mut self, _bytes: &[u8]) {}
 
-    /// Takes an event; the client is in the state after it.
+    /// Handles an event; the client already includes it.
     fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
 
-    /// What the host itself has to say of the stream, an [`Event::Log`]: that its source is gone, that it is
-    /// back.
+    /// Handles an [`Event::Log`] of the host itself: the source is lost, or is back.
     fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
         self.event(client, note)
     }
 
-    /// These bytes are about to be sent to the board.
+    /// Called before these bytes are sent to the board.
     fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<()> {
         Ok(())
     }
 
-    /// Bytes have been taken, or none came for a while: whether to go on.
+    /// Called after bytes were handled, or after a while without any. Returns false to stop.
     fn idle(&mut self, _client: &mut Client) -> Result<bool> {
         Ok(true)
     }
 
-    /// The stream has ended.
+    /// Called once at the end of the stream.
     fn end(&mut self, _client: &Client) -> Result<()> {
         Ok(())
     }

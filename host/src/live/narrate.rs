@@ -1,4 +1,4 @@
-//! What came, in sentences: for the plain lines and for the log of the picture.
+//! Events as sentences, for the plain lines and for the log in the terminal.
 
 use crate::client::{Client, Event, Worn, request_name};
 use crate::starts;
@@ -8,12 +8,12 @@ use taxel_core::intent::Leading;
 use taxel_core::symbol::{Extent, Strength, Symbol};
 use taxel_core::wire::GestureReport;
 
-/// Tells what came.
+/// Turns events into sentences.
 #[derive(Debug, Clone)]
 pub(crate) struct Narrator {
     pub counts_per_newton: Option<f32>,
     leading: Leading,
-    /// Garbage has been told, and nothing else has come since.
+    /// Garbage was reported, and no other event has come since.
     garbage: bool,
 }
 
@@ -22,7 +22,7 @@ impl Narrator {
         Narrator { counts_per_newton, leading: Leading::None, garbage: false }
     }
 
-    /// What is worth a line in an event.
+    /// Returns the lines for an event, if it deserves any.
     pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<String> {
         let garbage = matches!(event, Event::Refused(_));
         if std::mem::replace(&mut self.garbage, garbage) && garbage {
@@ -43,7 +43,7 @@ pub(crate) fn seconds(time: Micros) -> String {
     format!("{:8.3} s", time.0 as f64 / 1e6)
 }
 
-/// The sentences that need no memory.
+/// Sentences that do not depend on earlier events.
 fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<String> {
     match event {
         Event::Hello => client.worn().map(hello).into_iter().collect(),
@@ -95,7 +95,7 @@ fn hello(worn: &Worn) -> String {
     )
 }
 
-/// What a touch is taken for, in words.
+/// Describes the class of a touch.
 fn gesture(client: &Client, report: &GestureReport) -> String {
     let (time, panel, name) = (seconds(report.time), panel_name(client, report.panel), &report.name);
     let observed = f64::from(report.observed_ms) / 1e3;
@@ -105,7 +105,7 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
     format!("{time} touch {} of the {panel} {verb}: {name} ({sure}{observed:.1} s)", report.touch)
 }
 
-/// An onset or a release in words.
+/// Describes an onset or a release.
 fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> String {
     let region = region_name(client, symbol.region);
     if symbol.phase != Phase::Released {
@@ -128,7 +128,7 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
         None | Some(Hardness::Firm) => String::new(),
         Some(word) => format!(", feels {}", word.as_str()),
     };
-    // A full taxel does not tell how much more it carried.
+    // A saturated taxel gives only a lower bound.
     let bound = if symbol.words.extent == Extent::Sharp { "at least" } else { "at most" };
     format!(
         "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, {bound} {}{feels}",
@@ -139,7 +139,7 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
     )
 }
 
-/// A total in newtons, where that is known, else in counts.
+/// Formats a total in newtons if the calibration is known, else in counts.
 pub(crate) fn force(total: u32, counts_per_newton: Option<f32>) -> String {
     match counts_per_newton {
         Some(counts) => format!("{:.1} N", total as f32 / counts),

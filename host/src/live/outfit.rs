@@ -1,4 +1,4 @@
-//! Another garment or scene for a board, from a file, before it streams.
+//! Queues the garment, scene and models of the command line before a board streams.
 
 use crate::client::Client;
 use crate::fault::Blame;
@@ -13,34 +13,34 @@ use taxel_core::gesture::{Certainty, GestureConfig, Gestures, Shipped};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
-/// Queues `SetGarment` for a garment that comes with the program or a TOML file. What is wrong with it
-/// whatever the board is said here; the board knows its own pins and size.
+/// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
+/// the board checks its own pins and capacity.
 pub fn wear(client: &mut Client, name_or_path: &str) -> Result<()> {
     let read = garments::read(name_or_path)?;
     Layout::build(&read.garment, usize::from(u16::MAX), 4095)
         .and_then(|layout| Circuit::build(&read.garment, &layout, Pins::ANY))
         .map_err(|error| read.error(&error))?;
     let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
-    verbose::tell(format_args!("garment {} is sent, {} bytes", read.garment.name, bytes.len()));
+    verbose::tell(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
-/// Queues `SetScene` for a TOML file; what it does not say is as in the shipped scene, and its map may be
+/// Queues `SetScene` for a TOML file. Missing keys have the shipped scene's values; the map may be
 /// [named](crate::fcm::scene).
 pub fn play(client: &mut Client, path: &Path) -> Result<()> {
     let place = || path.display().to_string();
     let scene = read_scene(path)?;
     let garment = taxel_core::garment::Garment::reference();
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
-    // Regions are the board's affair: it may wear another garment.
+    // Regions are left to the board, which may have another garment.
     let mut elsewhere = scene.clone();
     elsewhere.react.iter_mut().for_each(|row| row.region.clear());
     Pipeline::build(&elsewhere, &layout).with_context(place)?;
-    verbose::tell(format_args!("scene {} is sent", scene.name));
+    verbose::tell(format_args!("sending scene {}", scene.name));
     client.use_for(&scene).with_context(place)
 }
 
-/// A model that the board holds.
+/// A model in the board's firmware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum GestureModel {
     /// constant, notouch, pat, rub, scratch, stroke, tickle
@@ -49,8 +49,8 @@ pub enum GestureModel {
     Intent,
 }
 
-/// Queues `SetGestures` for a model with its usual settings but the gain, and before it the certainty. Whoever
-/// names a certainty is told as soon as the model is that sure, without a time for which it must have been so.
+/// Queues the confidence and `SetGestures` for a model: the settings of the model except for the gain. With a
+/// confidence, a class is announced as soon as it is reached, without a minimum time in the lead.
 pub fn recognise(
     client: &mut Client,
     model: GestureModel,
@@ -62,11 +62,11 @@ pub fn recognise(
         GestureModel::Intent => Shipped::Intent,
     });
     if let Some(gain) = gain {
-        // What is out of range, not a number included, becomes one that is refused.
+        // Out of range, or NaN: a value that is refused.
         config.gain = (gain * 256.0).round() as u16;
     }
     if let Some(certainty) = certainty {
-        // What is below 0, or no number, becomes one that is refused.
+        // Negative, or NaN: a value that is refused.
         let thousandths = if certainty >= 0.0 { (certainty * 1000.0).round() as u16 } else { u16::MAX };
         Certainty::of(thousandths).context("--gesture-certainty").usage()?;
         client.request(&Request::SetCertainty(thousandths))?;

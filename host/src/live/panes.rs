@@ -1,4 +1,4 @@
-//! The panes beside the maps: contacts, intention.
+//! Panes beside the maps: contacts and intention.
 
 use super::narrate::{force, region_name};
 use super::ramp::{Rgb, color};
@@ -17,7 +17,7 @@ const RED: Rgb = [213, 94, 0];
 const BLUE: Rgb = [86, 180, 233];
 const GREY: Rgb = [128, 128, 128];
 
-/// The colour of an intention.
+/// Colour of an intention.
 pub fn colour_of(leading: Leading) -> Rgb {
     match leading {
         Leading::None => GREY,
@@ -27,7 +27,7 @@ pub fn colour_of(leading: Leading) -> Rgb {
     }
 }
 
-/// A heading, and below it at most as many lines as fit.
+/// Draws a heading and as many of the lines as fit.
 pub fn list(title: &str, lines: &[String], space: Rect, buffer: &mut Buffer) {
     let bold = Style::new().add_modifier(Modifier::BOLD);
     let width = usize::from(space.width);
@@ -45,7 +45,7 @@ pub fn list(title: &str, lines: &[String], space: Rect, buffer: &mut Buffer) {
 /// The heading of [`contact`].
 pub const CONTACTS: &str = " id region     shape        force area  axis    mm/s";
 
-/// A contact as a line.
+/// Formats a contact as a line.
 pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>) -> String {
     let contact = &placed.contact;
     let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
@@ -63,8 +63,7 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     )
 }
 
-/// The leading intention, and a bar for every concept: intentions first, then what follows from them, then
-/// the inputs.
+/// Draws the leading intention, and a bar for every concept: intentions, their consequences, inputs.
 pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
     if space.is_empty() {
         return;
@@ -85,7 +84,7 @@ pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Concepts in the order in which they are shown.
+/// Indices of the concepts in display order.
 fn order(client: &Client) -> Vec<usize> {
     let map = client.worn().and_then(|worn| worn.scene.intent.as_ref()).map(|intent| &intent.map);
     let is_input =
@@ -100,7 +99,7 @@ fn order(client: &Client) -> Vec<usize> {
     order
 }
 
-/// `name ████▌   0.45`
+/// Draws `name ████▌   0.45`.
 fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
     const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
     buffer.set_stringn(space.x, space.y, format!("{name:<11.11}"), usize::from(space.width), Style::new());
@@ -109,7 +108,7 @@ fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
     let eighths = (value.abs().min(1.0) * f64::from(room) * 8.0).round() as usize;
     let filled = "█".repeat(eighths / 8) + EIGHTHS[eighths % 8];
     let start = space.x + 11;
-    // What speaks against a concept is grey.
+    // Negative values are grey.
     let style = Style::new().fg(color(if value < 0.0 { GREY } else { colour }));
     buffer.set_stringn(start, space.y, filled, usize::from(space.width.saturating_sub(11)), style);
     let end = start + room + 1;
@@ -124,8 +123,7 @@ mod tests {
     use crate::live::{LiveArgs, Show, watch};
     use crate::source::{SourceOptions, open};
 
-    /// What is drawn at each moment at which an intention is announced: its bar, and what it was as the board
-    /// told it.
+    /// The bar, and the reported activation, of each announced intention.
     #[derive(Default)]
     struct Bars(Vec<[String; 2]>);
 

@@ -1,5 +1,5 @@
-//! Pressure as colour: viridis, which grows evenly in lightness and reads the same for the colour-blind; and
-//! as characters that grow in weight, where no colour is wanted.
+//! Pressure as colour: viridis, which is perceptually uniform and safe for colour-blind readers. Without
+//! colour: characters of growing weight.
 
 use ratatui::style::Color;
 
@@ -17,21 +17,21 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xfd, 0xe7, 0x25],
 ];
 
-/// Characters that grow in weight; the first is a taxel without pressure.
+/// Characters of growing weight; the first is a taxel without pressure.
 pub const GLYPHS: [char; 10] = ['.', ':', '-', '=', '+', 'o', '*', '#', '%', '@'];
 
 /// How pressure is drawn.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Paint {
-    /// Two pixels in a character, by their colours.
+    /// Two coloured pixels in a character.
     #[default]
     Colours,
-    /// A character of [`GLYPHS`] for two pixels, the greater pressure of both.
+    /// One of [`GLYPHS`] for two pixels, by the greater of the two pressures.
     Glyphs,
 }
 
 impl Paint {
-    /// As the user wants it: `NO_COLOR` that is set and not empty is for characters (<https://no-color.org>).
+    /// The user's choice: a non-empty `NO_COLOR` selects characters (<https://no-color.org>).
     pub fn wanted() -> Paint {
         match std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty()) {
             true => Paint::Glyphs,
@@ -40,40 +40,39 @@ impl Paint {
     }
 }
 
-/// A colour as its parts.
+/// Red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// The colour of a pressure on a scale that ends at `top` counts.
+/// Colour of a pressure on a scale that ends at `top` counts.
 pub fn pressure(value: u16, top: u16) -> Rgb {
     ramp(part(value, top))
 }
 
-/// The character of a pressure on that scale; any pressure is heavier than none.
+/// Character of a pressure on this scale; any pressure is heavier than none.
 pub fn glyph(value: u16, top: u16) -> char {
     let steps = GLYPHS.len() - 1;
     GLYPHS[((part(value, top) * steps as f32).ceil() as usize).min(steps)]
 }
 
-/// The part of the scale, 0 ..= 1. The scale is that of the root, so that a light touch beside a hard one is
-/// seen.
+/// Position on the scale, 0 ..= 1. It is a square root, so that light touches stay visible beside hard ones.
 fn part(value: u16, top: u16) -> f32 {
     (f32::from(value) / f32::from(top.max(1))).min(1.0).sqrt()
 }
 
-/// The colour at a part, 0 ..= 1, of the ramp.
+/// Colour at a position, 0 ..= 1, of the ramp.
 pub fn ramp(part: f32) -> Rgb {
     let place = part.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f32;
     let index = (place as usize).min(VIRIDIS.len() - 2);
     mix(VIRIDIS[index], VIRIDIS[index + 1], place - index as f32)
 }
 
-/// From `a` (0) to `b` (1).
+/// Interpolates from `a` (0) to `b` (1).
 pub fn mix(a: Rgb, b: Rgb, part: f32) -> Rgb {
     let between = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * part).round() as u8;
     [between(a[0], b[0]), between(a[1], b[1]), between(a[2], b[2])]
 }
 
-/// As the terminal's.
+/// Converts a colour to the terminal's.
 pub fn color([r, g, b]: Rgb) -> Color {
     Color::Rgb(r, g, b)
 }
@@ -86,7 +85,7 @@ mod tests {
     fn the_ramp_rises_in_lightness() {
         let light = |[r, g, b]: Rgb| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
         let all: Vec<_> = (0..=400).map(|v| light(pressure(v, 400))).collect();
-        // Up to the rounding of a colour to 8 bits.
+        // Except for rounding to 8 bits.
         assert!(all.windows(2).all(|pair| pair[0] <= pair[1] + 10_000));
         assert_eq!(pressure(0, 400), VIRIDIS[0]);
         assert_eq!(pressure(4095, 400), VIRIDIS[9]);

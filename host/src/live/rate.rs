@@ -1,14 +1,14 @@
-//! Frames per second of the board's own time.
+//! Frame rate in the board's own time.
 
 use std::collections::VecDeque;
 use taxel_core::format::Micros;
 
-/// Over the last second.
+/// Times of the frames of the last second.
 #[derive(Debug, Default, Clone)]
 pub struct Rate(VecDeque<Micros>);
 
 impl Rate {
-    /// A frame of that time.
+    /// Adds a frame.
     pub fn add(&mut self, time: Micros) {
         if self.0.back().is_some_and(|last| *last >= time) {
             self.0.clear();

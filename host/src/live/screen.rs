@@ -1,4 +1,4 @@
-//! The picture in a terminal, and its keys.
+//! Display in a terminal, and its keys.
 
 use super::ramp::Paint;
 use super::{Show, View, lines};
@@ -9,24 +9,24 @@ use ratatui::crossterm::event::{self, KeyCode, KeyEventKind, KeyModifiers};
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
 
-/// Time between two pictures.
+/// Time between two redraws.
 const PERIOD: Duration = Duration::from_millis(33);
-/// Frames over which the key `t` tares.
+/// Frames averaged by a tare with the key `t`.
 const TARE: u16 = 32;
 
-/// A terminal that shows a view; it is left as it was found, also by a panic.
+/// A terminal that shows a view; it is restored when dropped, and on a panic.
 pub struct Screen {
     terminal: DefaultTerminal,
     view: View,
     drawn: Option<Instant>,
     asked: Instant,
     token: u32,
-    /// The terminal is as it was.
+    /// The terminal has been restored.
     left: bool,
 }
 
 impl Screen {
-    /// Takes the terminal.
+    /// Takes over the terminal.
     pub fn open(view: View) -> Result<Screen> {
         Ok(Screen {
             terminal: ratatui::try_init()?,
@@ -38,7 +38,7 @@ impl Screen {
         })
     }
 
-    /// What a key asks for: whether to go on.
+    /// Handles a key. Returns false to stop.
     fn key(&mut self, client: &mut Client, key: event::KeyEvent) -> Result<bool> {
         match key.code {
             KeyCode::Char('q') | KeyCode::Esc => return Ok(false),
@@ -100,7 +100,7 @@ impl Show for Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        // Twice would move the cursor.
+        // Restoring twice would move the cursor.
         if !self.left {
             ratatui::restore();
         }

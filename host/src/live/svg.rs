@@ -1,4 +1,4 @@
-//! The picture as SVG: for documents.
+//! Writes the terminal's display as SVG, for documents.
 
 use super::{Show, View};
 use crate::client::{Client, Event};
@@ -13,18 +13,18 @@ use std::fmt::Write;
 const CELL: [u32; 2] = [8, 16];
 const INK: &str = "#d8dee9";
 const PAPER: &str = "#12141a";
-/// The terminal that is drawn.
+/// Size of the terminal that is drawn, characters.
 const SIZE: [u16; 2] = [100, 40];
 
-/// Draws the last picture into a file.
+/// Writes the last display to a file.
 pub struct Painter {
     view: View,
-    /// Taken at the end.
+    /// None once written.
     output: Option<Output>,
 }
 
 impl Painter {
-    /// Of a view.
+    /// A writer for this view.
     pub fn new(view: View, output: Output) -> Painter {
         Painter { view, output: Some(output) }
     }
@@ -43,7 +43,7 @@ impl Show for Painter {
     }
 }
 
-/// A buffer as SVG: backgrounds and blocks as rectangles, the rest as text.
+/// Encodes a buffer as SVG: backgrounds and blocks become rectangles, the rest text.
 pub fn picture(buffer: &Buffer) -> String {
     let (width, height) = (u32::from(buffer.area.width) * CELL[0], u32::from(buffer.area.height) * CELL[1]);
     let mut svg = format!(
@@ -62,7 +62,7 @@ pub fn picture(buffer: &Buffer) -> String {
     svg
 }
 
-/// Rectangles of one row: the parts of cells that have a colour, neighbours of one colour together.
+/// Writes the rectangles of one row: coloured halves of cells, with neighbours of one colour merged.
 fn blocks(buffer: &Buffer, y: u16, svg: &mut String) -> std::fmt::Result {
     let top = u32::from(y) * CELL[1];
     let half = CELL[1] / 2;
@@ -94,7 +94,7 @@ fn blocks(buffer: &Buffer, y: u16, svg: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
-/// The row of a height.
+/// SVG y of a row.
 fn y_of(y: u32) -> u16 {
     (y / CELL[1]) as u16
 }
@@ -103,18 +103,18 @@ fn row(buffer: &Buffer, y: u16) -> impl Iterator<Item = &Cell> {
     (0..buffer.area.width).filter_map(move |x| buffer.cell((x, y)))
 }
 
-/// The colour of a half of a cell; none: paper.
+/// Colour of half a cell; none for the background.
 fn half_colour(cell: &Cell, upper: bool) -> Option<String> {
     let colour = if upper && cell.symbol() == "▀" { cell.fg } else { cell.bg };
     (colour != Color::Reset).then(|| hex(colour, PAPER))
 }
 
-/// Eighths of a cell that a bar fills from the left.
+/// Eighths of a cell that a bar character fills from the left.
 fn bar(symbol: &str) -> Option<u32> {
     "▏▎▍▌▋▊▉█".chars().position(|c| symbol.starts_with(c)).map(|index| index as u32 + 1)
 }
 
-/// The text of one row, neighbours of one style together.
+/// Writes the text of one row, with neighbours of one style merged.
 fn text(buffer: &Buffer, y: u16, svg: &mut String) -> std::fmt::Result {
     let cells: Vec<_> = row(buffer, y).collect();
     let is_text = |cell: &Cell| cell.symbol() != "▀" && bar(cell.symbol()).is_none();

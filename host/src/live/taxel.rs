@@ -1,4 +1,4 @@
-//! One taxel over time: for bringing up a block, a multiplexer, a line.
+//! Prints one taxel over time, to bring up a block, a multiplexer or a line.
 
 use super::Show;
 use crate::client::{Client, Event};
@@ -10,7 +10,7 @@ use std::str::FromStr;
 use taxel_core::format::Micros;
 use taxel_core::garment::Place;
 
-/// `PANEL,ROW,COL`: the panel by name or number.
+/// `PANEL,ROW,COL`; the panel by name or number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TaxelPlace {
     panel: String,
@@ -23,7 +23,8 @@ impl FromStr for TaxelPlace {
 
     fn from_str(text: &str) -> Result<TaxelPlace, String> {
         let parts: Vec<_> = text.split(',').map(str::trim).collect();
-        let number = |text: &str| text.parse::<u16>().map_err(|_| format!("\"{text}\" is no row or column"));
+        let number =
+            |text: &str| text.parse::<u16>().map_err(|_| format!("\"{text}\" is not a row or column"));
         match parts[..] {
             [panel, row, column] if !panel.is_empty() => {
                 Ok(TaxelPlace { panel: panel.into(), row: number(row)?, column: number(column)? })
@@ -34,7 +35,7 @@ impl FromStr for TaxelPlace {
 }
 
 impl TaxelPlace {
-    /// The taxel's number on a client's garment.
+    /// Number of the taxel on a client's garment.
     fn taxel(&self, client: &Client) -> Result<usize> {
         let layout = client.layout().ok_or_else(|| anyhow!("the garment is not known"))?;
         let names = layout.areas().iter().position(|area| area.name == self.panel.as_str());
@@ -52,22 +53,22 @@ impl TaxelPlace {
     }
 }
 
-/// Prints a taxel: time, raw code where the board sends it, pressure.
+/// Prints a taxel: time, raw code if the board sends it, pressure.
 pub struct TaxelLines<W> {
     place: TaxelPlace,
     json: bool,
     out: W,
     taxel: usize,
-    /// Raw codes have been asked for.
+    /// Raw codes have been requested.
     asked: bool,
-    /// Raw codes come.
+    /// Raw codes are being received.
     raw: bool,
-    /// Frame, time and value of an image whose codes have not come.
+    /// Frame, time and value of an image whose raw codes are still to come.
     value: Option<(u32, Micros, u16)>,
 }
 
 impl<W: Write> TaxelLines<W> {
-    /// Of the taxel at that place.
+    /// Output for the taxel at this place.
     pub fn new(place: TaxelPlace, json: bool, out: W) -> TaxelLines<W> {
         TaxelLines { place, json, out, taxel: 0, asked: false, raw: false, value: None }
     }
@@ -86,7 +87,7 @@ impl<W: Write> TaxelLines<W> {
         Ok(writeln!(self.out, "{seconds:.6} s  code {}  pressure {}", word(code), word(value))?)
     }
 
-    /// An image whose codes did not come in time.
+    /// Prints an image whose raw codes did not come in time.
     fn late(&mut self) -> Result<()> {
         match self.value.take() {
             Some((frame, time, value)) => self.line(frame, time, None, Some(value)),

@@ -1,4 +1,4 @@
-//! The picture: what is known of a garment, drawn into a buffer of characters.
+//! State of the display: draws what is known of a garment into a buffer of characters.
 
 use super::map::Grid;
 use super::narrate::{Narrator, region_name};
@@ -13,16 +13,16 @@ use ratatui::style::{Color, Modifier, Style};
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// Lines of the log that are kept.
+/// Log lines kept.
 const LOG: usize = 100;
 /// Width that the panes beside the maps need.
 const SIDE: u16 = 62;
-/// The smallest width at which they are beside and not below.
+/// Smallest width at which the panes are beside the maps instead of below them.
 const WIDE: u16 = 98;
-/// End of the scale at the start, counts.
+/// Initial end of the scale, counts.
 const TOP: u16 = 400;
 
-/// What the picture remembers besides the client.
+/// State of the display beyond the client's.
 #[derive(Debug, Clone)]
 pub struct View {
     label: String,
@@ -33,12 +33,12 @@ pub struct View {
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
     paint: Paint,
-    /// What is shown instead of what comes: the client and the view when the user stopped it.
+    /// Shown while paused: the client and the view at that moment.
     paused: Option<Box<(Client, View)>>,
 }
 
 impl View {
-    /// Of what comes from a source.
+    /// A view of a source.
     pub fn new(source: &Source) -> View {
         View {
             label: source.label.clone(),
@@ -52,12 +52,12 @@ impl View {
         }
     }
 
-    /// The same, painted like this.
+    /// Sets how pressure is drawn.
     pub fn painted(self, paint: Paint) -> View {
         View { paint, ..self }
     }
 
-    /// Takes an event.
+    /// Handles an event.
     pub fn event(&mut self, client: &Client, event: &Event) {
         if let Event::Frame { time, .. } = event {
             self.rate.add(*time);
@@ -67,7 +67,7 @@ impl View {
         }
     }
 
-    /// Answers a key in the log, also where it stands still.
+    /// Adds a line to the log, also while paused.
     pub fn say(&mut self, line: String) {
         if let Some((_, view)) = self.paused.as_deref_mut() {
             view.note(line.clone());
@@ -80,7 +80,7 @@ impl View {
         self.log.truncate(LOG);
     }
 
-    /// Stands still, with its clock and its log, or goes on.
+    /// Pauses the display including its clock and log, or resumes it.
     pub fn pause(&mut self, client: &Client) {
         self.paused = match self.paused {
             Some(_) => None,
@@ -88,7 +88,7 @@ impl View {
         };
     }
 
-    /// Doubles the end of the scale, or halves it.
+    /// Doubles or halves the end of the scale.
     pub fn zoom(&mut self, up: bool) {
         self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(25, 51_200);
         if let Some((_, view)) = self.paused.as_deref_mut() {
@@ -142,7 +142,7 @@ impl View {
         }
     }
 
-    /// Draws the maps: the width that they take.
+    /// Draws the maps. Returns their width.
     fn maps(&self, client: &Client, space: Rect, buffer: &mut Buffer) -> u16 {
         let Some(grid) = client.layout().and_then(|layout| Grid::fit(layout, space)) else { return 0 };
         grid.draw(client, (self.top, self.paint), space, buffer);
@@ -198,7 +198,7 @@ impl View {
         self.contacts(client, upper, buffer);
         panes::intention(client, middle, buffer);
         let log: Vec<String> = self.log.iter().cloned().collect();
-        panes::list("events, the newest first", &log, lower, buffer);
+        panes::list("events, newest first", &log, lower, buffer);
     }
 
     fn contacts(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
@@ -207,7 +207,7 @@ impl View {
         panes::list(panes::CONTACTS, &lines, space, buffer);
     }
 
-    /// Keys and the scale.
+    /// Draws keys and scale.
     fn footer(&self, paused: bool, space: Rect, buffer: &mut Buffer) {
         if space.is_empty() {
             return;
@@ -240,7 +240,7 @@ mod tests {
     use super::*;
     use crate::source::{self, SourceOptions};
 
-    /// A terminal before which a box is pressed on the chest for a second.
+    /// A terminal in which a box is pressed on the chest for a second.
     struct Seat {
         source: Source,
         client: Client,
@@ -256,7 +256,7 @@ mod tests {
             Seat { source, client, view }
         }
 
-        /// Goes on until a frame of that time, us.
+        /// Runs until a frame of this time, us.
         fn until(&mut self, time_us: u64) {
             let mut buffer = [0; 512];
             self.source.port.write(&self.client.take_requests()).unwrap();

@@ -1,4 +1,4 @@
-//! A source is read until it ends, or until enough has come.
+//! Reads a source until it ends, or until the requested amount has come.
 
 use super::asked::Asked;
 use super::{BoardArgs, LiveArgs, Show, outfit};
@@ -19,13 +19,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
 
-/// How long a board that says nothing, or a source that is gone, is waited for where somebody watches for some
-/// time only.
+/// Longest wait for a silent board or a lost source in a run of limited time.
 const SILENCE: Duration = Duration::from_secs(10);
-/// How long nothing is said of a board that says nothing.
+/// Silence after which a message is printed.
 const QUIET: Duration = Duration::from_secs(3);
 
-/// Shows what comes from a source until it ends, or until enough has come.
+/// Shows a source until it ends, or until the requested amount has come.
 pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()> {
     let limited = args.frames.is_some() || args.seconds.is_some();
     let returns = match (args.board.once, limited) {
@@ -77,15 +76,13 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()>
     }
 }
 
-/// What `-v` tells of a board.
+/// Prints events for `-v`.
 fn tell(client: &Client, event: &Event) {
     match event {
         Event::Hello => {
             if let Some(worn) = client.worn() {
                 let (firmware, garment, scene) = (&worn.firmware, &worn.garment.name, &worn.scene.name);
-                verbose::tell(format_args!(
-                    "board {firmware} wears garment {garment} and plays scene {scene}"
-                ));
+                verbose::tell(format_args!("board {firmware}: garment {garment}, scene {scene}"));
             }
         }
         Event::Answer { request, refusal: None } => {
@@ -98,13 +95,13 @@ fn tell(client: &Client, event: &Event) {
     }
 }
 
-/// A board is at fault where none is heard, a file is not.
+/// Error for a source without a `Hello`: a board is at fault, a recording is not.
 fn silent(source: &Source, bytes: u64) -> Error {
     let why = format!("{}: no Hello of a taxel board in {bytes} bytes", source.label);
     if source.real_time { Fault::board(why).into() } else { Error::msg(why) }
 }
 
-/// Queues what is asked of the board before anything is shown.
+/// Queues the options' requests to the board.
 fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
     if !source.listens {
         args.check_recorded(&source.label)?;
@@ -112,7 +109,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(garment) = args.garment.as_ref().filter(|_| !source.wears_asked) {
         if source.label.starts_with("sim:") {
             bail!(Fault::usage(format!(
-                "--garment {garment}: a simulated board wears the garment that it began with"
+                "--garment {garment}: a simulated board keeps the garment that it started with"
             )));
         }
         outfit::wear(client, garment)?;
@@ -142,13 +139,13 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     Ok(())
 }
 
-/// When enough has come.
+/// Conditions for the end of a run.
 struct Limits {
     frames: Option<u64>,
-    /// Time that may pass, us.
+    /// Time limit, us.
     longest_us: Option<u64>,
     passed: Passed,
-    /// The codes of the last image, which come after it, are waited for.
+    /// Wait for the raw codes of the last image, which follow it.
     codes: bool,
     ended: bool,
 }
@@ -175,7 +172,7 @@ impl Limits {
     }
 }
 
-/// Keeps the bytes that were shown.
+/// Saves the received bytes.
 struct Saver {
     file: File,
     path: PathBuf,
@@ -193,12 +190,12 @@ impl Saver {
     }
 }
 
-/// With a board that says nothing.
+/// Patience with a silent board.
 struct Patience {
-    /// Whoever watches for some time only does not wait for ever.
+    /// The run is limited in time, so the wait is, too.
     limited: bool,
     began: Instant,
-    /// It was said that nothing comes.
+    /// The silence has been reported.
     told: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The content of an output, before the output has it.
+//! Content of an output before it gets its name.
 
 use super::file::{Output, folder};
 use super::part::{self, Part};
@@ -8,15 +8,15 @@ use anyhow::{Context, Result};
 use std::fs::File;
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
 
-/// Content that is being written. Errors name the output. Dropped without [`Draft::keep`], the output is as it
-/// was before.
+/// Content being written. Errors name the output. If it is dropped without [`Draft::keep`], the output stays
+/// as before.
 #[derive(Debug)]
 pub struct Draft {
     output: Output,
     sink: Sink,
 }
 
-/// Where the bytes go meanwhile.
+/// Destination of the bytes until then.
 #[derive(Debug)]
 enum Sink {
     Standard(Stdout),
@@ -39,7 +39,7 @@ impl Draft {
         Ok(Draft { output, sink })
     }
 
-    /// Gives the content to the output: it is on the disk when this returns.
+    /// Puts the content into the output; it is on the disk when this returns.
     pub fn keep(mut self) -> Result<()> {
         self.flush()?;
         verbose::tell(format_args!("has written {}", self.output.name.display()));
@@ -50,8 +50,8 @@ impl Draft {
         self.output.take_name(&part.0)
     }
 
-    /// The error with the output's name. One of the standard output stays as it is: a reader that is gone is no
-    /// failure.
+    /// Adds the output's name to an error. Errors of the standard output stay unchanged: a reader that has
+    /// exited is not a failure.
     fn told<T>(&self, done: io::Result<T>) -> io::Result<T> {
         done.map_err(|error| match self.sink {
             Sink::Standard(_) => error,

@@ -1,4 +1,4 @@
-//! A file that is going to be written.
+//! An output file.
 
 use super::draft::Draft;
 use super::force::Force;
@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// An output that may be written: it is no input, and it is free or may be replaced.
+/// An output that may be written: it is not an input, and it does not exist or may be replaced.
 #[derive(Debug)]
 pub struct Output {
     pub(super) name: PathBuf,
@@ -21,7 +21,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// A file that cannot be the standard output. `inputs` are the files that the command reads.
+    /// A file, not the standard output. `inputs` are the files that the command reads.
     pub fn file<P: AsRef<Path>>(
         name: &Path,
         force: Force,
@@ -50,41 +50,41 @@ impl Output {
         }
     }
 
-    /// A file that the command has read and writes again as the user asked: with more in it, or repaired.
+    /// A file that the command has read and rewrites on request: extended or repaired.
     pub fn update(name: &Path) -> Result<Output> {
         let none: [&Path; 0] = [];
         Output::file(name, Force { force: true }, none)
     }
 
-    /// The name as the user wrote it.
+    /// Name as given by the user.
     pub fn name(&self) -> &Path {
         &self.name
     }
 
-    /// Whether it is the standard output: what else a command prints there would be in the way.
+    /// True for the standard output, where a command must not print anything else.
     pub fn is_standard(&self) -> bool {
         self.place == Place::Standard
     }
 
-    /// Writes all of it at once.
+    /// Writes all bytes at once.
     pub fn write(self, bytes: &[u8]) -> Result<()> {
         let mut draft = self.draft()?;
         draft.write_all(bytes)?;
         draft.keep()
     }
 
-    /// Begins the content. The output gets it with [`Draft::keep`].
+    /// Begins the content; [`Draft::keep`] puts it into the output.
     pub fn draft(self) -> Result<Draft> {
         Draft::of(self)
     }
 
-    /// Begins a file that has its name before it is complete: a recording, of which a crash shall leave what
-    /// was written. It gets the name with [`Begun::name`], once its beginning is written. An old file that is
-    /// replaced is gone then; who has it open goes on reading it.
+    /// Begins a file that gets its name before it is complete: a recording, of which a crash must leave what
+    /// was written. [`Begun::name`] gives it the name once its beginning is written. A replaced file is then
+    /// gone; programs that have it open can go on reading it.
     pub fn begin(self) -> Result<(File, Begun)> {
         let place = || format!("{} cannot be written", self.name.display());
         let (file, part) = match &self.place {
-            Place::Standard => bail!("the standard output cannot be cut back: name a file"),
+            Place::Standard => bail!("the standard output cannot be truncated: name a file"),
             Place::Device(path) => (place::device(path).with_context(place)?, None),
             Place::File(path, _) => {
                 let (file, part) =
@@ -95,7 +95,7 @@ impl Output {
         Ok((file, Begun { output: self, part }))
     }
 
-    /// Refuses what is an input; it may have become one since it was looked at.
+    /// Error if it is an input; it may have become one since the first check.
     fn is_no_input(&self) -> Result<()> {
         let Place::File(path, _) = &self.place else { return Ok(()) };
         let Some(same) = self.inputs.iter().find(|input| is_same(path, input)) else { return Ok(()) };
@@ -108,14 +108,14 @@ impl Output {
         bail!(Fault::usage(told))
     }
 
-    /// Gives the output's name to a temporary file.
+    /// Renames a temporary file to the output's name.
     pub(super) fn take_name(&self, part: &Path) -> Result<()> {
         let Place::File(path, existed) = &self.place else { return Ok(()) };
         let place = || format!("{} cannot be written", self.name.display());
         self.is_no_input()?;
         if self.force.force {
             if let (true, Ok(old)) = (existed, fs::metadata(path)) {
-                // A file keeps who may read it.
+                // The permissions are kept.
                 fs::set_permissions(part, old.permissions()).with_context(place)?;
             }
             fs::rename(part, path).with_context(place)?;
@@ -129,7 +129,7 @@ impl Output {
     }
 }
 
-/// A file that is written and has no name yet. Dropped, it is gone.
+/// A file being written, without a name yet. Dropping it deletes it.
 #[derive(Debug)]
 pub struct Begun {
     output: Output,
@@ -137,7 +137,7 @@ pub struct Begun {
 }
 
 impl Begun {
-    /// Gives it the output's name; what was written so far is on the disk when this returns.
+    /// Gives it the output's name; the bytes written so far are on the disk when this returns.
     pub fn name(self) -> Result<()> {
         let Some(Part(part)) = &self.part else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
@@ -150,7 +150,7 @@ fn exists(name: &Path) -> anyhow::Error {
     anyhow::anyhow!("{} already exists: give another name, or --force to replace it", name.display())
 }
 
-/// The folder of a path that was found by [`Place::of`].
+/// Folder of a path found by [`Place::of`].
 pub(super) fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }

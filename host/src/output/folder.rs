@@ -1,4 +1,4 @@
-//! A folder that is going to be written.
+//! An output folder.
 
 use super::file::folder as parent;
 use super::force::Force;
@@ -11,24 +11,23 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// The content of a folder that is being written, in a temporary folder. Dropped without [`Folder::keep`], the
-/// folder is as it was before.
+/// Content of a folder being written, in a temporary folder. If it is dropped without [`Folder::keep`], the
+/// folder stays as before.
 #[derive(Debug)]
 pub struct Folder {
     name: PathBuf,
-    /// Its path without links.
+    /// Path without links.
     path: PathBuf,
-    /// Where its content lies until it is complete: beside the folder, or inside it where nothing can be made
-    /// beside it.
+    /// Temporary folder of the content: beside the folder, or inside it if nothing can be created beside it.
     part: PathBuf,
     force: Force,
     ours: fn(&Path) -> bool,
 }
 
 impl Folder {
-    /// Begins a folder that does not exist or is empty; with `--force` one that holds nothing but files of
-    /// which `ours`, told their paths inside the folder, says that they are such an output's. `inputs` are the
-    /// files that the command reads.
+    /// Begins a folder that does not exist or is empty; with `--force` also one with only files of such an
+    /// output, as recognised by `ours` from their paths inside the folder. `inputs` are the files that the
+    /// command reads.
     pub fn begin<P: AsRef<Path>>(
         name: &Path,
         force: Force,
@@ -54,7 +53,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Refuses a folder that holds what is no such output's: it would be lost.
+    /// Error if the folder has files of other kinds, which would be lost.
     fn may_be_replaced(&self) -> Result<()> {
         let shown = self.name.display();
         for file in files(&self.path).with_context(|| format!("{shown} cannot be written"))? {
@@ -63,13 +62,16 @@ impl Folder {
             }
             let inside = file.strip_prefix(&self.path)?;
             if !(self.ours)(inside) {
-                bail!("{shown} holds {}, which is no such output: name another folder", inside.display());
+                bail!(
+                    "{shown} contains {}, which is not part of such an output: name another folder",
+                    inside.display()
+                );
             }
         }
         Ok(())
     }
 
-    /// Begins a file inside it; folders on the way are made.
+    /// Creates a file inside the folder, with its parent folders.
     pub fn file(&self, inside: impl AsRef<Path>) -> Result<BufWriter<File>> {
         let path = self.part.join(&inside);
         let place = || format!("{} cannot be written", self.name.join(&inside).display());
@@ -77,20 +79,20 @@ impl Folder {
         File::create_new(path).map(BufWriter::new).with_context(place)
     }
 
-    /// Makes a folder inside it.
+    /// Creates a folder inside the folder.
     pub fn folder(&self, inside: impl AsRef<Path>) -> Result<()> {
         let place = || format!("{} cannot be written", self.name.join(&inside).display());
         fs::create_dir_all(self.part.join(&inside)).with_context(place)
     }
 
-    /// Writes a small file inside it at once; its folder is there.
+    /// Writes a small file inside the folder; its parent folder exists.
     pub fn small_file(&self, inside: impl AsRef<Path>, content: &[u8]) -> Result<()> {
         let place = || format!("{} cannot be written", self.name.join(&inside).display());
         let mut file = File::create_new(self.part.join(&inside)).with_context(place)?;
         file.write_all(content).with_context(place)
     }
 
-    /// Puts the content in its place: it is on the disk when this returns.
+    /// Puts the content in place; it is on the disk when this returns.
     pub fn keep(self) -> Result<()> {
         let place = || format!("{} cannot be written", self.name.display());
         for file in files(&self.part).with_context(place)? {
@@ -99,12 +101,12 @@ impl Folder {
         self.keep_unsynced()
     }
 
-    /// Puts the content in its place and leaves it to the system when it reaches the disk: for very many small
-    /// files that can be made again, each of which would be waited for.
+    /// Puts the content in place without waiting for the disk: for a great number of small files that can be
+    /// made again.
     pub fn keep_unsynced(mut self) -> Result<()> {
         let shown = self.name.display().to_string();
         let place = || format!("{shown} cannot be written");
-        // Files may have come, or a link, since it was looked at.
+        // Files or a link may have appeared since the first check.
         if fs::symlink_metadata(&self.path).is_ok_and(|known| !known.is_dir()) {
             bail!("{}: it has become a link or a file meanwhile", place());
         }
@@ -120,15 +122,15 @@ impl Folder {
         remove(&self.part).with_context(left)
     }
 
-    /// Gives the folder's name to the temporary one, and the other way round.
+    /// Exchanges the names of the folder and the temporary one.
     fn take_place(&self) -> io::Result<()> {
         let Ok(old) = fs::metadata(&self.path) else { return fs::rename(&self.part, &self.path) };
-        // A folder keeps who may read it.
+        // The permissions are kept.
         fs::set_permissions(&self.part, old.permissions())?;
         part::exchange(&self.part, &self.path)
     }
 
-    /// Exchanges the content. What has been moved is moved back where something cannot be.
+    /// Exchanges the content. If a file cannot be moved, those moved before are moved back.
     fn move_inside(&mut self) -> Result<()> {
         let (_, aside) = part::make(&self.part, |aside| fs::create_dir(aside))?;
         let is_content = |entry: &PathBuf| *entry != aside && !is_temporary(entry);
@@ -143,7 +145,7 @@ impl Folder {
             if let Err(error) = fs::rename(from, &to) {
                 let back = |(from, to): &(&PathBuf, PathBuf)| fs::rename(to, from);
                 if moved.iter().rev().try_for_each(back).is_err() {
-                    // It may hold the only copy of what was there.
+                    // It may hold the only copy of the old content.
                     let left = std::mem::take(&mut self.part);
                     return Err(error).with_context(|| format!("what it held is in {}", left.display()));
                 }
@@ -161,7 +163,7 @@ impl Drop for Folder {
     }
 }
 
-/// The path without links of a folder that is there, or is going to be in one that is made now.
+/// Path without links of an existing folder, or of a new one in a folder that is created now if needed.
 fn place_of(name: &Path) -> Result<PathBuf> {
     if name.exists() {
         return Ok(fs::canonicalize(name)?);
@@ -175,7 +177,7 @@ fn place_of(name: &Path) -> Result<PathBuf> {
     Ok(fs::canonicalize(around)?.join(last))
 }
 
-/// A temporary folder beside `path`, from which it can be moved there; else inside.
+/// Creates a temporary folder beside `path`, from which it can be renamed; else inside.
 fn temporary(path: &Path) -> Result<PathBuf> {
     let make = |folder: &Path| part::make(folder, |part| fs::create_dir(part)).map(|(_, part)| part);
     match make(parent(path)) {
@@ -199,7 +201,7 @@ fn is_on_one_disk(_: &Path, _: &Path) -> bool {
     true
 }
 
-/// Removes a temporary folder, if it is still there; what could not be removed is tried once more.
+/// Removes a temporary folder if it still exists, with a second attempt.
 fn remove(part: &Path) -> io::Result<()> {
     match fs::remove_dir_all(part).or_else(|_| fs::remove_dir_all(part)) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
@@ -207,7 +209,7 @@ fn remove(part: &Path) -> io::Result<()> {
     }
 }
 
-/// Whether a kill has left it, or another process is writing it.
+/// True if a kill has left it, or another process is writing it.
 fn is_temporary(entry: &Path) -> bool {
     entry.file_name().is_some_and(|name| part::is_one(Path::new(name)))
 }
@@ -216,8 +218,8 @@ fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
 }
 
-/// All files in a folder and in those in it; links are not followed. None where there is no folder, nor what a
-/// kill has left of a command like this one.
+/// All files in a folder and its subfolders, without following links; none if the folder does not exist.
+/// Leftovers of killed commands are ignored.
 fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     if !folder.exists() {

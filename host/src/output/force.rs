@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-/// Whether an output that exists is replaced.
+/// Whether an existing output is replaced.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
 pub struct Force {
     /// Replace the output if it exists

@@ -1,21 +1,21 @@
-//! The one way in which a command writes what the user names with `-o`, `--save` and the like.
+//! Writing of all outputs that the user names with `-o`, `--save` and the like.
 //!
-//! An output is looked at before a command begins its work: a name that leads to an input of the same command
-//! is refused (by whatever spelling or link it leads there), another file that exists is replaced only with
-//! `--force`. The bytes go to a temporary file beside the output (`taxel-PROCESS-N.part`), reach the disk, and
-//! only then get the name: at every moment the name holds either all of the old content or all of the new. So
-//! does that of a folder, on Linux even through a kill.
+//! An output is checked before a command begins its work: a name that leads to an input of the same command
+//! is refused (whatever the spelling or link), and another existing file is replaced only with `--force`. The
+//! bytes go to a temporary file beside the output (`taxel-PROCESS-N.part`), are flushed to the disk, and only
+//! then get the name: at every moment the name has either all of the old content or all of the new. For
+//! folders this holds, too, on Linux even through a kill.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `force.rs` | the option `--force` |
 //! | `same.rs` | whether two names lead to one file |
 //! | `place.rs` | what a name leads to: a file, a device, the standard output |
-//! | `file.rs` | [`Output`]: a file that is going to be written; [`Begun`]: a recording, named once its beginning is |
+//! | `file.rs` | [`Output`]: an output file; [`Begun`]: a recording, named once its beginning is written |
 //! | `draft.rs` | [`Draft`]: its content, before it has the name |
-//! | `folder.rs` | [`Folder`]: a folder that is going to be written |
-//! | `scratch.rs` | [`Scratch`]: a temporary file for what waits for its turn |
-//! | `part.rs` | names of temporary files, and what brings a name to the disk |
+//! | `folder.rs` | [`Folder`]: an output folder |
+//! | `scratch.rs` | [`Scratch`]: a temporary file for data that is needed later |
+//! | `part.rs` | names of temporary files, and flushing of names to the disk |
 //!
 //! A command flattens [`Force`] into its arguments and asks for the output first:
 //!
@@ -60,8 +60,7 @@ mod scratch;
 #[cfg(test)]
 mod tests;
 
-/// Prints what a command has to say besides its output: on the standard error where the output is the standard
-/// output.
+/// Prints a command's messages besides its output: on standard error if the output is the standard output.
 pub fn tell(is_standard: bool, text: &str) {
     if is_standard {
         eprint!("{text}");

@@ -1,4 +1,4 @@
-//! Temporary files and folders, and what brings a name to the disk.
+//! Temporary files and folders, and flushing of names to the disk.
 
 use anyhow::{Context, Result};
 use std::fs::{self, File};
@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Makes something new in a folder under a name of its own; gives it and its path.
+/// Creates something in a folder under a unique name. Returns it and its path.
 pub fn make<T>(folder: &Path, make: impl Fn(&Path) -> io::Result<T>) -> Result<(T, PathBuf)> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     loop {
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let path = folder.join(format!("taxel-{}-{number}.part", process::id()));
         match make(&path) {
-            // Left by a process of this number that was killed.
+            // Left by a killed process with this number.
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             made => {
                 let place = || format!("nothing can be written in {}", folder.display());
@@ -30,13 +30,12 @@ pub struct Part(pub PathBuf);
 
 impl Drop for Part {
     fn drop(&mut self) {
-        // Where it has the output's name by now, there is none.
+        // After a rename there is nothing to remove.
         _ = fs::remove_file(&self.0);
     }
 }
 
-/// Moves what lies at `from` to the name `to`, which must be free, in one step where the system has a way to do
-/// so.
+/// Renames `from` to `to`, which must not exist; atomically if the system supports it.
 pub fn name(from: &Path, to: &Path) -> io::Result<()> {
     let ways = [in_one_step, by_a_second_name];
     for way in ways {
@@ -45,7 +44,7 @@ pub fn name(from: &Path, to: &Path) -> io::Result<()> {
             done => return done,
         }
     }
-    // Nobody else gets the name from here on, and nothing that somebody else made is replaced.
+    // From here on the name is reserved, and nothing of somebody else's is replaced.
     File::create_new(to)?;
     fs::rename(from, to).inspect_err(|_| _ = fs::remove_file(to))
 }
@@ -61,14 +60,14 @@ fn in_one_step(_: &Path, _: &Path) -> io::Result<()> {
     Err(ErrorKind::Unsupported.into())
 }
 
-/// A kill between the two leaves both names.
+/// A kill between the two steps leaves both names.
 fn by_a_second_name(from: &Path, to: &Path) -> io::Result<()> {
     fs::hard_link(from, to)?;
     _ = fs::remove_file(from);
     Ok(())
 }
 
-/// Exchanges two folders, so that both names lead to a folder at any time where the system has a way to do so.
+/// Exchanges two folders; atomically if the system supports it, so that both names always lead to a folder.
 pub fn exchange(new: &Path, old: &Path) -> io::Result<()> {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
@@ -83,14 +82,14 @@ pub fn exchange(new: &Path, old: &Path) -> io::Result<()> {
     fs::rename(&aside, new)
 }
 
-/// Whether a name is that of a temporary file or folder.
+/// True if a name is that of a temporary file or folder.
 pub fn is_one(name: &Path) -> bool {
     let text = name.to_string_lossy();
     let number = text.strip_prefix("taxel-").and_then(|rest| rest.strip_suffix(".part"));
     number.is_some_and(|number| number.chars().all(|c| c.is_ascii_digit() || c == '-'))
 }
 
-/// Brings the names in a folder to the disk, where the system has a way to do so.
+/// Flushes the names in a folder to the disk, if the system supports it.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(not(unix)) {
         return Ok(());

@@ -1,23 +1,23 @@
-//! What the name of an output leads to.
+//! Resolves the name of an output.
 
 use anyhow::{Context, Result, bail, ensure};
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// What a name leads to.
+/// Destination of a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
     /// `-`: the standard output.
     Standard,
-    /// A terminal, a pipe, `/dev/null`: what is written there cannot be replaced.
+    /// A terminal, a pipe, `/dev/null`: it cannot be replaced.
     Device(PathBuf),
-    /// A file, by its path without links; whether it exists.
+    /// A file, by its path without links, and whether it exists.
     File(PathBuf, bool),
 }
 
 impl Place {
-    /// Follows a name. An error: no file can be written there.
+    /// Resolves a name. Error if no file can be written there.
     pub fn of(name: &Path) -> Result<Place> {
         if name == Path::new("-") {
             return Ok(Place::Standard);
@@ -42,7 +42,7 @@ impl Place {
     }
 }
 
-/// A file that is not there yet, in a folder that is.
+/// A new file in an existing folder.
 fn new(name: &Path) -> Result<Place> {
     let shown = name.display();
     if fs::symlink_metadata(name).is_ok() {
@@ -61,14 +61,14 @@ fn new(name: &Path) -> Result<Place> {
     Ok(Place::File(real.join(last), false))
 }
 
-/// Opens a device. An error: a file has taken its place meanwhile, which would be written over.
+/// Opens a device. Error if a file has replaced it meanwhile, which would be overwritten.
 pub fn device(path: &Path) -> Result<File> {
     let file = File::options().write(true).open(path)?;
     ensure!(!file.metadata()?.is_file(), "it was a device, and is a file now");
     Ok(file)
 }
 
-/// A device that takes bytes one after the other.
+/// A device that accepts a stream of bytes.
 #[cfg(unix)]
 fn taken(name: &Path, kind: fs::FileType) -> Result<Place> {
     use std::os::unix::fs::FileTypeExt;

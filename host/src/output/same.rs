@@ -1,12 +1,12 @@
-//! Whether two names lead to one file.
+//! Detects that two names lead to one file.
 
 use std::fs::{self, Metadata};
 use std::path::Path;
 
-/// Whether both names exist and lead to one file or folder: by another spelling (`./a`, upper and lower case
-/// where the file system does not tell them apart), a symbolic link or a hard link.
+/// True if both names exist and lead to one file or folder: by another spelling (`./a`, or case on file
+/// systems that ignore it), a symbolic link or a hard link.
 ///
-/// Where a system does not number its files, hard links are not recognised.
+/// Hard links are not recognised on systems without file numbers.
 pub fn is_same(a: &Path, b: &Path) -> bool {
     let (Ok(of_a), Ok(of_b)) = (fs::metadata(a), fs::metadata(b)) else { return false };
     let number = number(&of_a);
@@ -16,7 +16,7 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// The device and the file's number on it.
+/// Device, and number of the file on it.
 #[cfg(unix)]
 fn number(of: &Metadata) -> Option<[u64; 2]> {
     use std::os::unix::fs::MetadataExt;

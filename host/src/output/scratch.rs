@@ -1,4 +1,4 @@
-//! A temporary file beside an output: for what is too large to keep in memory until it is its turn.
+//! A temporary file beside an output, for data too large for memory.
 
 use super::file::folder;
 use super::part;
@@ -6,23 +6,22 @@ use anyhow::Result;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// A temporary file, which is gone when this is dropped.
+/// A temporary file, deleted when dropped.
 #[derive(Debug)]
 pub struct Scratch {
-    /// To be written and read.
+    /// The file, for writing and reading.
     pub file: File,
-    /// Where it is still listed in its folder.
+    /// Path, if it still has a name in its folder.
     path: Option<PathBuf>,
 }
 
 impl Scratch {
-    /// In the folder in which a file of that name is going to be: there is room for the one, and so for the
-    /// other.
+    /// Creates it in the folder of a future output, where there must be room anyway.
     pub fn beside(output: &Path) -> Result<Scratch> {
         let mut options = File::options();
         options.read(true).write(true).create_new(true);
         let (file, path) = part::make(folder(output), |path| options.open(path))?;
-        // Where the system allows it, the name goes at once, so that not even a kill leaves anything behind.
+        // If the system allows it, the name is removed at once, so that even a kill leaves nothing behind.
         let path = fs::remove_file(&path).is_err().then_some(path);
         Ok(Scratch { file, path })
     }

@@ -1,4 +1,4 @@
-//! Every name by which an input could be taken for an output, and what is left where writing fails.
+//! Every name by which an input could be taken for an output, and what is left if writing fails.
 
 use super::{Folder, Force, Output};
 use std::fs;
@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A folder of a test, removed at its end. It holds `in.mcap` and `old.csv`.
+/// A test's folder, deleted at its end. It has `in.mcap` and `old.csv`.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -144,12 +144,12 @@ fn a_link_that_changes_meanwhile_does_not_lead_to_an_input() {
     symlink("old.csv", scratch.at("link")).unwrap();
     let (by_link, by_name) =
         (scratch.output("link", true).unwrap(), scratch.output("old.csv", true).unwrap());
-    // The link leads to the input now: what it led to is written.
+    // The link leads to the input now; its old target is written.
     fs::remove_file(scratch.at("link")).unwrap();
     symlink("in.mcap", scratch.at("link")).unwrap();
     by_link.write(b"new").unwrap();
     assert_eq!((scratch.read("in.mcap"), scratch.read("old.csv")), ("recorded".into(), "new".into()));
-    // The file itself became the input.
+    // The file itself has become the input.
     fs::remove_file(scratch.at("old.csv")).unwrap();
     fs::hard_link(scratch.at("in.mcap"), scratch.at("old.csv")).unwrap();
     let error = by_name.write(b"newer").unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! The command itself.
+//! The command `taxel record`.
 
 use super::limit::Rotate;
 use super::provenance::Origin;
@@ -12,7 +12,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 
-/// What `taxel record` takes.
+/// Arguments of `taxel record`.
 #[derive(Debug, Clone, Args)]
 pub struct RecordArgs {
     /// File to write (.mcap)
@@ -34,7 +34,7 @@ pub struct RecordArgs {
     /// Start a new file (FILE-0002.mcap, ...) after a time or a size: 10min, 1GB
     #[arg(long, value_name = "LIMIT")]
     pub rotate: Option<Rotate>,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Also record the converter's raw code of every taxel
@@ -77,7 +77,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
     recorder.expect(args.seconds.unwrap_or(0.0));
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let done = live::watch(&watched, source, &mut recorder);
-    // A source that is gone ends the recording, and not its file.
+    // The recording is completed even if the source fails.
     let ended = recorder.finish();
     eprintln!("{}", recorder.progress());
     if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {

@@ -1,4 +1,4 @@
-//! One file of a recording: its channels, and messages as they go into them.
+//! One file of a recording: its channels, and the messages written to them.
 
 use super::message;
 use super::provenance::{self, HELLO, Origin};
@@ -11,19 +11,19 @@ use anyhow::Result;
 use serde_json::json;
 use taxel_core::fold::Posture;
 
-/// One file.
+/// A file of a recording.
 #[derive(Debug)]
 pub struct RecordingFile<S: Store> {
-    /// What is written to.
+    /// Writer of the file.
     pub writer: Writer<S>,
     topics: Topics,
     ros2: Option<Ros2<S>>,
-    /// What the board is was told, and is attached.
+    /// The board's description is attached.
     says_what: bool,
 }
 
 impl<S: Store> RecordingFile<S> {
-    /// Begins a file, and another one beside it for ROS 2's messages.
+    /// Creates a file, and another beside it for ROS 2 messages.
     pub fn create(store: S, ros2: Option<S>) -> Result<RecordingFile<S>> {
         let mut writer = Writer::create(store, "")?;
         Ok(RecordingFile {
@@ -34,7 +34,7 @@ impl<S: Store> RecordingFile<S> {
         })
     }
 
-    /// What a board said of itself in this frame of the wire, and where it comes from.
+    /// Attaches the board's `Hello`, its frame of the wire, and the origin of the stream.
     pub fn attach(&mut self, worn: &Worn, hello: &[u8], origin: &Origin, stamp: Stamp) -> Result<()> {
         let ns = stamp.host_ns();
         if !std::mem::replace(&mut self.says_what, true) {
@@ -43,17 +43,17 @@ impl<S: Store> RecordingFile<S> {
         provenance::attach(&mut self.writer, worn, origin, ns)
     }
 
-    /// A frame of the wire from the board.
+    /// Writes a frame of the wire from the board.
     pub fn wire(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
         self.writer.message(self.topics.wire, stamp.host_ns(), stamp.board_ns(), bytes)
     }
 
-    /// Frames of the wire to the board.
+    /// Writes frames of the wire to the board.
     pub fn requests(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
         self.writer.message(self.topics.requests, stamp.host_ns(), stamp.board_ns(), bytes)
     }
 
-    /// A posture that was told the board; `names` are the scene's joints.
+    /// Writes a posture sent to the board; `names` are the scene's joints.
     pub fn posture(
         &mut self,
         stamp: Stamp,
@@ -69,7 +69,7 @@ impl<S: Store> RecordingFile<S> {
         self.json("posture", stamp, &message::with_times(told, stamp)?)
     }
 
-    /// What an event says, as JSON and, where asked for, as ROS 2's messages.
+    /// Writes an event as JSON and, if requested, as ROS 2 messages.
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
         if let Some(ros2) = &mut self.ros2 {
             ros2.event(client, event, stamp, scale)?;
@@ -89,18 +89,18 @@ impl<S: Store> RecordingFile<S> {
         self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.close())
     }
 
-    /// Writes what came so far through to the disk.
+    /// Flushes everything written so far to the disk.
     pub fn flush(&mut self) -> Result<()> {
         self.writer.flush()?;
         self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.flush())
     }
 
-    /// Bytes so far.
+    /// Bytes written so far.
     pub fn bytes(&self) -> u64 {
         self.writer.bytes() + self.ros2.as_ref().map_or(0, |ros2| ros2.writer.bytes())
     }
 
-    /// Writes the end; of both files, even where the one fails. Their bytes.
+    /// Writes the end of both files, even if one fails. Returns their bytes.
     pub fn finish(self) -> Result<u64> {
         let beside = self.ros2.map_or(Ok(0), |ros2| ros2.writer.finish());
         Ok(self.writer.finish()? + beside?)

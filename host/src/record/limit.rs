@@ -1,4 +1,4 @@
-//! When a recording goes on in another file.
+//! Limits at which a recording continues in another file.
 
 use std::str::FromStr;
 use std::time::Duration;
@@ -7,12 +7,12 @@ use std::time::Duration;
 const SECONDS: [(&str, u64); 4] = [("s", 1), ("min", 60), ("h", 3600), ("d", 86_400)];
 const BYTES: [(&str, u64); 4] = [("B", 1), ("kB", 1000), ("MB", 1_000_000), ("GB", 1_000_000_000)];
 
-/// How large a file may become.
+/// Largest extent of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotate {
-    /// By the board's time.
+    /// In board time.
     After(Duration),
-    /// By its bytes.
+    /// In bytes.
     Bytes(u64),
 }
 

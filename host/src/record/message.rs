@@ -7,7 +7,7 @@ use anyhow::Result;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// What an event says, as JSON, with its times.
+/// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
     let Event::Frame { frame, alone, image, .. } = event else {
         return with_times(live::message(client, event), stamp);
@@ -29,7 +29,7 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
     })?)
 }
 
-/// A message with the host's time.
+/// Encodes a message with the host's time.
 pub fn with_times(mut message: Value, stamp: Stamp) -> Result<Vec<u8>> {
     message["host_time_us"] = json!(stamp.host_us);
     if let Some(uncertainty) = stamp.uncertainty_us {
@@ -38,7 +38,7 @@ pub fn with_times(mut message: Value, stamp: Stamp) -> Result<Vec<u8>> {
     Ok(serde_json::to_vec(&message)?)
 }
 
-/// A frame with the pressure of every taxel; contacts and intention have topics of their own.
+/// A frame with the pressure of every taxel; contacts and intention have their own topics.
 #[derive(Debug, Serialize)]
 struct FrameMessage<'a> {
     #[serde(rename = "type")]
@@ -57,7 +57,7 @@ struct FrameMessage<'a> {
     panels: Vec<PanelImage<'a>>,
 }
 
-/// The pressure on a panel, row by row.
+/// Pressures of a panel by row.
 #[derive(Debug, Serialize)]
 struct PanelImage<'a> {
     name: &'a str,
@@ -65,7 +65,7 @@ struct PanelImage<'a> {
     rows: Vec<&'a [u16]>,
 }
 
-/// The panels of the last image.
+/// Panels of the last image.
 fn panels(client: &Client) -> Vec<PanelImage<'_>> {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
     let each = layout.areas().iter().map(|area| {
@@ -73,7 +73,7 @@ fn panels(client: &Client) -> Vec<PanelImage<'_>> {
         let columns = usize::from(area.columns);
         let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
         let total = values.iter().map(|value| u32::from(*value)).sum();
-        // A panel that has taxels has columns.
+        // A panel with taxels has columns.
         PanelImage { name: area.name.as_str(), total, rows: values.chunks(columns.max(1)).collect() }
     });
     each.collect()

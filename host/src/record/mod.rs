@@ -1,7 +1,7 @@
-//! `taxel record`: what a board tells, kept in a file that Foxglove, Rerun, Python and ROS 2 read.
+//! `taxel record`: records a board's stream to a file for Foxglove, Rerun, Python and ROS 2.
 //!
-//! Log time is the host's time of what a message tells of, publish time the board's; both are in the JSON
-//! messages, too (`host_time_us`, `time_us`).
+//! Log time is the host's time of a message's subject, publish time the board's; JSON messages hold both
+//! (`host_time_us`, `time_us`).
 //!
 //! | topic | encoding | what |
 //! |---|---|---|
@@ -10,10 +10,9 @@
 //! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
 //! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
 //!
-//! Attached are `hello.taxel-wire` (the frame with which the board said what it is), `garment.toml`,
-//! `scene.json`, `geometry.json` and, where the recorder was given it and the board says that it is in force,
-//! `calibration.toml`; metadata `taxel` names versions, host, board, source and who calibrated when, how and
-//! how well.
+//! Attachments: `hello.taxel-wire` (the frame of the board's `Hello`), `garment.toml`, `scene.json`,
+//! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
+//! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
 mod command;
 mod file;

@@ -1,9 +1,9 @@
-//! Names of files and topics.
+//! Names of files and ROS topics.
 
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 
-/// The file of a number, from 1: the first as it was named, then `NAME-0002.mcap`, `NAME-0003.mcap`.
+/// Path of file `number`, from 1: the first as given, then `NAME-0002.mcap`, `NAME-0003.mcap`.
 pub fn numbered(path: &Path, number: u32) -> PathBuf {
     if number <= 1 {
         return path.into();
@@ -14,12 +14,12 @@ pub fn numbered(path: &Path, number: u32) -> PathBuf {
     path.with_file_name(format!("{stem}-{number:04}{dot}{extension}"))
 }
 
-/// Refuses a name of which files exist that were numbered: a recording in several files would come upon them.
+/// Error if numbered files of this name exist, which a recording in several files would run into.
 pub fn are_free(path: &Path) -> Result<()> {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let begins = format!("{}-", part(path.file_stem()));
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    // A folder that cannot be read says so when the file is begun.
+    // An unreadable folder is reported when the file is created.
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let number = name.strip_prefix(&begins).and_then(|rest| rest.split('.').next()?.parse::<u32>().ok());
@@ -35,12 +35,12 @@ pub fn are_free(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The file with ROS 2's messages beside a recording: `NAME.ros2.mcap`.
+/// Path of the ROS 2 file beside a recording: `NAME.ros2.mcap`.
 pub fn beside(path: &Path) -> PathBuf {
     path.with_extension("ros2.mcap")
 }
 
-/// A name as part of a topic of ROS: letters, digits and underscores, no digit first.
+/// A name as part of a ROS topic: letters, digits and underscores, not beginning with a digit.
 pub fn topic(name: &str) -> String {
     let word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if word.starts_with(|c: char| c.is_ascii_digit()) || word.is_empty() { format!("_{word}") } else { word }

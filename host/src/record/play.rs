@@ -1,4 +1,4 @@
-//! A recording, message by message, as a client reads it.
+//! Plays a recording through a client.
 
 use super::wire_reader::WireReader;
 use crate::client::{Client, Event};
@@ -7,7 +7,7 @@ use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
 
-/// Goes through what the board told.
+/// A recording being played.
 #[derive(Debug)]
 pub struct Play {
     wire: WireReader,
@@ -15,31 +15,30 @@ pub struct Play {
 }
 
 impl Play {
-    /// Of a file.
+    /// Opens a file.
     pub fn open(path: &Path) -> Result<Play> {
         Ok(Play { wire: WireReader::open(path)?, client: Client::new() })
     }
 
-    /// What is known after the last event.
+    /// The client after the last event.
     pub fn client(&self) -> &Client {
         &self.client
     }
 
-    /// What of the file is damaged, so far.
+    /// Damage passed over so far.
     pub fn skipped(&self) -> Skipped {
         self.wire.skipped()
     }
 
-    /// Bytes of the file so far, and of all.
+    /// Bytes of the file read so far, and its size.
     pub fn passed(&self) -> [u64; 2] {
         self.wire.passed()
     }
 
-    /// The next event, with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there
-    /// are no more.
+    /// Next event with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end.
     pub fn next_event(&mut self) -> Result<Option<(MessageHeader, Event)>> {
         while let Some(message) = self.wire.next_frame()? {
-            // A message of this channel is one frame of the wire: its last byte tells of it.
+            // A message of this channel is one frame of the wire, which its last byte completes.
             let mut bytes = message.data.iter();
             if let Some(event) = bytes.find_map(|byte| self.client.push(*byte)) {
                 return Ok(Some((message.header, event)));

@@ -1,10 +1,10 @@
-//! How far a recording is.
+//! Progress of a recording.
 
 use crate::client::{Client, Event};
 use std::fmt::Write;
 use std::path::Path;
 
-/// What is told of a recording while it goes on.
+/// Counters shown while recording.
 #[derive(Debug, Default)]
 pub struct Progress {
     frames: u64,
@@ -18,14 +18,14 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Takes an event, `passed_us` after the file's first.
+    /// Handles an event, `passed_us` after the start of the file.
     pub fn take(&mut self, client: &Client, event: &Event, passed_us: u64) {
         self.frames += u64::from(matches!(event, Event::Frame { .. }));
         (self.lost, self.thinned) = (client.counts().lost, client.counts().thinned);
         self.passed_us = self.passed_us.max(passed_us);
     }
 
-    /// A file has ended.
+    /// Handles the end of a file.
     pub fn ended(&mut self, bytes: u64) {
         self.earlier_us = self.board_us();
         self.passed_us = 0;
@@ -34,18 +34,18 @@ impl Progress {
         self.files += 1;
     }
 
-    /// A file has ended before its time, with so many frames.
+    /// Handles the premature end of a file with this many frames.
     pub fn cut(&mut self, bytes: u64, frames: u64) {
         self.frames = frames;
         self.ended(bytes);
     }
 
-    /// Time of the board so far, us.
+    /// Board time recorded so far, us.
     pub fn board_us(&self) -> u64 {
         self.earlier_us.saturating_add(self.passed_us)
     }
 
-    /// One line; `bytes` are those of the file that is being written.
+    /// Formats one line; `bytes` is the size of the current file.
     pub fn line(&self, path: &Path, bytes: u64) -> String {
         let seconds = self.board_us() as f64 / 1e6;
         let megabytes = (self.written + bytes) as f64 / 1e6;
@@ -57,7 +57,7 @@ impl Progress {
             self.thinned
         );
         if self.files > 1 {
-            // A string takes all.
+            // Writing to a string cannot fail.
             let _ = write!(line, ", {} files", self.files);
         }
         line

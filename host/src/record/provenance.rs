@@ -1,4 +1,4 @@
-//! Where a recording comes from: what is attached to it.
+//! Origin of a recording: its attachments and metadata.
 
 use crate::calibrate::Calibration;
 use crate::client::Worn;
@@ -10,25 +10,25 @@ use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
 
-/// The file with the `Hello` with which a recording begins, a frame of the wire: without it nothing else of
-/// the board can be read, and the chunk that has it may be damaged.
+/// Attachment with the first `Hello`, a frame of the wire. Without it nothing else of the board can be read,
+/// and the chunk that holds it may be damaged.
 pub const HELLO: &str = "hello.taxel-wire";
-/// The file of the calibration.
+/// Attachment with the calibration.
 pub const CALIBRATION: &str = "calibration.toml";
 
-/// What is known of a source beside what its board says.
+/// Properties of a source that its board does not report.
 #[derive(Debug, Default, Clone)]
 pub struct Origin {
-    /// What it is, in a few words.
+    /// Short name.
     pub label: String,
-    /// Counts per newton on a taxel, where that is known.
+    /// Counts per newton on a taxel, if known.
     pub counts_per_newton: Option<f32>,
-    /// The calibration that the board was told.
+    /// Calibration that was sent to the board.
     pub calibration: Option<Calibration>,
 }
 
-/// Attaches garment, scene, geometry and the calibration that is in force, and names versions, source,
-/// calibration and scale.
+/// Attaches garment, scene, geometry and the calibration in use; writes versions, source, calibration and
+/// scale as metadata.
 pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns: u64) -> Result<()> {
     let garment = garments::text(&worn.garment, "the garment of a recording")?;
     writer.attach("garment.toml", "application/toml", garment.as_bytes(), ns)?;
@@ -56,7 +56,7 @@ pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns
     writer.metadata("taxel", words)
 }
 
-/// Who made a calibration, when, how, and how well it fits.
+/// Author, date, method and fit of a calibration.
 fn certified(made: &Calibration) -> [(&'static str, String); 5] {
     let [error, worst, hysteresis, noise] =
         [made.fit.error, made.fit.worst, made.fit.hysteresis, made.fit.noise].map(|part| 100.0 * part);
@@ -72,15 +72,15 @@ fn certified(made: &Calibration) -> [(&'static str, String); 5] {
     ]
 }
 
-/// The host's name, where it has one.
+/// The host's name, if it has one.
 fn host() -> String {
     let known = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let known = known.or_else(|| std::env::var("HOSTNAME").or_else(|_| std::env::var("COMPUTERNAME")).ok());
     known.unwrap_or_default().trim().to_string()
 }
 
-/// Panels in their order: first taxel, size, pitch, link, region. Taxel `first + row * columns + column` lies
-/// at (`column * pitch_mm[0]`, `row * pitch_mm[1]`) of its panel.
+/// Panels in order: first taxel, size, pitch, link, region. Taxel `first + row * columns + column` is at
+/// (`column * pitch_mm[0]`, `row * pitch_mm[1]`) of its panel.
 fn geometry(layout: &Layout) -> Value {
     let panel = |area: &taxel_core::garment::Area| {
         json!({

@@ -1,4 +1,4 @@
-//! Keeps what a board tells, second by second, file after file.
+//! Records a board's stream, second by second, file after file.
 
 use super::file::RecordingFile;
 use super::limit::Rotate;
@@ -21,37 +21,38 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel_core::wire::{self, Request};
 
-/// Time between two chunks: what a kill loses at most, and as much again for the disk to take it.
+/// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
-/// The same by the board's time, for those that are faster than time, us: who reads can go to any second.
+/// Board time between two chunks for sources faster than real time, us, so that readers can seek to any
+/// second.
 const CHUNK_US: u64 = 1_000_000;
 
-/// Number in the answer to a request that a board cannot read: its firmware does not know that one.
+/// Request number in the answer to an unreadable request, which the firmware does not know.
 const UNREADABLE: u8 = 255;
 
-/// The topic that counts for frames.
+/// Topic whose messages count as frames.
 const FRAMES: &str = "/taxel/frames";
 
-/// What is to be recorded, and where.
+/// What to record, and where.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The first file.
     pub path: PathBuf,
-    /// When to go on in another.
+    /// When to continue in another file.
     pub rotate: Option<Rotate>,
-    /// Also as ROS 2's messages.
+    /// Also write ROS 2 messages.
     pub ros2: bool,
-    /// Files that exist are replaced.
+    /// Replace existing files.
     pub force: bool,
-    /// Files that are read meanwhile: they are never replaced.
+    /// Input files, which are never replaced.
     pub inputs: Vec<PathBuf>,
-    /// Where it comes from.
+    /// Origin of the stream.
     pub origin: Origin,
-    /// Raw codes are asked for, too.
+    /// Also request raw codes.
     pub raw: bool,
 }
 
-/// A recording under way.
+/// A recording in progress.
 #[derive(Debug)]
 pub struct Recorder {
     plan: Plan,
@@ -61,21 +62,21 @@ pub struct Recorder {
     stamps: Stamps,
     standing: Standing,
     worn: Option<Worn>,
-    /// The board's time since the file began.
+    /// Board time since the file began.
     passed: Passed,
-    /// The board's time at which the chunk began, us.
+    /// Board time at the start of the chunk, us.
     chunk_us: u64,
     kept: Instant,
     progress: Progress,
     shown: progress::Progress,
-    /// What was counted so far, and before the file began.
+    /// Counters so far, and when the file began.
     tally: [Tally; 2],
-    /// Raw codes have been asked for, and the board has not answered yet.
+    /// Raw codes are requested, and the board has not answered yet.
     waits_for_raw: bool,
 }
 
 impl Recorder {
-    /// Begins the first file.
+    /// Creates the first file.
     pub fn create(plan: Plan) -> Result<Recorder> {
         if plan.rotate.is_some() && !plan.force {
             names::are_free(&plan.path)?;
@@ -98,18 +99,18 @@ impl Recorder {
         })
     }
 
-    /// It is going to end after so many seconds of the board.
+    /// Sets the expected duration in board time.
     pub fn expect(&mut self, seconds: f64) {
         self.shown.expect((seconds * 1e6) as u64);
     }
 
-    /// What has been recorded so far, in words.
+    /// Progress in words.
     pub fn progress(&self) -> String {
         let bytes = self.file.as_ref().map_or(0, |file| file.bytes());
         self.progress.line(&self.path, bytes)
     }
 
-    /// Writes the end of the file. Does nothing where it has been written.
+    /// Writes the end of the file, unless written already.
     pub fn finish(&mut self) -> Result<()> {
         let Some(mut file) = self.file.take() else { return Ok(()) };
         self.shown.clear();
@@ -123,12 +124,12 @@ impl Recorder {
         format!("{} could not be completed: `taxel info --repair` completes it", self.path.display())
     }
 
-    /// What could not be written ends the recording; what was written before stays, with an end.
+    /// Ends the recording on a write error. Earlier data stays, and the file is completed.
     fn guard(&mut self, done: Result<()>) -> Result<()> {
         let Err(error) = done else { return Ok(()) };
         let mut kept = "what was recorded before is whole".to_string();
         if let Some(file) = self.file.take() {
-            // The last messages are lost in any case; whether the rest has its end, the file itself says.
+            // The last messages are lost in any case; the file itself shows whether it is complete.
             let _ = file.finish();
             let scan = crate::recording::scan(&self.path).ok().filter(|scan| scan.whole);
             let bytes = std::fs::metadata(&self.path).map_or(0, |known| known.len());
@@ -159,7 +160,7 @@ impl Recorder {
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
-    /// Goes on in another file where it is time: with an image that stands alone, so that the file does, too.
+    /// Continues in another file when due. It begins with a key frame, so that the file stands alone.
     fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Event::Frame { alone: true, .. } = event else { return Ok(()) };
         let Some(file) = &self.file else { return Ok(()) };
@@ -187,7 +188,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// An error: the board refuses raw codes.
+    /// Error if the board refuses raw codes.
     fn answered(&mut self, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         let is_ours = [(Request::SetRaw { hz: 0 }).number(), UNREADABLE].contains(request);
@@ -214,8 +215,8 @@ impl Recorder {
     }
 }
 
-/// Begins a file, and the one beside it. They get their names when they can be read: a crash leaves what was
-/// written, and what cannot be begun takes no name.
+/// Creates a file, and the one beside it. They get their names once they are readable: a crash leaves what
+/// was written, and a failed start leaves no file of that name.
 fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
     let output = |path: &Path| Output::file(path, Force { force: plan.force }, &plan.inputs);
     let main = output(path)?;
@@ -230,8 +231,8 @@ fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
     match ros2_begun.map_or(Ok(()), Begun::name) {
         Ok(()) => Ok(file),
         Err(error) => {
-            // The one that has its name is an empty recording, and not half of one; of two errors the first is
-            // told.
+            // The file that already has its name becomes an empty recording instead of half of one. The first
+            // of two errors is reported.
             _ = file.finish();
             Err(error)
         }
@@ -245,7 +246,7 @@ impl Show for Recorder {
         self.answered(event)
     }
 
-    /// It is said on the standard error, too: nobody may look into a recording for days.
+    /// Also printed to standard error: a recording may not be looked at for days.
     fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
         if let Event::Log { text, .. } = note {
             self.shown.clear();

@@ -1,5 +1,4 @@
-//! JSON schemas of the messages, so that Foxglove and others offer the fields by name before a message has
-//! come.
+//! JSON schemas of the messages, so that Foxglove and others can offer the fields before any message.
 
 use serde_json::{Map, Value, json};
 
@@ -35,18 +34,18 @@ fn object(fields: Fields<'_>) -> Value {
     json!({ "type": "object", "properties": properties })
 }
 
-/// Fields of that name and one type each.
+/// Fields with these names, all of one type.
 fn all<const N: usize>(kind: fn() -> Value, names: [&str; N]) -> Vec<(&str, Value)> {
     names.map(|name| (name, kind())).to_vec()
 }
 
-/// A message: its type and its times before the other fields.
+/// A message: type and times, then the other fields.
 fn message(fields: &[(&str, Value)]) -> Value {
     let times = ["time_us", "host_time_us", "host_time_uncertainty_us"];
     object(&[&[("type", text())], all(integer, times).as_slice(), fields].concat())
 }
 
-/// A message of a scan.
+/// A message about a scan.
 fn of_frame(fields: &[(&str, Value)]) -> Value {
     message(&[&[("frame", integer())], fields].concat())
 }
@@ -105,7 +104,7 @@ pub fn hello() -> Value {
     message(&fields.concat())
 }
 
-/// The conditioned image, panel by panel, row by row, counts; `total` is their sum.
+/// The conditioned image by panel and row, counts; `total` is their sum.
 pub fn frames() -> Value {
     let panel = object(&[("name", text()), ("total", integer()), ("rows", list(list(integer())))]);
     let fields = [
@@ -116,12 +115,12 @@ pub fn frames() -> Value {
     of_frame(&fields.concat())
 }
 
-/// Contacts that are there and that have gone.
+/// Present and released contacts.
 pub fn contacts() -> Value {
     of_frame(&[("contacts", list(contact())), ("released", list(contact())), ("dropped", integer())])
 }
 
-/// What was said of contacts.
+/// Symbols of contacts.
 pub fn symbols() -> Value {
     let words = [all(text, ["strength", "extent", "span", "class"]), vec![("moving", flag())]];
     let event = [
@@ -134,19 +133,19 @@ pub fn symbols() -> Value {
     of_frame(&[("events", list(object(&event.concat()))), ("regions", list(object(&region.concat())))])
 }
 
-/// What the touch means: the leading intention, and each concept's activation, -1 ..= 1.
+/// The leading intention, and each concept's activation, -1 ..= 1.
 pub fn intent() -> Value {
     let concepts = json!({ "type": "object", "additionalProperties": number() });
     let intent = object(&[("leading", text()), ("concepts", concepts)]);
     of_frame(&[("intent", intent), ("outcome", text()), ("steps", integer())])
 }
 
-/// What the garment did by itself.
+/// Reactions of the garment.
 pub fn reactions() -> Value {
     of_frame(&[("index", integer()), ("name", text()), ("active", flag()), ("value", integer())])
 }
 
-/// How the board is.
+/// Counters of the board.
 pub fn health() -> Value {
     message(&all(
         integer,
@@ -164,13 +163,13 @@ pub fn health() -> Value {
     ))
 }
 
-/// Which taxels are ill.
+/// Faulty taxels.
 pub fn health_map() -> Value {
     let ill = object(&[("taxel", integer()), ("health", text())]);
     message(&[("whole", flag()), ("ill", list(ill))])
 }
 
-/// Where the board's time goes.
+/// Time budget of the board.
 pub fn budget() -> Value {
     of_frame(&all(
         integer,
@@ -178,12 +177,12 @@ pub fn budget() -> Value {
     ))
 }
 
-/// How warm the converter is.
+/// Temperature of the converter.
 pub fn temperature() -> Value {
     message(&[("celsius", number())])
 }
 
-/// Which gesture goes on.
+/// Gesture of a touch.
 pub fn gestures() -> Value {
     let fields = [
         ("touch", integer()),
@@ -198,20 +197,20 @@ pub fn gestures() -> Value {
     of_frame(&fields)
 }
 
-/// How lines and inputs are.
+/// State of lines and inputs.
 pub fn self_test() -> Value {
-    // A fault is a word, or names the pin that it leads to.
+    // A fault is a word, or an object that names the pin it leads to.
     let fault = object(&[("pin", integer()), ("fault", json!({}))]);
     message(&[("lines", integer()), ("inputs", integer()), ("faults", list(fault))])
 }
 
-/// How the joints stand, as the host told the board.
+/// Angles of the joints, as sent to the board.
 pub fn posture() -> Value {
     let joint = object(&[("joint", text()), ("degrees", number())]);
     message(&[("joints", list(joint))])
 }
 
-/// A sentence of the board.
+/// A log message of the board.
 pub fn log() -> Value {
     message(&all(text, ["level", "text"]))
 }

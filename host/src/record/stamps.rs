@@ -1,10 +1,10 @@
-//! The host's time of what a board tells.
+//! Host times of a board's messages.
 
 use crate::client::{Client, Event};
 use crate::clock::SteadyTime;
 use taxel_core::format::Micros;
 
-/// Nanoseconds of a microsecond.
+/// Nanoseconds per microsecond.
 pub const NS: u64 = 1000;
 
 /// Times of a message.
@@ -12,49 +12,48 @@ pub const NS: u64 = 1000;
 pub struct Stamp {
     /// The board's time, us.
     pub board_us: u64,
-    /// The host's time of it, us since 1970.
+    /// The host's time of the same moment, us since 1970.
     pub host_us: u64,
-    /// How far that can be from the truth; none: no round trip has told.
+    /// Uncertainty of the host's time, us; none before the first round trip.
     pub uncertainty_us: Option<u64>,
 }
 
 impl Stamp {
-    /// The host's time, ns since 1970, as recordings have it; a time beyond what they can say is the last that
-    /// they can.
+    /// The host's time, ns since 1970, as stored in recordings; saturates.
     pub fn host_ns(&self) -> u64 {
         self.host_us.saturating_mul(NS)
     }
 
-    /// The board's time, ns, likewise.
+    /// The board's time, ns; saturates.
     pub fn board_ns(&self) -> u64 {
         self.board_us.saturating_mul(NS)
     }
 }
 
-/// Finds the host's times.
+/// Assigns host times.
 #[derive(Debug)]
 pub struct Stamps {
     time: SteadyTime,
-    /// A time of the board, and the host's when it was heard of first.
+    /// A board time, and the host's time when it was first received.
     heard: Option<(u64, u64)>,
     last: u64,
 }
 
 impl Stamps {
-    /// From now on.
+    /// Starts now.
     pub fn start() -> Stamps {
         Stamps { time: SteadyTime::start(), heard: None, last: 0 }
     }
 
-    /// Of an event: by the clock of a board that has answered a `Sync`, else by when the first message came
-    /// and the board's own time since. An event without a time has that of the one before.
+    /// Stamp of an event: by the clock of a board that has answered a `Sync`; else by the arrival of the
+    /// first message, and the board time since. An event without a time has that of the one before.
     pub fn of(&mut self, client: &Client, event: &Event) -> Stamp {
         let board_us = time_of(client, event).unwrap_or(self.last);
         self.last = board_us;
         self.at(client, board_us)
     }
 
-    /// Of what the host does now: by the last message.
+    /// Stamp of an action of the host: that of the last message.
     pub fn now(&mut self, client: &Client) -> Stamp {
         self.at(client, self.last)
     }
@@ -64,7 +63,7 @@ impl Stamps {
             return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };
         }
         let (board, host) = match self.heard {
-            // A board that started anew is heard of anew.
+            // A restarted board begins anew.
             Some((board, host)) if board_us >= board => (board, host),
             _ => *self.heard.insert((board_us, self.time.now_us())),
         };
@@ -72,7 +71,7 @@ impl Stamps {
     }
 }
 
-/// The board's time that an event tells of, us; none: it tells of none.
+/// Board time of an event, us; none if it has none.
 pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
     let time = match event {
         Event::Hello => client.worn()?.clock,

@@ -1,31 +1,30 @@
-//! What was counted on the line while a file was written: it is kept in the file, so that `taxel info` need
-//! not read all of it.
+//! Line counters of a file, stored in it so that `taxel info` need not read all of it.
 
 use crate::client::Counts;
 use std::collections::BTreeMap;
 
-/// Name of the words in the file.
+/// Name of the metadata.
 pub const COUNTS: &str = "counts";
 
 /// Counts of a file.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Tally {
-    /// Frames that came.
+    /// Frames received.
     pub frames: u64,
-    /// Messages that were lost on the line.
+    /// Messages lost on the line.
     pub lost: u64,
-    /// Frames that the board left out.
+    /// Frames that the board thinned out.
     pub thinned: u64,
     /// Images and raw codes that could not be decoded.
     pub undecoded: u64,
-    /// What was no message.
+    /// Frames of the wire that are not messages.
     pub refused: u64,
-    /// Times that the board started anew.
+    /// Restarts of the board.
     pub restarts: u64,
 }
 
 impl Tally {
-    /// Of a connection so far.
+    /// Counters of a connection so far.
     pub fn of(counts: &Counts) -> Tally {
         Tally {
             frames: counts.frames,
@@ -49,13 +48,13 @@ impl Tally {
         ]
     }
 
-    /// As words of a file; `before` was counted before the file began.
+    /// Encodes as metadata; `before` is the tally when the file began.
     pub fn words(self, before: Tally) -> BTreeMap<String, String> {
         let both = self.fields().into_iter().zip(before.fields());
         both.map(|((name, now), (_, then))| (name.into(), now.saturating_sub(then).to_string())).collect()
     }
 
-    /// From words of a file; none: a number is missing.
+    /// Decodes metadata; none if a number is missing.
     pub fn read(words: &BTreeMap<String, String>) -> Option<Tally> {
         let number = |name: &str| words.get(name)?.parse().ok();
         Some(Tally {

@@ -1,4 +1,4 @@
-//! The topics of a recording, and what of an event goes to which.
+//! Topics of a recording, and which events go to which.
 
 use super::schemas;
 use crate::client::Event;
@@ -10,13 +10,13 @@ use serde_json::Value;
 pub const WIRE: &str = "/taxel/wire";
 /// Frames of the wire to the board.
 pub const REQUESTS: &str = "/taxel/requests";
-/// How both are to be read: as `taxel_core::wire` describes.
+/// Encoding of both, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
 
 /// A topic with JSON messages: its name below `/taxel/`, and their schema.
 pub type JsonTopic = (&'static str, fn() -> Value);
 
-/// All of them.
+/// All JSON topics.
 pub const JSON: [JsonTopic; 14] = [
     ("hello", schemas::hello),
     ("frames", schemas::frames),
@@ -34,18 +34,18 @@ pub const JSON: [JsonTopic; 14] = [
     ("log", schemas::log),
 ];
 
-/// Numbers of the channels in one file.
+/// Channel numbers in one file.
 #[derive(Debug, Clone)]
 pub struct Topics {
-    /// Of [`WIRE`].
+    /// Channel of [`WIRE`].
     pub wire: u16,
-    /// Of [`REQUESTS`].
+    /// Channel of [`REQUESTS`].
     pub requests: u16,
     json: Vec<(&'static str, u16)>,
 }
 
 impl Topics {
-    /// Tells a file of them.
+    /// Declares the channels in a file.
     pub fn open<S: Store>(writer: &mut Writer<S>) -> Result<Topics> {
         let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
         let (wire, requests) = (writer.channel(WIRE, &plain)?, writer.channel(REQUESTS, &plain)?);
@@ -65,7 +65,7 @@ impl Topics {
     }
 }
 
-/// The JSON topic of an event; none: it is on the wire alone.
+/// JSON topic of an event; none if it is only on the wire.
 pub fn of(event: &Event) -> Option<&'static str> {
     Some(match event {
         Event::Hello => "hello",

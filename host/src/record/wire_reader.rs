@@ -1,4 +1,4 @@
-//! What a board told a recording: the frames of the wire, one after the other.
+//! Reads the board's frames of the wire from a recording.
 
 use super::provenance::HELLO;
 use super::standing::lost;
@@ -8,37 +8,35 @@ use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
 
-/// Goes through the frames. Where the `Hello` with which the recording began is lost, the one that is
-/// attached comes first.
+/// Iterates over the frames. If the initial `Hello` is lost, the attached one comes first.
 #[derive(Debug)]
 pub struct WireReader {
     messages: Messages,
     begun: bool,
-    /// The first frame, behind the `Hello` that was lost.
+    /// The first frame, which follows the restored `Hello`.
     first: Option<(MessageHeader, Vec<u8>)>,
-    /// Memory of the frame that was given last, if it is not that of the messages.
+    /// Buffer of the last returned frame, if it is not in the messages' buffer.
     given: Vec<u8>,
 }
 
 impl WireReader {
-    /// Of a file.
+    /// Opens a file.
     pub fn open(path: &Path) -> Result<WireReader> {
         let messages = Messages::of_topic(path, WIRE)?.wanting(HELLO);
         Ok(WireReader { messages, begun: false, first: None, given: Vec::new() })
     }
 
-    /// What of the file is damaged, so far.
+    /// Damage passed over so far.
     pub fn skipped(&self) -> Skipped {
         self.messages.skipped()
     }
 
-    /// Bytes of the file so far, and of all.
+    /// Bytes of the file read so far, and its size.
     pub fn passed(&self) -> [u64; 2] {
         self.messages.passed()
     }
 
-    /// The next frame with its times (ns: `log_time` is the host's, `publish_time` the board's); none: there
-    /// are no more.
+    /// Next frame with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end.
     pub fn next_frame(&mut self) -> Result<Option<Message<'_>>> {
         if !std::mem::replace(&mut self.begun, true) {
             return self.begin();

@@ -1,4 +1,4 @@
-//! One record as bytes: its number, its length, its body.
+//! Encodes one record: its number, its length, its body.
 
 use anyhow::{Context, Result};
 use binrw::BinWrite;
@@ -22,7 +22,7 @@ where
     Ok(())
 }
 
-/// Appends fields alone.
+/// Appends the fields.
 pub fn write<F>(out: &mut Vec<u8>, fields: &F) -> Result<()>
 where
     F: for<'a> BinWrite<Args<'a> = ()>,
@@ -33,7 +33,7 @@ where
     fields.write_options(&mut cursor, binrw::Endian::Little, ()).context("a record cannot be written")
 }
 
-/// Bytes with their length (u32) before them.
+/// Returns the bytes behind their length (u32).
 pub fn sized(data: &[u8]) -> Vec<u8> {
     let mut out = (data.len() as u32).to_le_bytes().to_vec();
     out.extend_from_slice(data);

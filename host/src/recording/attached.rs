@@ -1,9 +1,9 @@
-//! Files that are attached to a recording.
+//! Reads attachments of a recording.
 
 use super::salvage::fields;
 use mcap::records::{AttachmentHeader, op};
 
-/// The header and the bytes of an attached file, and whether the record ends behind them; none: it is damaged.
+/// Header and bytes of an attachment, and whether the record ends behind them; none if it is damaged.
 pub fn attached(body: &[u8]) -> Option<(AttachmentHeader, &[u8], bool)> {
     let (header, used) = fields::<AttachmentHeader>(op::ATTACHMENT, body)?;
     let (length, rest) = body.get(used..)?.split_first_chunk()?;

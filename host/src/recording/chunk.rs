@@ -8,21 +8,21 @@ use mcap::records::{ChunkHeader, ChunkIndex, MessageHeader, MessageIndex, Messag
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
-/// How chunks are compressed, in MCAP's words.
+/// Compression of our chunks, in MCAP's words.
 pub const LZ4: &str = "lz4";
-/// Whether chunks that are compressed in this way can be read.
+/// True if chunks with this compression can be read.
 pub fn is_known(compression: &str) -> bool {
     matches!(compression, "" | LZ4)
 }
 
-/// Largest chunk that is read, plain, bytes. Ours hold a second, those of others some megabytes; LZ4 makes 255
-/// bytes of one, and a small file is no reason to ask for much memory.
+/// Largest uncompressed chunk that is read, bytes. Ours hold a second, those of other programs some
+/// megabytes. LZ4 can expand one byte to 255, so a small file must not make us allocate much.
 pub const LARGEST: u64 = 1 << 25;
 
-/// Where the messages of a chunk lie in its plain bytes, by channel.
+/// Offsets of messages in a chunk's uncompressed bytes, by channel.
 pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;
 
-/// A chunk that grows.
+/// A chunk being filled.
 #[derive(Debug, Default)]
 pub struct Chunk {
     body: Vec<u8>,
@@ -41,12 +41,12 @@ impl Chunk {
         Ok(())
     }
 
-    /// Plain bytes so far.
+    /// Uncompressed bytes so far.
     pub fn bytes(&self) -> usize {
         self.body.len()
     }
 
-    /// Appends the chunk and its index to `out`, which will lie at `offset` in the file. None: there is no
+    /// Appends the chunk and its index to `out`, which begins at `offset` in the file. None if there is no
     /// message.
     pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
         let Some([first, last]) = self.span.take() else { return Ok(None) };
@@ -71,17 +71,17 @@ impl Chunk {
     }
 }
 
-/// A chunk that is written: its place and how many messages it has by channel.
+/// A written chunk: its place, and its messages by channel.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// What the summary says of it.
+    /// Its record in the summary.
     pub index: ChunkIndex,
-    /// Messages by channel.
+    /// Number of messages by channel.
     pub counts: BTreeMap<u16, u64>,
 }
 
 impl Closed {
-    /// Of a chunk record of `length` bytes at `offset`, behind which its message indexes are appended to `out`.
+    /// Describes a chunk record of `length` bytes at `offset`, whose message indexes are appended to `out`.
     pub fn indexed(
         header: &ChunkHeader,
         messages: &Index,
@@ -111,16 +111,16 @@ impl Closed {
         Ok(Closed { index, counts })
     }
 
-    /// Where the file goes on behind the chunk and its index.
+    /// Offset behind the chunk and its index.
     pub fn end(&self) -> u64 {
         self.index.chunk_start_offset + self.index.chunk_length + self.index.message_index_length
     }
 }
 
-/// Puts the plain records of a chunk into `body`, their checksum checked.
+/// Decompresses the records of a chunk into `body`, and checks their checksum.
 pub fn plain(header: &ChunkHeader, data: &[u8], body: &mut Vec<u8>) -> Result<()> {
     let size = header.uncompressed_size;
-    // LZ4 makes 255 of a byte at most.
+    // LZ4 expands a byte to 255 at most.
     let possible = size <= LARGEST && size / 256 <= data.len() as u64;
     ensure!(possible, "a chunk of {} bytes claims to hold {size}", data.len());
     body.resize(size as usize, 0);
@@ -129,7 +129,7 @@ pub fn plain(header: &ChunkHeader, data: &[u8], body: &mut Vec<u8>) -> Result<()
             ensure!(data.len() == body.len(), "a chunk holds less or more than it says");
             body.copy_from_slice(data);
         }
-        // Without a checksum of its own, a chunk relies on those of LZ4.
+        // A chunk without a checksum relies on those of LZ4.
         LZ4 if header.uncompressed_crc != 0 && lz4::decode(data, body) => {}
         LZ4 => {
             let mut decoder = FrameDecoder::new(data);

@@ -1,4 +1,4 @@
-//! A recording of which any part can be read first: where its chunks lie, and the messages of one of them.
+//! Random access to a recording: the places of its chunks, and the messages of any of them.
 
 use super::attached::attached;
 use super::chunk;
@@ -11,26 +11,26 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Chunks that are kept, plain: the one that is played, and those that a step back needs.
+/// Chunks kept uncompressed: the one being played, and those needed for a step back.
 const HELD: usize = 4;
-/// Bytes of the chunks that are kept beside the last one.
+/// Most bytes of the kept chunks besides the last one.
 const HELD_BYTES: usize = 64 << 20;
-/// Longest record beside chunks that is read, bytes.
+/// Longest record outside of chunks that is read, bytes.
 const LONGEST: u64 = 1 << 24;
 
-/// Where a chunk lies, and when its messages were written, ns.
+/// Place of a chunk, and the log times of its messages, ns.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     offset: u64,
-    /// Log time of its first message; never before that of the chunk before.
+    /// Log time of its first message; not before that of the previous chunk.
     pub start: u64,
     /// Log time of its last message.
     pub end: u64,
-    /// Channels that it has messages of, as far as its index says.
+    /// Channels with messages in it, by its index.
     channels: Vec<u16>,
 }
 
-/// One message of the topic.
+/// A message of the topic.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Piece {
     /// Channel, order and times (ns).
@@ -39,7 +39,7 @@ pub struct Piece {
     pub data: Box<[u8]>,
 }
 
-/// A recording that is read chunk by chunk, in any order.
+/// A recording read chunk by chunk, in any order.
 #[derive(Debug)]
 pub struct Clips {
     records: Records,
@@ -47,17 +47,17 @@ pub struct Clips {
     topic: &'static str,
     places: Vec<Place>,
     channels: BTreeMap<u16, Channel>,
-    /// Words of the file by name.
+    /// Metadata by name.
     pub words: BTreeMap<String, BTreeMap<String, String>>,
-    /// Files that are attached, by name, the newest of each.
+    /// Attachments by name, the newest of each.
     pub attached: BTreeMap<String, Vec<u8>>,
     plain: Vec<u8>,
     held: Vec<(usize, Arc<[Piece]>)>,
 }
 
 impl Clips {
-    /// Of a file; only messages of that topic are read. Bodies of chunks are passed over, so that this takes
-    /// little time.
+    /// Opens a file; only messages of this topic are read. Bodies of chunks are skipped, so this takes little
+    /// time.
     pub fn open(path: &Path, topic: &'static str) -> Result<Clips> {
         let mut clips = Clips {
             records: Records::open(path)?,
@@ -79,24 +79,24 @@ impl Clips {
         Clips::open(&self.path, self.topic)
     }
 
-    /// The chunks, in the order of their times.
+    /// The chunks in order of time.
     pub fn places(&self) -> &[Place] {
         &self.places
     }
 
-    /// Whether the topic is one of the file's.
+    /// True if the file has the topic.
     pub fn has_topic(&self) -> bool {
         self.channels.values().any(|channel| channel.topic == self.topic)
     }
 
-    /// The chunks before `end` that have messages of a topic, the last first.
+    /// Chunks before `end` with messages of a topic, last first.
     pub fn with_topic<'a>(&'a self, topic: &'a str, end: usize) -> impl Iterator<Item = usize> + 'a {
         let is_of = move |id: &u16| self.channels.get(id).is_some_and(|channel| channel.topic == topic);
         let before = self.places.iter().take(end).enumerate().rev();
         before.filter(move |(_, place)| place.channels.iter().any(is_of)).map(|(chunk, _)| chunk)
     }
 
-    /// Goes from record to record up to the end of the data, or of what can be read.
+    /// Visits all records up to the end of the data, or of what is readable.
     fn walk(&mut self) -> Result<()> {
         let mut skipped = Skipped::default();
         loop {
@@ -119,14 +119,14 @@ impl Clips {
         }
     }
 
-    /// Takes a record, or passes over it.
+    /// Reads or skips a record.
     fn step(&mut self, head: Head) -> Result<()> {
         match head.op {
             op::CHUNK if head.length >= 16 => {
                 let times = self.records.rest(16)?;
                 let time = |at: usize| times.get(at..)?.first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
                 let (start, end) = (time(0).unwrap_or(0), time(8).unwrap_or(0));
-                // Clocks that were set let no chunk come before the one that was written before it.
+                // If a clock was set back, a chunk still begins no earlier than the one before it.
                 let start = self.places.last().map_or(start, |before| start.max(before.start));
                 let place = Place { offset: head.offset, start, end: end.max(start), channels: Vec::new() };
                 self.places.push(place);
@@ -150,13 +150,13 @@ impl Clips {
                     _ => {}
                 }
             }
-            op::MESSAGE => bail!("it has messages outside of chunks, which cannot be gone to"),
+            op::MESSAGE => bail!("it has messages outside of chunks, which are not supported here"),
             _ => {}
         }
         self.records.go_to(head.end())
     }
 
-    /// The messages of a chunk. An error: it is damaged.
+    /// Messages of a chunk. Error if it is damaged.
     pub fn clip(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {
         if let Some(at) = self.held.iter().position(|(number, _)| *number == chunk) {
             let known = self.held.remove(at);
@@ -172,7 +172,7 @@ impl Clips {
         Ok(self.held.last().map_or_else(|| [].into(), |(_, clip)| clip.clone()))
     }
 
-    /// Memory of the chunks that are kept beside the last one.
+    /// Memory of the kept chunks besides the last one.
     fn held_bytes(&self) -> usize {
         let before = self.held.split_last().map_or(&[][..], |(_, before)| before);
         let pieces = before.iter().flat_map(|(_, clip)| clip.iter());
@@ -183,7 +183,7 @@ impl Clips {
         self.records.go_to(self.places.get(chunk).context("there is no such chunk")?.offset)?;
         let record = self.records.next_record()?.context("a chunk is cut off")?;
         let Record::Chunk { header, data } = parse_record(record.op, record.body)? else {
-            bail!("something else stands where a chunk was");
+            bail!("a chunk was overwritten");
         };
         chunk::plain(&header, &data, &mut self.plain)?;
         let mut pieces = Vec::new();

@@ -1,4 +1,4 @@
-//! Damage in the middle of a recording: what is passed over, and where the file goes on.
+//! Damage within a recording: what to skip, and where to continue.
 
 use super::append::HEAD;
 use super::records::{Head, Records};
@@ -9,25 +9,25 @@ use std::fmt;
 use std::path::Path;
 use std::time::Duration;
 
-/// Bytes in which the next chunk is looked for at a time.
+/// Bytes searched at once for the next chunk.
 const WINDOW: u64 = 1 << 16;
-/// Bytes of a chunk's fields but for the name of its compression, and of the longest such name.
+/// Size of a chunk's fields except for the name of its compression, and the longest such name.
 const FIELDS: u64 = 40;
 const LONGEST_NAME: u32 = 16;
 
-/// What was passed over because it is damaged.
+/// What was skipped because it is damaged.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Skipped {
-    /// Chunks.
+    /// Number of chunks.
     pub chunks: u64,
     /// Bytes of the file.
     pub bytes: u64,
-    /// Time of the messages in them, as far as it is known.
+    /// Time of their messages, as far as it is known.
     pub time: Duration,
 }
 
 impl Skipped {
-    /// Nothing was damaged.
+    /// True if nothing was skipped.
     pub fn is_none(&self) -> bool {
         self.chunks == 0
     }
@@ -41,25 +41,26 @@ impl fmt::Display for Skipped {
     }
 }
 
-/// Something that is no record, or a chunk that cannot be read.
+/// Something that is not a record, or a chunk that cannot be read.
 #[derive(Debug, Clone, Copy)]
 pub struct Damage {
-    /// Where it begins.
+    /// Offset of its beginning.
     pub offset: u64,
-    /// Where it ends, if its length is right.
+    /// Offset of its end, if its length is right.
     pub end: Option<u64>,
     /// Time of its messages, ns.
     pub ns: u64,
 }
 
 impl Damage {
-    /// Of which only the place is known.
+    /// Damage of which only the offset is known.
     pub fn at(offset: u64) -> Damage {
         Damage { offset, end: None, ns: 0 }
     }
 
-    /// Counts it; where the file goes on behind it. None: nothing more can be read, and without an index what
-    /// is left is taken for the last record, which a kill has cut off.
+    /// Counts the damage, and returns the offset at which reading continues; none if nothing more is
+    /// readable. In that case, without an index, the rest is taken for a last record that a kill has cut off,
+    /// and is not counted.
     pub fn pass(&self, records: &mut Records, path: &Path, skipped: &mut Skipped) -> Result<Option<u64>> {
         let places = chunk_indexes(path)?;
         let next = match self.end {
@@ -79,23 +80,23 @@ impl Damage {
     }
 }
 
-/// Whether the data end there: the summary follows, or the file has none.
+/// True if the data ends there: the summary follows, or the file has none.
 pub fn is_end(path: &Path, data_end: &Head) -> Result<bool> {
     let summary = footer(path)?.map_or(0, |footer| footer.summary_start);
     Ok(summary == 0 || summary == data_end.end())
 }
 
-/// Whether a record of that number is one of the format's first version.
+/// True if the first version of the format has a record with this number.
 pub fn is_known(number: u8) -> bool {
     (op::HEADER..=op::DATA_END).contains(&number)
 }
 
-/// Whether a record that nobody knows is a chunk whose number is damaged. No record has the number 0.
+/// True if an unknown record is a chunk with a damaged number. No record has the number 0.
 pub fn is_chunk_at(path: &Path, head: &Head) -> Result<bool> {
     Ok(head.op == 0 || chunk_indexes(path)?.iter().any(|place| place.chunk_start_offset == head.offset))
 }
 
-/// Whether a record, or the end of the file, can lie there.
+/// True if a record or the end of the file may be there.
 fn is_plausible(records: &mut Records, offset: u64) -> Result<bool> {
     if offset >= records.length() {
         return Ok(offset == records.length());
@@ -104,9 +105,9 @@ fn is_plausible(records: &mut Records, offset: u64) -> Result<bool> {
     Ok(records.next_head()?.is_some_and(|head| is_known(head.op)))
 }
 
-/// Where the first chunk lies whose head makes sense, from an offset on; none: there is no further.
+/// Offset of the first chunk with a plausible head, from an offset on; none if there is none.
 fn next_chunk(records: &mut Records, mut from: u64) -> Result<Option<u64>> {
-    // A head may lie across two windows.
+    // A head may cross a window's boundary.
     let longest = HEAD as u64 + FIELDS + u64::from(LONGEST_NAME);
     while from < records.length() {
         records.go_to(from)?;
@@ -121,7 +122,7 @@ fn next_chunk(records: &mut Records, mut from: u64) -> Result<Option<u64>> {
     Ok(None)
 }
 
-/// Whether a chunk begins with these bytes, of which the file has `left`: its lengths fit together.
+/// True if these bytes, of which the file has `left`, may begin a chunk: the lengths are consistent.
 fn is_chunk(bytes: &[u8], left: u64) -> bool {
     let lengths = || {
         let (head, rest) = bytes.split_first_chunk().filter(|(head, _)| head[0] == op::CHUNK)?;

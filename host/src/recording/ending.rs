@@ -1,5 +1,5 @@
-//! The end of a file: summary, its offsets, footer. It is made in pieces, so that it takes no memory however
-//! many chunks there are.
+//! Encodes the end of a file: summary, its offsets, footer. It is encoded in pieces, so that its memory does
+//! not grow with the number of chunks.
 
 use super::append::{HEAD, append, sized, write};
 use super::chunk::{Closed, is_known};
@@ -10,28 +10,29 @@ use mcap::MAGIC;
 use mcap::records::{DataEnd, Footer, Statistics, SummaryOffset, op};
 use std::collections::BTreeMap;
 
-/// The end of a file: [`begin`](Ending::begin), then each [`chunk`](Ending::chunk), then
+/// The end of a file: call [`begin`](Ending::begin), then [`chunk`](Ending::chunk) for each, then
 /// [`finish`](Ending::finish).
 pub struct Ending {
-    /// What nobody has taken yet, and where it will lie.
+    /// Bytes not taken yet, and their offset in the file.
     piece: Vec<u8>,
     offset: u64,
-    /// Of the summary: where it begins, its checksum, and how many bytes of the piece are in that already.
+    /// The summary's offset, its checksum, and how many bytes of the piece the checksum already covers.
     start: u64,
     sum: Hasher,
     summed: usize,
     groups: Vec<SummaryOffset>,
-    /// Where the group of records begins that is being told.
+    /// Offset of the current group of records.
     group: u64,
     chunks: u32,
     counts: BTreeMap<u16, u64>,
     stretch: Option<Stretch>,
-    /// How many messages there are is known of every chunk.
+    /// The number of messages is known for every chunk.
     is_counted: bool,
 }
 
 impl Ending {
-    /// Of a file whose records end at `offset`. The chunks of the contents are not told by themselves.
+    /// Begins the end of a file whose records end at `offset`. Its chunks must be added by
+    /// [`chunk`](Ending::chunk).
     pub fn begin(contents: &Contents, offset: u64) -> Result<Ending> {
         let mut piece = Vec::new();
         append(&mut piece, op::DATA_END, &DataEnd::default(), &[])?;
@@ -61,7 +62,7 @@ impl Ending {
         Ok(ending)
     }
 
-    /// Tells the next chunk.
+    /// Adds the next chunk.
     pub fn chunk(&mut self, chunk: &Closed) -> Result<()> {
         self.chunks += 1;
         for (channel, count) in &chunk.counts {
@@ -70,17 +71,17 @@ impl Ending {
         let [first, last] = [chunk.index.message_start_time, chunk.index.message_end_time];
         let known = self.stretch.unwrap_or([first, last]);
         self.stretch = Some([known[0].min(first), known[1].max(last)]);
-        // Of a chunk that cannot be read, only its index tells how many messages it holds.
+        // For a chunk that cannot be read, only its index gives the number of messages.
         self.is_counted &= !chunk.counts.is_empty() || is_known(&chunk.index.compression);
         append(&mut self.piece, op::CHUNK_INDEX, &chunk.index, &[])
     }
 
-    /// Bytes that nobody has taken yet.
+    /// Number of bytes not taken yet.
     pub fn waiting(&self) -> usize {
         self.piece.len()
     }
 
-    /// Takes them.
+    /// Takes the bytes.
     pub fn take(&mut self) -> Vec<u8> {
         self.sum.update(&self.piece[self.summed..]);
         self.summed = 0;
@@ -88,7 +89,7 @@ impl Ending {
         std::mem::take(&mut self.piece)
     }
 
-    /// The last piece.
+    /// Returns the last piece.
     pub fn finish(mut self, contents: &Contents) -> Result<Vec<u8>> {
         self.group(op::CHUNK_INDEX);
         if self.is_counted {
@@ -112,12 +113,12 @@ impl Ending {
         Ok(self.piece)
     }
 
-    /// Where the next record will lie.
+    /// Offset of the next record.
     fn place(&self) -> u64 {
         self.offset + self.piece.len() as u64
     }
 
-    /// Records of one kind end here.
+    /// Ends a group of records of one kind.
     fn group(&mut self, group_opcode: u8) {
         let (group_start, group_length) = (self.group, self.place() - self.group);
         if group_length > 0 {
@@ -141,7 +142,7 @@ impl Ending {
         }
     }
 
-    /// The footer, whose checksum is that of the summary and of itself up to there, and the last bytes.
+    /// Writes the footer, whose checksum covers the summary and the footer up to it, and the magic.
     fn footer(&mut self, offsets: u64) -> Result<()> {
         let mut footer = Footer { summary_start: self.start, summary_offset_start: offsets, summary_crc: 0 };
         let at = self.piece.len();

@@ -1,4 +1,4 @@
-//! What is found in a file, for its summary.
+//! Collects the contents of a file while scanning it.
 
 use super::chunk::{Closed, Index};
 use super::contents::Contents;
@@ -7,7 +7,7 @@ use mcap::records::{
 };
 use std::collections::BTreeMap;
 
-/// Each is a record of `length` bytes at `offset`.
+/// Each method adds a record of `length` bytes at `offset`.
 impl Contents {
     /// A chunk, whose message indexes may follow.
     pub(super) fn chunk(&mut self, header: &ChunkHeader, messages: &Index, offset: u64, length: u64) {
@@ -26,7 +26,7 @@ impl Contents {
         self.chunks.push(Closed { index, counts });
     }
 
-    /// Where messages of a channel lie in the chunk before.
+    /// Message index of the chunk before.
     pub(super) fn message_index(&mut self, index: &MessageIndex, offset: u64, length: u64) {
         let Some(chunk) = self.chunks.last_mut().filter(|chunk| chunk.end() == offset) else { return };
         chunk.counts.insert(index.channel_id, index.records.len() as u64);
@@ -34,7 +34,7 @@ impl Contents {
         chunk.index.message_index_length += length;
     }
 
-    /// An attached file of `data_size` bytes.
+    /// An attachment of `data_size` bytes.
     pub(super) fn attachment(&mut self, header: AttachmentHeader, data_size: u64, offset: u64, length: u64) {
         self.attachments.push(AttachmentIndex {
             offset,
@@ -47,7 +47,7 @@ impl Contents {
         });
     }
 
-    /// Words by name.
+    /// A metadata record.
     pub(super) fn words(&mut self, name: &str, offset: u64, length: u64) {
         self.metadata.push(MetadataIndex { offset, length, name: name.into() });
     }

@@ -1,7 +1,7 @@
-//! LZ4 frames, decoded straight into the caller's buffer: no copy, and no memory asked for.
+//! Decodes LZ4 frames directly into the caller's buffer, without copies or allocation.
 //!
-//! Only frames of independent blocks without a dictionary, which is how our chunks and most others are
-//! written. Their checksums (of the block, of the content) are passed over: a chunk of MCAP has its own.
+//! Supports frames of independent blocks without a dictionary, as in our chunks and most others. Checksums
+//! (of block and content) are ignored, because a chunk of MCAP has its own.
 
 use lz4_flex::frame::{BlockSize, FrameEncoder, FrameInfo};
 use std::sync::LazyLock;
@@ -14,11 +14,11 @@ const INDEPENDENT: u8 = 0b0010_0000;
 const BLOCK_CHECKSUMS: u8 = 0b0001_0000;
 const CONTENT_SIZE: u8 = 0b0000_1000;
 const DICTIONARY: u8 = 0b0000_0001;
-/// Of a block's length: its bytes are plain.
+/// Flag of a block's length: the block is uncompressed.
 const PLAIN: u32 = 1 << 31;
 
-/// Whether a frame's head is one of those with which chunks of this program begin. Others have to be checked
-/// against the head's own checksum, which [`decode`] passes over.
+/// True if a frame's head is one that chunks of this program have. Other heads must be checked against their
+/// own checksum, which [`decode`] ignores.
 pub fn is_ours(frame: &[u8]) -> bool {
     static HEADS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
         [BlockSize::Max64KB, BlockSize::Max256KB, BlockSize::Max4MB].into_iter().filter_map(head).collect()
@@ -26,19 +26,20 @@ pub fn is_ours(frame: &[u8]) -> bool {
     HEADS.iter().any(|head| frame.starts_with(head))
 }
 
-/// The head of a frame with blocks of that size, and nothing else set.
+/// Head of a frame with this block size and no other options.
 fn head(size: BlockSize) -> Option<Vec<u8>> {
     let empty = FrameEncoder::with_frame_info(FrameInfo::new().block_size(size), Vec::new()).finish().ok()?;
-    // An empty frame ends with the length 0 of a block.
+    // An empty frame ends with a block length of 0.
     empty.strip_suffix(&[0; 4]).map(<[u8]>::to_vec)
 }
 
-/// Decodes a frame that fills `out` exactly. False: it is of another kind or damaged, and `out` holds anything.
+/// Decodes a frame that fills `out` exactly. Returns false if it is of another kind or damaged; then the
+/// contents of `out` are undefined.
 pub fn decode(mut frame: &[u8], out: &mut [u8]) -> bool {
     blocks(&mut frame, out).is_some_and(|length| length == out.len())
 }
 
-/// The bytes that were decoded.
+/// Decodes blocks. Returns the number of decoded bytes.
 fn blocks(frame: &mut &[u8], out: &mut [u8]) -> Option<usize> {
     if number(frame)? != MAGIC {
         return None;
@@ -47,7 +48,7 @@ fn blocks(frame: &mut &[u8], out: &mut [u8]) -> Option<usize> {
     if flags & VERSION != VERSION_1 || flags & INDEPENDENT == 0 || flags & DICTIONARY != 0 {
         return None;
     }
-    // The largest block, the content's size where it is told, the checksum of this head.
+    // Largest block, size of the content if present, checksum of this head.
     let rest = if flags & CONTENT_SIZE == 0 { 2 } else { 10 };
     frame.split_off(..rest)?;
     let mut length = 0;
@@ -86,7 +87,7 @@ mod tests {
         encoder.finish().unwrap()
     }
 
-    /// Runs that compress, and 70,000 bytes that do not.
+    /// Compressible runs, and 70,000 incompressible bytes.
     fn body() -> Vec<u8> {
         let mut random = fastrand::Rng::with_seed(1);
         let noise = std::iter::repeat_with(move || random.u8(..)).take(70_000);

@@ -1,5 +1,4 @@
-//! The messages of a recording in the order in which they were written, also of one that is damaged or has no
-//! end.
+//! Reads the messages of a recording in written order, also if it is damaged or truncated.
 
 use super::attached::attached;
 use super::chunk;
@@ -12,32 +11,32 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Bytes of a message before its data: channel, order, times.
+/// Size of a message before its data: channel, order, times.
 const MESSAGE: usize = 22;
 /// Longest record outside of chunks that is read, bytes.
 const LONGEST: u64 = 1 << 24;
 
-/// One message.
+/// A message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Message<'a> {
     /// Channel, order and times (ns).
     pub header: MessageHeader,
-    /// Its bytes, as the channel's encoding says.
+    /// Its bytes in the channel's encoding.
     pub data: &'a [u8],
 }
 
-/// Goes through the messages. Damaged chunks are passed over and counted; memory does not grow with the file.
+/// Iterates over the messages. Damaged chunks are skipped and counted; memory does not grow with the file.
 #[derive(Debug)]
 pub struct Messages {
     records: Records,
     path: PathBuf,
-    /// None: messages of all topics.
+    /// The only topic to read; none for all.
     only: Option<&'static str>,
-    /// Name of the attached file that is looked for, and the first of them, once it was passed.
+    /// Name of the wanted attachment, and the first one of that name once it was passed.
     wanted: Option<&'static str>,
     attached: Option<Vec<u8>>,
     channels: BTreeMap<u16, Channel>,
-    /// Plain records of the chunk that is gone through, and where its next one begins.
+    /// Uncompressed records of the current chunk, and the offset of the next one.
     plain: Vec<u8>,
     next: usize,
     skipped: Skipped,
@@ -45,7 +44,7 @@ pub struct Messages {
 }
 
 impl Messages {
-    /// Of a file.
+    /// Opens a file.
     pub fn open(path: &Path) -> Result<Messages> {
         Ok(Messages {
             records: Records::open(path)?,
@@ -61,37 +60,37 @@ impl Messages {
         })
     }
 
-    /// Of a file, but only those of one topic.
+    /// Opens a file for one topic.
     pub fn of_topic(path: &Path, topic: &'static str) -> Result<Messages> {
         Ok(Messages { only: Some(topic), ..Messages::open(path)? })
     }
 
-    /// Keeps the first attached file of that name that is passed.
+    /// Keeps the first attachment of this name that is passed.
     pub fn wanting(self, name: &'static str) -> Messages {
         Messages { wanted: Some(name), ..self }
     }
 
-    /// The attached file that is wanted; none: it was not passed yet.
+    /// The wanted attachment; none before it is passed.
     pub fn attached(&self) -> Option<&[u8]> {
         self.attached.as_deref()
     }
 
-    /// What a channel is about; none: it has not been told yet.
+    /// Topic of a channel; none if it is not declared yet.
     pub fn topic(&self, channel: u16) -> Option<&str> {
         self.channels.get(&channel).map(|channel| channel.topic.as_str())
     }
 
-    /// What was passed over so far.
+    /// What was skipped so far.
     pub fn skipped(&self) -> Skipped {
         self.skipped
     }
 
-    /// Bytes of the file so far, and of all.
+    /// Bytes of the file read so far, and its size.
     pub fn passed(&self) -> [u64; 2] {
         [self.records.offset(), self.records.length()]
     }
 
-    /// The next message; none: there are no more. An error: the disk cannot be read.
+    /// Next message; none at the end. Error if the disk cannot be read.
     pub fn next_message(&mut self) -> Result<Option<Message<'_>>> {
         let found = self.find().with_context(|| format!("{} cannot be read", self.path.display()))?;
         Ok(found.map(|(header, data)| Message { header, data: &self.plain[data] }))
@@ -109,7 +108,7 @@ impl Messages {
         }
     }
 
-    /// The next message of the chunk.
+    /// Next message of the chunk.
     fn inside(&mut self) -> Option<(MessageHeader, Range<usize>)> {
         let mut inside = Inside::of(&self.plain, self.next);
         while let Some(record) = inside.next() {
@@ -129,7 +128,7 @@ impl Messages {
         None
     }
 
-    /// Goes on to the next chunk, or message outside of chunks; false: there are no more.
+    /// Moves to the next chunk, or message outside of chunks. Returns false at the end.
     fn fill(&mut self) -> Result<bool> {
         loop {
             match self.step()? {
@@ -146,7 +145,7 @@ impl Messages {
         }
     }
 
-    /// Takes the next record of the file.
+    /// Reads the next record of the file.
     fn step(&mut self) -> Result<Step> {
         let offset = self.records.offset();
         let Some(head) = self.records.next_head()? else { return Ok(Step::Damaged(Damage::at(offset))) };
@@ -172,7 +171,7 @@ impl Messages {
         Ok(Step::Passed)
     }
 
-    /// Keeps an attached file, if it is the one that is wanted.
+    /// Keeps an attachment if it is the wanted one.
     fn attach(&mut self, head: Head) -> Result<()> {
         let record = self.records.body(head)?;
         let found = attached(record.body).filter(|(header, ..)| Some(header.name.as_str()) == self.wanted);
@@ -195,17 +194,17 @@ impl Messages {
     }
 }
 
-/// What came of a record.
+/// Result of reading a record.
 enum Step {
-    /// There are messages.
+    /// It has messages.
     Filled,
-    /// It tells nothing.
+    /// It has none.
     Passed,
     Damaged(Damage),
     Over,
 }
 
-/// A message's header; none: it is too short.
+/// Header of a message; none if it is too short.
 fn message(body: &[u8]) -> Option<MessageHeader> {
     let (channel_id, rest) = body.split_first_chunk()?;
     let (sequence, rest) = rest.split_first_chunk()?;
@@ -218,7 +217,7 @@ fn message(body: &[u8]) -> Option<MessageHeader> {
     })
 }
 
-/// Takes a channel that can be read.
+/// Adds a readable channel.
 fn channel(body: &[u8], channels: &mut BTreeMap<u16, Channel>) {
     if let Ok(Record::Channel(channel)) = parse_record(op::CHANNEL, body) {
         channels.insert(channel.id, channel);

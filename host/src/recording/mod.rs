@@ -1,32 +1,31 @@
-//! A recording: one [MCAP](https://mcap.dev/spec) file, which Foxglove, Rerun, Python's `mcap` and ROS 2 read.
+//! Recordings: [MCAP](https://mcap.dev/spec) files, as read by Foxglove, Rerun, Python's `mcap` and ROS 2.
 //!
-//! The records are those of the crate `mcap`; they are put together here, and not by its writer, for three
-//! reasons: a chunk is written whole or not at all, so that a kill or a full disk leaves nothing half in the
-//! middle; a damaged file can be read as far as it is sound; and chunks are compressed (LZ4) without a C
-//! library.
+//! The records are those of the crate `mcap`. Its writer is not used, for three reasons: here a chunk is
+//! written whole or not at all, so that a kill or a full disk leaves nothing partial in the middle; a damaged
+//! file can be read as far as it is intact; and chunks are compressed (LZ4) without a C library.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `store.rs` | what is written to: a file, which can be cut back |
+//! | `store.rs` | what a recording is written to: a file that can be truncated |
 //! | `append.rs` | one record as bytes |
 //! | `chunk.rs` | messages of a second, compressed, with their index |
-//! | `contents.rs` | what is in a file |
-//! | `ending.rs` | the end of a file: its summary and its footer |
+//! | `contents.rs` | contents of a file |
+//! | `ending.rs` | the end of a file, written: its summary and its footer |
 //! | `writer.rs` | a file being written |
-//! | `written.rs` | the chunks of such a file, found again for its end |
+//! | `written.rs` | the chunks of such a file, read back for its end |
 //! | `records.rs` | the records of a file, one after the other |
 //! | `messages.rs` | its messages |
-//! | `damage.rs` | what is damaged in the middle of a file, passed over |
-//! | `texts.rs` | one record, read once its texts are known to lie within it |
+//! | `damage.rs` | damage in the middle of a file, skipped |
+//! | `texts.rs` | one record, parsed once its texts are known to lie within it |
 //! | `lz4.rs` | LZ4 frames, decoded without a copy |
-//! | `source.rs` | bytes of a file at any place |
-//! | `summary.rs` | the end of a file: footer and summary, read |
+//! | `source.rs` | bytes of a file at any offset |
+//! | `summary.rs` | the end of a file, read: footer and summary |
 //! | `clips.rs` | the messages of any chunk |
-//! | `overview.rs` | what is in a file, by its summary or by going through it |
-//! | `attached.rs` | one attached file |
+//! | `overview.rs` | contents of a file, by its summary or a scan |
+//! | `attached.rs` | one attachment |
 //! | `salvage/` | the records of a file that may be damaged |
-//! | `scan.rs`, `found.rs` | what is in a file, found by going through it |
-//! | `repair.rs` | a file that is damaged or has no end, written anew |
+//! | `scan.rs`, `found.rs` | contents of a file, by a scan |
+//! | `repair.rs` | rewrites a damaged or truncated file |
 
 mod append;
 mod attached;

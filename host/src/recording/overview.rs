@@ -1,4 +1,4 @@
-//! What is in a recording, at once: by the summary at its end, or else by going through it.
+//! Contents of a recording, by the summary at its end, or else by a scan.
 
 use super::attached::attached;
 use super::contents::{ChannelInfo, Stretch};
@@ -11,26 +11,26 @@ use mcap::records::{AttachmentIndex, Metadata, Record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What is in a recording.
+/// Contents of a recording.
 #[derive(Debug, Clone)]
 pub struct Overview {
     path: PathBuf,
-    /// The channels, with the names of their schemas.
+    /// Channels and the names of their schemas.
     pub channels: Vec<ChannelInfo>,
-    /// Messages by channel.
+    /// Number of messages by channel.
     pub counts: BTreeMap<u16, u64>,
-    /// First and last log time, ns; none without a message.
+    /// First and last log time, ns; none without messages.
     pub stretch: Option<Stretch>,
-    /// Where attached files lie.
+    /// Places of the attachments.
     pub attachments: Vec<AttachmentIndex>,
-    /// Words of the file by name.
+    /// Metadata of the file.
     pub metadata: Vec<Metadata>,
-    /// Bytes behind what is whole, of a file without its end; none: it has its end.
+    /// Bytes behind the intact part of a file without its end; none if it has its end.
     pub torn: Option<u64>,
 }
 
 impl Overview {
-    /// Of a file. One with a summary is not gone through, whatever its length.
+    /// Inspects a file. A file with a summary is not scanned, whatever its length.
     pub fn of(path: &Path) -> Result<Overview> {
         match summary(path)? {
             Some(summary) if summary.statistics.is_some() => Overview::told(path, summary),
@@ -52,13 +52,13 @@ impl Overview {
             counts: statistics.channel_message_counts,
             stretch: (statistics.message_count > 0).then_some(times),
             attachments,
-            // Words that are damaged are missing; the messages are there all the same.
+            // Damaged metadata is left out; the messages are not affected.
             metadata: words.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect(),
             torn: None,
         })
     }
 
-    /// Of a file that has been gone through.
+    /// Overview of a scanned file.
     pub fn found(path: &Path, scan: &Scan) -> Overview {
         Overview {
             path: path.into(),
@@ -71,26 +71,26 @@ impl Overview {
         }
     }
 
-    /// Messages of a topic.
+    /// Number of messages of a topic.
     pub fn messages(&self, topic: &str) -> u64 {
         let of = self.channels.iter().filter(|info| info.channel.topic == topic);
         of.filter_map(|info| self.counts.get(&info.channel.id)).sum()
     }
 
-    /// The newest words of that name.
+    /// Newest metadata of this name.
     pub fn words(&self, name: &str) -> Option<&BTreeMap<String, String>> {
         self.metadata.iter().rfind(|words| words.name == name).map(|words| &words.metadata)
     }
 
-    /// Counts per newton that the recording's source knew.
+    /// Counts per newton of the recording's source, if known.
     pub fn counts_per_newton(&self) -> Option<f64> {
         let counts: f64 = self.words("taxel")?.get("counts_per_newton")?.parse().ok()?;
         (counts.is_finite() && counts > 0.0).then_some(counts)
     }
 
-    /// What is attached under that name, the newest; none: nothing is.
+    /// Newest attachment of this name; none if there is none.
     pub fn attached(&self, name: &str) -> Result<Option<Vec<u8>>> {
-        let place = || format!("{}: {name} that is attached cannot be read", self.path.display());
+        let place = || format!("{}: attachment {name} cannot be read", self.path.display());
         let Some(index) = self.attachments.iter().rfind(|index| index.name == name) else {
             return Ok(None);
         };
@@ -101,7 +101,7 @@ impl Overview {
     }
 }
 
-/// The words that lie there; none: they are damaged.
+/// Metadata at an offset; none if it is damaged.
 fn words(path: &Path, offset: u64) -> Result<Option<Metadata>> {
     let mut records = Records::open_at(path, offset)?;
     let record = records.next_short(LONGEST as u64)?;

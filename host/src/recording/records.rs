@@ -1,4 +1,4 @@
-//! The records of a recording, one after the other, as far as they go. One buffer serves all of them.
+//! Iterates over the records of a recording up to the last intact one. One buffer serves them all.
 
 use super::append::HEAD;
 use anyhow::{Context, Result, bail};
@@ -7,49 +7,49 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// What stands before a record's body.
+/// Head of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Head {
-    /// Where the record begins.
+    /// Offset of the record.
     pub offset: u64,
     /// Its number.
     pub op: u8,
-    /// Bytes of its body.
+    /// Size of its body.
     pub length: u64,
 }
 
 impl Head {
-    /// From the bytes at `offset`.
+    /// Decodes the bytes at `offset`.
     pub(super) fn read(offset: u64, bytes: [u8; HEAD]) -> Head {
         let [op, length @ ..] = bytes;
         Head { offset, op, length: u64::from_le_bytes(length) }
     }
 
-    /// Where the next record begins; a damaged length may lie beyond all numbers.
+    /// Offset of the next record; saturates, because a damaged length may be any number.
     pub fn end(&self) -> u64 {
         self.offset.saturating_add(HEAD as u64).saturating_add(self.length)
     }
 }
 
-/// A record as it lies in the file or in a chunk.
+/// A record as stored in the file or in a chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RawRecord<'a> {
-    /// Where it begins.
+    /// Offset of the record.
     pub offset: u64,
     /// Its number.
     pub op: u8,
-    /// What it holds.
+    /// Its contents.
     pub body: &'a [u8],
 }
 
 impl RawRecord<'_> {
-    /// Where the next begins.
+    /// Offset of the next record.
     pub fn end(&self) -> u64 {
         self.offset + (HEAD + self.body.len()) as u64
     }
 }
 
-/// Goes through the records of a file.
+/// Iterates over the records of a file.
 #[derive(Debug)]
 pub struct Records {
     input: BufReader<File>,
@@ -59,7 +59,7 @@ pub struct Records {
 }
 
 impl Records {
-    /// Of a file.
+    /// Opens a file.
     pub fn open(path: &Path) -> Result<Records> {
         let place = || format!("{} cannot be read", path.display());
         crate::verbose::reads(path);
@@ -76,16 +76,16 @@ impl Records {
         Ok(Records { input, offset: MAGIC.len() as u64, length, body: Vec::new() })
     }
 
-    /// Of a file, from the record that begins there.
+    /// Opens a file at the record with this offset.
     pub fn open_at(path: &Path, offset: u64) -> Result<Records> {
         let mut records = Records::open(path)?;
         records.go_to(offset).with_context(|| format!("{} cannot be read", path.display()))?;
         Ok(records)
     }
 
-    /// Goes on with the record that begins there.
+    /// Moves to the record at an offset.
     pub fn go_to(&mut self, offset: u64) -> Result<()> {
-        // A step within the buffer costs nothing.
+        // A move within the buffer costs nothing.
         match offset.checked_signed_diff(self.offset) {
             Some(step) => self.input.seek_relative(step)?,
             None => _ = self.input.seek(SeekFrom::Start(offset))?,
@@ -94,8 +94,8 @@ impl Records {
         Ok(())
     }
 
-    /// The head of the next record, which [`Records::body`] or [`Records::go_to`] must follow; none: the rest
-    /// is no whole record, and the place is as before.
+    /// Head of the next record, to be followed by [`Records::body`] or [`Records::go_to`]. None if the rest
+    /// is not a complete record; then the position is unchanged.
     pub fn next_head(&mut self) -> Result<Option<Head>> {
         let mut bytes = [0; HEAD];
         if self.length.saturating_sub(self.offset) < HEAD as u64 {
@@ -111,9 +111,9 @@ impl Records {
         Ok(Some(head))
     }
 
-    /// The record of the head that was read last.
+    /// The record of the last head.
     pub fn body(&mut self, head: Head) -> Result<RawRecord<'_>> {
-        // No more than the file has.
+        // At most the bytes that the file has.
         let length = head.length as usize;
         if self.body.len() < length {
             self.body.resize(length, 0);
@@ -124,7 +124,7 @@ impl Records {
         Ok(RawRecord { offset: head.offset, op: head.op, body })
     }
 
-    /// The next record; none: the rest is no whole record.
+    /// Next record; none if the rest is not a complete record.
     pub fn next_record(&mut self) -> Result<Option<RawRecord<'_>>> {
         match self.next_head()? {
             Some(head) => self.body(head).map(Some),
@@ -132,7 +132,7 @@ impl Records {
         }
     }
 
-    /// The next record, if it has at most so many bytes; none: it is longer, or the rest is no whole record.
+    /// Next record of at most `longest` bytes; none if it is longer, or the rest is not a complete record.
     pub fn next_short(&mut self, longest: u64) -> Result<Option<RawRecord<'_>>> {
         match self.next_head()? {
             Some(head) if head.length <= longest => self.body(head).map(Some),
@@ -140,7 +140,7 @@ impl Records {
         }
     }
 
-    /// The bytes that follow, at most `count`.
+    /// The following bytes, at most `count`.
     pub fn rest(&mut self, count: u64) -> Result<Vec<u8>> {
         let mut rest = Vec::new();
         let read = self.input.by_ref().take(count).read_to_end(&mut rest)?;
@@ -148,18 +148,18 @@ impl Records {
         Ok(rest)
     }
 
-    /// Where the next record begins.
+    /// Offset of the next record.
     pub fn offset(&self) -> u64 {
         self.offset
     }
 
-    /// Bytes of all.
+    /// Size of the file.
     pub fn length(&self) -> u64 {
         self.length
     }
 }
 
-/// Goes through the records of a chunk's plain bytes.
+/// Iterates over the records in a chunk's uncompressed bytes.
 #[derive(Debug, Clone)]
 pub struct Inside<'a> {
     bytes: &'a [u8],
@@ -167,12 +167,12 @@ pub struct Inside<'a> {
 }
 
 impl<'a> Inside<'a> {
-    /// From an offset on.
+    /// Begins at an offset.
     pub fn of(bytes: &'a [u8], offset: usize) -> Inside<'a> {
         Inside { bytes, offset }
     }
 
-    /// Where the next record begins.
+    /// Offset of the next record.
     pub fn offset(&self) -> usize {
         self.offset
     }
@@ -181,7 +181,7 @@ impl<'a> Inside<'a> {
 impl<'a> Iterator for Inside<'a> {
     type Item = RawRecord<'a>;
 
-    /// None: the rest is no whole record.
+    /// None if the rest is not a complete record.
     fn next(&mut self) -> Option<RawRecord<'a>> {
         let rest = self.bytes.get(self.offset..)?;
         let (head, rest) = rest.split_first_chunk()?;

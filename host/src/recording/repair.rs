@@ -1,8 +1,7 @@
-//! A damaged recording, or one without its end, written anew: all that can be read, and an end.
+//! Rewrites a damaged or truncated recording: everything readable, and an end.
 //!
-//! Chunks are copied as they are compressed, others' compressions and records that are not known here
-//! included. What is left out is what no reader could read: chunks that do not fit their checksum, and bytes
-//! that are no record.
+//! Chunks are copied in compressed form, including those of other compressions, as are unknown records. Left
+//! out is what no reader could read: chunks that fail their checksum, and bytes that are not a record.
 
 use super::append::{append, sized};
 use super::chunk::{Closed, Index};
@@ -19,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::Path;
 
-/// Writes what can be read of the file that was scanned; the bytes that were written.
+/// Writes the readable parts of the scanned file. Returns the bytes written.
 pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     let mut walk = Walk::open(path)?;
     let (schemas, channels) = (scan.contents.schemas.clone(), scan.contents.channels.clone());
@@ -40,7 +39,7 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     Ok(rebuilt.length)
 }
 
-/// Numbers of schemas and channels that stand in the new file already.
+/// Numbers of schemas and channels already written to the new file.
 #[derive(Debug, Default)]
 struct Told {
     schemas: BTreeSet<u16>,
@@ -51,10 +50,10 @@ struct Told {
 struct Rebuilt<'a, W> {
     out: &'a mut W,
     length: u64,
-    /// What is in it; all schemas and channels of the old one.
+    /// Contents of the new file; all schemas and channels of the old one.
     contents: Contents,
     told: Told,
-    /// The record before is a chunk of a compression or a size that is not read here, or an index of its
+    /// The previous record is a chunk that cannot be read here (compression or size), or an index of its
     /// messages.
     follows_foreign: bool,
 }
@@ -66,7 +65,7 @@ impl<W: Write> Rebuilt<'_, W> {
         let lost = || Header { profile: String::new(), library: library.into() };
         self.record(op::HEADER, &scan.header.clone().unwrap_or_else(lost), &[])?;
         if scan.foreign > 0 && !scan.damage.is_empty() {
-            // What was told in a chunk that is lost may be needed by one that cannot be looked into.
+            // A channel from a lost chunk may be needed by a chunk that cannot be read here.
             let channels: Vec<_> = self.contents.channels.keys().copied().collect();
             channels.into_iter().try_for_each(|channel| self.channel(channel))?;
         }
@@ -103,13 +102,13 @@ impl<W: Write> Rebuilt<'_, W> {
                 self.contents.words(&metadata.name, offset, length);
             }
             Kind::Unknown => _ = self.raw(piece.op, &piece.body)?,
-            // Written anew.
+            // Written anew below.
             Kind::Header(_) | Kind::BadChunk | Kind::Index(_) | Kind::Summary | Kind::Footer => {}
         }
         Ok(())
     }
 
-    /// A chunk, with what its messages need to be read, and its indexes.
+    /// Copies a chunk, with the schemas and channels of its messages, and its indexes.
     fn chunk(&mut self, header: &ChunkHeader, inside: &Opened, body: &[u8]) -> Result<()> {
         self.told.schemas.extend(inside.schemas.iter().map(|(header, _)| header.id));
         for channel in &inside.channels {
@@ -124,7 +123,7 @@ impl<W: Write> Rebuilt<'_, W> {
         self.put(&indexes)
     }
 
-    /// Tells a channel where it has not been told. One that is lost gets a name that says so.
+    /// Writes a channel unless written already. A lost one gets a name that says so.
     fn channel(&mut self, id: u16) -> Result<()> {
         if !self.told.channels.insert(id) {
             return Ok(());
@@ -141,9 +140,9 @@ impl<W: Write> Rebuilt<'_, W> {
         self.record(op::CHANNEL, &channel, &[])
     }
 
-    /// Tells a schema where it has not been told. One that is lost is empty.
+    /// Writes a schema unless written already. A lost one is empty.
     fn schema(&mut self, id: u16) -> Result<()> {
-        // Number 0 stands for no schema.
+        // Number 0 is no schema.
         if id == 0 || !self.told.schemas.insert(id) {
             return Ok(());
         }
@@ -161,7 +160,7 @@ impl<W: Write> Rebuilt<'_, W> {
         self.put(&bytes)
     }
 
-    /// Copies a record; where it lies, and its bytes.
+    /// Copies a record. Returns its offset and size.
     fn raw(&mut self, number: u8, body: &[u8]) -> Result<(u64, u64)> {
         let offset = self.length;
         self.put(&[number])?;
@@ -171,7 +170,7 @@ impl<W: Write> Rebuilt<'_, W> {
     }
 
     fn end(&mut self) -> Result<()> {
-        // What only the old summary told, and nothing has needed.
+        // Only in the old summary, and not needed so far.
         let (channels, schemas) =
             (self.contents.channels.keys().copied(), self.contents.schemas.keys().copied());
         let (channels, schemas): (Vec<_>, Vec<_>) = (channels.collect(), schemas.collect());

@@ -1,4 +1,4 @@
-//! What is in a file, found by going through it.
+//! Scans a file for its contents.
 
 use super::chunk::Index;
 use super::contents::Contents;
@@ -8,30 +8,30 @@ use anyhow::Result;
 use mcap::records::{Header, Metadata, Statistics};
 use std::path::Path;
 
-/// What is in a file.
+/// Contents of a file.
 #[derive(Debug)]
 pub struct Scan {
-    /// What can be read, in the places where it lies.
+    /// Readable contents, with their offsets.
     pub contents: Contents,
-    /// The file has its end, and nothing in it is known to be damaged.
+    /// The file has its end, and no known damage.
     pub whole: bool,
     /// The file has its end: a footer, which may be damaged.
     pub ended: bool,
-    /// Bytes behind what can be read of a file that has no end.
+    /// Bytes behind the readable part of a file without its end.
     pub torn: u64,
-    /// Bytes that cannot be read, those behind what can be read included.
+    /// Unreadable bytes, including those behind the readable part.
     pub damage: Vec<Damage>,
-    /// Records that can be read though their number, their length or their fields stand wrong in the file.
+    /// Number of records that are readable although their number, length or fields are wrong in the file.
     pub corrected: usize,
-    /// Chunks of compressions or of a size that are not read here: no message in them can be read.
+    /// Number of chunks that cannot be read here because of their compression or size.
     pub foreign: usize,
-    /// Words of the file by name.
+    /// Metadata of the file.
     pub metadata: Vec<Metadata>,
     /// Library and profile.
     pub header: Option<Header>,
 }
 
-/// Goes through a file.
+/// Scans a file.
 pub fn scan(path: &Path) -> Result<Scan> {
     let mut walk = Walk::open(path)?;
     let ended = walk.marks.has_end;
@@ -58,7 +58,7 @@ pub fn scan(path: &Path) -> Result<Scan> {
     let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());
     scan.torn = last.map_or(0, |last| last.length);
     let is_counted = walk.marks.statistics.as_ref().is_none_or(|told| scan.is_counted_by(told));
-    // The summary's own checksum covers what it says.
+    // The summary is covered by its own checksum.
     scan.contents.schemas.append(&mut walk.marks.schemas);
     scan.contents.channels.append(&mut walk.marks.channels);
     let is_sound = walk.marks.is_sound && scan.damage.is_empty() && scan.corrected == 0;
@@ -67,15 +67,15 @@ pub fn scan(path: &Path) -> Result<Scan> {
 }
 
 impl Scan {
-    /// Chunks that cannot be read, and bytes; those behind what can be read of a file without its end are not
-    /// counted.
+    /// Number of unreadable chunks and bytes, without those behind the readable part of a file without its
+    /// end.
     pub fn damaged(&self) -> (usize, u64) {
         let inside = self.damage.iter().take(self.damage.len() - usize::from(self.torn > 0));
         inside.fold((0, 0), |(chunks, bytes), damage| (chunks + damage.chunks, bytes + damage.length))
     }
 
-    /// Whether there are as many records of each kind as the file's end says; a record whose number stands
-    /// wrong may pass for another. What is in chunks that are not read here is not known.
+    /// True if the numbers of records of each kind match the file's statistics; a record with a wrong number
+    /// may pass for one of another kind. Records in unreadable chunks are not known.
     fn is_counted_by(&self, told: &Statistics) -> bool {
         let found = &self.contents;
         let messages: u64 = found.counts().values().sum();
@@ -94,7 +94,7 @@ impl Scan {
         let contents = &mut self.contents;
         match piece.kind {
             Kind::Header(header) => _ = self.header.get_or_insert(header),
-            // What is told in a chunk has been checked, what is told outside has not.
+            // Records in chunks are covered by a checksum, those outside are not.
             Kind::Schema(header, data) => _ = contents.schemas.entry(header.id).or_insert((header, data)),
             Kind::Channel(channel) => _ = contents.channels.entry(channel.id).or_insert(channel),
             Kind::Message(header) => contents.count_loose(header.channel_id, header.log_time),

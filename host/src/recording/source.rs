@@ -1,4 +1,4 @@
-//! Bytes of a file at any place.
+//! Reads bytes of a file at any offset.
 
 use super::append::HEAD;
 use anyhow::{Context, Result, bail};
@@ -7,10 +7,10 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 
-/// Bytes of the last bytes of a file: the magic.
+/// Size of the magic at the end of a file.
 const TAIL: u64 = MAGIC.len() as u64;
 
-/// A file that is read here and there.
+/// A file with random access.
 #[derive(Debug)]
 pub struct Source {
     input: BufReader<File>,
@@ -18,12 +18,12 @@ pub struct Source {
     length: u64,
 }
 
-/// What stands before a record.
+/// Head of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Head {
     /// The record's number.
     pub op: u8,
-    /// Bytes of its body.
+    /// Size of its body.
     pub length: u64,
 }
 
@@ -40,14 +40,14 @@ impl Source {
         Ok(Source { input: BufReader::with_capacity(1 << 16, file), at: 0, length: known.len() })
     }
 
-    /// Bytes of all.
+    /// Size of the file.
     pub fn length(&self) -> u64 {
         self.length
     }
 
-    /// Bytes from a place on, at most `count`.
+    /// Reads at most `count` bytes from an offset.
     pub fn read(&mut self, at: u64, count: u64) -> io::Result<Vec<u8>> {
-        // Within what is buffered this moves without reading.
+        // Within the buffer this moves without reading.
         self.input.seek_relative(at as i64 - self.at as i64)?;
         self.at = at;
         let mut bytes = Vec::with_capacity(count.min(self.length.saturating_sub(at)) as usize);
@@ -56,7 +56,7 @@ impl Source {
         read.map(|_| bytes)
     }
 
-    /// The head of a record; none: the file ends before.
+    /// Head of the record at an offset; none if the file ends before.
     pub fn head(&mut self, at: u64) -> io::Result<Option<Head>> {
         let bytes = self.read(at, HEAD as u64)?;
         Ok(bytes.split_first_chunk().and_then(|([op], length)| {
@@ -64,12 +64,12 @@ impl Source {
         }))
     }
 
-    /// Bytes behind the head of a record.
+    /// Bytes of the file behind a record's head.
     pub fn behind(&self, at: u64) -> u64 {
         self.length.saturating_sub(at + HEAD as u64)
     }
 
-    /// Whether these bytes and no more are left: the last ones of a file that has its end.
+    /// True if only the magic is left at this offset.
     pub fn is_tail(&mut self, at: u64) -> io::Result<bool> {
         Ok(at + TAIL == self.length && self.read(at, TAIL)? == MAGIC)
     }

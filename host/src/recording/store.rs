@@ -1,19 +1,18 @@
-//! What a recording is written to.
+//! Destination of a recording.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
-/// Bytes that are appended, and cut back where they could not be written whole.
+/// Bytes that are appended, and truncated after a partial write.
 pub trait Store: Write {
-    /// What was written is on the disk when this returns.
+    /// Returns once the written bytes are on the disk.
     fn keep(&mut self) -> io::Result<()>;
 
-    /// Forgets what lies behind the first `length` bytes; the next ones follow there.
+    /// Truncates to `length` bytes; writing continues there.
     fn cut(&mut self, length: u64) -> io::Result<()>;
 
-    /// Reads what was written, from `offset` on: how many bytes there were. What is written next follows what
-    /// was written last, as before. An error: it cannot be read, as what goes through a pipe or a socket
-    /// cannot.
+    /// Reads written bytes from `offset` on, and returns their number. Writing still continues at the end.
+    /// Error if they cannot be read back, as from a pipe or a socket.
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
 }
 

@@ -1,4 +1,4 @@
-//! What a recording says of itself at its end: found by its footer, without going through the file.
+//! Reads the summary at a recording's end: found by the footer, without scanning the file.
 
 use super::append::HEAD;
 use super::source::{Head, Source};
@@ -10,31 +10,32 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-/// Bytes of the footer's fields.
+/// Size of the footer's fields.
 const FIELDS: usize = 20;
-/// Bytes of the footer's record, and of all from it on.
+/// Size of the footer's record, and of the file's rest from it on.
 const FOOTER: usize = HEAD + FIELDS;
 const LAST: u64 = (FOOTER + MAGIC.len()) as u64;
-/// Bytes at the footer's end that the checksum leaves out: itself.
+/// Bytes at the footer's end that the checksum excludes: itself.
 const CRC: usize = size_of::<u32>();
-/// Bytes that are summed at a time.
+/// Bytes summed at once.
 const PIECE: u64 = 1 << 16;
 
 /// The end of a file.
 #[derive(Debug, Default)]
 pub struct End {
-    /// A footer or the last bytes are there; they may be damaged.
+    /// A footer or the magic is there; it may be damaged.
     pub is_there: bool,
-    /// The footer; none: it is damaged or missing.
+    /// The footer; none if it is damaged or missing.
     pub footer: Option<Footer>,
-    /// Where the summary begins, if the file has one and it fits its checksum or has none.
+    /// Offset of the summary, if the file has one and its checksum is right or absent.
     pub summary: Option<u64>,
-    /// The summary can be read to its last byte, or the file has none.
+    /// The summary is readable to its last byte, or the file has none.
     pub is_sound: bool,
 }
 
 impl End {
-    /// Reads a file's end, and shows each record of its summary to `take`, which says whether it can be right.
+    /// Reads a file's end, and passes each record of its summary to `take`, which returns whether it is
+    /// plausible.
     pub fn read(source: &mut Source, mut take: impl FnMut(Record<'_>) -> bool) -> io::Result<End> {
         let mut end = End::default();
         let Some(at) = source.length().checked_sub(LAST) else { return Ok(end) };
@@ -61,13 +62,13 @@ impl End {
     }
 }
 
-/// The checksum of the bytes from one place up to another.
+/// Checksum of the bytes between two offsets.
 fn sum(source: &mut Source, mut from: u64, until: u64) -> io::Result<u32> {
     let mut sum = crc32fast::Hasher::new();
     while from < until {
         let bytes = source.read(from, PIECE.min(until - from))?;
         if bytes.is_empty() {
-            // Somebody has cut the file meanwhile.
+            // The file was truncated meanwhile.
             break;
         }
         sum.update(&bytes);
@@ -76,7 +77,7 @@ fn sum(source: &mut Source, mut from: u64, until: u64) -> io::Result<u32> {
     Ok(sum.finalize())
 }
 
-/// Goes through the records from one place up to another; whether they can all be read and fill it.
+/// Visits the records between two offsets. Returns whether all can be read and fill the range.
 fn each(
     source: &mut Source,
     mut at: u64,
@@ -87,7 +88,7 @@ fn each(
         let fits = |head: &Head| head.length <= (until - at).min(LONGEST as u64);
         let Some(head) = source.head(at)?.filter(fits) else { return Ok(false) };
         let next = at + HEAD as u64 + head.length;
-        // Zeros are no record, and a chunk is none of a summary.
+        // Zeros are not a record, and a summary has no chunks.
         if next > until || matches!(head.op, 0 | op::CHUNK) {
             return Ok(false);
         }
@@ -100,27 +101,27 @@ fn each(
     Ok(true)
 }
 
-/// The summary, but for where each chunk lies, which grows with the recording: see [`chunk_indexes`].
+/// The summary without the places of chunks, whose size grows with the recording: see [`chunk_indexes`].
 #[derive(Debug, Default, Clone)]
 pub struct Summary {
-    /// Names of the schemas.
+    /// Names of the schemas, by number.
     pub schemas: BTreeMap<u16, String>,
-    /// Channels.
+    /// Channels, by number.
     pub channels: BTreeMap<u16, Channel>,
-    /// Counts and times, where they are told.
+    /// Counts and times, if present.
     pub statistics: Option<Statistics>,
-    /// Where each attached file lies.
+    /// Places of the attachments.
     pub attachments: Vec<AttachmentIndex>,
-    /// Where each list of words lies.
+    /// Places of the metadata.
     pub metadata: Vec<MetadataIndex>,
 }
 
-/// The footer; none: the file has no end.
+/// The footer; none if the file has no end.
 pub fn footer(path: &Path) -> Result<Option<Footer>> {
     Ok(records(path, |_| ())?.footer)
 }
 
-/// The summary; none: the file has no end, or a summary is missing or damaged.
+/// The summary; none if the file has no end, or the summary is missing or damaged.
 pub fn summary(path: &Path) -> Result<Option<Summary>> {
     let mut summary = Summary::default();
     let end = records(path, |record| match record {
@@ -134,7 +135,7 @@ pub fn summary(path: &Path) -> Result<Option<Summary>> {
     Ok((end.is_sound && end.summary.is_some()).then_some(summary))
 }
 
-/// Where each chunk lies, in the order of the file; empty: nothing says so.
+/// Places of the chunks in file order; empty if they are not listed.
 pub fn chunk_indexes(path: &Path) -> Result<Vec<ChunkIndex>> {
     let mut chunks = Vec::new();
     let end = records(path, |record| {
@@ -149,7 +150,7 @@ pub fn chunk_indexes(path: &Path) -> Result<Vec<ChunkIndex>> {
     Ok(chunks)
 }
 
-/// Shows each record of a file's summary; the file's end.
+/// Visits the records of a file's summary. Returns the file's end.
 fn records(path: &Path, mut show: impl FnMut(Record<'_>)) -> Result<End> {
     let mut take = |record: Record<'_>| {
         show(record);

@@ -9,7 +9,7 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A disk with so much room.
+/// A disk with limited room.
 #[derive(Debug)]
 struct Disk {
     bytes: Vec<u8>,
@@ -49,7 +49,7 @@ impl Store for &mut Disk {
 const JSON: Format<'_> =
     Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{\"type\":\"object\"}" };
 
-/// Writes three chunks of four messages; the first error and what the end said.
+/// Writes three chunks of four messages. Returns the first error and the result of the end.
 fn write(disk: &mut Disk) -> anyhow::Result<(Option<anyhow::Error>, anyhow::Result<u64>)> {
     let mut writer = Writer::create(disk, "")?;
     let channels = [writer.channel("/a", &JSON)?, writer.channel("/b", &JSON)?];
@@ -73,7 +73,7 @@ fn disk(room: usize) -> Disk {
     Disk { bytes: Vec::new(), room }
 }
 
-/// A file that no other test has; removed when dropped.
+/// A file of this test only; removed when dropped.
 struct Scratch(PathBuf);
 
 impl Deref for Scratch {
@@ -98,7 +98,7 @@ fn file(name: &str, bytes: &[u8]) -> Scratch {
     Scratch(path)
 }
 
-/// Messages of a file by its own summary and by going through it, which must agree.
+/// Counts the messages of a file by its summary and by a scan, which must agree.
 fn messages(path: &Path) -> u64 {
     let bytes = std::fs::read(path).unwrap();
     let summary = Summary::read(&bytes).unwrap().expect("a summary");
@@ -117,14 +117,14 @@ fn messages(path: &Path) -> u64 {
     told
 }
 
-/// What can be read of a file, with an end.
+/// Repairs a file.
 fn repaired(path: &Path) -> Scratch {
     let mut bytes = Vec::new();
     repair(path, &scan(path).unwrap(), &mut bytes).unwrap();
     file("repaired", &bytes)
 }
 
-/// Log times of the messages that can be read, and what was passed over.
+/// Log times of the readable messages, and what was skipped.
 fn read(path: &Path) -> (Vec<u64>, Skipped) {
     let (mut messages, mut times) = (Messages::open(path).unwrap(), Vec::new());
     while let Some(message) = messages.next_message().unwrap() {
@@ -172,7 +172,7 @@ fn what_is_damaged_is_passed_over_and_counted() {
     let places = chunk_indexes(&path).unwrap();
     let [first, second, third] = [0, 1, 2].map(|chunk| places[chunk].chunk_start_offset as usize);
     let others: Vec<u64> = [0, 1, 2, 3, 200, 201, 202, 203].into();
-    // With the index at the end, and after a kill, which has left none.
+    // With the index at the end, and after a kill, which leaves none.
     for bytes in [&whole.bytes[..], &whole.bytes[..third + places[2].chunk_length as usize]] {
         let mut read_whole = 0;
         for at in second..second + places[1].chunk_length as usize {
@@ -180,8 +180,8 @@ fn what_is_damaged_is_passed_over_and_counted() {
             damaged[at] ^= 0x80;
             let path = file("damaged", &damaged);
             let (times, skipped) = read(&path);
-            // Times of a chunk, and some bits of LZ4's head, have no checksum: what is read then is right all
-            // the same.
+            // Times of a chunk, and some bits of LZ4's head, have no checksum: the messages are right all the
+            // same.
             let is_read = times.len() == 12;
             let unknown = at == second && bytes.len() < whole.bytes.len();
             assert!(is_read || times == others, "{at}: {times:?}");
@@ -193,7 +193,7 @@ fn what_is_damaged_is_passed_over_and_counted() {
         }
         assert!(read_whole < 40, "{read_whole} bytes of {} do not matter", places[1].chunk_length);
     }
-    // Whole stretches: from the middle of one chunk to the middle of the next.
+    // Longer ranges: from the middle of one chunk to the middle of the next.
     let mut damaged = whole.bytes.clone();
     damaged[first + 30..second + 30].fill(0xAA);
     let path = file("damaged", &damaged);
@@ -212,7 +212,7 @@ fn records_that_nobody_knows_are_passed_over() {
     let second = chunk_indexes(&path).unwrap()[1].chunk_start_offset as usize;
     let mut bytes = whole.bytes[..second].to_vec();
     append(&mut bytes, 0x8F, &4711u64, b"of a later version").unwrap();
-    // Without the end, whose places would be wrong.
+    // Without the end, whose offsets would be wrong.
     bytes.extend_from_slice(&whole.bytes[second..whole.bytes.len() - 60]);
     let path = file("unknown", &bytes);
     let (times, skipped) = read(&path);
@@ -224,7 +224,7 @@ fn a_full_disk_keeps_every_chunk_that_it_took() {
     let mut whole = disk(usize::MAX);
     write(&mut whole).unwrap().1.unwrap();
     let path = file("whole", &whole.bytes);
-    // Behind a chunk lie the indexes of its two channels.
+    // Behind a chunk are the indexes of its two channels.
     let ends = scan(&path).unwrap().contents.chunks.iter().map(|chunk| chunk.end()).collect::<Vec<_>>();
     let mut counts = BTreeSet::new();
     for room in 0..whole.bytes.len() {
@@ -241,12 +241,12 @@ fn a_full_disk_keeps_every_chunk_that_it_took() {
     assert_eq!(counts, BTreeSet::from([0, 4, 8, 12]));
 }
 
-/// A disk that fails from a write on, and does not cut for a while either.
+/// A disk that fails from one write on, and whose truncation fails for a while, too.
 #[derive(Debug)]
 struct Failing {
     bytes: Vec<u8>,
     at: usize,
-    /// Writes and cuts until it fails, and of how many each then does.
+    /// Number of writes before the failure, and of failing writes and truncations.
     until: usize,
     writes: usize,
     cuts: usize,
@@ -292,7 +292,7 @@ impl Store for &mut Failing {
     }
 }
 
-/// What is left of twenty chunks of four messages where a disk fails so: messages once it is repaired.
+/// Number of messages left after a repair, of twenty chunks of four messages on a disk that fails like this.
 fn left(until: usize, writes: usize, cuts: usize, kind: io::ErrorKind) -> u64 {
     let mut disk = Failing { bytes: Vec::new(), at: 0, until, writes, cuts, kind };
     let mut writer = Writer::create(&mut disk, "").unwrap();
@@ -321,7 +321,7 @@ fn a_disk_that_fails_costs_the_last_chunk_at_most() {
     for (writes, cuts) in [(1, 0), (1, 1), (2, 0), (2, 2), (1000, 0), (1000, 1000)] {
         assert_eq!(left(6, writes, cuts, Other), 8, "{writes} writes, {cuts} cuts");
     }
-    // Only the end fails: it gives back what it took.
+    // Only the end fails: its part is truncated.
     for kind in [Other, StorageFull] {
         assert_eq!([0, 2, 1000].map(|cuts| left(24, 1000, cuts, kind)), [80; 3]);
     }

@@ -1,6 +1,6 @@
-//! Records whose texts lie within them. The crate `mcap` asks for as much memory as a text says that it is
-//! long, up to 4 GB each, before it looks whether there is so much; and it takes for granted that an attached
-//! file has its checksum.
+//! Parses records whose texts are known to lie within them. The crate `mcap` allocates as much memory as a
+//! text claims to be long, up to 4 GB each, before it checks the length, and assumes that an attachment has
+//! its checksum.
 
 use mcap::records::{Record, op};
 use mcap::{McapError, McapResult};
@@ -8,19 +8,19 @@ use mcap::{McapError, McapResult};
 /// A part of a record's fields.
 #[derive(Debug, Clone, Copy)]
 enum Part {
-    /// So many bytes.
+    /// This many bytes.
     Fixed(usize),
-    /// A length of four bytes, and so many bytes.
+    /// A length of four bytes, and as many bytes.
     Text,
     /// A length of four bytes, and pairs of texts that fill it.
     Texts,
-    /// A length of four bytes, and numbers that fill it, so many bytes each.
+    /// A length of four bytes, and numbers of this size that fill it.
     Numbers(usize),
 }
 
 use Part::{Fixed, Numbers, Text, Texts};
 
-/// The fields of a record up to its last text.
+/// Fields of a record up to its last text.
 fn parts(number: u8) -> &'static [Part] {
     match number {
         op::HEADER => &[Text, Text],
@@ -37,17 +37,17 @@ fn parts(number: u8) -> &'static [Part] {
     }
 }
 
-/// Longest text or list of a record that is read, bytes: no name and no index takes more.
+/// Longest text or list of a record that is read, bytes; names and indexes are shorter.
 pub const LONGEST: usize = 1 << 24;
-/// Bytes behind an attached file's name and type: its length and its checksum.
+/// Bytes after an attachment's name and type: its length and its checksum.
 const AROUND_FILE: usize = 12;
 
-/// Whether all texts and lists of a record end within it.
+/// True if all texts and lists of a record end within it.
 pub fn texts_fit(number: u8, body: &[u8]) -> bool {
     behind_texts(number, body).is_some()
 }
 
-/// What follows the last text; none: one of them ends outside.
+/// Bytes behind the last text; none if a text ends outside the record.
 fn behind_texts(number: u8, mut body: &[u8]) -> Option<&[u8]> {
     for part in parts(number) {
         match *part {
@@ -71,7 +71,7 @@ fn text<'a>(body: &mut &'a [u8]) -> Option<&'a [u8]> {
     body.split_off(..length)
 }
 
-/// Reads a record.
+/// Parses a record.
 pub fn parse_record(number: u8, body: &[u8]) -> McapResult<Record<'_>> {
     let rest = behind_texts(number, body).ok_or(McapError::UnexpectedEof)?;
     if number == op::ATTACHMENT && rest.len() < AROUND_FILE {
@@ -162,7 +162,7 @@ mod tests {
             for at in 0..body.len().saturating_sub(3) {
                 let mut claims = body.clone();
                 claims[at..at + 4].fill(0xff);
-                // Where the length of a text stood, it is refused; elsewhere it is another number.
+                // If the length of a text was overwritten, it is refused; elsewhere it is another number.
                 let _ = parse_record(number, &claims);
             }
         }

@@ -1,8 +1,8 @@
-//! A recording being written.
+//! Writes a recording.
 //!
-//! What is written is whole at any time: records outside chunks and chunks with their index are appended in one
-//! piece, and what could not be written is cut off again, before anything else is written. A kill between two
-//! pieces leaves a file without its end, which [`repair`](super::repair()) adds.
+//! The file consists of whole records at any time: records outside chunks, and chunks with their index, are
+//! appended in one piece, and a partial write is truncated before anything else is written. A kill between
+//! two pieces leaves a file without its end, which [`repair`](super::repair()) adds.
 
 use super::append::{append, sized, write};
 use super::chunk::Chunk;
@@ -18,19 +18,19 @@ use mcap::records::{
 };
 use std::collections::BTreeMap;
 
-/// Plain bytes of a chunk after which it is closed whatever the time.
+/// Uncompressed size at which a chunk is closed whatever its time.
 const LARGE: usize = 4 << 20;
-/// Bytes of the end that are written at once.
+/// Bytes of the end written at once.
 const PIECE: usize = 1 << 16;
 
-/// How messages of a channel are to be read.
+/// Format of a channel's messages.
 #[derive(Debug, Clone, Copy)]
 pub struct Format<'a> {
-    /// Of messages: `json`, `cdr`, ...
+    /// Encoding of messages: `json`, `cdr`, ...
     pub encoding: &'a str,
-    /// Name of the schema; empty: none.
+    /// Name of the schema; empty if there is none.
     pub schema: &'a str,
-    /// Of the schema: `jsonschema`, `ros2msg`.
+    /// Encoding of the schema: `jsonschema`, `ros2msg`.
     pub schema_encoding: &'a str,
     /// The schema.
     pub text: &'a str,
@@ -41,11 +41,11 @@ pub struct Format<'a> {
 pub struct Writer<S: Store> {
     store: S,
     is_readable: bool,
-    /// Bytes that are written, all of them whole.
+    /// Bytes of whole records.
     length: u64,
-    /// Bytes of a record that was not written whole may lie behind them.
+    /// Bytes of a partial record may be behind them.
     torn: bool,
-    /// Without the chunks, which are found again for the end, where what was written can be read.
+    /// Without the chunks, which are read back for the end if the store can be read.
     contents: Contents,
     chunk: Chunk,
     sequences: BTreeMap<u16, u32>,
@@ -80,14 +80,14 @@ impl<S: Store> Writer<S> {
             let error = anyhow::Error::from(error);
             return Err(match self.cut(self.length) {
                 Ok(()) => error,
-                Err(_) => error.context("its last record is written in part"),
+                Err(_) => error.context("its last record is incomplete"),
             });
         }
         self.length += bytes.len() as u64;
         Ok(())
     }
 
-    /// Forgets what lies behind the first `length` bytes.
+    /// Truncates to `length` bytes.
     fn cut(&mut self, length: u64) -> Result<()> {
         self.torn = true;
         self.store.cut(length)?;
@@ -95,7 +95,7 @@ impl<S: Store> Writer<S> {
         Ok(())
     }
 
-    /// Adds a channel and its schema; its number.
+    /// Adds a channel and its schema. Returns its number.
     pub fn channel(&mut self, topic: &str, format: &Format<'_>) -> Result<u16> {
         let mut out = Vec::new();
         let schema_id = if format.schema.is_empty() { 0 } else { self.schema(format, &mut out)? };
@@ -134,7 +134,7 @@ impl<S: Store> Writer<S> {
         if self.chunk.bytes() > LARGE { self.close() } else { Ok(()) }
     }
 
-    /// Adds a file, of the time `ns`.
+    /// Adds an attachment with the time `ns`.
     pub fn attach(&mut self, name: &str, media_type: &str, data: &[u8], ns: u64) -> Result<()> {
         let header = AttachmentHeader {
             log_time: ns,
@@ -164,7 +164,7 @@ impl<S: Store> Writer<S> {
         Ok(())
     }
 
-    /// Adds words by name.
+    /// Adds metadata.
     pub fn metadata(&mut self, name: &str, words: BTreeMap<String, String>) -> Result<()> {
         let mut out = Vec::new();
         append(&mut out, op::METADATA, &Metadata { name: name.into(), metadata: words }, &[])?;
@@ -174,7 +174,7 @@ impl<S: Store> Writer<S> {
         Ok(())
     }
 
-    /// Ends the chunk: those who read can go to the next directly.
+    /// Ends the chunk: readers can seek to the next one.
     pub fn close(&mut self) -> Result<()> {
         let mut out = Vec::new();
         let Some(closed) = self.chunk.close(self.length, &mut out)? else { return Ok(()) };
@@ -185,19 +185,19 @@ impl<S: Store> Writer<S> {
         Ok(())
     }
 
-    /// Writes the messages so far through to the disk. An error: they are lost, the file is as it was before.
+    /// Flushes the messages so far to the disk. On error they are lost, and the file is as before.
     pub fn flush(&mut self) -> Result<()> {
         self.close()?;
         Ok(self.store.keep()?)
     }
 
-    /// Writes the end. Where it cannot be written, the file stays without it and keeps all that it holds;
-    /// [`repair`](super::repair()) adds it. The bytes of the file.
+    /// Writes the end. Returns the size of the file. On error the file stays without its end but with all its
+    /// contents; [`repair`](super::repair()) adds the end.
     pub fn finish(mut self) -> Result<u64> {
         let closed = self.close();
         let records = self.length;
         if let Err(error) = self.end() {
-            // A part of the end that stays is taken for torn bytes.
+            // A part of the end that stays is handled as torn bytes.
             _ = self.cut(records);
             return Err(error);
         }
@@ -221,7 +221,7 @@ impl<S: Store> Writer<S> {
         self.put(&last)
     }
 
-    /// Bytes so far, those of the last moment not included.
+    /// Bytes written so far, without those of the open chunk.
     pub fn bytes(&self) -> u64 {
         self.length
     }

@@ -1,5 +1,5 @@
-//! The chunks of a file that is being written, found again by the heads of its records: to remember them all
-//! would take memory for every second of a recording.
+//! Finds the chunks of the file being written by the heads of its records. Remembering them would take memory
+//! for every second of a recording.
 
 use super::append::HEAD;
 use super::chunk::{Closed, LZ4};
@@ -12,30 +12,30 @@ use mcap::records::{ChunkHeader, ChunkIndex, MessageIndexEntry, op};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// Bytes that are read at once: heads lie between data that nobody asks for.
+/// Bytes read at once: heads lie between data that is not needed.
 const BLOCK: usize = 4096;
-/// Bytes of the fields of our chunks: three times and sizes, a checksum, how it is compressed, a size.
+/// Size of the fields of our chunks: three times and sizes, a checksum, the compression, a size.
 const CHUNK: usize = 3 * 8 + 4 + (4 + LZ4.len()) + 8;
-/// Bytes of the fields of a message index before its entries: the channel, and how many bytes follow.
+/// Size of a message index's fields before its entries: the channel, and the number of bytes that follow.
 const INDEX: usize = 2 + 4;
 
-/// Goes through the chunks.
+/// Iterates over the chunks.
 pub struct Written {
-    /// Where the next record begins, and where the last one ends.
+    /// Offset of the next record, and of the end of the last.
     offset: u64,
     end: u64,
     block: Vec<u8>,
-    /// Where the block lies in the file.
+    /// Offset of the block in the file.
     at: u64,
 }
 
 impl Written {
-    /// Of a file whose records end at `end`.
+    /// Chunks of a file whose records end at `end`.
     pub fn until(end: u64) -> Written {
         Written { offset: MAGIC.len() as u64, end, block: Vec::new(), at: 0 }
     }
 
-    /// The next chunk; none: there are no more.
+    /// Next chunk; none at the end.
     pub fn next_chunk(&mut self, store: &mut impl Store) -> Result<Option<Closed>> {
         while let Some(head) = self.head(store)? {
             self.offset = head.end();
@@ -64,7 +64,7 @@ impl Written {
         Ok(None)
     }
 
-    /// Adds the message indexes that follow a chunk.
+    /// Adds the message indexes behind a chunk.
     fn indexes(&mut self, store: &mut impl Store, closed: &mut Closed) -> Result<()> {
         while let Some(head) = self.head(store)?.filter(|head| head.op == op::MESSAGE_INDEX) {
             let fields: [u8; INDEX] = self.bytes(store, head.offset + HEAD as u64)?;
@@ -79,7 +79,7 @@ impl Written {
         Ok(())
     }
 
-    /// What stands before the next record.
+    /// Head of the next record.
     fn head(&mut self, store: &mut impl Store) -> Result<Option<Head>> {
         if self.offset >= self.end {
             return Ok(None);
@@ -87,7 +87,7 @@ impl Written {
         Ok(Some(Head::read(self.offset, self.bytes(store, self.offset)?)))
     }
 
-    /// The bytes that lie there.
+    /// Bytes at an offset.
     fn bytes<const N: usize>(&mut self, store: &mut impl Store, offset: u64) -> Result<[u8; N]> {
         let inside = |block: &[u8], at: u64| {
             let start = usize::try_from(offset.checked_sub(at)?).ok()?;

@@ -1,4 +1,4 @@
-//! The command itself.
+//! The command `taxel report`.
 
 use super::{Seen, page};
 use crate::client::Event;
@@ -13,7 +13,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// What `taxel report` takes.
+/// Arguments of `taxel report`.
 #[derive(Debug, Clone, Args)]
 pub struct ReportArgs {
     /// Recording: .mcap
@@ -26,7 +26,7 @@ pub struct ReportArgs {
     /// Page to write (.html), `-` for standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Replace the page.
+    /// Whether an existing page is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
@@ -35,7 +35,7 @@ pub struct ReportArgs {
     pub seconds: Option<f64>,
 }
 
-/// How long a board is watched that does not end by itself, s.
+/// Default duration for a real board, s.
 const WATCHED: f64 = 10.0;
 
 /// Runs the command.
@@ -58,7 +58,7 @@ pub fn run(args: ReportArgs) -> Result<()> {
     Ok(())
 }
 
-/// What a recording shows.
+/// Reads a recording.
 fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
     let overview = Overview::of(path)?;
     let mut play = Play::open(path)?;
@@ -82,7 +82,7 @@ fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
     Ok(seen)
 }
 
-/// What a board shows.
+/// Watches a board.
 fn watched(spec: SourceSpec, seconds: Option<f64>) -> Result<Seen> {
     let options = SourceOptions { seconds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;

@@ -1,9 +1,9 @@
-//! `taxel report`: what a recording or a board shows, as one HTML file without scripts, to be sent as it is.
+//! `taxel report`: a recording or a board on one self-contained HTML page without scripts.
 //!
 //! | section | what | file |
 //! |---|---|---|
 //! | pressure, 2-D | each panel at the moment of the greatest force: cells, lines of equal pressure, contacts, peaks | `plane.rs` |
-//! | pressure, 3-D | the same as a surface | `surface.rs` |
+//! | pressure, 3-D | the same moment as a surface | `surface.rs` |
 //! | ranges | how many taxels lie in which range of pressure, then and at their greatest | `ranges.rs` |
 //! | over time | force by panel, activation of each concept | `strips.rs` |
 //! | contacts, events, health | | `tables.rs` |

@@ -1,4 +1,4 @@
-//! The page.
+//! Assembles the page.
 
 use super::seen::{Moment, Seen, of};
 use super::strips::Strip;
@@ -8,7 +8,7 @@ use anyhow::{Result, bail};
 use taxel_core::body::Placed;
 use taxel_core::garment::Area;
 
-/// Concepts whose activation never goes beyond this are left out of the drawing.
+/// Concepts whose activation never exceeds this are not drawn.
 const QUIET: f64 = 0.02;
 
 const STYLE: &str = "
@@ -27,10 +27,10 @@ table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}
 /// Draws a panel from its values and contacts.
 type Draw<'a> = &'a dyn Fn(&Area, &[u16], &[Placed]) -> String;
 
-/// The report as HTML. An error: there was no image.
+/// The report as HTML. Error if there was no image.
 pub fn page(seen: &Seen) -> Result<String> {
     if seen.top.image.is_empty() {
-        bail!("{}: no image came, there is nothing to report", seen.label);
+        bail!("{}: no image was received, so there is nothing to report", seen.label);
     }
     let top = nice_top(f64::from(seen.hold.iter().copied().max().unwrap_or(0))).min(65535.0) as u16;
     let Moment { time_us, total, image, contacts } = &seen.top;
@@ -81,7 +81,7 @@ pub fn page(seen: &Seen) -> Result<String> {
     ))
 }
 
-/// What was watched, and for how long.
+/// Source, contents and duration.
 fn head(seen: &Seen) -> String {
     let Some(worn) = &seen.worn else { return String::new() };
     let [first, last] = seen.totals.span();

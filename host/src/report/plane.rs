@@ -1,4 +1,4 @@
-//! A panel from above: pressure as colour, lines at the limits of the ranges, contacts and their peaks.
+//! A panel from above: pressure as colour, contours at the limits of the ranges, contacts and their peaks.
 
 use super::contour;
 use super::svg::{colour, escaped};
@@ -8,12 +8,12 @@ use taxel_core::garment::Area;
 
 /// Width of a taxel, SVG units.
 const CELL: f64 = 11.0;
-/// Space around the taxels, for the axes and the title.
+/// Margins for the axes and the title.
 const MARGIN: [f64; 4] = [26.0, 30.0, 12.0, 22.0];
 /// Taxels between two marks of an axis.
 const STEP: u16 = 4;
 
-/// The drawing; colours end at `top` counts, lines are at `limits`.
+/// Draws a panel; colours end at `top` counts, contours are at `limits`.
 pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, limits: &[u16]) -> String {
     let mut svg = String::new();
     // Writing to a string cannot fail.
@@ -21,7 +21,7 @@ pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, limits: 
     svg
 }
 
-/// Where taxels lie in the drawing.
+/// Geometry of the drawing.
 struct Plane {
     cell: [f64; 2],
 }
@@ -33,7 +33,7 @@ impl Plane {
         Plane { cell: [CELL, CELL * ratio] }
     }
 
-    /// The place of a taxel's centre.
+    /// Position of a taxel's centre.
     fn place(&self, x: f64, y: f64) -> [f64; 2] {
         [MARGIN[0] + (x + 0.5) * self.cell[0], MARGIN[1] + (y + 0.5) * self.cell[1]]
     }
@@ -66,7 +66,7 @@ impl Plane {
         for (index, value) in values.iter().enumerate().filter(|(_, value)| **value > 0) {
             let (x, y) = (left + (index % columns) as f64 * w, upper + (index / columns) as f64 * h);
             let fill = colour(f64::from(*value), top);
-            // A hair wider, so that no seams show.
+            // Slightly wider, so that no seams show.
             writeln!(
                 svg,
                 "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{fill}\"/>",
@@ -94,7 +94,7 @@ impl Plane {
         Ok(())
     }
 
-    /// Centroid, axis, id and peak.
+    /// Draws centroid, axis, id and peak.
     fn contact(&self, svg: &mut String, placed: &Placed) -> Result {
         let contact = &placed.contact;
         let (cx, cy) = (contact.x.to_f64(), contact.y.to_f64());

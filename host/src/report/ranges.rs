@@ -1,18 +1,18 @@
-//! Ranges of pressure: how many taxels lie in which.
+//! Number of taxels in each range of pressure.
 
 use super::scale::Scale;
 use super::svg::colour;
 use std::fmt::Write;
 
-/// Ranges above no pressure.
+/// Ranges above zero pressure.
 const RANGES: u16 = 5;
 
-/// Where the ranges begin: even parts of `top`, the first at 0.
+/// Lower limits of the ranges: equal parts of `top`, the first at 0.
 pub fn limits(top: u16) -> Vec<u16> {
     (0..RANGES).map(|index| (u32::from(top) * u32::from(index) / u32::from(RANGES)) as u16).collect()
 }
 
-/// Taxels with no pressure, and then in each range.
+/// Number of taxels without pressure, then in each range.
 pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
     let mut counts = vec![0; limits.len() + 1];
     for value in values {
@@ -22,7 +22,7 @@ pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
     counts
 }
 
-/// The table: a row a range, its colour, taxels then and at their greatest, as bars.
+/// Table with a row per range: colour, and numbers of taxels at the moment and at their maxima, as bars.
 pub fn table(then: &[u16], hold: &[u16], top: u16, scale: Scale) -> String {
     let limits = limits(top);
     let (now, held) = (counts(then, &limits), counts(hold, &limits));
@@ -38,13 +38,13 @@ pub fn table(then: &[u16], hold: &[u16], top: u16, scale: Scale) -> String {
             if index == 0 { "0".to_string() } else { format!("{} to {}", scale.told(from), scale.told(to)) };
         let fill = colour(f64::midpoint(f64::from(from), f64::from(to)), top);
         let bar = |count: usize| {
-            // Those without pressure are far more than the others.
+            // Taxels without pressure far outnumber the others.
             let wide = if index == 0 { 0.0 } else { 120.0 * count as f64 / most as f64 };
             format!(
                 "<td><span class=\"bar\" style=\"width:{wide:.0}px;background:{fill}\"></span>{count}</td>"
             )
         };
-        // A string takes all.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             html,
             "<tr><td><span class=\"swatch\" style=\"background:{fill}\"></span></td><td>{range}</td>{}{}</tr>",

@@ -1,28 +1,28 @@
-//! The unit of a page: newtons where it is known what a newton shows, else counts.
+//! Unit of a page: newtons if the counts per newton are known, else counts.
 
-/// From counts to what the page shows. Nothing on a page is in the other unit.
+/// Converts counts to the unit of the page, which uses no other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     per_newton: Option<f64>,
 }
 
 impl Scale {
-    /// `counts_per_newton`: none, not known.
+    /// Unit for these counts per newton, if known.
     pub fn of(counts_per_newton: Option<f32>) -> Scale {
         Scale { per_newton: counts_per_newton.map(f64::from).filter(|counts| *counts > 0.0) }
     }
 
-    /// The unit's name.
+    /// Name of the unit.
     pub fn unit(self) -> &'static str {
         if self.per_newton.is_some() { "N" } else { "counts" }
     }
 
-    /// Counts in the unit.
+    /// Converts counts to the unit.
     pub fn value(self, counts: f64) -> f64 {
         counts / self.per_newton.unwrap_or(1.0)
     }
 
-    /// Counts in the unit, without its name.
+    /// Formats counts in the unit, without its name.
     pub fn told(self, counts: impl Into<f64>) -> String {
         let value = self.value(counts.into());
         match self.per_newton {

@@ -1,4 +1,4 @@
-//! What is kept of a stream for its report.
+//! Data of a stream collected for its report.
 
 use super::scale::Scale;
 use super::series::Series;
@@ -13,12 +13,12 @@ use taxel_core::garment::Area;
 use taxel_core::health::TaxelHealth;
 use taxel_core::wire::Health;
 
-/// Contacts that are listed: the strongest.
+/// Most contacts listed: the strongest.
 pub(super) const LISTED: usize = 60;
 /// Most sentences of a report.
 const SENTENCES: usize = 500;
 
-/// What is kept.
+/// Collected data.
 #[derive(Debug)]
 pub struct Seen {
     pub(super) label: String,
@@ -31,26 +31,26 @@ pub struct Seen {
     pub(super) hold: Vec<u16>,
     /// Total of each panel over time, counts.
     pub(super) totals: Series,
-    /// The strongest contacts and those that are there, each at its greatest total, with its last duration.
+    /// The strongest and the present contacts, each at its greatest total, with its last duration.
     pub(super) contacts: BTreeMap<u32, Placed>,
-    /// All contacts that there were.
+    /// Number of contacts.
     pub(super) touches: u64,
-    /// Names of the shapes that they had.
+    /// Names of their shapes.
     pub(super) shapes: BTreeMap<u8, String>,
     /// Activation of each concept over time, -1 ..= 1.
     pub(super) activations: Series,
     pub(super) concepts: Vec<String>,
     pub(super) sentences: Vec<String>,
-    /// Sentences that found no place.
+    /// Number of sentences left out.
     pub(super) unsaid: usize,
     pub(super) health: Option<Health>,
     pub(super) ill: BTreeMap<u16, TaxelHealth>,
-    /// What of a recording is damaged.
+    /// Damage of a recording.
     pub(super) skipped: Skipped,
     narrator: Narrator,
 }
 
-/// An image and the contacts in it.
+/// An image and its contacts.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Moment {
     pub time_us: u64,
@@ -60,7 +60,7 @@ pub(super) struct Moment {
 }
 
 impl Seen {
-    /// Nothing yet, of a source with that name.
+    /// No data yet, of a source with this label.
     pub fn new(label: String, counts_per_newton: Option<f32>) -> Seen {
         Seen {
             label,
@@ -84,12 +84,12 @@ impl Seen {
         }
     }
 
-    /// The unit of the page.
+    /// Unit of the page.
     pub(super) fn scale(&self) -> Scale {
         Scale::of(self.counts_per_newton)
     }
 
-    /// The garment's panels.
+    /// Panels of the garment.
     pub(super) fn areas(&self) -> &[Area] {
         self.worn.as_ref().map_or(&[], |worn| worn.layout.areas())
     }
@@ -118,7 +118,7 @@ impl Seen {
         self.touches += (self.contacts.len() - known) as u64;
     }
 
-    /// Forgets the weakest of many contacts, but for those that are there.
+    /// Removes the weakest of many contacts, except for present ones.
     fn forget_weak(&mut self, present: &[Placed]) {
         if self.contacts.len() < 4 * LISTED {
             return;
@@ -132,7 +132,7 @@ impl Seen {
     }
 }
 
-/// The values of a panel, row by row.
+/// Values of a panel, row by row.
 pub(super) fn of<'v>(area: &Area, values: &'v [u16]) -> &'v [u16] {
     let start = usize::from(area.base);
     values.get(start..start + usize::from(area.rows) * usize::from(area.columns)).unwrap_or(&[])

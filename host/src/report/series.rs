@@ -1,13 +1,13 @@
-//! Values over time in bounded memory: as fine as a drawing can show, however long it goes on.
+//! Values over time in bounded memory, at the resolution of a drawing, whatever their duration.
 
-/// Points that are kept at most; the drawing shows half as many.
+/// Most points kept; the drawing shows half as many.
 const MOST: usize = 1160;
 
-/// Times, us, and values; where there are many, the greatest of each stretch, at its first time.
+/// Times, us, and values; each point is the maximum of a period, at its first time.
 #[derive(Debug, Clone, Default)]
 pub struct Series {
     points: Vec<(u64, Vec<f64>)>,
-    /// Values that make one point.
+    /// Values per point.
     stride: usize,
     /// Values in the last point.
     filled: usize,
@@ -15,7 +15,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// Adds values of a time.
+    /// Adds values at a time.
     pub fn push(&mut self, time: u64, values: Vec<f64>) {
         self.span = Some([self.span.map_or(time, |[first, _]| first), time]);
         self.stride = self.stride.max(1);
@@ -31,7 +31,7 @@ impl Series {
         }
     }
 
-    /// Makes one point of two.
+    /// Merges pairs of points.
     fn halve(&mut self) {
         let pairs = self.points.chunks_mut(2).map(|pair| {
             let (first, rest) = pair.split_at_mut(1);

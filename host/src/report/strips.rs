@@ -1,30 +1,30 @@
-//! Something over time, as lines.
+//! Curves over time.
 
 use super::svg::{LINES, escaped, nice_top};
 use std::fmt::{Result, Write};
 
-/// The drawing, SVG units, and what the axes leave: left, top, right, bottom.
+/// Size of the drawing, SVG units, and the area inside the axes: left, top, right, bottom.
 const SIZE: [f64; 2] = [780.0, 220.0];
 const FRAME: [f64; 4] = [56.0, 12.0, 640.0, 190.0];
-/// Marks of the time axis, at most.
+/// Most marks of the time axis.
 const MARKS: f64 = 10.0;
 
-/// Lines over time: a name each, and for each time (us) a value of each.
+/// Curves over time: their names, and the values of all at each time (us).
 pub struct Strip<'a> {
-    /// Names of the lines.
+    /// Names of the curves.
     pub names: Vec<&'a str>,
     /// Times, us, and values.
     pub points: Vec<(u64, Vec<f64>)>,
     /// Quantity and unit.
     pub label: &'a str,
-    /// Whether a value holds until the next, else lines go from one to the other.
+    /// True if a value holds until the next; else lines connect them.
     pub steps: bool,
     /// First and last time, us.
     pub span: [u64; 2],
 }
 
 impl Strip<'_> {
-    /// The drawing.
+    /// Draws the curves.
     pub fn draw(&self) -> String {
         let mut svg = String::new();
         // Writing to a string cannot fail.
@@ -48,7 +48,7 @@ impl Strip<'_> {
         let kept = &self.points;
         for (index, name) in self.names.iter().enumerate() {
             let ink = LINES[index % LINES.len()];
-            // The colours come again, dashed.
+            // Colours repeat, dashed.
             let dash = if index < LINES.len() { "" } else { " stroke-dasharray=\"5 3\"" };
             write!(svg, "<path class=\"line\" stroke=\"{ink}\"{dash} d=\"")?;
             for (count, (time, values)) in kept.iter().enumerate() {
@@ -89,7 +89,7 @@ impl Strip<'_> {
         }
         let [first, last] = self.span.map(|us| us as f64 / 1e6);
         let step = nice_top((last - first) / MARKS);
-        // Counted, because a time of days or of nonsense may stay the same when so little is added to it.
+        // An integer count, because adding a step to a time of days or of garbage may not change it.
         let begin = (first / step).ceil();
         let marks = (0..=MARKS as u32 + 1).map(|mark| (begin + f64::from(mark)) * step);
         for time in marks.take_while(|time| *time <= last) {

@@ -8,17 +8,17 @@ use taxel_core::garment::Area;
 
 /// The drawing, SVG units.
 const SIZE: [f64; 2] = [380.0, 330.0];
-/// Height of the greatest pressure; with its number it has room also at the far corner.
+/// Height of the greatest pressure; its number fits even at the far corner.
 const HIGH: f64 = 135.0;
-/// Place of the panel's middle.
+/// Position of the panel's centre.
 const MIDDLE: [f64; 2] = [190.0, 240.0];
-/// The view: turned about the vertical by 50 degrees (cosine, sine), seen from 30 degrees above (sine).
+/// View: rotated about the vertical by 50 degrees (cosine, sine), seen from 30 degrees above (sine).
 const TURN: [f64; 2] = [0.642_787_6, 0.766_044_4];
 const ABOVE: f64 = 0.5;
-/// Half of what the longer side of a panel takes.
+/// Half the extent of a panel's longer side.
 const REACH: f64 = 185.0;
 
-/// The drawing; colours and heights end at `top` counts.
+/// Draws a panel; colours and heights end at `top` counts.
 pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, scale: Scale) -> String {
     let mut svg = String::new();
     // Writing to a string cannot fail.
@@ -26,7 +26,7 @@ pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, scale: S
     svg
 }
 
-/// From taxels and counts to the drawing.
+/// Projection of taxels and counts.
 struct View {
     middle: [f64; 2],
     scale: [f64; 2],
@@ -47,7 +47,7 @@ impl View {
         }
     }
 
-    /// Place in the drawing.
+    /// Position in the drawing.
     fn place(&self, x: f64, y: f64, value: f64) -> [f64; 2] {
         let [u, v] = [(x - self.middle[0]) * self.scale[0], (y - self.middle[1]) * self.scale[1]];
         let across = u * TURN[0] - v * TURN[1];
@@ -62,7 +62,7 @@ impl View {
         writeln!(svg, "<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">", SIZE[0], SIZE[1], SIZE[0])?;
         writeln!(svg, "<text x=\"8\" y=\"16\" class=\"title\">{}</text>", escaped(&area.name))?;
         writeln!(svg, "<g class=\"face\">")?;
-        // What lies behind is drawn first: the view is from the last row and column.
+        // From back to front: the view is from the last row and column.
         for row in 0..rows.saturating_sub(1) {
             for column in 0..columns.saturating_sub(1) {
                 let corners = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(y, x)| (row + y, column + x));

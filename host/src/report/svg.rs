@@ -1,23 +1,23 @@
-//! What the drawings share.
+//! Shared by the drawings.
 
 use crate::live::ramp;
 
-/// A colour of the ramp of pressure.
+/// Colour of a pressure.
 pub fn colour(value: f64, top: u16) -> String {
     let [r, g, b] = ramp::pressure(value.round().clamp(0.0, 65535.0) as u16, top);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Colours of lines that the colour-blind can tell apart (Okabe and Ito).
+/// Line colours that colour-blind readers can tell apart (Okabe and Ito).
 pub const LINES: [&str; 8] =
     ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#999999", "#8c8c00"];
 
-/// Text as HTML and SVG take it.
+/// Escapes text for HTML and SVG.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// The top of a scale that holds `greatest`: a round number not far above it.
+/// End of a scale for `greatest`: a round number not far above it.
 pub fn nice_top(greatest: f64) -> f64 {
     if greatest.is_nan() || greatest <= 0.0 {
         return 1.0;

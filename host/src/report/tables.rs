@@ -5,7 +5,7 @@ use super::svg::escaped;
 use std::fmt::Write;
 use taxel_core::body::Placed;
 
-/// The contacts, each at its greatest total, in the order of their onsets.
+/// The contacts, each at its greatest total, in order of onset.
 pub fn contacts(seen: &Seen) -> String {
     if seen.contacts.is_empty() {
         return "<p>Nothing touched the garment.</p>\n".into();
@@ -23,7 +23,7 @@ pub fn contacts(seen: &Seen) -> String {
     strongest.iter().for_each(|placed| row(seen, placed, &mut html));
     html += "</table>\n";
     if seen.touches > LISTED as u64 {
-        // A string takes all.
+        // Writing to a string cannot fail.
         let _ = writeln!(html, "<p>The {LISTED} strongest of {}.</p>", seen.touches);
     }
     html
@@ -53,7 +53,7 @@ fn row(seen: &Seen, placed: &Placed, html: &mut String) {
     );
 }
 
-/// What happened, in sentences.
+/// Events in sentences.
 pub fn events(seen: &Seen) -> String {
     let mut html = format!("<pre>{}</pre>\n", escaped(&seen.sentences.join("\n")));
     if seen.unsaid > 0 {
@@ -62,13 +62,13 @@ pub fn events(seen: &Seen) -> String {
     html
 }
 
-/// The board's counters, the line's, and the taxels that are ill.
+/// Counters of the board and of the line, and the faulty taxels.
 pub fn health(seen: &Seen) -> String {
     let mut rows = vec![
         ("frames received", seen.counts.frames),
         ("messages lost on the line", seen.counts.lost),
         ("frames thinned", seen.counts.thinned),
-        ("bytes that were no message, frames", seen.counts.refused()),
+        ("frames that were not messages", seen.counts.refused()),
         ("restarts of the board", seen.counts.restarts),
     ];
     if let Some(health) = &seen.health {
@@ -89,7 +89,7 @@ pub fn health(seen: &Seen) -> String {
         let _ = writeln!(html, "<p>Of the recording: {}.</p>", seen.skipped);
     }
     if seen.ill.is_empty() {
-        return html + "<p>No taxel is known to be ill.</p>\n";
+        return html + "<p>No faulty taxels.</p>\n";
     }
     let layout = seen.worn.as_ref().map(|worn| &worn.layout);
     let ill = seen.ill.iter().map(|(taxel, health)| {
@@ -100,5 +100,5 @@ pub fn health(seen: &Seen) -> String {
         });
         escaped(&format!("{place}: {health}"))
     });
-    format!("{html}<p>Taxels that are ill: {}.</p>\n", ill.collect::<Vec<_>>().join("; "))
+    format!("{html}<p>Faulty taxels: {}.</p>\n", ill.collect::<Vec<_>>().join("; "))
 }

@@ -1,5 +1,5 @@
-//! Who is let in: a thread that accepts, and one for each guest. Where all places are taken, who has been
-//! served longest goes, unless he may stay; so whoever holds connections open keeps nobody out.
+//! Admits clients: one thread accepts, and another serves each client. If all places are taken, the client
+//! served longest is disconnected, unless it may stay; so idle connections keep nobody out.
 
 use anyhow::{Context, Result};
 use std::net::{Shutdown, TcpListener, TcpStream};
@@ -7,18 +7,18 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// How long a read or a write may stand still.
+/// Longest time that a read or a write may block.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Who is inside.
+/// The admitted clients.
 #[derive(Debug, Default)]
 struct Inside {
-    /// Number and connection of each guest that does not stay, in the order in which they came.
+    /// Number and connection of each client that may be disconnected, in order of arrival.
     passing: Vec<(u64, TcpStream)>,
     next: u64,
 }
 
-/// A guest. One that is dropped leaves its place.
+/// An admitted client. Dropping it frees its place.
 #[derive(Debug)]
 pub struct Guest {
     number: u64,
@@ -26,12 +26,12 @@ pub struct Guest {
 }
 
 fn lock(inside: &Mutex<Inside>) -> MutexGuard<'_, Inside> {
-    // A thread that panicked leaves the list whole.
+    // A panic of another thread leaves the list intact.
     inside.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Guest {
-    /// Is sent away for nobody from now on: whoever lets guests stay counts them.
+    /// Keeps the client for good. The caller limits the number of such clients.
     pub fn stay(&self) {
         lock(&self.inside).passing.retain(|(number, _)| *number != self.number);
     }
@@ -43,7 +43,7 @@ impl Drop for Guest {
     }
 }
 
-/// Lets guests in, so many at a time beside those that stay, and serves each from a thread of its own; the
+/// Admits up to `places` clients besides those that stay, and serves each in a thread of its own. Returns the
 /// port. `name` is that of the threads.
 pub fn open(
     name: &'static str,
@@ -57,13 +57,13 @@ pub fn open(
     let accept = move || {
         for stream in listener.incoming() {
             let Ok(stream) = stream else {
-                // Too many files are open, say: it may pass.
+                // For example, too many open files: it may pass.
                 thread::sleep(Duration::from_millis(50));
                 continue;
             };
             let Some((stream, guest)) = come_in(stream, &inside, places) else { continue };
             let serve = serve.clone();
-            // A disconnect in the middle is no error of ours, and who finds no thread may come again.
+            // A disconnect is not an error, and a client without a thread may retry.
             let _ = thread::Builder::new().name(name.into()).spawn(move || _ = serve(stream, guest));
         }
     };
@@ -71,7 +71,7 @@ pub fn open(
     Ok(port)
 }
 
-/// Gives a guest a place; none: the connection has gone.
+/// Assigns a place; none if the connection is closed.
 fn come_in(stream: TcpStream, inside: &Arc<Mutex<Inside>>, places: usize) -> Option<(TcpStream, Guest)> {
     stream.set_read_timeout(Some(PATIENCE)).ok()?;
     stream.set_write_timeout(Some(PATIENCE)).ok()?;
@@ -79,7 +79,7 @@ fn come_in(stream: TcpStream, inside: &Arc<Mutex<Inside>>, places: usize) -> Opt
     let end = stream.try_clone().ok()?;
     let mut list = lock(inside);
     while list.passing.len() >= places.max(1) {
-        // Its thread notices by its next read or write.
+        // Its thread notices at its next read or write.
         let _ = list.passing.remove(0).1.shutdown(Shutdown::Both);
     }
     let number = list.next;
@@ -94,7 +94,7 @@ mod tests {
     use std::io::{Read, Write};
     use std::net::Ipv4Addr;
 
-    /// Greets, and waits for a word: who says "stay" stays.
+    /// Greets, and waits for a word; "stay" makes the client stay.
     fn house(places: usize) -> u16 {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
         let serve = |mut stream: TcpStream, guest: Guest| {

@@ -1,25 +1,24 @@
-//! As much of HTTP as servers on this machine need: the head of a request, and an answer after which the
-//! connection is closed.
+//! The part of HTTP that local servers need: the head of a request, and a response after which the connection
+//! is closed.
 
 use std::io::{self, Read, Write};
 use std::time::{Duration, Instant};
 
-/// Longest head of a request.
+/// Size limit of a request's head.
 const HEAD: usize = 16 * 1024;
-/// How long a request may take to come.
+/// Time limit for a request.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// The page runs nothing and talks to nobody but what this program serves. plotly.js sets styles and, in
-/// places, makes functions.
+/// Restricts the page to what this program serves. plotly.js sets styles and, in places, creates functions.
 const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
                       style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; \
                       frame-ancestors 'none'; base-uri 'none'";
 
-/// How a request is refused.
+/// A refused request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Refusal {
     /// `400 Bad Request`
     pub status: &'static str,
-    /// Why, in a sentence.
+    /// Reason, as a sentence.
     pub why: &'static str,
 }
 
@@ -27,25 +26,25 @@ const fn refusal(status: &'static str, why: &'static str) -> Refusal {
     Refusal { status, why }
 }
 
-/// The head of a request, as far as it matters.
+/// Head of a request, as far as it is used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
-    /// Without what follows a `?`.
+    /// Path without the query.
     pub path: String,
-    /// `Sec-WebSocket-Key` of a request for a WebSocket.
+    /// `Sec-WebSocket-Key` of a WebSocket request.
     pub key: Option<String>,
-    /// What it wants to speak over a WebSocket: the names of `Sec-WebSocket-Protocol`.
+    /// Names of `Sec-WebSocket-Protocol`.
     pub protocols: Vec<String>,
-    /// Bytes that came after the head.
+    /// Bytes behind the head.
     pub rest: Vec<u8>,
 }
 
-/// Of which sites pages are answered. Programs other than browsers send no `Origin`.
+/// Sites whose pages are served. Programs other than browsers send no `Origin`.
 #[derive(Debug, Clone, Copy)]
 pub enum Sites<'a> {
-    /// Of this server's own alone.
+    /// Only this server's own pages.
     Own,
-    /// Of these (`https://app.example.org`), of any server on this machine, and of its files.
+    /// These sites (`https://app.example.org`), any local server, and local files.
     Named(&'a [String]),
 }
 
@@ -61,7 +60,7 @@ impl Sites<'_> {
     }
 }
 
-/// Reads a request; none: the other side has gone, or is too slow.
+/// Reads a request; none if the client is gone or too slow.
 pub fn read(stream: &mut impl Read, sites: Sites<'_>) -> Option<Result<Request, Refusal>> {
     let (mut bytes, mut buffer, begun) = (Vec::new(), [0; 2048], Instant::now());
     loop {
@@ -82,7 +81,7 @@ pub fn read(stream: &mut impl Read, sites: Sites<'_>) -> Option<Result<Request, 
     }
 }
 
-/// Reads the head of a request; none: it has not ended.
+/// Parses the head of a request; none if it is incomplete.
 pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut head = httparse::Request::new(&mut headers);
@@ -94,7 +93,7 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
     let value = |name: &str| {
         let mut all = head.headers.iter().filter(|header| header.name.eq_ignore_ascii_case(name));
         let one = all.next().and_then(|header| std::str::from_utf8(header.value).ok());
-        // Two of a kind could be read in two ways.
+        // Duplicate headers are ambiguous.
         one.filter(|_| all.next().is_none())
     };
     let all = |name: &'static str| {
@@ -110,7 +109,7 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
     let upgrade = value("upgrade").is_some_and(|to| to.eq_ignore_ascii_case("websocket"));
     let key = upgrade.then(|| value("sec-websocket-key").map(String::from)).flatten();
     if upgrade && (key.is_none() || value("sec-websocket-version") != Some("13")) {
-        return Err(refusal("400 Bad Request", "this is no request for a WebSocket of version 13"));
+        return Err(refusal("400 Bad Request", "this is not a request for a WebSocket of version 13"));
     }
     let offered: Vec<String> = all("sec-websocket-protocol").collect();
     let protocols =
@@ -118,16 +117,13 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
     Ok(Some(Request { path, key, protocols, rest: bytes.get(length..).unwrap_or_default().to_vec() }))
 }
 
-/// A page of another site may reach this port by its own name (DNS rebinding) or by ours; neither is let in.
-/// The port may be another one, where it is forwarded.
+/// Refuses pages of other sites, which may reach this port under their own name (DNS rebinding) or under
+/// ours. The port may differ if it is forwarded.
 fn check_names(host: &str, has_origin: bool, origin: Option<&str>, sites: Sites<'_>) -> Result<(), Refusal> {
     if !is_this_machine(host) {
-        return Err(refusal(
-            "403 Forbidden",
-            "this server is called 127.0.0.1 or localhost, and nothing else",
-        ));
+        return Err(refusal("403 Forbidden", "this server only answers to 127.0.0.1 and localhost"));
     }
-    // Two of them are none.
+    // Duplicates count as invalid.
     if has_origin && !origin.is_some_and(|origin| sites.are_of(host, origin)) {
         return Err(refusal("403 Forbidden", "pages of other sites are not answered"));
     }
@@ -144,17 +140,17 @@ fn is_this_machine(host: &str) -> bool {
     known && port.is_none_or(|port| port.parse::<u16>().is_ok())
 }
 
-/// Answers with a file.
+/// Sends a file.
 pub fn answer(stream: &mut impl Write, kind: &str, more: &str, body: &[u8]) -> io::Result<()> {
     send(stream, "200 OK", kind, more, body)
 }
 
-/// Begins an answer whose length nobody knows: its body follows in chunks.
+/// Begins a response of unknown length, whose body follows in chunks.
 pub fn begin(stream: &mut impl Write, kind: &str, more: &str) -> io::Result<()> {
     stream.write_all(head("200 OK", kind, "Transfer-Encoding: chunked", more).as_bytes())
 }
 
-/// Answers with a sentence.
+/// Sends a refusal as text.
 pub fn refuse(stream: &mut impl Write, refusal: Refusal) -> io::Result<()> {
     send(stream, refusal.status, "text/plain; charset=utf-8", "", format!("{}\n", refusal.why).as_bytes())
 }
@@ -166,7 +162,7 @@ fn send(stream: &mut impl Write, status: &str, kind: &str, more: &str, body: &[u
     stream.flush()
 }
 
-/// The head of an answer; `length` is the header that says where the body ends.
+/// Head of a response; `length` is the header that delimits the body.
 fn head(status: &str, kind: &str, length: &str, more: &str) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\n{length}\r\nConnection: close\r\n\
@@ -175,7 +171,7 @@ fn head(status: &str, kind: &str, length: &str, more: &str) -> String {
     )
 }
 
-/// Agrees to a WebSocket, and to speak `protocol` over it, where there is one.
+/// Accepts a WebSocket, with the subprotocol `protocol` if there is one.
 pub fn upgrade(stream: &mut impl Write, key: &str, protocol: Option<&str>) -> io::Result<()> {
     let accept = tungstenite::handshake::derive_accept_key(key.as_bytes());
     let protocol = protocol.map_or(String::new(), |name| format!("Sec-WebSocket-Protocol: {name}\r\n"));

@@ -1,13 +1,13 @@
-//! A writer for guests that read slowly: one that reads next to nothing for longer than a while is given up.
+//! A writer with a minimum speed: gives up on clients that read next to nothing for a while.
 
 use std::io::{self, ErrorKind, Write};
 use std::time::{Duration, Instant};
 
-/// How long an answer may take, however short it is.
+/// Least time limit of a response.
 const WHILE: Duration = Duration::from_secs(20);
-/// Slowest reading for which a long one waits, bytes a second.
+/// Least reading speed, bytes per second, for long responses.
 const SLOWEST: u64 = 100_000;
-/// Bytes that are written at a time.
+/// Bytes written at once.
 const PIECE: usize = 1 << 16;
 
 /// Writes to a stream that has a timeout of its own.
@@ -19,12 +19,12 @@ pub struct Hurry<W> {
 }
 
 impl<W: Write> Hurry<W> {
-    /// From now on.
+    /// Starts now.
     pub fn new(stream: W) -> Hurry<W> {
         Hurry { stream, begun: Instant::now(), written: 0 }
     }
 
-    /// Whether the guest has had time enough by `now`.
+    /// True if the client has had enough time by `now`.
     fn is_over(&self, now: Instant) -> bool {
         now.saturating_duration_since(self.begun) > WHILE + Duration::from_secs(self.written / SLOWEST)
     }

@@ -1,12 +1,11 @@
-//! What stands before both servers of this program, the page's and Foxglove's, so that none of their guests
-//! shuts others out.
+//! Shared by both servers of this program, the page's and Foxglove's, so that no client shuts others out.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `door.rs` | who is let in: so many at a time, the newest before the one that has been served longest |
-//! | `http.rs` | the head of a request, from which site it comes, and short answers |
-//! | `hurry.rs` | a writer for guests that read slowly: up to a point |
-//! | `mute.rs` | a stream for who only reads |
+//! | `door.rs` | admission: a limited number at a time; the newest displaces the one served longest |
+//! | `http.rs` | the head of a request, its site of origin, and short responses |
+//! | `hurry.rs` | a writer that waits for slow clients up to a limit |
+//! | `mute.rs` | a read-only stream |
 
 mod door;
 pub mod http;

@@ -2,8 +2,8 @@
 
 use std::io::{self, Read, Write};
 
-/// A stream to which the reader of a WebSocket writes nothing: an answer of its own would fall into a message
-/// of the writer's. Who closes or pings is not answered here.
+/// The stream given to the reader of a WebSocket, whose writes are discarded: its own replies could fall into
+/// a message of the writer. Closes and pings are not answered.
 pub struct Mute<R>(pub R);
 
 impl<R: Read> Read for Mute<R> {

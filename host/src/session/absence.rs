@@ -1,4 +1,4 @@
-//! A source that is gone, until it is back.
+//! A lost source, until it is back.
 
 use crate::source::{Return, Source};
 use crate::verbose;
@@ -6,12 +6,12 @@ use anyhow::Error;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Time between two tries: at first, and at most.
+/// Time between two attempts: initial and longest.
 const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
-/// How long one look takes at least, so that who waits does not spin.
+/// Least duration of an attempt, so that a waiting loop does not spin.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Since when it is gone, and why.
+/// Since when the source is lost, and why.
 #[derive(Debug)]
 pub struct Absence {
     since: Instant,
@@ -21,22 +21,22 @@ pub struct Absence {
 }
 
 impl Absence {
-    /// Of a stream that has a gap since then.
+    /// The stream has a gap since `since`.
     pub fn new(why: Error, since: Instant) -> Absence {
         Absence { since, why, next: Instant::now(), pause: TRY[0] }
     }
 
-    /// How long it lasts.
+    /// Duration so far.
     pub fn lasts(&self) -> Duration {
         self.since.elapsed()
     }
 
-    /// Why it is gone.
+    /// Why the source was lost.
     pub fn why(self) -> Error {
         self.why
     }
 
-    /// Tries to open the source, if it is time; waits a little otherwise.
+    /// Tries to open the source if an attempt is due; else waits briefly.
     pub fn try_open(&mut self, open: &mut Return) -> Option<Source> {
         if Instant::now() < self.next {
             thread::sleep(LOOK);

@@ -1,4 +1,4 @@
-//! A board's stream for other programs, and the one loop by which every command of this one follows a source.
+//! A board's stream for other programs, and the loop by which every command follows a source.
 //!
 //! ```
 //! use taxel::client::Event;
@@ -10,15 +10,15 @@
 //! # Ok::<(), anyhow::Error>(())
 //! ```
 //!
-//! A board that restarts, is unplugged or whose connection breaks comes back by itself, and gets everything
-//! again that was set: garment, scene, gains and calibration, shapes, gestures, feeds, tare. That the stream
-//! had a gap is told by an [`Event::Log`] of the host's own, when it begins and when it has ended. A board that
-//! refuses what it had taken before is an error.
+//! A board that restarts, is unplugged or loses its connection is waited for, and all its settings are
+//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. The start and the end of a
+//! gap are reported by an [`Event::Log`] of the host's own. It is an error if the board refuses a setting
+//! that it had accepted before.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `outgoing.rs` | requests on their way to a board that may not read |
-//! | `absence.rs` | a source that is gone, until it is back |
+//! | `absence.rs` | a lost source, until it is back |
 
 mod absence;
 mod outgoing;
@@ -35,17 +35,17 @@ use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Level, Request};
 
-/// A board that streams says something each second: one that is silent for that long is gone, whatever its link
-/// says.
+/// A streaming board sends something every second: one silent for this long is lost, whatever its link
+/// reports.
 const SILENCE: Duration = Duration::from_secs(5);
-/// How long a board may leave a request unanswered before all is set again.
+/// Longest wait for an answer before all settings are restored.
 const ANSWER: Duration = Duration::from_secs(3);
 /// Time between two requests for a `Hello`.
 const GREETING: Duration = Duration::from_secs(1);
-/// Bytes that are read at a time.
+/// Bytes read at a time.
 const PIECE: usize = 4096;
 
-/// A board that streams. Dropping it lets the board go.
+/// A streaming board. Dropping it closes the connection.
 pub struct Session {
     source: Source,
     client: Client,
@@ -53,50 +53,50 @@ pub struct Session {
     buffer: Vec<u8>,
     taken: usize,
     outgoing: Outgoing,
-    /// When bytes came last, and when a `Hello` was asked for last.
+    /// When bytes were last received, and when a `Hello` was last requested.
     heard: Instant,
     greeted: Instant,
     /// When the link was opened.
     opened: Instant,
     absence: Option<Absence>,
-    /// Since when the stream has a gap, which is over as soon as the board is set again.
+    /// Start of a gap in the stream, which ends once the board's settings are restored.
     gap: Option<Instant>,
     returns: Returns,
     notes: VecDeque<Event>,
 }
 
-/// What becomes of a source that is gone.
+/// What to do about a lost source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Returns {
-    /// It is waited for.
+    /// Wait for it.
     Always,
-    /// It is waited for so long.
+    /// Wait for it this long.
     Within(Duration),
-    /// The session ends.
+    /// End the session.
     Never,
 }
 
-/// What a [`Session::turn`] has brought.
+/// Result of [`Session::turn`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
     /// Bytes, or none within a short while.
     Bytes,
-    /// The source is gone, and is waited for.
+    /// The source is lost, and waited for.
     Waiting,
     /// The stream has ended.
     End,
 }
 
 impl Session {
-    /// Connects by the words of `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`, `tcp:HOST:PORT`
-    /// ...) and asks for everything, after a tare where a simulation wants one.
+    /// Connects to a source as named for `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`,
+    /// `tcp:HOST:PORT` ...) and requests the whole stream, after a tare if a simulation wants one.
     pub fn open(source: &str) -> Result<Session> {
         let spec: SourceSpec =
             source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
         Session::over(source::open(&spec, &SourceOptions::default())?)
     }
 
-    /// The same over a source that is open.
+    /// Requests the whole stream from an open source.
     pub fn over(source: Source) -> Result<Session> {
         let tare = source.tare;
         let mut session = Session::new(source, Returns::Always);
@@ -104,7 +104,7 @@ impl Session {
         Ok(session)
     }
 
-    /// Over a source that is open, of which nothing is asked yet.
+    /// A session with an open source that requests nothing yet.
     pub fn new(source: Source, returns: Returns) -> Session {
         let now = Instant::now();
         Session {
@@ -124,7 +124,7 @@ impl Session {
         }
     }
 
-    /// What is known now: image, contacts, intention, health.
+    /// Current state: image, contacts, intention, health.
     pub fn client(&self) -> &Client {
         &self.client
     }
@@ -139,18 +139,18 @@ impl Session {
         &self.source
     }
 
-    /// Whether the source is gone, and is waited for.
+    /// True while the source is lost and waited for.
     pub fn is_gone(&self) -> bool {
         self.absence.is_some()
     }
 
-    /// Asks the board for something; its answer is an [`Event::Answer`].
+    /// Queues a request to the board; the answer is an [`Event::Answer`].
     pub fn request(&mut self, request: &Request<'_>) -> Result<()> {
         Ok(self.client.request(request)?)
     }
 
-    /// What comes within the next short while (10 ms to a second, as the link is): none where nothing is whole
-    /// yet.
+    /// Returns an event, or nothing if none is complete within a short while (10 ms to a second, depending on
+    /// the link).
     pub fn poll(&mut self) -> Result<Poll> {
         if let Some(event) = self.next_event().or_else(|| self.note()) {
             return Ok(Poll::Event(event));
@@ -161,8 +161,8 @@ impl Session {
         })
     }
 
-    /// Waits for the next event; none: the stream has ended. The [`client`](Session::client) is in the state
-    /// after it.
+    /// Waits for the next event; none at the end of the stream. The [`client`](Session::client) already
+    /// includes it.
     pub fn wait(&mut self) -> Result<Option<Event>> {
         loop {
             match self.poll()? {
@@ -173,8 +173,8 @@ impl Session {
         }
     }
 
-    /// Sends what waits, having shown it to `sent`, and reads what has come. An error: the source is gone for
-    /// good, or its board does not take what it had taken before.
+    /// Sends queued requests after passing them to `sent`, and reads. Error if the source is lost for good,
+    /// or if its board refuses a setting that it had accepted before.
     pub fn turn(&mut self, sent: &mut dyn FnMut(&Client, &[u8]) -> Result<()>) -> Result<Turn> {
         self.buffer.clear();
         self.taken = 0;
@@ -192,24 +192,24 @@ impl Session {
                 self.tell_time();
                 Ok(Turn::Bytes)
             }
-            // What was recorded or simulated is over; a board goes on for as long as there is a link to it.
+            // Recordings and simulations end; a board streams as long as there is a link.
             Ok(false) if self.source.returns.is_none() => Ok(Turn::End),
             Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
             Err(error) => self.lose(error),
         }
     }
 
-    /// The bytes of the last turn.
+    /// Bytes of the last turn.
     pub fn bytes(&self) -> &[u8] {
         &self.buffer
     }
 
-    /// How many of them have become events, or parts of one.
+    /// How many of them were handled.
     pub fn taken(&self) -> usize {
         self.taken
     }
 
-    /// The next event of the last turn.
+    /// Next event of the last turn.
     pub fn next_event(&mut self) -> Option<Event> {
         while let Some(byte) = self.buffer.get(self.taken) {
             self.taken += 1;
@@ -220,7 +220,7 @@ impl Session {
         None
     }
 
-    /// What the host itself has to say of the stream: an [`Event::Log`].
+    /// The host's own message about the stream: an [`Event::Log`].
     pub fn note(&mut self) -> Option<Event> {
         self.notes.pop_front()
     }
@@ -236,7 +236,7 @@ impl Session {
         }
     }
 
-    /// Writes and reads; false: the stream has ended.
+    /// Writes and reads. Returns false at the end of the stream.
     fn exchange(&mut self) -> Result<bool> {
         self.outgoing.send(self.source.port.as_mut())?;
         self.buffer.resize(PIECE, 0);
@@ -247,15 +247,15 @@ impl Session {
         if count > 0 {
             self.heard = now;
         } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
-            bail!("it has said nothing for {} s", SILENCE.as_secs());
+            bail!("it has sent nothing for {} s", SILENCE.as_secs());
         }
         if self.client.worn().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
-            bail!("it has not said what it is for {} s", SILENCE.as_secs());
+            bail!("it has sent no Hello for {} s", SILENCE.as_secs());
         }
         Ok(true)
     }
 
-    /// A board that has not said what it is, or has not heard what it was asked, is asked again.
+    /// Repeats requests to a board that has sent no `Hello`, or has not received them.
     fn ask_again(&mut self) {
         if !self.source.real_time || !self.source.listens {
             return;
@@ -269,7 +269,7 @@ impl Session {
         }
     }
 
-    /// Looks how it went to set the board again.
+    /// Handles the result of a restore.
     fn restored(&mut self) -> Result<()> {
         let Some(restored) = self.client.restored().filter(|_| self.source.listens) else { return Ok(()) };
         let label = &self.source.label;
@@ -291,9 +291,9 @@ impl Session {
                 names.dedup();
                 let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
                 let life = match (gap, self.client.has_lived_on()) {
-                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board has lived on"),
-                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had started anew"),
-                    (None, _) => "has started anew, or did not hear".into(),
+                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board kept running"),
+                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had restarted"),
+                    (None, _) => "has restarted, or missed requests".into(),
                 };
                 let untared = untared.map_or(String::new(), |why| format!("; no new tare: {why}"));
                 self.say(Level::Warn, format!("{label} {life}; set again: {}{untared}", names.join(", ")));
@@ -302,23 +302,23 @@ impl Session {
         Ok(())
     }
 
-    /// The source is gone.
+    /// Handles a lost source.
     fn lose(&mut self, why: anyhow::Error) -> Result<Turn> {
         let label = &self.source.label;
         if self.source.returns.is_none() || self.returns == Returns::Never {
             return Err(why).with_context(|| format!("{label} is gone")).board();
         }
-        let text = format!("{label} is gone: {}; it is waited for", crate::words::sentence(&why));
+        let text = format!("{label} is gone: {}; waiting for it", crate::words::sentence(&why));
         self.say(Level::Error, text);
-        // A link that opens and brings nothing ends no gap.
+        // A link that opens without bringing data does not end a gap.
         self.absence = Some(Absence::new(why, *self.gap.get_or_insert_with(Instant::now)));
         Ok(Turn::Waiting)
     }
 
-    /// Waits for the source a little, and tries to open it.
+    /// Waits briefly for the source, and tries to open it.
     fn come_back(&mut self) -> Result<Turn> {
         let Some(absence) = &mut self.absence else { return Ok(Turn::Waiting) };
-        // Nobody hears what is asked meanwhile; what is to last is remembered.
+        // Requests of this time reach nobody; lasting settings are remembered.
         self.client.take_requests();
         if let Returns::Within(patience) = self.returns
             && absence.lasts() > patience
@@ -343,7 +343,7 @@ impl Session {
     }
 }
 
-/// What [`Session::poll`] found.
+/// Result of [`Session::poll`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Poll {
     /// An event.

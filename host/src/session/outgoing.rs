@@ -1,27 +1,27 @@
-//! Requests on their way to a board, which may read slowly or not at all: nothing waits for it but they.
+//! Requests on their way to a board that may read slowly or not at all, without blocking the reader.
 
 use crate::source::Port;
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 
-/// How long a board may leave all of it unread.
+/// Time after which a board that reads nothing is an error.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Bytes that the link has not taken yet.
+/// Bytes that the link has not accepted yet.
 #[derive(Debug, Default)]
 pub struct Outgoing {
     bytes: Vec<u8>,
-    /// Since when it has taken none.
+    /// Since when it has accepted none.
     stuck: Option<Instant>,
 }
 
 impl Outgoing {
-    /// Adds requests behind those that wait.
+    /// Appends requests.
     pub fn add(&mut self, requests: &[u8]) {
         self.bytes.extend_from_slice(requests);
     }
 
-    /// Sends as much as the link takes now. An error: the link is broken, or the board does not read.
+    /// Sends as much as the link accepts now. Error if the link is broken or the board does not read.
     pub fn send(&mut self, port: &mut dyn Port) -> Result<()> {
         while !self.bytes.is_empty() {
             let count = port.write(&self.bytes)?;
@@ -30,7 +30,7 @@ impl Outgoing {
                 if stuck.elapsed() > PATIENCE {
                     let seconds = PATIENCE.as_secs();
                     bail!(
-                        "the board has read nothing for {seconds} s, and {} bytes wait for it",
+                        "the board has read nothing for {seconds} s; {} bytes are waiting",
                         self.bytes.len()
                     );
                 }

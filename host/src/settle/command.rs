@@ -16,16 +16,16 @@ use taxel_core::acquire::{Plan, Rounds, frame_us};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::wire::Request;
 
-/// Frames after a change of settling that may still be of the old one.
+/// Frames after a change of the settling time that may still have the old one.
 const OLD: u32 = 2;
 
-/// What `taxel settle` takes.
+/// Arguments of `taxel settle`.
 #[derive(Debug, Clone, Args)]
 pub struct SettleArgs {
     /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// The garment, a preset or a TOML file [default: what the board wears]
+    /// The garment, a preset or a TOML file [default: the board's]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// Largest residue of a full-scale step between two taxels, counts of 4,095
@@ -34,10 +34,10 @@ pub struct SettleArgs {
     /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
-    /// Also save it to the board's flash, as `taxel save` does
+    /// Also save the garment to the board's flash
     #[arg(long)]
     pub save: bool,
     /// Print JSON instead of sentences
@@ -45,7 +45,7 @@ pub struct SettleArgs {
     pub json: bool,
 }
 
-/// A board that wears the garment with one settling after another.
+/// A board whose garment is sent again with each settling time.
 struct Worn<'a> {
     board: &'a mut RawBoard,
     garment: Garment,
@@ -103,7 +103,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     garments::write(&garment, &comment, output)
 }
 
-/// `garment` has the settling that was found.
+/// Prints the result; `garment` has the settling time that was found.
 fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment) -> Result<()> {
     let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)?;
     let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
@@ -123,7 +123,7 @@ fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment)
         settled.settle_ns, settled.residue_counts, settled.error_counts
     );
     println!(
-        "A board that scans by DMA drops whole conversions meanwhile: it gives {given_ns} ns, and {:.1} frames/s.",
+        "A board that scans by DMA settles for whole conversions: {given_ns} ns, at {:.1} frames/s.",
         1e6 / frame_us(&circuit, &Plan::default()) as f64
     );
     if !settled.unmeasured.is_empty() {

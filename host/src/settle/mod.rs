@@ -1,10 +1,12 @@
-//! `taxel settle`: the shortest settling of a real garment whose codes agree with a slow scan.
+//! `taxel settle`: finds the shortest settling time of a real garment at which its codes agree with a slow
+//! scan.
 //!
-//! What a line keeps of the taxel before is found from the picture itself: with something on the garment,
-//! neighbours in the order of the scan differ, and a scan that does not wait long enough shows a part of each
-//! such step. That part is measured by least squares over all steps of a converter input, against slow scans
-//! before and after, and does not depend on how high the steps are: so a light press tells what a full-scale
-//! step would leave. The time is found by bisection over what the board really does, in whole slots or not.
+//! The residue of the previous taxel on a line is measured from an image. With an object on the garment,
+//! taxels that are neighbours in scan order differ, and a scan that does not wait long enough shows a share
+//! of each such step. This share is fitted by least squares over all steps of a converter input, against slow
+//! scans before and after. It does not depend on the height of the steps, so a light press gives the residue
+//! of a full-scale step. The time is found by bisection over the board's actual settling times, in whole
+//! slots or not.
 
 mod command;
 mod residue;

@@ -1,26 +1,26 @@
-//! How much of the taxel before is left in a taxel's code: the slope of quick scans against slow ones.
+//! Residue of the previous taxel in a taxel's code: the slope of quick scans against slow ones.
 
 use taxel_core::garment::Circuit;
 
-/// Steps of the picture that one converter input makes in the order of the scan.
+/// Steps of the image at one converter input in scan order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Steps {
     /// GPIO number of the input.
     pub input: u8,
-    /// Taxels that are read one after the other: the former, the latter.
+    /// Taxels read one after the other: earlier, later.
     pairs: Vec<(usize, usize)>,
 }
 
-/// Part of a step that is left at the sample.
+/// Share of a step that is left at the sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residue {
-    /// 0: nothing; 1: all.
+    /// 0: none; 1: all.
     pub part: f64,
-    /// Its standard error; infinite where the picture has no steps.
+    /// Standard error of the share; infinite if the image has no steps.
     pub error: f64,
 }
 
-/// The steps of each input, in the order of the inputs: the first has the least time to settle.
+/// Steps of each input, in the order of the inputs: the first has the least time to settle.
 pub fn steps(circuit: &Circuit) -> Vec<Steps> {
     let mut inputs: Vec<u8> = circuit.sites().iter().map(|site| site.input).collect();
     inputs.sort_unstable();
@@ -28,7 +28,7 @@ pub fn steps(circuit: &Circuit) -> Vec<Steps> {
     inputs.into_iter().map(|input| Steps { input, pairs: pairs(circuit, input) }).collect()
 }
 
-/// Neighbours in time; where another address lies between, the line has seen something else.
+/// Neighbours in time, unless another address lies between, which the line has seen.
 fn pairs(circuit: &Circuit, input: u8) -> Vec<(usize, usize)> {
     let mut pairs = Vec::new();
     let mut before = None;
@@ -48,10 +48,10 @@ fn pairs(circuit: &Circuit, input: u8) -> Vec<(usize, usize)> {
 }
 
 impl Steps {
-    /// What is left in quick codes of the steps in slow ones, both means by taxel.
+    /// Residue in quick codes of the steps in slow codes, both means by taxel.
     ///
-    /// Least squares over two causes: the step from the taxel before, and the taxel's own height above the
-    /// median, so that a press that became harder or softer between the scans is not taken for a residue.
+    /// Least squares over two causes: the step from the previous taxel, and the taxel's own height above the
+    /// median, so that a press that changed between the scans does not count as a residue.
     pub fn residue(&self, slow: &[f64], quick: &[f64]) -> Residue {
         let value = |codes: &[f64], taxel: usize| codes.get(taxel).copied().unwrap_or(0.0);
         let mut heights: Vec<f64> = self.pairs.iter().map(|(_, taxel)| value(slow, *taxel)).collect();

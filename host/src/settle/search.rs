@@ -1,4 +1,4 @@
-//! The shortest settling: bisection over what the board really does.
+//! Finds the shortest settling time by bisection over the board's actual times.
 
 use super::residue::{Residue, Steps, steps};
 use anyhow::{Context, Result, bail};
@@ -7,44 +7,44 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
 /// Full scale of the converter, counts.
 const FULL: f64 = 4095.0;
-/// Frames of a scan at first, and at most where noise asks for more.
+/// Initial frames of a scan, and most frames that noise may require.
 const FRAMES: (u32, u32) = (16, 256);
-/// Slow settling to begin with, and at most, ns.
+/// Initial and longest settling time of slow scans, ns.
 const SLOW: (u32, u32) = (200_000, 3_200_000);
-/// Shortest settling that is tried, ns.
+/// Shortest settling time that is tried, ns.
 const QUICK: u32 = 100;
-/// The bracket is closed to this ratio.
+/// Final ratio of the bisection's bounds.
 const CLOSE: f64 = 1.03;
-/// Standard errors that must lie within the bar: of the input that is read first and decides, and of the
+/// Standard errors that must lie within the limit: for the input that is read first and decides, and for the
 /// others.
 const SURE: [f64; 2] = [8.0, 3.0];
 
-/// A board that can be told how long to settle.
+/// A board with adjustable settling time.
 pub trait Scanner {
-    /// Mean codes by taxel of that many frames with that settling, ns.
+    /// Mean codes by taxel of `frames` frames with this settling time, ns.
     fn scan(&mut self, settle_ns: u32, frames: u32) -> Result<Vec<f64>>;
 }
 
-/// What was found.
+/// Result of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settled {
-    /// Shortest settling, ns.
+    /// Shortest settling time, ns.
     pub settle_ns: u32,
-    /// What it leaves of a full-scale step, counts.
+    /// Its residue of a full-scale step, counts.
     pub residue_counts: f64,
-    /// Standard error of that, counts.
+    /// Standard error of the residue, counts.
     pub error_counts: f64,
-    /// Settling that counted as slow, ns.
+    /// Settling time of the slow scans, ns.
     pub slow_ns: u32,
     /// Converter inputs whose lines were measured.
     pub measured: Vec<u8>,
-    /// Those where the picture had too few steps.
+    /// Inputs whose image had too few steps.
     pub unmeasured: Vec<u8>,
 }
 
 /// One comparison.
 struct Trial {
-    /// The largest of the inputs that have contrast.
+    /// Largest residue of the inputs with contrast.
     worst: Residue,
     measured: Vec<u8>,
 }
@@ -52,14 +52,14 @@ struct Trial {
 struct Search<'a, S> {
     scanner: &'a mut S,
     steps: Vec<Steps>,
-    /// Part of a full-scale step that may be left.
+    /// Allowed share of a full-scale step.
     bar: f64,
     slow_ns: u32,
     frames: u32,
 }
 
-/// Finds the shortest settling that leaves at most `counts` of a full-scale step. The picture must stay as it
-/// is meanwhile, and have edges. An error says what is missing.
+/// Finds the shortest settling time that leaves at most `counts` of a full-scale step. The image must have
+/// edges and stay unchanged meanwhile. An error says what is missing.
 pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Result<Settled> {
     let layout = Layout::build(garment, usize::from(u16::MAX), 4095)?;
     let circuit =
@@ -86,7 +86,7 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
             break;
         }
         let trial = search.trial(middle, search.slow_ns)?;
-        // With its error, so that what is found keeps what it says.
+        // Including its error, so that the result is reliable.
         if trial.worst.part + trial.worst.error <= search.bar {
             (long, best) = (middle, trial);
         } else {
@@ -105,8 +105,8 @@ pub fn settle(scanner: &mut impl Scanner, garment: &Garment, counts: f64) -> Res
     })
 }
 
-/// The longest settling that a board takes for this garment, of those that are tried: a longer frame would
-/// keep it from its watchdog.
+/// Longest of the tried settling times that a board accepts for this garment: a longer frame would keep it
+/// from its watchdog.
 fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
     let mut slower = garment.clone();
     slower.wiring.settle_ns = 2 * SLOW.1;
@@ -119,8 +119,7 @@ fn longest_ns(garment: &Garment, layout: &Layout) -> Result<u32> {
 }
 
 impl<S: Scanner> Search<'_, S> {
-    /// Whether slow scans leave more than a quarter of the bar; more frames are taken as long as that may be
-    /// noise.
+    /// True if slow scans leave more than a quarter of the limit. Takes more frames while that may be noise.
     fn is_unsettled(&mut self) -> Result<bool> {
         loop {
             let worst = self.trial(self.slow_ns, 2 * self.slow_ns)?.worst;
@@ -135,7 +134,7 @@ impl<S: Scanner> Search<'_, S> {
         }
     }
 
-    /// Compares quick scans with slow ones before and after, with as many frames as the noise asks for.
+    /// Compares quick scans with slow ones before and after, with as many frames as the noise requires.
     fn trial(&mut self, quick_ns: u32, slow_ns: u32) -> Result<Trial> {
         loop {
             let before = self.scanner.scan(slow_ns, self.frames)?;
@@ -144,7 +143,7 @@ impl<S: Scanner> Search<'_, S> {
             let slow: Vec<f64> = before.iter().zip(&after).map(|(a, b)| (a + b) / 2.0).collect();
             let residues: Vec<Residue> =
                 self.steps.iter().map(|steps| steps.residue(&slow, &quick)).collect();
-            // Far from the bar, a large error of a large residue does no harm.
+            // Far from the limit, a large residue may have a large error.
             let clear = |index: &usize| {
                 let residue = &residues[*index];
                 SURE[usize::from(*index > 0)] * residue.error <= self.bar
@@ -152,7 +151,7 @@ impl<S: Scanner> Search<'_, S> {
             };
             let seen: Vec<usize> = (0..residues.len()).filter(clear).collect();
             if seen.first() == Some(&0) {
-                // Another line counts where it is slower, not where its noise is larger.
+                // Another line decides if it is slower, not if it is only noisier.
                 let slower = |a: Residue, b: Residue| if b.part - 2.0 * b.error > a.part { b } else { a };
                 let worst = seen.iter().map(|index| residues[*index]).reduce(slower).unwrap_or(residues[0]);
                 let measured = seen.iter().map(|index| self.steps[*index].input).collect();

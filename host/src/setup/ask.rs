@@ -1,4 +1,4 @@
-//! What the user is asked to do, in words and as a picture.
+//! What the user is asked to touch, in words and as a picture.
 
 use taxel_core::garment::{Block, Garment};
 
@@ -9,7 +9,7 @@ pub enum Gesture {
     Down {
         /// The column.
         column: u16,
-        /// Where the blocks under it begin.
+        /// First columns of the blocks under it.
         from: u16,
     },
     /// A stroke along a row, from the first column to the last.
@@ -21,18 +21,18 @@ pub enum Gesture {
     Corner,
 }
 
-/// What is to be touched now.
+/// A touch that the user is asked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ask {
     /// Index of the panel.
     pub panel: usize,
-    /// How.
+    /// The touch.
     pub gesture: Gesture,
-    /// Why the last try was of no use.
+    /// Why the last attempt was rejected.
     pub why: Option<String>,
 }
 
-/// Width and height of a block as it lies in its panel.
+/// Width and height of a block as placed in its panel.
 pub(super) fn extent(block: &Block) -> (u16, u16) {
     let (rows, columns) = (u16::from(block.rows), u16::from(block.columns));
     if block.orientation.transposed { (rows, columns) } else { (columns, rows) }
@@ -54,8 +54,8 @@ pub(super) fn blocks_along(garment: &Garment, ask: &Ask) -> Vec<usize> {
     blocks.into_iter().map(|(_, index)| index).collect()
 }
 
-/// One stroke down each column of blocks of each panel: off the middle of the blocks, so that it shows which
-/// way they lie.
+/// One stroke down each column of blocks of each panel. It is off the middle of the blocks, which shows their
+/// orientation.
 pub(super) fn strokes_down(garment: &Garment) -> Vec<Ask> {
     let mut asks = Vec::new();
     for panel in 0..garment.panels.len() {
@@ -85,7 +85,7 @@ pub(super) fn stroke_across(garment: &Garment, panel: usize) -> Option<Ask> {
 }
 
 impl Ask {
-    /// In words.
+    /// The request in words.
     pub fn sentence(&self, garment: &Garment) -> String {
         let Some(panel) = garment.panels.get(self.panel) else { return String::new() };
         let (name, rows, columns) = (&panel.name, panel.rows, panel.columns);
@@ -104,7 +104,7 @@ impl Ask {
         }
     }
 
-    /// As a picture of the panel, row 0 at the top, column 0 at the left; large panels are drawn smaller.
+    /// Picture of the panel with row 0 at the top and column 0 at the left; large panels are scaled down.
     pub fn picture(&self, garment: &Garment) -> String {
         let Some(panel) = garment.panels.get(self.panel) else { return String::new() };
         let scale = panel.rows.max(panel.columns).div_ceil(16).max(1);

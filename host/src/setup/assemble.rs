@@ -1,14 +1,14 @@
-//! Readings of strokes to a garment.
+//! Builds a garment from the readings of strokes.
 
 use super::ask::{Ask, Gesture, blocks_along, extent};
 use super::bundle::Bundle;
 use super::reading::{Blocks, Felt, Reading};
 use taxel_core::garment::{Block, Coding, Garment, Group, Line, Orientation};
 
-/// Margin below which the side of a block is not clear.
+/// Margin below which the side of a block is undecided.
 const SIDE: f64 = 0.2;
 
-/// A stroke that was read.
+/// A stroke with its reading.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stroke<'a> {
     /// Number of its step.
@@ -17,14 +17,14 @@ pub(super) struct Stroke<'a> {
     pub reading: &'a Reading,
 }
 
-/// A step that has to be taken again, and why.
+/// A step to be repeated, and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Unclear {
     pub step: usize,
     pub why: String,
 }
 
-/// Lines of one direction within the blocks.
+/// Address lines of one direction within the blocks.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Wires {
     lines: Vec<usize>,
@@ -46,8 +46,8 @@ impl Wires {
     }
 }
 
-/// The garment that the strokes show, and the least margin of all that was decided. Blocks of panels without
-/// strokes stand as in the template.
+/// Returns the garment that the strokes show, and the least margin of all decisions. Blocks of panels without
+/// strokes stay as in the template.
 pub(super) fn assemble(
     template: &Garment,
     bundle: &Bundle,
@@ -102,7 +102,7 @@ pub(super) fn assemble(
     Ok((garment, margin))
 }
 
-/// The lines of rows and of columns, on which all strokes agree.
+/// Lines of the rows and of the columns, on which all strokes must agree.
 fn directions(template: &Garment, strokes: &[Stroke<'_>]) -> Result<[Vec<usize>; 2], Unclear> {
     let mut known: [Option<&Vec<usize>>; 2] = [None, None];
     for stroke in strokes {
@@ -111,7 +111,7 @@ fn directions(template: &Garment, strokes: &[Stroke<'_>]) -> Result<[Vec<usize>;
         let Some(block) = blocks.first().and_then(|index| template.blocks.get(*index)) else { continue };
         let down = matches!(stroke.ask.gesture, Gesture::Down { .. });
         let mut direction = usize::from(down == block.orientation.transposed);
-        // A square block may lie either way.
+        // A square block fits in either orientation.
         if block.rows == block.columns && known[1 - direction] == Some(lines) {
             direction = 1 - direction;
         }
@@ -126,13 +126,13 @@ fn directions(template: &Garment, strokes: &[Stroke<'_>]) -> Result<[Vec<usize>;
     Ok(known.map(|lines| lines.cloned().unwrap_or_default()))
 }
 
-/// Whether the wired columns of a block run down the panel.
+/// True if the wired columns of a block run down the panel.
 fn runs_crosswise(block: &Block, down: &Reading, rows: &Wires) -> bool {
     if block.rows == block.columns { down.fine != rows.lines } else { block.orientation.transposed }
 }
 
-/// Whether x runs against the wiring in a block of that width that was stroked along column `at` of it, and
-/// how clear that is.
+/// Returns whether x runs against the wiring in a block of this width that was stroked along column `at`, and
+/// the margin of that decision.
 fn side(felt: &Felt, across: &Wires, width: u16, at: u16) -> (bool, f64) {
     let (last, at) = (f64::from(width - 1), f64::from(at));
     if width == 1 {

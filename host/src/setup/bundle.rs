@@ -1,13 +1,14 @@
-//! The wires as they are known before anything is: which pins drive, which pins read, and no more.
+//! The wires before setup: which pins are outputs and which are inputs.
 
 use anyhow::{Result, bail, ensure};
 use taxel_core::format::name;
 use taxel_core::garment::{Block, Coding, Garment, Group, Line, Orientation, Panel};
 
-/// Most columns of the garment that is worn meanwhile: blocks have 16 rows and columns at most then.
+/// Most block columns of the probe garment: with 4 of them, blocks have at most 16 rows and columns.
 const SIDE: usize = 4;
 
-/// A bundle of wires. An address is `input * 2^lines + word`; bit `i` of the word is the level of line `i`.
+/// A bundle of unidentified wires. An address is `input * 2^lines + word`; bit `i` of the word is the level
+/// of line `i`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bundle {
     /// GPIO numbers of the address lines.
@@ -17,7 +18,7 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// The pins that a garment names, or why it cannot be set up by touch.
+    /// Collects the pins of a garment. Error if it cannot be set up by touch.
     pub fn of(garment: &Garment) -> Result<Bundle> {
         let groups = [&garment.wiring.block, &garment.wiring.row, &garment.wiring.column];
         if groups.iter().any(|group| group.coding != Coding::Binary && !group.lines.is_empty()) {
@@ -56,12 +57,12 @@ impl Bundle {
         self.inputs.len() << self.lines.len()
     }
 
-    /// Index of the input, and word, of an address.
+    /// Index of the input, and the word, of an address.
     pub fn split(&self, address: usize) -> (usize, usize) {
         (address >> self.lines.len(), address & ((1 << self.lines.len()) - 1))
     }
 
-    /// Levels of the GPIOs at an address, for a garment whose enables are known.
+    /// Levels of the GPIOs at an address, for a garment with known enables.
     pub fn levels(&self, address: usize, garment: &Garment) -> u64 {
         let (_, word) = self.split(address);
         let lines =
@@ -70,7 +71,7 @@ impl Bundle {
         lines.chain(enables).fold(0, |levels, pin| levels | 1u64.checked_shl(pin.into()).unwrap_or(0))
     }
 
-    /// A garment that reads every address of every input; its taxels are numbered as the addresses are.
+    /// Returns a garment that reads every address of every input, with taxels numbered like addresses.
     pub fn probe(&self, garment: &Garment) -> Garment {
         let count = self.lines.len();
         let (columns, rows) = (count.min(SIDE), count.saturating_sub(SIDE).min(SIDE));

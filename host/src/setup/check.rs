@@ -1,4 +1,4 @@
-//! Whether a touch, seen through a garment that was found, is where it was asked for.
+//! Checks that a touch, mapped through the garment found, is at the requested place.
 
 use super::ask::{Ask, Gesture};
 use super::bundle::Bundle;
@@ -6,27 +6,28 @@ use super::touch::Touch;
 use crate::sim::Decoder;
 use taxel_core::garment::{Circuit, Garment, GarmentError, Layout, Pins};
 
-/// How far from where it was asked a finger may be, taxels: one for the user, one for the finger, and half a
-/// one.
+/// Tolerated distance of a finger from the requested place, taxels: one for the user, one for the finger,
+/// half a one spare.
 const OFF: f64 = 2.5;
-/// Largest distance of the taxels under one finger from their middle, taxels rms.
+/// Largest rms distance of the taxels under one finger from their centre, taxels.
 const SPREAD: f64 = 2.0;
-/// How far a stroke may go back, taxels.
+/// Tolerated backward movement of a stroke, taxels.
 const BACK: f64 = 1.5;
 /// Taxels at either end of a stroke that may be missed.
 const END: f64 = 4.0;
-/// Part of the signal that may be on other panels: a finger at a seam presses both.
+/// Share of the signal that may be on other panels: a finger at a seam presses both.
 const ELSEWHERE: f64 = 0.4;
 
-/// Addresses to places.
+/// Map from addresses to places.
 pub(super) struct Places {
     layout: Layout,
-    /// Panel, column and row of an address.
+    /// Panel, column and row of each address.
     places: Vec<Option<(usize, f64, f64)>>,
 }
 
 impl Places {
-    /// Of a garment whose wires are those of the bundle. An error says where it contradicts itself.
+    /// Places of a garment that uses the wires of the bundle. An error says where the garment is
+    /// inconsistent.
     pub fn of(garment: &Garment, bundle: &Bundle) -> Result<Places, GarmentError> {
         let layout = Layout::build(garment, usize::from(u16::MAX), 1)?;
         Circuit::build(garment, &layout, Pins::ANY)?;
@@ -42,7 +43,7 @@ impl Places {
         Ok(Places { layout, places })
     }
 
-    /// How far off the touch was at most, or what is wrong with it.
+    /// Returns the largest distance of the touch from the requested place, or what is wrong with it.
     pub fn check(&self, ask: &Ask, touch: &Touch) -> Result<f64, String> {
         let Some(area) = self.layout.areas().get(ask.panel) else {
             return Err("there is no such panel".into());
@@ -98,8 +99,8 @@ impl Places {
     }
 }
 
-/// The distance from where it was asked, on a panel that ends at `last`; no farther than is needed to tell
-/// its two sides apart.
+/// Checks the distance from the requested place on a panel whose last index is `last`. The tolerance is small
+/// enough to tell the two sides of a panel apart.
 fn near(off: f64, last: f64) -> Result<f64, String> {
     if off.abs() <= OFF.min(last / 2.0 - 0.01).max(0.5) {
         Ok(off.abs())
@@ -108,7 +109,7 @@ fn near(off: f64, last: f64) -> Result<f64, String> {
     }
 }
 
-/// Whether a path goes from one end to the other.
+/// Checks that a path goes from one end to the other.
 fn along(path: impl Iterator<Item = f64>, last: f64) -> Result<(), String> {
     let (mut first, mut most) = (None, f64::MIN);
     for at in path {

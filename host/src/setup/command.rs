@@ -20,20 +20,20 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 /// Frames after a change of garment that may still be of the old one.
 const OLD: u32 = 2;
 
-/// What `taxel setup` takes.
+/// Arguments of `taxel setup`.
 #[derive(Debug, Clone, Args)]
 pub struct SetupArgs {
     /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: what the
-    /// board wears]
+    /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: the
+    /// board's]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
     /// File to write [default: print the garment]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
     /// Seconds of the board to wait for a touch
@@ -47,9 +47,9 @@ pub struct SetupArgs {
     pub simulate: Option<u64>,
 }
 
-/// Who is asked.
+/// Somebody who touches when asked.
 trait Hands {
-    /// What was felt; none: nothing.
+    /// Returns the touch that was felt, if any.
     fn touch(&mut self, ask: &Ask) -> Result<Option<Touch>>;
 }
 
@@ -59,7 +59,7 @@ impl Hands for User {
     }
 }
 
-/// A board, and whoever stands before it.
+/// A board, touched by a person.
 struct Watch<'a> {
     board: &'a mut RawBoard,
     feeler: Feeler,
@@ -93,8 +93,7 @@ pub fn run(args: &SetupArgs) -> Result<()> {
         Some(seed) => simulated(args, seed)?,
         None => on_a_board(args)?,
     };
-    let comment =
-        "Found by touch: taxel setup. What it does not know (names, pitch, seams) is as it was given.";
+    let comment = "Wiring found by `taxel setup`. Names, pitch and seams are those of the given garment.";
     if args.json && output.is_none() {
         return Ok(());
     }
@@ -140,7 +139,7 @@ fn solver(template: &Garment) -> Result<Solver> {
     Solver::new(template)
 }
 
-/// Asks until it is known.
+/// Asks for touches until the garment is found, or cannot be.
 fn converse(
     args: &SetupArgs,
     template: &Garment,

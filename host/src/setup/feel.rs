@@ -1,21 +1,21 @@
-//! Raw frames to touches: what rest looks like is learnt first, then each departure from it is one touch.
+//! Finds touches in raw frames: learns the rest codes first; each departure from them is one touch.
 
 use super::touch::{Moment, Touch};
 
-/// Frames from which rest is learnt.
+/// Frames from which the rest codes are learnt.
 const REST: u32 = 16;
-/// Signal that is a touch, counts above rest and its noise.
+/// Signal of a touch, counts above rest and the noise limit.
 const SIGNAL: f32 = 40.0;
-/// Standard deviations of its own noise that an address must leave behind as well.
+/// Noise limit of an address, standard deviations.
 const SIGMAS: f32 = 8.0;
-/// Part by which rest follows each quiet frame.
+/// Rate at which the rest codes follow each quiet frame.
 const FOLLOW: f32 = 0.05;
 /// Time without a touch that ends it, s.
 const QUIET: f64 = 0.4;
-/// A touch has that many frames at least; less is a spark.
+/// Least number of frames of a touch; anything shorter is a spark.
 const FRAMES: usize = 3;
 
-/// Watches frames for touches.
+/// Detects touches in frames.
 #[derive(Debug, Clone, Default)]
 pub struct Feeler {
     /// Pressure lowers the codes.
@@ -28,22 +28,22 @@ pub struct Feeler {
 }
 
 impl Feeler {
-    /// For codes that fall or rise with pressure.
+    /// A detector for codes that fall or rise with pressure.
     pub fn new(falling: bool) -> Feeler {
         Feeler { falling, ..Feeler::default() }
     }
 
-    /// Rest is known.
+    /// True once the rest codes are known.
     pub fn is_ready(&self) -> bool {
         self.frames >= REST
     }
 
-    /// Something is touched just now.
+    /// True while something is touched.
     pub fn is_touched(&self) -> bool {
         !self.touch.moments.is_empty()
     }
 
-    /// Takes the codes of a frame and its time (s); gives the touch that has ended.
+    /// Takes the codes of a frame and its time (s). Returns a touch that has just ended.
     pub fn take(&mut self, time: f64, codes: &[u16]) -> Option<Touch> {
         if !self.is_ready() || codes.len() != self.rest.len() {
             self.learn(codes);
@@ -111,7 +111,7 @@ mod tests {
             assert_eq!(step(&mut feeler, &[3000 + k % 2, 3900, 3000 + 40 * (k % 2)]), None);
         }
         assert!(feeler.is_ready());
-        // The noisy address is not believed; one frame is no touch.
+        // The noisy address is ignored; one frame is no touch.
         for pressed in [1, 6] {
             for _ in 0..pressed {
                 assert_eq!(step(&mut feeler, &[3000, 3800, 2900]), None);

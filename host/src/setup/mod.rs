@@ -1,18 +1,18 @@
-//! `taxel setup`: an unknown bundle of wires to a right garment file, by touch.
+//! `taxel setup`: identifies a bundle of unknown wires by touch, and writes a garment file.
 //!
-//! Known is how the garment is meant to be: its panels and blocks, which pins drive address lines, which
-//! read. Not known is what each of these wires is. While the garment is set up, the board wears a
-//! [`Bundle`]'s probe, which reads every address of every input. A [`Feeler`] finds touches in the raw codes;
-//! a [`Solver`] asks for them and makes a garment of what it gets:
+//! The intended garment is known: its panels and blocks, and which pins drive address lines or read. Unknown
+//! is the role of each wire. During setup the board has the probe garment of a [`Bundle`], which reads every
+//! address of every input. A [`Feeler`] finds touches in the raw codes; a [`Solver`] asks for touches and
+//! builds the garment from them:
 //!
-//! - a stroke down each column of blocks, off its middle: lines of the rows and of the blocks, order and
-//!   direction of the blocks, the input they are read by, and the side on which column 0 is;
-//! - one stroke across one panel: lines of the columns;
-//! - a press on the first corner of each panel: nothing new, but the proof.
+//! - a stroke down each column of blocks, off its middle, gives the lines of the rows and of the blocks, the
+//! order and direction of the blocks, their input, and the side of column 0;
+//! - one stroke across one panel gives the lines of the columns;
+//! - a press on the first corner of each panel confirms the result.
 //!
-//! The reference garment takes nine touches. Each stroke is read by itself, all must agree, and what they
-//! give together must show each touch where it was asked for; else the touch is asked for again, three times
-//! at most, and then the answer is "not sure".
+//! The reference garment takes nine touches. Each stroke is read by itself, and all must agree. The resulting
+//! garment must show each touch at the requested place; else the touch is asked for again, up to three times,
+//! and then the answer is "not sure".
 
 mod ask;
 mod assemble;

@@ -1,4 +1,4 @@
-//! What a stroke tells of the address lines.
+//! Derives address lines from a stroke.
 //!
 //! Two addresses that differ in one line are two taxels. If the line belongs to the direction of the stroke,
 //! the finger passes both, and the time between is that of 1, 2, 4, ... taxels: the rank of the line. If it
@@ -9,53 +9,53 @@ use super::bundle::Bundle;
 use super::touch::{Touch, Trace};
 use std::collections::BTreeMap;
 
-/// Part of the strongest block's sum below which a block was not stroked, but touched across a seam at an end
-/// of the way.
+/// A block counts as stroked from this share of the strongest block's sum; below it, it was touched across a
+/// seam at an end of the stroke.
 const BLOCK: f64 = 0.15;
 
-/// The lines of a stroke.
+/// Address lines derived from a stroke.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
     /// Lines of the address within a block along the stroke, least significant first.
     pub fine: Vec<usize>,
-    /// What each address has felt.
+    /// Signal of each address.
     pub traces: Vec<Trace>,
     /// Time from taxel to taxel, s.
     pub step: f64,
-    /// How far from doubt: 1 is ideal, 0 is none.
+    /// Margin of the decisions: 1 is ideal, 0 is undecided.
     pub margin: f64,
 }
 
-/// The blocks of a stroke, once the lines are known that choose them.
+/// Blocks of a stroke, once the lines that select blocks are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocks {
     /// In the order of the stroke.
     pub felt: Vec<Felt>,
     /// Which of the fine lines are inverted, if the most significant is not.
     pub inverted: Vec<bool>,
-    /// How far from doubt the directions are.
+    /// Margin of the directions.
     pub margin: f64,
 }
 
-/// A block as it was stroked.
+/// A stroked block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Felt {
-    /// Its addresses.
+    /// Signals of its addresses.
     pub traces: Vec<Trace>,
-    /// The code of the fine lines rises along the stroke.
+    /// True if the code of the fine lines rises along the stroke.
     pub rising: bool,
 }
 
-/// A line and the time between addresses that differ in it, in taxels.
+/// A line, and the time between addresses that differ in it, in taxels.
 struct Gap {
     line: usize,
     taxels: f64,
-    /// Part of the addresses for which the other was felt as well.
+    /// Share of addresses whose counterpart was felt as well.
     paired: f64,
 }
 
 impl Reading {
-    /// Of a stroke over `taxels` taxels, with `fine` lines along a block. An error says what is unclear.
+    /// Reads a stroke over `taxels` taxels, with `fine` lines along a block. An error says what is unclear.
     pub fn of(bundle: &Bundle, touch: &Touch, taxels: u16, fine: usize) -> Result<Reading, String> {
         let traces = touch.traces();
         let times = || traces.iter().map(|trace| trace.time);
@@ -69,7 +69,7 @@ impl Reading {
         Ok(Reading { fine, traces, step, margin })
     }
 
-    /// The blocks that were stroked, `count` of them; `within` has a bit for each line that does not choose a
+    /// Returns the `count` blocks that were stroked; `within` has a bit for each line that does not select a
     /// block.
     pub fn blocks(&self, within: usize, count: usize) -> Result<Blocks, String> {
         let mut parts = BTreeMap::<usize, Vec<Trace>>::new();
@@ -106,7 +106,7 @@ fn gap(traces: &[Trace], line: usize, step: f64) -> Gap {
     Gap { line, taxels: taxels.get(taxels.len() / 2).copied().unwrap_or(0.0), paired }
 }
 
-/// Addresses that differ in the line alone: low first. Traces are in order of their addresses.
+/// Pairs of addresses that differ only in this line, low first. Traces are sorted by address.
 fn pairs(traces: &[Trace], line: usize) -> impl Iterator<Item = (&Trace, &Trace)> {
     traces.iter().filter(move |trace| trace.address >> line & 1 == 0).filter_map(move |low| {
         let high = traces.binary_search_by_key(&(low.address | 1 << line), |trace| trace.address).ok()?;
@@ -114,11 +114,11 @@ fn pairs(traces: &[Trace], line: usize) -> impl Iterator<Item = (&Trace, &Trace)
     })
 }
 
-/// The lines along a block by their rank, and how far from doubt that is.
+/// Returns the lines along a block by rank, and the margin of that decision.
 ///
-/// They are the nearest of those that the finger has passed one after the other. Lines that choose blocks lie
-/// farther apart; the same taxel of another block may not have been touched at all, because that block lies
-/// otherwise.
+/// They have the shortest times of the lines whose addresses the finger passed one after the other. Lines
+/// that select blocks have longer times; the same taxel of another block may not have been touched at all, if
+/// that block is oriented differently.
 fn ranked(gaps: &[Gap], fine: usize) -> Result<(Vec<usize>, f64), String> {
     let mut passed: Vec<&Gap> = gaps.iter().filter(|gap| gap.paired >= 0.5 && gap.taxels >= 0.5).collect();
     passed.sort_by(|a, b| a.taxels.total_cmp(&b.taxels));
@@ -141,7 +141,7 @@ fn ranked(gaps: &[Gap], fine: usize) -> Result<(Vec<usize>, f64), String> {
     Ok((lines, margin))
 }
 
-/// Whether the taxel with the line high is passed after the one with it low, for each line.
+/// For each line: true if the taxel with the line high is passed after the one with it low.
 fn directions(traces: &[Trace], lines: &[usize], step: f64, margin: &mut f64) -> Result<Vec<bool>, String> {
     let mut rises = Vec::new();
     for (rank, line) in lines.iter().enumerate() {

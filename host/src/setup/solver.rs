@@ -1,4 +1,4 @@
-//! From touch to touch: what to ask next, until the garment is found or it is clear that it cannot be.
+//! Decides which touch to ask for next, until the garment is found or cannot be.
 
 use super::ask::{Ask, Gesture, blocks_along, extent, stroke_across, strokes_down};
 use super::assemble::{Stroke, assemble};
@@ -9,37 +9,37 @@ use super::touch::Touch;
 use anyhow::Result;
 use taxel_core::garment::{Garment, Orientation};
 
-/// Times that the same touch is asked for.
+/// Attempts for each touch.
 const TRIES: u32 = 3;
-/// Times without an answer after which a panel counts as dead.
+/// Unanswered requests after which a panel counts as dead.
 const SILENT: u32 = 2;
 
-/// Why dead panels cannot be told apart.
-const LEFT_OVER: &str = "The inputs that gave no sign are not as many as the panels that gave none.";
+/// Why dead panels cannot be matched to inputs.
+const LEFT_OVER: &str = "The numbers of silent inputs and of silent panels differ.";
 
-/// What comes next.
+/// Next step of the dialogue.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Next {
-    /// Ask for this.
+    /// Ask for this touch.
     Ask(Ask),
-    /// It is known.
+    /// The garment is found.
     Found(Box<Found>),
-    /// It cannot be known, and why.
+    /// The garment cannot be determined, and why.
     NotSure(String),
 }
 
-/// A garment as it is wired.
+/// A garment with its actual wiring.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// The garment.
     pub garment: Garment,
-    /// Panels and inputs that gave no sign, by index and GPIO number; they are taken to belong together.
+    /// Silent panels and inputs, by index and GPIO number, assumed to belong together.
     pub dead: Vec<(usize, u8)>,
-    /// How far from doubt the least clear decision was: 1 is ideal, 0 is none.
+    /// Margin of the least clear decision: 1 is ideal, 0 is undecided.
     pub margin: f64,
-    /// How far from where it was asked a touch was at most, taxels.
+    /// Largest distance of a touch from the requested place, taxels.
     pub off: f64,
-    /// Touches that were asked for.
+    /// Number of touches requested.
     pub touches: u32,
 }
 
@@ -49,9 +49,9 @@ struct Step {
     tries: u32,
     silent: u32,
     touch: Option<Touch>,
-    /// Of a stroke.
+    /// Reading of a stroke.
     reading: Option<Reading>,
-    /// Its panel is dead.
+    /// The panel is dead.
     skipped: bool,
 }
 
@@ -76,8 +76,8 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// For a garment whose panels and blocks lie as in the template, and whose wires are not known. Fails
-    /// where it cannot be found by touch.
+    /// A solver for a garment with the template's panels and blocks, but unknown wires. Error if it cannot be
+    /// set up by touch.
     pub fn new(template: &Garment) -> Result<Solver> {
         let bundle = Bundle::of(template)?;
         let steps = strokes_down(template).into_iter().map(Step::new).collect();
@@ -89,7 +89,7 @@ impl Solver {
         &self.bundle
     }
 
-    /// What comes next; the same until a touch was taken.
+    /// Returns the next step; the same one until [`take`](Solver::take) is called.
     pub fn what_next(&mut self) -> Next {
         loop {
             if let Some(why) = &self.given_up {
@@ -110,7 +110,7 @@ impl Solver {
         }
     }
 
-    /// Takes what was felt after the last question; none: nothing was.
+    /// Takes the touch felt after the last request, if any.
     pub fn take(&mut self, touch: Option<Touch>) {
         let Some(index) = self.steps.iter().position(Step::is_open) else { return };
         let Some(touch) = touch else { return self.silence(index) };
@@ -139,7 +139,7 @@ impl Solver {
         Reading::of(&self.bundle, touch, taxels, length.trailing_zeros() as usize).map(Some)
     }
 
-    /// A touch has to be made again.
+    /// Requests a touch again.
     fn again(&mut self, index: usize, why: String) {
         let step = &mut self.steps[index];
         (step.touch, step.reading) = (None, None);
@@ -150,7 +150,7 @@ impl Solver {
         step.ask.why = Some(why);
     }
 
-    /// Nothing was felt.
+    /// Handles a request without an answer.
     fn silence(&mut self, index: usize) {
         let step = &mut self.steps[index];
         step.silent += 1;
@@ -166,7 +166,7 @@ impl Solver {
         self.steps.iter_mut().filter(|step| step.ask.panel == panel).for_each(|step| step.skipped = true);
     }
 
-    /// The stroke across, on the first panel that can be felt, and the corner of each as a proof.
+    /// Requests the stroke across, on the first live panel, and the corner of each panel as confirmation.
     fn ask_across(&mut self) {
         self.across = true;
         let mut alive: Vec<usize> = self.steps.iter().filter(|s| !s.skipped).map(|s| s.ask.panel).collect();
@@ -180,7 +180,8 @@ impl Solver {
         self.steps.extend(alive.into_iter().map(corner));
     }
 
-    /// The garment, if all touches agree with it; else the step to be taken again, if that may help, and why.
+    /// Returns the garment if all touches agree with it; else the step to be repeated, if one may help, and
+    /// why.
     fn conclude(&self) -> Result<Found, (Option<usize>, String)> {
         let strokes: Vec<Stroke<'_>> = self
             .steps
@@ -205,7 +206,7 @@ impl Solver {
         Ok(Found { garment, dead, margin, off, touches })
     }
 
-    /// Gives dead panels the inputs that are left over, as many as there are. None: it does not work out.
+    /// Assigns the unused inputs to dead panels. None if their numbers differ.
     fn bury(&self, garment: &mut Garment) -> Option<Vec<(usize, u8)>> {
         let dead: Vec<usize> = (0..garment.panels.len())
             .filter(|panel| self.steps.iter().any(|step| step.ask.panel == *panel && step.skipped))

@@ -1,9 +1,9 @@
-//! One touch, as it was felt at addresses whose places are not known.
+//! One touch, felt at addresses whose places are unknown.
 
-/// Part of a frame's strongest signal below which an address counts as not touched: crosstalk, the rim of a
+/// Share of a frame's strongest signal below which an address counts as untouched: crosstalk, or the rim of a
 /// finger.
 const RIM: f32 = 0.15;
-/// Part of the strongest address's sum below which an address tells nothing of a stroke.
+/// Share of the strongest address's sum below which an address is ignored.
 const FAINT: f64 = 0.1;
 
 /// One frame of a touch.
@@ -11,7 +11,7 @@ const FAINT: f64 = 0.1;
 pub struct Moment {
     /// Time of the board, s.
     pub time: f64,
-    /// Addresses that were touched, and how hard, counts above rest.
+    /// Touched addresses and their signals, counts above rest.
     pub felt: Vec<(usize, f32)>,
 }
 
@@ -22,10 +22,10 @@ pub struct Touch {
     pub moments: Vec<Moment>,
 }
 
-/// What an address has felt of a touch.
+/// Signal of one address during a touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trace {
-    /// Number of the address.
+    /// Address.
     pub address: usize,
     /// Sum of its signal.
     pub sum: f64,
@@ -34,7 +34,7 @@ pub struct Trace {
 }
 
 impl Touch {
-    /// From the first to the last frame, s.
+    /// Time from the first to the last frame, s.
     pub fn duration(&self) -> f64 {
         match (self.moments.first(), self.moments.last()) {
             (Some(first), Some(last)) => last.time - first.time,
@@ -42,7 +42,7 @@ impl Touch {
         }
     }
 
-    /// What each address has felt, by address; those that felt next to nothing are left out.
+    /// Signals by address; faint ones are left out.
     pub fn traces(&self) -> Vec<Trace> {
         let mut sums = std::collections::BTreeMap::<usize, (f64, f64)>::new();
         for moment in &self.moments {

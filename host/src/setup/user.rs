@@ -1,8 +1,8 @@
-//! A simulated user at a simulated bundle of wires.
+//! Simulates a user who touches a bundle of wires.
 //!
-//! The finger covers two to three taxels and is up to one taxel from where it was asked; its pace is uneven
-//! by half. Each sample has 3 counts of noise, taxels differ by a third in what they feel, a dozen of them
-//! are dead or stuck.
+//! The finger covers two to three taxels and is up to one taxel off the requested place; its pace varies by
+//! half. Each sample has 3 counts of noise, the gains of taxels differ by a third, a dozen of them are dead
+//! or stuck.
 
 use super::ask::{Ask, Gesture};
 use super::bundle::Bundle;
@@ -19,20 +19,20 @@ const NOISE: f32 = 3.0;
 /// Frames at rest before and after a touch.
 const REST: u32 = 30;
 
-/// Who presses where it is asked.
+/// A user who touches as requested.
 pub struct User {
     rng: Rng,
     layout: Layout,
-    /// Taxel of an address.
+    /// Taxel of each address.
     taxels: Vec<Option<usize>>,
-    /// Code at rest, and how much a taxel feels.
+    /// Code at rest and gain of each taxel.
     taxel: Vec<(f32, f32)>,
     period: f64,
     now: f64,
     feeler: Feeler,
 }
 
-/// A finger at one time.
+/// A finger at one moment.
 struct Finger {
     panel: usize,
     x: f64,
@@ -42,7 +42,7 @@ struct Finger {
 }
 
 impl User {
-    /// At a garment as it is wired, of which one input may be dead, read through the bundle's addresses.
+    /// A user of a wired garment, of which one input may be dead, read through the bundle's addresses.
     pub fn new(wired: &Garment, bundle: &Bundle, dead: Option<u8>, mut rng: Rng) -> Result<User> {
         let layout = Layout::build(wired, usize::from(u16::MAX), FULL_SCALE)?;
         let decoder = Decoder::build(wired);
@@ -61,7 +61,7 @@ impl User {
         Ok(user)
     }
 
-    /// Does as asked; what the board has felt of it.
+    /// Touches as requested. Returns what the board has felt.
     pub fn touch(&mut self, ask: &Ask) -> Option<Touch> {
         let area = self.layout.areas().get(ask.panel)?;
         let (last_x, last_y) = (f64::from(area.columns - 1), f64::from(area.rows - 1));
@@ -86,7 +86,7 @@ impl User {
         let seconds = 0.5 + length / (12.0 + 18.0 * rng.f64());
         let (radius, counts) = (1.1 + 0.6 * rng.f64(), 500.0 + 1_300.0 * rng.f64());
         let frames = (seconds / self.period) as u32 + 1;
-        // Across the way of a stroke; a press stands still.
+        // Offset across a stroke; a press has none.
         let aside =
             if length < 2.0 { [0.0, 0.0] } else { [(to[1] - from[1]) / length, (to[0] - from[0]) / length] };
         let panel = ask.panel;
@@ -100,7 +100,7 @@ impl User {
         ended.or_else(|| self.feel(REST, |_| None))
     }
 
-    /// That many frames under a finger.
+    /// Simulates this many frames under a finger.
     fn feel(&mut self, frames: u32, finger: impl Fn(u32) -> Option<Finger>) -> Option<Touch> {
         let mut ended = None;
         for frame in 0..frames {
@@ -131,7 +131,7 @@ impl User {
     }
 }
 
-/// Taxels that the finger may reach: column and row, and number.
+/// Taxels within reach of the finger: column and row, and number.
 fn under<'a>(layout: &'a Layout, finger: &Finger) -> impl Iterator<Item = ([f64; 2], usize)> + 'a {
     let (panel, reach) = (finger.panel as u8, finger.radius.ceil() as i32);
     let (x, y) = (finger.x.round() as i32, finger.y.round() as i32);

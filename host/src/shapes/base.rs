@@ -1,4 +1,4 @@
-//! A base of shapes: a gallery with where it comes from, as a file.
+//! A base of shapes: a gallery and its origin, as a file.
 
 use super::train::Known;
 use super::view::View;
@@ -10,15 +10,15 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::shape::{DIMENSIONS, GALLERY_CLASSES, GALLERY_PROTOTYPES, MEASURE_NAMES, MEASURES};
 
-/// What the file begins with.
+/// First value of the file.
 const KIND: &str = "taxel shapes 1";
-/// Much more than the largest base takes.
+/// Size limit of a file, far above the largest base.
 const LONGEST: u64 = 1 << 20;
 
-/// A base that comes with the program.
+/// A base that is part of the program.
 struct Shipped {
     name: &'static str,
-    /// Rows and columns of the only images that it is for.
+    /// Rows and columns of the images that it is for; none for any.
     grid: Option<(u16, u16)>,
     text: &'static str,
 }
@@ -38,12 +38,12 @@ const SHIPPED: [Shipped; 5] = [
     shipped!("objects", None),
 ];
 
-/// Names of the bases that come with the program.
+/// Names of the shipped bases.
 pub fn shipped_names() -> impl Iterator<Item = &'static str> {
     SHIPPED.iter().map(|shipped| shipped.name)
 }
 
-/// How a base was tested that was taught from nothing: each of its prototypes by the others.
+/// Test of a base that was taught from nothing: each of its prototypes by the others.
 pub const LEFT_OUT: &str = "each prototype left out in turn";
 
 /// A base.
@@ -52,63 +52,63 @@ pub const LEFT_OUT: &str = "each prototype left out in turn";
 pub struct Base {
     /// Kind and version of the file.
     pub kind: String,
-    /// The measures that the space was made for, in their order.
+    /// Measures of the space, in order.
     pub measures: Vec<String>,
-    /// What of an image is the touch.
+    /// Which part of an image is the touch.
     pub view: View,
-    /// What it was trained on.
+    /// Training data.
     pub trained_on: Vec<Source>,
-    /// How it fared on what was left out of training.
+    /// Results on data left out of training.
     pub card: Card,
-    /// What it knows.
+    /// The gallery.
     pub gallery: Known,
 }
 
-/// A file that was trained on.
+/// A file of training data.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// Name without folders.
     pub file: String,
-    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint); empty: it was a board.
+    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint); empty for touches on a board.
     pub fingerprint: String,
-    /// The sets of it that were used; all if empty.
+    /// Sets of the file that were used; empty for all.
     pub sets: Vec<String>,
-    /// Examples.
+    /// Number of examples.
     pub images: usize,
 }
 
-/// What is known of a base's worth.
+/// Accuracy of a base.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// How it was split.
+    /// Method of testing.
     pub split: String,
-    /// Right answers, of 1.
+    /// Share of right answers.
     pub accuracy: f64,
-    /// A row for each class, a column for each answer, "none" last.
+    /// A row for each class, a column for each answer; "none" is last.
     pub confusion: Vec<Vec<u32>>,
 }
 
 impl Base {
-    /// A new one.
+    /// A new base.
     pub fn new(view: View, trained_on: Source, card: Card, gallery: Known) -> Base {
         let measures = MEASURE_NAMES.map(String::from).to_vec();
         Base { kind: KIND.into(), measures, view, trained_on: vec![trained_on], card, gallery }
     }
 
-    /// One that knows nothing yet, and sees as `drawn` does.
+    /// A base without classes, with the view of `drawn`.
     pub fn empty() -> Result<Base> {
         let mut base = Base::open(Path::new(SHIPPED[0].name))?;
         base.gallery.names.clear();
         base.gallery.prototypes.clear();
-        // Of a few examples the nearest decides.
+        // With few examples, only the nearest votes.
         base.gallery.k = 1;
         base.card = Card { split: LEFT_OUT.into(), ..Card::default() };
         Ok(base)
     }
 
-    /// The shipped one of that name, else the file.
+    /// Opens the shipped base of this name, else the file.
     pub fn open(name: &Path) -> Result<Base> {
         if let Some(shipped) = SHIPPED.iter().find(|shipped| Path::new(shipped.name) == name) {
             return Base::parse(shipped.text).with_context(|| format!("base {}", shipped.name));
@@ -116,10 +116,13 @@ impl Base {
         crate::verbose::reads(name);
         let read = || {
             let size = std::fs::metadata(name).context("cannot be read")?.len();
-            ensure!(size <= LONGEST, "is no base of shapes: it has {size} bytes, expected at most {LONGEST}");
+            ensure!(
+                size <= LONGEST,
+                "is not a base of shapes: it has {size} bytes, expected at most {LONGEST}"
+            );
             Base::parse(&std::fs::read_to_string(name).context("cannot be read")?)
         };
-        // What is no path can only be a name.
+        // A text that cannot be a path is a name.
         let said = name.to_str().filter(|said| !name.exists() && !said.contains(['.', '/', '\\']));
         if let Some(said) = said {
             let known = words::unknown("base", said, shipped_names());
@@ -128,8 +131,7 @@ impl Base {
         read().with_context(|| name.display().to_string())
     }
 
-    /// The shipped base that knows the most of these classes; of those that know as many, the one that is
-    /// made for images of these rows and columns.
+    /// Shipped base with most of these classes; among equals the one for images with these rows and columns.
     pub fn shipped_for(classes: &[String], grid: Option<(u16, u16)>) -> Result<(&'static str, Base)> {
         let known = |base: &Base| {
             let names = base.gallery.names.iter();
@@ -150,17 +152,17 @@ impl Base {
         Ok((name, base))
     }
 
-    /// Of the text of a file. Everything that would not run on a board is refused.
+    /// Parses the text of a file. Error if a board could not use it.
     pub fn parse(text: &str) -> Result<Base> {
-        let value: serde_json::Value = serde_json::from_str(text).context("is no base of shapes")?;
+        let value: serde_json::Value = serde_json::from_str(text).context("is not a base of shapes")?;
         match value.get("kind").and_then(|kind| kind.as_str()) {
             Some(KIND) => {}
             Some(other) => bail!("is of kind {other:?}, expected {KIND:?}"),
-            None => bail!("is no base of shapes: it has no `kind`"),
+            None => bail!("is not a base of shapes: it has no `kind`"),
         }
         check_sizes(&value)?;
         let base: Base = serde_json::from_value(value)
-            .map_err(|error| anyhow!("is no base of shapes: {}", words::cause(&error)))?;
+            .map_err(|error| anyhow!("is not a base of shapes: {}", words::cause(&error)))?;
         ensure!(base.measures == MEASURE_NAMES, "was made for other measures than this program has");
         base.gallery.check().map_err(|invalid| anyhow!("{invalid}"))?;
         let classes = base.gallery.names.len();
@@ -170,7 +172,7 @@ impl Base {
         Ok(base)
     }
 
-    /// Text of the file; read by [`Base::parse`].
+    /// Text of the file; [`Base::parse`] reads it.
     pub fn text(&self) -> Result<String> {
         Ok(format!("{}\n", serde_json::to_string(self)?))
     }
@@ -185,13 +187,13 @@ impl Base {
         self.gallery.names.iter().map(ToString::to_string).collect()
     }
 
-    /// Whether a file of this fingerprint was trained on.
+    /// True if a file with this fingerprint was trained on.
     pub fn knows_file(&self, fingerprint: &str) -> bool {
         self.trained_on.iter().any(|source| source.fingerprint == fingerprint)
     }
 }
 
-/// Says what is too long for a board, in better words than a failing list does.
+/// Error about what is too long for a board, in clearer words than those of a list that is full.
 fn check_sizes(value: &serde_json::Value) -> Result<()> {
     let length = |path: &str| value.pointer(path).and_then(|list| list.as_array()).map_or(0, Vec::len);
     for (path, what, most) in [

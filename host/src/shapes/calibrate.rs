@@ -1,18 +1,18 @@
-//! What votes are worth and when a touch is none, counted on examples that were left out of training.
+//! Sets the confidence of votes and the limit for "none", from examples left out of training.
 
 use super::data::Example;
 use super::train::Known;
 use taxel_core::format::Q15;
 use taxel_core::shape::{Recognised, STEPS, Sureness};
 
-/// A touch this many times as far as nearly all that were left out is none.
+/// Multiple of the distance of nearly all left-out examples beyond which a touch is "none".
 const BEYOND: f64 = 1.5;
-/// Of those left out, the share that is near enough.
+/// Share of the left-out examples within that distance.
 const NEARLY_ALL: f64 = 0.99;
-/// Doubt: so many answers, right as often as the others on average, are added to each cell of the table.
+/// Prior: this many answers with the average accuracy are added to each cell of the table.
 const DOUBT: f64 = 4.0;
 
-/// Completes a gallery by what its like found of examples that they did not learn.
+/// Completes a gallery by the results of galleries that were tested on left-out examples.
 pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised]) {
     let mut distances: Vec<u16> = found.iter().map(|found| found.distance).collect();
     distances.sort();
@@ -31,7 +31,7 @@ pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised
     count(&mut gallery.sureness, found, &hits, mean);
 }
 
-/// Fills the table by which answers were right; where there were few, `mean` is what is expected.
+/// Fills the table from right answers; `mean` is the prior where there are few.
 pub fn count(sureness: &mut Sureness, found: &[Recognised], hits: &[bool], mean: f64) {
     let mut cells = [[(DOUBT * mean, DOUBT); STEPS]; STEPS];
     for (found, hit) in found.iter().zip(hits) {

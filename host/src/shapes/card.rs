@@ -1,4 +1,4 @@
-//! `taxel shapes card`: where a base comes from, and where it fails.
+//! `taxel shapes card`: prints the origin of a base, and where it fails.
 
 use super::base::{Base, Source};
 use crate::learn::confusion::Confusion;

@@ -1,20 +1,20 @@
-//! Which classes count, and which are one.
+//! Selection and merging of classes.
 
 use anyhow::{Result, bail};
 use std::str::FromStr;
 
-/// A choice of classes.
+/// A selection of classes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Classes {
-    /// Each as the labels name it.
+    /// All classes of the labels.
     All,
-    /// These only: the label's name, and the name that it goes by.
+    /// Only these: name in the labels, and name of the class.
     Some(Vec<(String, String)>),
 }
 
 /// Rectangle, round and finger of the drawn shapes.
 const THREE: &str = "rectangle,disc=round,finger";
-/// Objects of tactnet that press as something round, rectangular or long.
+/// Objects of tactnet whose contact is round, rectangular or long.
 const GROUPS: &str = "ball=round,rock=round,sticky_tape=round,box=rectangular,rubber=rectangular,finger=finger-like,\
     pen=finger-like,highlighter=finger-like,cable=finger-like,cable_pipe=finger-like,tube=finger-like";
 
@@ -30,7 +30,7 @@ impl FromStr for Classes {
         };
         let pair = |item: &str| match item.split_once('=').unwrap_or((item, item)) {
             (from, to) if from.is_empty() || to.is_empty() => {
-                bail!("expected NAME or NAME=GROUP, with commas between")
+                bail!("expected NAME or NAME=GROUP, separated by commas")
             }
             (from, to) => Ok((from.to_string(), to.to_string())),
         };
@@ -39,7 +39,7 @@ impl FromStr for Classes {
 }
 
 impl Classes {
-    /// The class of what the labels name so, if it counts.
+    /// Class of a label's name; none if it is not selected.
     pub fn of<'a>(&'a self, name: &'a str) -> Option<&'a str> {
         match self {
             Classes::All => Some(name),

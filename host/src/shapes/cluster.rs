@@ -1,12 +1,12 @@
-//! Few prototypes for many examples of a class.
+//! Reduces the examples of a class to a few prototypes.
 
 use taxel_core::shape::{DIMENSIONS, Point};
 
-/// Rounds of Lloyd's algorithm; nothing moves any more long before.
+/// Rounds of Lloyd's algorithm; it converges long before.
 const ROUNDS: usize = 20;
 
-/// At most `count` centres of points, by k-means; the points themselves if there are no more. The first
-/// centre is that of all, each further one begins at the point farthest from those before.
+/// At most `count` centres of points, by k-means; the points themselves if there are no more of them. The
+/// first centre starts at the mean of all, each further one at the point farthest from the centres so far.
 pub fn centres(points: &[Point], count: usize) -> Vec<Point> {
     if points.len() <= count {
         return points.to_vec();
@@ -34,7 +34,7 @@ pub fn centres(points: &[Point], count: usize) -> Vec<Point> {
     centres
 }
 
-/// Index of the nearest centre, and the squared distance to it.
+/// Index of the nearest centre, and its squared distance.
 fn nearest(centres: &[Point], point: &Point) -> (usize, u64) {
     let distance = |centre: &Point| -> u64 {
         centre.iter().zip(point).map(|(a, b)| u64::from(a.abs_diff(*b)).pow(2)).sum()

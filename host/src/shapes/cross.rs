@@ -6,7 +6,7 @@ use crate::learn::folds::stratified;
 use crate::progress::{Progress, Unit};
 use taxel_core::shape::Recognised;
 
-/// Splits examples into those that a fold trains on and those that it is tested on; the fold of each example.
+/// Assigns examples to folds. Returns the fold of each example.
 pub fn deal(examples: &[&Example], folds: usize, seed: u64) -> Vec<usize> {
     // Examples of one unit share their class.
     let mut units: Vec<(usize, usize)> =
@@ -20,7 +20,7 @@ pub fn deal(examples: &[&Example], folds: usize, seed: u64) -> Vec<usize> {
     examples.iter().map(of).collect()
 }
 
-/// What each example is found to be by a gallery that `train` makes of the other folds.
+/// Classifies each example by a gallery that `train` builds from the other folds.
 pub fn predict(
     examples: &[&Example],
     fold: &[usize],
@@ -39,7 +39,7 @@ pub fn predict(
     examples.iter().zip(fold).map(|(example, fold)| galleries[*fold].recognise(&example.descriptor)).collect()
 }
 
-/// Folds by which a gallery is completed.
+/// Folds for the completion of a gallery.
 pub const FOLDS: usize = 5;
-/// Draws who is tested when.
+/// Seed of the assignment to folds.
 pub const SEED: u64 = 1;

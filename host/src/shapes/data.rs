@@ -1,4 +1,4 @@
-//! Labelled images as the recogniser sees them: descriptors, classes, and which belong together.
+//! Labelled images prepared for the recogniser: descriptors, classes and groups.
 
 use super::classes::Classes;
 use super::view::{View, ViewArgs};
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use taxel_core::shape::Descriptor;
 
-/// Where labelled images come from.
+/// Source of labelled images.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ImagesArgs {
     /// Images: .npz or .npy, one touch each
@@ -25,7 +25,7 @@ pub struct ImagesArgs {
     /// Classes to keep, as NAME or NAME=GROUP with commas; or one of `three`, `groups`
     #[arg(long, value_name = "LIST", default_value = "all")]
     pub classes: Classes,
-    /// What of an image is the touch.
+    /// Which part of an image is the touch.
     #[command(flatten)]
     pub view: ViewArgs,
 }
@@ -33,37 +33,38 @@ pub struct ImagesArgs {
 /// One image.
 #[derive(Debug, Clone)]
 pub struct Example {
-    /// What it is like.
+    /// Descriptor of the touch.
     pub descriptor: Descriptor,
     /// Index of its class.
     pub class: usize,
-    /// Index of what the labels name it; several may be one class.
+    /// Index of its label; several labels may be one class.
     pub kind: usize,
-    /// Those of one shape under several conditions have one number, and are never apart in cross-validation.
+    /// Images of one shape under several conditions have the same number, and are never split in
+    /// cross-validation.
     pub unit: usize,
     /// Index of its set.
     pub set: usize,
 }
 
-/// All of them.
+/// A set of images.
 #[derive(Debug, Clone)]
 pub struct Examples {
     /// The images.
     pub list: Vec<Example>,
     /// Names of the classes, sorted.
     pub names: Vec<String>,
-    /// What the labels name them, sorted.
+    /// Names of the labels, sorted.
     pub kinds: Vec<String>,
-    /// What of an image was the touch.
+    /// Which part of an image was the touch.
     pub view: View,
-    /// Rows and columns of the images, where all have the same.
+    /// Rows and columns of the images, if equal for all.
     pub grid: Option<(u16, u16)>,
-    /// Names of the sets; the only one of a file without sets has none.
+    /// Names of the sets; an empty name for a file without sets.
     pub sets: Vec<String>,
 }
 
 impl Examples {
-    /// The share of right answers in each set, as an object, given which answers are right.
+    /// Accuracy in each set, as an object, from the list of right answers.
     pub fn by_set(&self, right: &[bool]) -> Value {
         let share = |set: usize| {
             let own = self.list.iter().zip(right).filter(|(example, _)| example.set == set);
@@ -79,7 +80,7 @@ impl Examples {
     }
 }
 
-/// Images with the names of their classes.
+/// Images with the names of their labels.
 struct Labelled {
     set: String,
     frames: Frames,
@@ -87,7 +88,7 @@ struct Labelled {
 }
 
 impl ImagesArgs {
-    /// Reads and describes the images; as a base saw its own, unless told otherwise.
+    /// Reads and describes the images; with the view `seen` of a base, unless the arguments set another.
     pub fn read(&self, seen: Option<View>) -> Result<Examples> {
         let sets = self.sets()?;
         let top = sets.iter().flat_map(|set| &set.frames.values).max().copied().unwrap_or(0);
@@ -141,13 +142,13 @@ impl ImagesArgs {
         let known: Vec<&str> = known.iter().filter_map(|name| name.strip_suffix("_img")).collect();
         ensure!(
             !known.is_empty(),
-            "{file}: holds no set of images with their labels: name their file with --labels"
+            "{file}: has no set of images with labels; give the file of labels with --labels"
         );
         let asked = |set: &str| self.set.is_empty() || self.set.iter().any(|pattern| matches(pattern, set));
         let sets: Vec<&str> = known.iter().copied().filter(|set| asked(set)).collect();
         if sets.is_empty() {
             let known = known.join(", ");
-            bail!(Fault::usage(format!("{file}: no set NAME_img is asked for; known are {known}")));
+            bail!(Fault::usage(format!("{file}: no set NAME_img was selected; known are {known}")));
         }
         let classes = arrays::texts(&self.images, "classes")?;
         sets.into_iter().map(|set| self.labelled(set, classes.as_deref())).collect()
@@ -175,12 +176,12 @@ impl ImagesArgs {
     }
 }
 
-/// Each name once, in order.
+/// Each name once, sorted.
 fn sorted<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     names.collect::<BTreeSet<_>>().into_iter().cloned().collect()
 }
 
-/// Whether a text is as a pattern in which `*` stands for any text.
+/// True if a text matches a pattern in which `*` stands for any text.
 fn matches(pattern: &str, text: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == text,

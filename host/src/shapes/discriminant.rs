@@ -1,20 +1,20 @@
-//! Linear discriminant analysis: the directions in which classes lie apart.
+//! Linear discriminant analysis: finds the directions that separate classes.
 
 use crate::learn::linear::{Square, back, forward};
 
-/// A projection `weights (x - origin)`; within a class its outputs spread by 1.
+/// A projection `weights (x - origin)`; within a class, each output has a spread of 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Discriminant {
     /// The mean of the examples.
     pub origin: Vec<f64>,
-    /// A row for each dimension, the most telling first.
+    /// A row for each dimension, the most discriminating first.
     pub weights: Vec<Vec<f64>>,
 }
 
 impl Discriminant {
-    /// Of examples with their classes (`0 .. classes`). The scatter within classes is drawn towards a
-    /// multiple of the unit matrix by `shrinkage` (0 to 1), in measures scaled to the same spread: few
-    /// examples make a poor estimate of it.
+    /// Analyses examples with their classes (`0 .. classes`). The scatter within classes is shrunk towards a
+    /// multiple of the identity matrix by `shrinkage` (0 to 1), in measures scaled to equal spread, because
+    /// few examples give a poor estimate of it.
     pub fn of(
         rows: &[Vec<f64>],
         labels: &[usize],
@@ -63,7 +63,7 @@ impl Discriminant {
         Discriminant { origin, weights: weights.collect() }
     }
 
-    /// Where a row lies.
+    /// Projects a row.
     pub fn place(&self, row: &[f64]) -> Vec<f64> {
         let axis = |weights: &Vec<f64>| {
             weights.iter().zip(row.iter().zip(&self.origin)).map(|(w, (x, o))| w * (x - o)).sum()

@@ -1,4 +1,4 @@
-//! `taxel shapes eval`: how often a base is right on labelled images.
+//! `taxel shapes eval`: evaluates a base on labelled images.
 
 use super::base::Base;
 use super::cross::{SEED, deal, predict};
@@ -15,7 +15,7 @@ use taxel_core::shape::Recognised;
 /// Arguments of `taxel shapes eval`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct EvalArgs {
-    /// What to recognise.
+    /// Images to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
     /// Base: a file, or the name of a shipped base [default: the shipped one that knows most of the classes,
@@ -25,7 +25,7 @@ pub struct EvalArgs {
     /// Cross-validate on the images, with this number of folds
     #[arg(long, value_name = "FOLDS", value_parser = clap::value_parser!(u16).range(2..=10_000))]
     pub cross: Option<u16>,
-    /// How to learn, with --cross.
+    /// Training settings, for --cross.
     #[command(flatten)]
     pub recipe: RecipeArgs,
     /// Print JSON instead of a table
@@ -33,11 +33,11 @@ pub struct EvalArgs {
     pub json: bool,
 }
 
-/// What was found, and by what.
+/// Results of an evaluation, and their origin.
 struct Outcome {
     confusion: Confusion,
     found: Vec<Recognised>,
-    /// Which are right.
+    /// Right answers.
     right: Vec<bool>,
     base: Value,
     trained_on: bool,
@@ -46,7 +46,7 @@ struct Outcome {
 /// Runs the command.
 pub fn run(args: EvalArgs) -> Result<()> {
     if let (Some(base), Some(_)) = (&args.base, args.cross) {
-        eprintln!("note: --cross trains anew on the images, {} is not asked", base.display());
+        eprintln!("note: --cross trains on the images; {} is not used", base.display());
     }
     let (examples, outcome) = match args.cross {
         Some(folds) => crossed(&args, folds)?,
@@ -65,7 +65,7 @@ pub fn run(args: EvalArgs) -> Result<()> {
     Ok(())
 }
 
-/// By galleries that learned the other folds.
+/// Evaluates galleries trained on the other folds.
 fn crossed(args: &EvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
     let examples = args.images.read(None)?;
     check(&examples)?;
@@ -79,7 +79,7 @@ fn crossed(args: &EvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
     Ok((examples, Outcome { confusion, found, right, base: Value::Null, trained_on: false }))
 }
 
-/// By a base as it is.
+/// Evaluates an existing base.
 fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
     let (name, base) = match &args.base {
         Some(path) => (path.display().to_string(), Base::open(path)?),
@@ -90,7 +90,7 @@ fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
         }
     };
     let examples = args.images.read(Some(base.view))?;
-    // What the base knows goes by the same names as the labels.
+    // Names of the base's classes are merged like those of the labels.
     let named = |name: String| args.images.classes.of(&name).map(String::from).unwrap_or(name);
     let known: Vec<String> = base.names().into_iter().map(named).collect();
     let mut answers = known.clone();
@@ -123,7 +123,7 @@ fn report(args: &EvalArgs, examples: &Examples, outcome: &Outcome) -> Value {
     report.into()
 }
 
-/// Mean confidence beside right answers, by quarters of the confidence.
+/// Mean confidence and accuracy, by quarters of the confidence.
 fn calibration(outcome: &Outcome) -> Value {
     let all =
         || outcome.found.iter().zip(&outcome.right).map(|(found, right)| (found.confidence.to_f64(), *right));

@@ -1,4 +1,4 @@
-//! A base that is taught more.
+//! Adds examples to a base.
 
 use super::base::{Base, LEFT_OUT};
 use super::calibrate::count;
@@ -8,20 +8,20 @@ use anyhow::{Result, ensure};
 use taxel_core::format::name;
 use taxel_core::shape::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Point, Recognised};
 
-/// Whether a board can hold a class of this name.
+/// Checks that a board can hold a class of this name.
 pub fn check_name(class: &str) -> Result<()> {
     let bytes = class.len();
     ensure!((1..=16).contains(&bytes), "the name {class:?} has {bytes} bytes, expected 1 to 16");
     Ok(())
 }
 
-/// Adds at most `most` prototypes of a class, whose name is [right](check_name); how many.
+/// Adds at most `most` prototypes of a class with a [checked](check_name) name. Returns their number.
 pub fn extend(base: &mut Base, class: &str, points: &[Point], most: usize) -> Result<usize> {
     let added = centres(points, most.max(1));
     let (count, left) = (added.len(), GALLERY_PROTOTYPES - base.gallery.prototypes.len());
     ensure!(
         count <= left,
-        "{count} prototypes do not fit, there is room for {left}: prune the base, or add fewer"
+        "{count} prototypes do not fit, there is room for {left}: prune the base or add fewer"
     );
     let index = named(base, class)?;
     for at in added {
@@ -33,7 +33,7 @@ pub fn extend(base: &mut Base, class: &str, points: &[Point], most: usize) -> Re
     Ok(count)
 }
 
-/// Index of a class, which may be a new one.
+/// Index of a class, which is added if needed.
 fn named(base: &mut Base, class: &str) -> Result<usize> {
     let names = &mut base.gallery.names;
     if let Some(known) = names.iter().position(|known| known == class) {
@@ -41,7 +41,7 @@ fn named(base: &mut Base, class: &str) -> Result<usize> {
     }
     let room = names.push(name(class)).is_ok();
     ensure!(room, "the base holds {GALLERY_CLASSES} classes, which is all that a board holds");
-    // The card has a row and a column more: nobody has tested this class.
+    // A new row and column of the card: this class has not been tested.
     base.card.confusion.push(Vec::new());
     let columns = names.len() + 1;
     for row in &mut base.card.confusion {
@@ -52,7 +52,7 @@ fn named(base: &mut Base, class: &str) -> Result<usize> {
     Ok(names.len() - 1)
 }
 
-/// Counts what each prototype is taken for by the others: card and table of sureness.
+/// Classifies each prototype by the others: fills the card and the table of confidence.
 fn judge(base: &mut Base) {
     let all = &base.gallery.prototypes;
     let by_others = |out: usize| {
@@ -68,7 +68,7 @@ fn judge(base: &mut Base) {
     for (found, exemplar) in found.iter().zip(all) {
         confusion.count(exemplar.class.into(), found.class.map(usize::from));
     }
-    // Of few that were all right the next is not sure to be.
+    // A few right answers do not guarantee the next.
     let right = hits.iter().filter(|hit| **hit).count() as f64;
     let mean = (right + 1.0) / (hits.len() as f64 + 2.0);
     count(&mut base.gallery.sureness, &found, &hits, mean);

@@ -1,4 +1,4 @@
-//! Touches that somebody holds against a board, as prototypes.
+//! Turns objects held against a board into prototypes.
 
 use super::cluster::centres;
 use crate::client::{Client, Event, ImageNews};
@@ -9,41 +9,40 @@ use taxel_core::contact::{Contact, ContactState};
 use taxel_core::format::Micros;
 use taxel_core::shape::{Descriptor, Point, Space, seen};
 
-/// A touch that lasts as long is held, ms.
+/// Duration from which a touch counts as held, ms.
 const HELD: u32 = 300;
 /// Contacts at a time, as on a board.
 const CONTACTS: usize = 32;
 /// Runs of a row: enough for twice the taxels of a board.
 const RUNS: usize = 2048;
 
-/// Watches a board until enough touches were held. What a contact is like is found as a board finds it, from
-/// the same image.
+/// Watches a board until enough touches were held. Contacts are described as on a board, from the same image.
 pub struct Hold<'a> {
     space: &'a Space,
-    /// How many are wanted.
+    /// Number of touches wanted.
     wanted: usize,
     contacts: Box<ContactState<CONTACTS, RUNS>>,
-    /// Those that are there.
+    /// Present contacts.
     open: Vec<Open>,
-    /// A place for each that was held.
+    /// A point for each held touch.
     pub held: Vec<Point>,
 }
 
-/// A contact that goes on.
+/// A present contact.
 struct Open {
     id: u32,
     duration_ms: u32,
-    /// Total and description, frame by frame.
+    /// Total and description by frame.
     course: Vec<(u32, Descriptor)>,
 }
 
 impl<'a> Hold<'a> {
-    /// So many touches, as places in a space.
+    /// Waits for `wanted` touches, as points in a space.
     pub fn new(space: &'a Space, wanted: usize) -> Hold<'a> {
         Hold { space, wanted, contacts: Box::default(), open: Vec::new(), held: Vec::new() }
     }
 
-    /// Takes an image that was scanned at `time`.
+    /// Handles an image scanned at `time`.
     fn frame(&mut self, client: &Client, time: Micros) -> Result<()> {
         let (Some(worn), Some((_, values))) = (client.worn(), client.image()) else { return Ok(()) };
         let image = Image { values, rows: &Rows::ALL };
@@ -75,8 +74,8 @@ impl<'a> Hold<'a> {
         open
     }
 
-    /// A touch that was held is one place: the mean over the time at which it was firm, as it looks neither
-    /// while it comes nor while it goes.
+    /// Adds a held touch as one point: the mean over the time of firm contact, because its onset and release
+    /// look different.
     fn end(&mut self, open: &Open) {
         if self.held.len() >= self.wanted {
             return;
@@ -86,7 +85,7 @@ impl<'a> Hold<'a> {
         let places: Vec<Point> = firm.map(|(_, descriptor)| self.space.place(descriptor)).collect();
         let seconds = f64::from(open.duration_ms) / 1000.0;
         if open.duration_ms < HELD {
-            eprintln!("held for {seconds:.1} s: too short, a touch is to be held for half a second");
+            eprintln!("held for {seconds:.1} s: too short; hold a touch for half a second");
         } else {
             self.held.extend(centres(&places, 1));
             eprintln!("{} of {}: held for {seconds:.1} s", self.held.len(), self.wanted);
@@ -97,7 +96,7 @@ impl<'a> Hold<'a> {
 impl Show for Hold<'_> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
-            // Another garment: what was open will not end.
+            // Another garment: present contacts will not end.
             Event::Hello => {
                 self.contacts.reset();
                 self.open.clear();

@@ -1,4 +1,4 @@
-//! `taxel shapes install`: a board recognises by a base that it was taught, until it is switched off.
+//! `taxel shapes install`: sends a base to a board, which uses it until it is switched off.
 
 use super::base::Base;
 use super::teach::teach;
@@ -21,7 +21,7 @@ pub struct InstallArgs {
     pub source: SourceSpec,
 }
 
-/// Longest time for all of it.
+/// Time limit for everything.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Runs the command.
@@ -33,14 +33,14 @@ pub fn run(args: InstallArgs) -> Result<()> {
     live::watch(&LiveArgs::of(args.source), source, &mut installing)?;
     match installing.installed {
         Some((classes, prototypes)) => {
-            println!("{label} knows {classes} classes by {prototypes} prototypes, until it is switched off.");
+            println!("{label} knows {classes} classes by {prototypes} prototypes, until it restarts.");
             Ok(())
         }
-        None => bail!(Fault::board(format!("{label} ended before it had the base"))),
+        None => bail!(Fault::board(format!("{label} ended before the board had the base"))),
     }
 }
 
-/// Waits for the board, teaches it, and waits until it says what it knows.
+/// Waits for the board, sends the base, and waits for its confirmation.
 struct Installing {
     base: Base,
     opened: Instant,

@@ -1,4 +1,4 @@
-//! The CSV of labels beside a file of images.
+//! CSV file of labels for a file of images.
 
 use anyhow::{Context, Result, bail, ensure};
 use std::path::Path;
@@ -24,14 +24,14 @@ pub fn read(path: &Path, count: usize) -> Result<Vec<String>> {
                 head.len()
             );
             let Ok(at) = cells[index].parse::<usize>() else {
-                bail!("line {line_number}: {:?} is no index", cells[index])
+                bail!("line {line_number}: {:?} is not an index", cells[index])
             };
             let slot = names.get_mut(at).with_context(|| {
                 format!("line {line_number}: there are {count} images, none has index {at}")
             })?;
             ensure!(
                 slot.replace(cells[class].to_string()).is_none(),
-                "line {line_number}: index {at} comes twice"
+                "line {line_number}: index {at} occurs twice"
             );
         }
         let missing = |at: usize| format!("image {at} has no label");

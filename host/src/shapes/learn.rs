@@ -1,5 +1,5 @@
-//! `taxel shapes learn`: one more class for a base, or more of a class, by touches of a board or by images of
-//! it.
+//! `taxel shapes learn`: adds a class to a base, or examples to a class, from touches on a board or from
+//! images.
 
 use super::base::{Base, LEFT_OUT, Source};
 use super::extend::{check_name, extend};
@@ -25,7 +25,7 @@ pub struct LearnArgs {
     /// Array of an .npz that holds several
     #[arg(long, value_name = "NAME", requires = "images")]
     pub array: Option<String>,
-    /// The board that it is held against
+    /// The board that the object is held against
     #[command(flatten)]
     pub board: BoardArgs,
     /// Number of touches to wait for
@@ -44,7 +44,7 @@ pub struct LearnArgs {
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
@@ -69,12 +69,12 @@ pub fn run(args: LearnArgs) -> Result<()> {
     eprintln!("{file}: {added} prototypes of {name} from {} touches", points.len());
     let count = base.gallery.prototypes.len();
     if base.card.split == LEFT_OUT && count > 1 {
-        eprintln!("{:.0} % of {count} are known by the others", 100.0 * base.card.accuracy);
+        eprintln!("{:.0} % of {count} are recognised by the others", 100.0 * base.card.accuracy);
     }
     Ok(())
 }
 
-/// The file to write. A base that gets more is read whole before, and may be replaced.
+/// The output file. A base that is extended is read first, and may be replaced.
 fn output(args: &LearnArgs) -> Result<Output> {
     let extends = args.base.as_ref().is_none_or(|base| is_same(base, &args.output));
     let force = Force { force: args.force.force || extends };
@@ -83,7 +83,7 @@ fn output(args: &LearnArgs) -> Result<Output> {
     Output::file(&args.output, force, inputs)
 }
 
-/// A place for each image of a file on which something touches.
+/// A point for each image with a touch.
 fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, Source)> {
     let view = ViewArgs::default().build(Some(base.view), 0);
     let frames = arrays::read(images, args.array.as_deref())?;
@@ -91,7 +91,7 @@ fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, So
     let place = |image| base.gallery.space.place(&view.describe(image, frames.columns));
     let points: Vec<Point> = touched.map(place).collect();
     let file = images.display();
-    ensure!(!points.is_empty(), "{file}: nothing touches: no value reaches {} counts", view.threshold);
+    ensure!(!points.is_empty(), "{file}: there is no touch: no value reaches {} counts", view.threshold);
     let source = Source {
         file: images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         fingerprint: Fingerprint::of(images)?.to_string(),
@@ -101,13 +101,13 @@ fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, So
     Ok((points, source))
 }
 
-/// A place for each touch that was held against a board.
+/// A point for each touch that was held against a board.
 fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
     let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
     let (source, _) = args.board.open(options)?;
     let (label, wanted) = (source.label.clone(), usize::from(args.touches));
     eprintln!(
-        "{label}: hold {} against the garment {wanted} times, for half a second each, elsewhere and turned each time",
+        "{label}: hold {} against the garment {wanted} times for half a second, each time at another place and angle",
         args.name
     );
     let mut hold = Hold::new(&base.gallery.space, wanted);

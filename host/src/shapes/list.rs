@@ -1,4 +1,4 @@
-//! `taxel shapes list`: what a base knows.
+//! `taxel shapes list`: lists the classes of a base.
 
 use super::base::{Base, shipped_names};
 use anyhow::Result;
@@ -29,7 +29,7 @@ pub fn run(args: ListArgs) -> Result<()> {
     Ok(())
 }
 
-/// Names of the classes, and how many prototypes each has.
+/// Names of the classes, and the number of prototypes of each.
 fn classes(base: &Base) -> Vec<(String, usize)> {
     let count =
         |class: usize| base.gallery.prototypes.iter().filter(|p| usize::from(p.class) == class).count();

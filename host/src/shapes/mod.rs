@@ -1,10 +1,10 @@
-//! `taxel shapes`: what is known by its shape.
+//! `taxel shapes`: recognition of objects by the shape of their contact.
 //!
-//! Images become descriptors ([`view`], and `descriptor` of the core); a discriminant analysis finds the
-//! directions in which the classes lie apart ([`discriminant`]); in these the examples of each class become
-//! at most 200 prototypes ([`cluster`], [`train`]), and what votes are worth is counted on folds that were
-//! left out ([`cross`], [`calibrate`]). The gallery that comes of it is in integers and runs on a board;
-//! every figure is that of these integers.
+//! Images become descriptors ([`view`], and `descriptor` of the core). A discriminant analysis finds the
+//! directions that separate the classes ([`discriminant`]). In this space the examples of each class become
+//! prototypes, at most 200 in all ([`cluster`], [`train`]). The confidence of votes is measured on left-out
+//! folds ([`cross`], [`calibrate`]). The resulting gallery is in integers and runs on a board; every figure
+//! is that of these integers.
 
 pub mod base;
 pub mod calibrate;
@@ -49,7 +49,7 @@ enum Command {
     Learn(Box<learn::LearnArgs>),
     /// Send a base to a board
     Install(install::InstallArgs),
-    /// Remove prototypes that decide nothing
+    /// Remove prototypes that do not affect decisions
     Prune(prune::PruneArgs),
     /// List the classes of a base
     List(list::ListArgs),

@@ -1,4 +1,4 @@
-//! `taxel shapes prune`: a base without the prototypes that decide nothing.
+//! `taxel shapes prune`: removes prototypes that do not affect decisions.
 
 use super::base::Base;
 use super::train::Known;
@@ -15,7 +15,7 @@ pub struct PruneArgs {
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
@@ -32,8 +32,9 @@ pub fn run(args: PruneArgs) -> Result<()> {
     Ok(())
 }
 
-/// Hart's condensed nearest neighbours: beginning with the first prototype of each class, only those are kept
-/// that the kept ones would take for another class. One neighbour votes from then on: what is left lies where
+/// Hart's condensed nearest neighbour rule: starting with the first prototype of each class, keeps only those
+/// that the kept ones would misclassify. From then on one neighbour votes, because the remaining prototypes
+/// lie where classes meet.
 /// classes meet.
 fn prune(gallery: &mut Known) {
     let all: Vec<Exemplar> = gallery.prototypes.to_vec();

@@ -1,17 +1,17 @@
-//! Which measures count: few images do not bear many.
+//! Selects measures, because few images support only few of them.
 
 use super::cross::{FOLDS, deal, predict};
 use super::data::Example;
 use super::train::{Recipe, fit};
 use taxel_core::shape::MEASURES;
 
-/// Draws of folds by which measures are compared.
+/// Assignments to folds by which measures are compared.
 const DRAWS: u64 = 3;
-/// What one more measure has to bring: half a percent of right answers.
+/// Least benefit of another measure: half a percent of right answers.
 const WORTH: f64 = 0.005;
 
-/// The recipe with the measures that forward selection finds: beginning with none, the one that helps most is
-/// added as long as it helps. The score is that of five folds, drawn three times.
+/// The recipe with the measures found by forward selection: starting with none, the most helpful one is added
+/// as long as it helps. The score is that of five folds, assigned three times.
 pub fn select(examples: &[&Example], names: &[String], recipe: &Recipe) -> Recipe {
     let mut best = (f64::MIN, Recipe { measures: Vec::new(), ..recipe.clone() });
     loop {
@@ -28,8 +28,8 @@ pub fn select(examples: &[&Example], names: &[String], recipe: &Recipe) -> Recip
     }
 }
 
-/// Right answers less wrong ones by the share of the votes that they had: tells recipes apart that are right
-/// equally often.
+/// Right answers minus wrong ones, each weighted by its share of the votes, which distinguishes recipes with
+/// equally many right answers.
 fn score(examples: &[&Example], names: &[String], recipe: &Recipe) -> f64 {
     let draw = |seed| -> f64 {
         let found = predict(examples, &deal(examples, FOLDS, seed), |others| fit(others, names, recipe));

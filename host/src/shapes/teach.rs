@@ -1,4 +1,4 @@
-//! A base on its way to a board.
+//! Sends a base to a board.
 
 use super::base::Base;
 use crate::client::Client;
@@ -6,7 +6,7 @@ use anyhow::Result;
 use taxel_core::shape::GalleryHead;
 use taxel_core::wire::{Request, SHAPES_ADDED};
 
-/// Queues the requests that teach a board a base.
+/// Queues the requests that transfer a base to a board.
 pub fn teach(client: &mut Client, base: &Base) -> Result<()> {
     let known = &base.gallery;
     let head = GalleryHead {

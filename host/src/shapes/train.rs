@@ -1,4 +1,4 @@
-//! From labelled touches to a gallery.
+//! Builds a gallery from labelled touches.
 
 use super::cluster::centres;
 use super::data::Example;
@@ -8,19 +8,19 @@ use taxel_core::shape::{
     DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space, Sureness,
 };
 
-/// A gallery as large as a board holds.
+/// A gallery of the size that a board holds.
 pub type Known = Gallery<GALLERY_PROTOTYPES>;
 
-/// What is chosen before anything is learned.
+/// Training settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
-    /// Indices of the measures that count.
+    /// Indices of the measures to use.
     pub measures: Vec<usize>,
-    /// They are to be chosen by what they bring.
+    /// True if measures are to be selected by their benefit.
     pub select: bool,
     /// See [`Discriminant::of`].
     pub shrinkage: f64,
-    /// Neighbours that vote.
+    /// Number of voting neighbours.
     pub k: u8,
     /// Most prototypes, at most [`GALLERY_PROTOTYPES`].
     pub prototypes: usize,
@@ -38,10 +38,10 @@ impl Default for Recipe {
     }
 }
 
-/// One unit of a [`Point`] is this part of the spread within a class.
+/// Units of a [`Point`] per spread within a class.
 const UNITS: f64 = 256.0;
 
-/// Learns a gallery that knows everything it meets, without a table of sureness.
+/// Trains a gallery that never answers "none", without a table of confidence.
 pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
     let space = space(examples, recipe);
     let mut prototypes = heapless::Vec::new();
@@ -64,11 +64,11 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
     }
 }
 
-/// The projection that a discriminant analysis finds, in integers.
+/// The projection of a discriminant analysis, in integers.
 fn space(examples: &[&Example], recipe: &Recipe) -> Space {
     let row = |example: &&Example| recipe.measures.iter().map(|i| example.descriptor[*i].into()).collect();
     let rows: Vec<Vec<f64>> = examples.iter().map(row).collect();
-    // By the names of the labels: what is told apart within a class of several helps to tell the classes apart.
+    // By label: separating the labels within a merged class helps to separate the classes.
     let labels: Vec<usize> = examples.iter().map(|example| example.kind).collect();
     let classes = labels.iter().max().map_or(0, |last| last + 1);
     let found = Discriminant::of(&rows, &labels, classes, DIMENSIONS, recipe.shrinkage);

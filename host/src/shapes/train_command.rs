@@ -1,4 +1,4 @@
-//! `taxel shapes train`: a base from labelled images.
+//! `taxel shapes train`: trains a base on labelled images.
 
 use super::base::{Base, Card, Source};
 use super::cross::FOLDS;
@@ -15,21 +15,21 @@ use taxel_core::shape::{GALLERY_CLASSES, GALLERY_PROTOTYPES, Recognised};
 /// Arguments of `taxel shapes train`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct TrainArgs {
-    /// What to learn from.
+    /// Training images.
     #[command(flatten)]
     pub images: ImagesArgs,
-    /// How to learn.
+    /// Training settings.
     #[command(flatten)]
     pub recipe: RecipeArgs,
     /// File to write
     #[arg(short, long, value_name = "BASE")]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
 
-/// How to learn, on the command line.
+/// Training settings on the command line.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RecipeArgs {
     /// Largest number of prototypes
@@ -38,11 +38,11 @@ pub struct RecipeArgs {
     /// Neighbours that vote
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=9))]
     pub k: u8,
-    /// How far the scatter within classes is drawn towards that of unrelated measures, 0 to 1: more for fewer
+    /// Shrinkage of the scatter within classes towards that of unrelated measures, 0 to 1: more for fewer
     /// images
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, value_parser = share)]
     pub shrinkage: f64,
-    /// Use only measures that help, chosen anew in each fold; for fewer than about 300 images
+    /// Use only helpful measures, selected in each fold; for fewer than about 300 images
     #[arg(long)]
     pub select: bool,
 }
@@ -54,7 +54,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl RecipeArgs {
-    /// With all measures.
+    /// Settings with all measures.
     pub fn recipe(&self) -> Recipe {
         Recipe {
             k: self.k,
@@ -88,7 +88,7 @@ pub fn run(args: TrainArgs) -> Result<()> {
     Ok(())
 }
 
-/// A base of examples that were read from `images`.
+/// A base from examples that were read from `images`.
 pub fn train(images: &ImagesArgs, examples: &Examples, recipe: &Recipe) -> Result<Base> {
     check(examples)?;
     let list: Vec<&Example> = examples.list.iter().collect();
@@ -106,7 +106,7 @@ pub fn train(images: &ImagesArgs, examples: &Examples, recipe: &Recipe) -> Resul
     Ok(Base::new(examples.view, source, card, gallery))
 }
 
-/// Whether there is enough to learn, and not too much for a board.
+/// Checks that there are enough examples, and not too many classes for a board.
 pub fn check(examples: &Examples) -> Result<()> {
     let classes = examples.names.len();
     ensure!(
@@ -121,7 +121,7 @@ pub fn check(examples: &Examples) -> Result<()> {
     Ok(())
 }
 
-/// What examples were found to be by galleries with the same classes.
+/// Confusion of classified examples.
 pub fn counted(examples: &[&Example], names: &[String], found: &[Recognised]) -> Confusion {
     let mut confusion = Confusion::new(names, names);
     for (example, found) in examples.iter().zip(found) {

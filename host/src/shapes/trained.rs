@@ -1,4 +1,4 @@
-//! A gallery, complete.
+//! Trains a complete gallery.
 
 use super::calibrate::calibrate;
 use super::cross::{FOLDS, SEED, deal, predict};
@@ -7,7 +7,7 @@ use super::select::select;
 use super::train::{Known, Recipe, fit};
 use taxel_core::shape::Recognised;
 
-/// A gallery of all examples, completed by five folds of them, and what the folds found.
+/// A gallery of all examples, completed by five folds of them. Also returns the results of the folds.
 pub fn trained(examples: &[&Example], names: &[String], recipe: &Recipe) -> (Known, Vec<Recognised>) {
     let recipe = &if recipe.select { select(examples, names, recipe) } else { recipe.clone() };
     let found = predict(examples, &deal(examples, FOLDS, SEED), |others| fit(others, names, recipe));

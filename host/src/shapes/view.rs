@@ -1,43 +1,43 @@
-//! What of an image is the touch.
+//! Which part of an image is the touch.
 
 use serde::{Deserialize, Serialize};
 use taxel_core::shape::{Descriptor, Patch, descriptor};
 
-/// As on the command line.
+/// Options of the command line.
 #[derive(Debug, Default, Clone, clap::Args)]
 pub struct ViewArgs {
     /// Smallest value of a touched taxel, counts [default: that of the base, or 1/32 of the full scale]
     #[arg(long, value_name = "COUNTS")]
     pub threshold: Option<u16>,
-    /// Which of these taxels: all, or the connected ones with the greatest total [default: that of the base,
+    /// Which touched taxels: all, or the connected ones with the greatest total [default: that of the base,
     /// or all]
     #[arg(long, value_name = "WHICH")]
     pub touch: Option<Which>,
 }
 
-/// Which taxels above the threshold.
+/// Which taxels above the threshold belong to the touch.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
-    /// Everything is one touch.
+    /// All of them.
     #[default]
     All,
     /// The part, connected over sides and corners, with the greatest total: a contact.
     Greatest,
 }
 
-/// What of an image is the touch.
+/// Which part of an image is the touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct View {
-    /// Counts from which a taxel belongs to it.
+    /// Least counts of a touched taxel.
     pub threshold: u16,
-    /// Which of them.
+    /// Which of them belong to the touch.
     pub touch: Which,
 }
 
 impl ViewArgs {
-    /// What was asked for, else what was seen before, else what suits images whose greatest value is `top`.
+    /// The options' values, else those of `seen`, else defaults for images whose greatest value is `top`.
     pub fn build(&self, seen: Option<View>, top: u16) -> View {
         let threshold = (u32::from(top) + 1).next_power_of_two().div_ceil(32) as u16;
         let seen = seen.unwrap_or(View { threshold, touch: Which::All });
@@ -65,7 +65,7 @@ impl View {
     }
 }
 
-/// The part with the greatest total alone; of equals the first.
+/// Only the part with the greatest total; of equals the first.
 fn greatest(values: &[u16], columns: usize) -> Vec<u16> {
     let mut left: Vec<u16> = values.to_vec();
     let mut best = (0, Vec::new());

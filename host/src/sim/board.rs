@@ -1,4 +1,4 @@
-//! The simulated board as a whole, and its converter.
+//! The simulated board and its converter.
 
 use super::decode::{Address, Decoder};
 use super::hardware::{Bus, PINS, SimClock, SimDelay, SimPin, Timing};
@@ -12,7 +12,7 @@ use std::rc::Rc;
 use taxel_core::acquire::{Adc, Lines, Pull, PulledAdc};
 use taxel_core::garment::Garment;
 
-/// The converter: samples the taxel that the levels of the select lines connect to an input.
+/// The converter: samples the taxel that the select lines connect to an input.
 #[derive(Debug)]
 pub struct SimAdc {
     bus: Rc<Bus>,
@@ -20,17 +20,17 @@ pub struct SimAdc {
     decoder: Decoder,
     levels: u64,
     address: Option<Address>,
-    /// One per input of the decoder.
+    /// One line per input of the decoder.
     lines: Vec<Line>,
-    /// Index of a GPIO's input.
+    /// Index of each GPIO's input.
     inputs: [Option<u8>; PINS],
     conversion_ns: u64,
     source_kohm: f64,
-    /// The code that was sampled last.
+    /// Last sampled code.
     held: u16,
 }
 
-/// A GPIO to which no block of the garment is connected.
+/// A GPIO without a block of the garment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NoSuchInput(
     /// GPIO number
@@ -76,25 +76,25 @@ impl PulledAdc for SimAdc {
     }
 }
 
-/// The simulated board: what a `MuxScan` is made of.
+/// The simulated board: the parts of a `MuxScan`.
 pub struct SimBoard {
-    /// Its output pins: all GPIOs that are no converter inputs.
+    /// Output pins: all GPIOs that are not converter inputs.
     pub lines: Lines<SimPin, PINS>,
-    /// Its delay.
+    /// Delay.
     pub delay: SimDelay,
-    /// Its converter.
+    /// Converter.
     pub adc: SimAdc,
-    /// Its clock.
+    /// Clock.
     pub clock: SimClock,
 }
 
 impl SimBoard {
-    /// A board at time 0 under a garment on which a script is played, with a seed in place of the script's.
+    /// A board at time 0 on a garment, playing a script with this seed instead of the script's.
     pub fn new(garment: &Garment, script: &Script, seed: u64) -> Result<SimBoard> {
         SimBoard::with_timing(garment, script, seed, Timing::REFERENCE)
     }
 
-    /// The same with another timing.
+    /// A board with another timing.
     pub fn with_timing(garment: &Garment, script: &Script, seed: u64, timing: Timing) -> Result<SimBoard> {
         let bus = Rc::new(Bus::default());
         let from_ns = (script.faults.from_s * 1e9) as u64;

@@ -1,5 +1,5 @@
-//! The way of a taxel's signal to its code without a scene: lines that settle, a converter with noise and
-//! uneven codes.
+//! From a taxel's signal to its code, without a scene: settling lines, and a converter with noise and uneven
+//! codes.
 
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
 use super::script::{Converter, WiringEffects};
@@ -7,31 +7,30 @@ use super::signal::FULL_SCALE;
 use super::wiring::{Line, uneven};
 use taxel_core::acquire::{Depth, Rounds};
 
-/// How a garment of several converter inputs is read: each address is applied, waited for, and read on every
-/// input in turn, so that the first input has the least time to settle. What is converted meanwhile, and
-/// dropped, takes its time.
+/// Scan of a garment with several converter inputs: each address is applied, waited for, and read on every
+/// input in turn, so that the first input has the least time to settle. Dropped conversions take time as
+/// well.
 #[derive(Debug, Clone)]
 pub struct Chain {
-    /// What the wiring does.
+    /// Effects of the wiring.
     pub wiring: WiringEffects,
-    /// What the converter does; its noise stands for all noise of a sample.
+    /// Effects of the converter; its noise stands for all noise of a sample.
     pub converter: Converter,
-    /// When the inputs are converted.
+    /// Timing of the conversions.
     pub rounds: Rounds,
-    /// Converter inputs.
+    /// Number of converter inputs.
     pub inputs: usize,
-    /// Bits of a sample that are kept.
+    /// Bits kept of a sample.
     pub depth: Depth,
 }
 
 impl Chain {
-    /// Time of a scan over that many addresses, ns.
+    /// Duration of a scan over this many addresses, ns.
     pub fn scan_ns(&self, addresses: usize) -> u64 {
         self.rounds.address_ns() * addresses as u64
     }
 
-    /// Scans signals (counts, by address, then by input) `scans` times, one scan after the other, and hands
-    /// over the codes of each.
+    /// Scans signals (counts, by address, then by input) `scans` times, and passes on the codes of each scan.
     pub fn scan(&self, signals: &[f32], scans: usize, mut codes: impl FnMut(&[u16])) {
         let mut lines = vec![Line::default(); self.inputs];
         let noise = self.converter.noise_counts as f32 / UNIT_NOISE_RMS;
@@ -105,7 +104,7 @@ mod tests {
         // Both addresses from the first scan on: the steps are from 4000 to 0.
         let have = codes(&slow, &[4000.0, 4000.0, 4000.0, 4000.0, 0.0, 0.0, 0.0, 0.0]);
         let residue = &have[12..16];
-        // One microsecond of time constant: after 2, 4, 6 and 8 us. The line had 10 us to reach 4000.
+        // Time constant of 1 us: after 2, 4, 6 and 8 us. The line had 10 us to reach 4000.
         let want = [2.0f64, 4.0, 6.0, 8.0].map(|t: f64| (4000.0 * (-t).exp()).round() as u16);
         assert_eq!(residue, want);
     }

@@ -1,4 +1,4 @@
-//! The frames of a scene without pins: for benchmarks, campaigns and the emulator of the real board.
+//! Frames of a scene without pins, for benchmarks, campaigns and the emulator of the real board.
 
 use super::decode::Decoder;
 use super::script::Script;
@@ -9,13 +9,13 @@ use serde_json::{Value, json};
 use taxel_core::acquire::Rounds;
 use taxel_core::garment::{Circuit, Garment, Layout};
 
-/// Time from frame to frame on the reference board, us: 195 frames per second, see [`Rounds`].
+/// Frame period of the reference board, us: 195 frames per second, see [`Rounds`].
 pub const FRAME_PERIOD_US: u64 = 5_128;
 
 /// Most select lines of a garment in the emulator, whose table has an entry for every word.
 const MOST_LINES: usize = 16;
 
-/// Plays a script frame by frame: the codes that a full scan of the simulated board would read.
+/// Plays a script frame by frame: the codes of full scans by the simulated board.
 #[derive(Debug, Clone)]
 pub struct Player {
     world: World,
@@ -28,13 +28,13 @@ pub struct Player {
 struct Sample {
     taxel: u16,
     input: u8,
-    /// Time from the start of the scan to the change of the address and to the sample, ns.
+    /// Time from the start of the scan to the change of address, and to the sample, ns.
     changed_ns: u64,
     sampled_ns: u64,
 }
 
 impl Player {
-    /// A script on a garment, read as the reference board does.
+    /// A script on a garment, read as by the reference board.
     pub fn new(script: &Script, garment: &Garment) -> Result<Player> {
         ensure!(
             !garment.blocks.is_empty(),
@@ -58,18 +58,18 @@ impl Player {
         Ok(Player { world: World::build(script, garment)?, samples, lines })
     }
 
-    /// Taxels of the garment: the length of a frame.
+    /// Number of taxels: the length of a frame.
     pub fn taxels(&self) -> usize {
         self.world.taxels()
     }
 
-    /// The world it plays in.
+    /// The simulated world.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// Reads the frame whose scan starts at that time (us since the board's start), taxel by taxel. Taxels that
-    /// no block reads, or beyond the end of `codes`, are left as they are.
+    /// Reads the frame whose scan starts at this time (us since the board's start), by taxel. Taxels without
+    /// a block, or beyond the end of `codes`, are not changed.
     pub fn frame(&mut self, start_us: u64, codes: &mut [u16]) {
         let start = start_us.saturating_mul(1000);
         for sample in &self.samples {
@@ -87,8 +87,8 @@ impl Player {
     }
 }
 
-/// `count` frames, one after the other, each of all taxels in their order: what the simulated board reads
-/// when a scan starts every `frame_period_us`, each taxel at the time of its own sample.
+/// `count` frames, one after the other, each with all taxels in order: those of the simulated board if a scan
+/// starts every `frame_period_us`, with each taxel at the time of its own sample.
 pub fn frame_codes(
     script: &Script,
     garment: &Garment,
@@ -103,9 +103,9 @@ pub fn frame_codes(
     Ok(codes)
 }
 
-/// The wiring as the emulator's harness reads it: `lines` with pin and polarity in the order of the circuit's
-/// bits, `inputs` (GPIO numbers), `taxels` by word of asserted lines (bit 0 is the first line; the level word
-/// where no line is inverted), one entry per input, -1 where nothing is connected, and `count`.
+/// The wiring for the emulator's harness: `lines` with pin and polarity in the order of the circuit's bits,
+/// `inputs` (GPIO numbers), `taxels` by word of asserted lines (bit 0 is the first line; the level word if no
+/// line is inverted), one entry per input, -1 if unconnected, and `count`.
 pub fn wiring_json(garment: &Garment, layout: &Layout, circuit: &Circuit) -> Result<Value> {
     let pins = circuit.lines();
     ensure!(

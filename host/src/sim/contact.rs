@@ -1,13 +1,13 @@
-//! One touch as a physical contact: a force over time, spread over a footprint that moves.
+//! A touch as a physical contact: a force over time on a moving footprint.
 
 use super::footprint::Footprint;
 use super::touch::Touch;
 use std::f64::consts::PI;
 
-/// A touch of the script, ready to be evaluated.
+/// A touch of the script, prepared for evaluation.
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// Where its force falls.
+    /// Distribution of its force.
     pub footprint: Footprint,
     centre: [f64; 2],
     velocity: [f64; 2],
@@ -19,12 +19,12 @@ pub struct Contact {
     start_ns: u64,
     period_ns: u64,
     last: u64,
-    /// Rise to a level, rise and hold of it, and all together, ns.
+    /// Rise to a level; rise and hold of it; whole duration, ns.
     phases_ns: [u64; 3],
 }
 
 impl Contact {
-    /// From a checked touch on a panel of that pitch with taxels of that
+    /// Contact of a valid touch on a panel with this pitch and taxels with this
     /// [hysteresis](super::Sensor::hysteresis).
     pub fn build(touch: &Touch, pitch_mm: [f64; 2], hysteresis: f64) -> Contact {
         let ns = |seconds: f64| (seconds * 1e9).round() as u64;
@@ -47,12 +47,12 @@ impl Contact {
         }
     }
 
-    /// First and last instant at which it may touch, ns.
+    /// First and last time of possible contact, ns.
     pub fn span_ns(&self) -> (u64, u64) {
         (self.start_ns, self.start_ns + self.last * self.period_ns + self.phases_ns[2])
     }
 
-    /// The box that the footprint sweeps: `[x_min, x_max, y_min, y_max]`, taxels of its panel.
+    /// Bounding box of the footprint's path: `[x_min, x_max, y_min, y_max]`, taxels of its panel.
     pub fn sweep(&self) -> [f64; 4] {
         let way = self.velocity.map(|v| v * self.phases_ns[2] as f64 / 1e9);
         let reach = self.footprint.reach();
@@ -72,7 +72,7 @@ impl Contact {
         if share == 0.0 { 0.0 } else { share * self.force_n(phase_ns) as f32 }
     }
 
-    /// Time since the onset of the repetition under way; none while it does not touch.
+    /// Time since the onset of the current repetition; none between repetitions.
     fn phase(&self, t_ns: u64) -> Option<u64> {
         let since = t_ns.checked_sub(self.start_ns)?;
         let phase = if since < self.period_ns {
@@ -83,7 +83,7 @@ impl Contact {
         (phase < self.phases_ns[2]).then_some(phase)
     }
 
-    /// Total force at a time after the onset as it is felt, N.
+    /// Total felt force at a time after the onset, N.
     fn force_n(&self, phase_ns: u64) -> f64 {
         let [rise, each, once] = self.phases_ns;
         let index = phase_ns.checked_div(each).unwrap_or(u64::MAX).min(self.levels.len() as u64) as usize;
@@ -101,7 +101,7 @@ impl Contact {
     }
 }
 
-/// From one value to another by half a cosine.
+/// Interpolates by half a cosine.
 fn eased(from: f64, to: f64, at_ns: u64, length_ns: u64) -> f64 {
     let part = if length_ns > 0 { at_ns as f64 / length_ns as f64 } else { 1.0 };
     from + (to - from) * (0.5 - 0.5 * (PI * part).cos())

@@ -1,6 +1,6 @@
-//! What the multiplexers of a garment do: the levels on the select lines choose a block, a row and a column.
+//! Models the multiplexers of a garment: the levels of the select lines choose a block, a row and a column.
 //!
-//! Written from the [`Garment`] alone and not from the core's `Circuit`, so that one checks the other.
+//! Derived from the [`Garment`] alone, not from the core's `Circuit`, so that each checks the other.
 
 use taxel_core::garment::{Block, Coding, Garment, Group};
 
@@ -8,7 +8,7 @@ use taxel_core::garment::{Block, Coding, Garment, Group};
 #[derive(Debug, Clone)]
 pub struct Decoder {
     garment: Garment,
-    /// Number of each panel's first taxel, and its columns.
+    /// First taxel and columns of each panel.
     panels: Vec<(usize, usize)>,
     /// GPIO numbers of the converter inputs, ascending.
     inputs: Vec<u8>,
@@ -17,7 +17,7 @@ pub struct Decoder {
     selects: usize,
 }
 
-/// Codes on the select lines.
+/// Codes of the select lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Address {
     /// code of the block lines
@@ -29,7 +29,7 @@ pub struct Address {
 }
 
 impl Decoder {
-    /// Of any garment; blocks that contradict each other are for `Circuit::build` to refuse.
+    /// Decoder of any garment; `Circuit::build` refuses contradictory blocks.
     pub fn build(garment: &Garment) -> Decoder {
         let mut base = 0;
         let panels = garment
@@ -60,8 +60,8 @@ impl Decoder {
         &self.inputs
     }
 
-    /// What levels select: bit `n` of the word is the level of GPIO `n`. None while an enable is not
-    /// asserted, or where not exactly one line of a one-hot group is.
+    /// Address selected by the levels: bit `n` of the word is the level of GPIO `n`. None while an enable is
+    /// not asserted, or unless exactly one line of a one-hot group is.
     pub fn address(&self, levels: u64) -> Option<Address> {
         let wiring = &self.garment.wiring;
         let asserted =
@@ -84,8 +84,7 @@ impl Decoder {
         Some(Address { select: code(&wiring.block)?, row: code(&wiring.row)?, column: code(&wiring.column)? })
     }
 
-    /// The taxel that stands at the input of that index (see [`Decoder::inputs`]); none where nothing is
-    /// connected.
+    /// Taxel at the input with this index (see [`Decoder::inputs`]); none if nothing is connected.
     #[inline]
     pub fn taxel(&self, address: Address, input: usize) -> Option<usize> {
         let select = address.select as usize;
@@ -117,8 +116,8 @@ impl Decoder {
         first + (usize::from(block.row) + y) * columns + usize::from(block.column) + x
     }
 
-    /// Every address at which some input has a taxel, in the order of a progressive scan: by select code,
-    /// then row, then column.
+    /// All addresses with a taxel at any input, in the order of a progressive scan: by select code, then row,
+    /// then column.
     pub fn addresses(&self) -> Vec<Address> {
         let mut addresses: Vec<Address> = self
             .garment
@@ -148,7 +147,7 @@ mod tests {
         circuit.lines().iter().enumerate().fold(0, |all, (bit, pin)| all | u64::from(word >> bit & 1) << pin)
     }
 
-    /// The decoder undoes what the core's circuit drives, at every address of every block.
+    /// Checks that the decoder inverts the core's circuit at every address of every block.
     fn agrees(garment: &Garment) {
         let layout = Layout::build(garment, 4096, 4095).unwrap();
         let circuit = Circuit::build(garment, &layout, Pins::ANY).unwrap();

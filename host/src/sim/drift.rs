@@ -1,4 +1,4 @@
-//! A garment that drifts: its codes wander to and fro, all together and in patches.
+//! A garment that drifts: its codes wander, all together and in patches.
 //!
 //! | quantity | unit |
 //! |---|---|
@@ -10,15 +10,15 @@ use super::signal::{FULL_SCALE, World};
 use fastrand::Rng;
 use taxel_core::garment::Layout;
 
-/// Drift has causes, and they take time: a rate rises from 0 within so many seconds.
+/// Time within which a rate rises from 0, because causes of drift take time, s.
 const TURNING_S: f64 = 2.0;
 
-/// A rate that turns back when it has come so far.
+/// A drift rate that reverses after a distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
     /// Counts per second.
     pub rate: f64,
-    /// Counts from one turn to the next.
+    /// Counts between two reversals.
     pub way: f64,
 }
 
@@ -45,18 +45,18 @@ impl Course {
     }
 }
 
-/// A part of a panel that drifts by itself.
+/// A part of a panel with a drift of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
     /// Index of the panel.
     pub panel: usize,
-    /// First column and row of what drifts at the full rate.
+    /// First column and row with the full rate.
     pub at: [f64; 2],
-    /// Columns and rows of that.
+    /// Columns and rows with the full rate.
     pub size: [f64; 2],
-    /// Taxels over which the rate falls to 0 around it.
+    /// Taxels around it over which the rate falls to 0.
     pub edge: f64,
-    /// Its rate.
+    /// Drift of the patch.
     pub course: Course,
 }
 
@@ -69,7 +69,7 @@ impl Patch {
     }
 }
 
-/// A scene on a garment that drifts.
+/// A scene on a drifting garment.
 #[derive(Debug, Clone)]
 pub struct Drifting {
     world: World,
@@ -79,7 +79,7 @@ pub struct Drifting {
 }
 
 impl Drifting {
-    /// What drifts, with the factors of that seed.
+    /// Drifts with factors from this seed.
     pub fn new(world: World, layout: &Layout, common: Course, patches: &[Patch], seed: u64) -> Drifting {
         let mut rng = Rng::with_seed(seed);
         let share = |patch: &Patch, taxel| {
@@ -96,19 +96,19 @@ impl Drifting {
         }
     }
 
-    /// The scene that goes on.
+    /// The scene without drift.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// How far a taxel has drifted at a time (s), counts.
+    /// Drift of a taxel at a time (s), counts.
     pub fn counts(&self, taxel: usize, t_s: f64) -> f64 {
         let own = |of: &[f64]| of.get(taxel).copied().unwrap_or(0.0);
         let patches = self.patches.iter().map(|(course, shares)| own(shares) * course.at(t_s));
         own(&self.factors) * self.common.at(t_s) + patches.sum::<f64>()
     }
 
-    /// The codes of a frame whose scan starts at that time, us.
+    /// Codes of a frame whose scan starts at this time, us.
     pub fn frame(&self, start_us: u64, codes: &mut [u16]) {
         let t_s = start_us as f64 / 1e6;
         let common = self.common.at(t_s);

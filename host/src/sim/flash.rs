@@ -1,5 +1,5 @@
-//! The simulated board's flash: erased by sectors to ones, written from ones to zeros, and its power can be
-//! cut at any step.
+//! Flash of the simulated board: sectors are erased to ones, bits are written from one to zero, and the power
+//! can fail at any step.
 
 use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash, check_erase, check_read, check_write,
@@ -7,25 +7,25 @@ use embedded_storage::nor_flash::{
 use fastrand::Rng;
 use std::fmt;
 
-/// Where in a step the power fails.
+/// Point of a power failure within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cut {
-    /// Nothing of the step has happened.
+    /// Before the step.
     Before,
-    /// Some of its bytes are written, one of them in part; some bits of its sector are erased.
+    /// During the step: some bytes are written, one of them in part; some bits of a sector are erased.
     Within,
-    /// All of it has happened.
+    /// After the step.
     After,
 }
 
-/// Why a step failed.
+/// Reason for a failed step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlashError {
     /// The power is off.
     Off,
-    /// A bit that is 0 was to become 1 without an erasure.
+    /// A bit that is 0 was to be written to 1 without an erasure.
     NotErased,
-    /// The step is no whole one, or past the end.
+    /// The step is misaligned, or past the end.
     Step(NorFlashErrorKind),
 }
 
@@ -50,11 +50,11 @@ impl NorFlashError for FlashError {
     }
 }
 
-/// A flash of 64 KiB, as much as the reference board sets aside.
+/// A flash of 64 KiB, the size of the reference board's settings area.
 #[derive(Debug, Clone)]
 pub struct SimFlash {
     bytes: Vec<u8>,
-    /// Writes and erased sectors so far.
+    /// Number of writes and sector erasures.
     steps: u64,
     erased: u64,
     cut: Option<(u64, Cut)>,
@@ -70,30 +70,30 @@ impl Default for SimFlash {
 }
 
 impl SimFlash {
-    /// Its size.
+    /// Size.
     pub const BYTES: u32 = 64 * 1024;
 
-    /// Writes and erased sectors so far.
+    /// Number of writes and sector erasures.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Erased sectors so far.
+    /// Number of sector erasures.
     pub fn erased(&self) -> u64 {
         self.erased
     }
 
-    /// The power fails at step `step`, counted as in [`SimFlash::steps`].
+    /// Makes the power fail at step `step`, counted as by [`SimFlash::steps`].
     pub fn cut_at(&mut self, step: u64, cut: Cut) {
         self.cut = Some((step, cut));
     }
 
-    /// The power comes back, and stays.
+    /// Restores the power for good.
     pub fn restore_power(&mut self) {
         (self.off, self.cut) = (false, None);
     }
 
-    /// Begins a step; how much of it happens, in part or as a whole.
+    /// Begins a step. Returns which part of it takes place.
     fn begin(&mut self) -> Result<Extent, FlashError> {
         if self.off {
             return Err(FlashError::Off);
@@ -167,7 +167,7 @@ impl NorFlash for SimFlash {
             if byte & !*held != 0 {
                 return Err(FlashError::NotErased);
             }
-            // The byte at which the power fails has some of its bits.
+            // Some bits of the byte at which the power fails are written.
             *held &= if index < done { *byte } else { byte | self.rng.u8(..) };
         }
         self.end()

@@ -1,7 +1,7 @@
-//! How the force of a contact is spread over the taxels.
+//! Distribution of a contact's force over the taxels.
 //!
-//! A taxel feels what falls on its cell, the rectangle of one pitch around its centre. Cells tile the panel,
-//! so the shares of all taxels add up to 1 wherever the footprint lies; nothing is normalised per frame.
+//! A taxel feels the force on its cell, the rectangle of one pitch around its centre. Cells tile the panel,
+//! so the shares of all taxels add up to 1 wherever the footprint is, without normalisation per frame.
 
 use super::touch::Shape;
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ const STEPS: usize = 8;
 /// Most nodes of a footprint's grid: 250 taxels in a square.
 const MOST_NODES: usize = 4_000_000;
 
-/// The share of a contact's force that falls on a taxel, by the taxel's offset from the contact's centre.
+/// Share of a contact's force on a taxel, by the taxel's offset from the contact's centre.
 #[derive(Debug, Clone)]
 pub struct Footprint {
     /// Shares on a grid of 1/8 taxel, row by row; zero along the border.
@@ -22,8 +22,8 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// A footprint of `size_mm` (length, width), its length turned by `angle_deg` from +x towards +y, on a
-    /// panel of that pitch. Sizes and pitches must be positive.
+    /// A footprint of `size_mm` (length, width), with its length turned by `angle_deg` from +x towards +y, on
+    /// a panel with this pitch. Sizes and pitches must be positive.
     pub fn build(shape: Shape, size_mm: [f64; 2], angle_deg: f64, pitch_mm: [f64; 2]) -> Footprint {
         let half = [size_mm[0] / 2.0, size_mm[1] / 2.0];
         let step = [pitch_mm[0] / STEPS as f64, pitch_mm[1] / STEPS as f64];
@@ -42,7 +42,7 @@ impl Footprint {
         Footprint { shares, columns, rows }
     }
 
-    /// Share of the force on a taxel whose centre lies `dx`, `dy` taxels from the contact's centre.
+    /// Share of the force on a taxel whose centre is `dx`, `dy` taxels from the contact's centre.
     pub fn share(&self, dx: f32, dy: f32) -> f32 {
         let x = dx * STEPS as f32 + (self.columns / 2) as f32;
         let y = dy * STEPS as f32 + (self.rows / 2) as f32;
@@ -65,13 +65,14 @@ impl Footprint {
         upper + (c + (d - c) * u - upper) * v
     }
 
-    /// No taxel farther from the centre than this has a share, in taxels along x and y.
+    /// Distance from the centre beyond which no taxel has a share, in taxels along x and y.
     pub fn reach(&self) -> [f64; 2] {
         [self.columns, self.rows].map(|nodes| (nodes / 2) as f64 / STEPS as f64)
     }
 }
 
-/// Whether a footprint is so large, or the pitch so fine, that its grid has more than [`MOST_NODES`].
+/// True if the grid of the footprint has more than [`MOST_NODES`] nodes, because it is large or the pitch
+/// fine.
 pub(super) fn is_too_fine(shape: Shape, size_mm: [f64; 2], angle_deg: f64, pitch_mm: [f64; 2]) -> bool {
     let half = size_mm.map(|size| size / 2.0);
     let [nx, ny] = nodes(shape, half, angle_deg, pitch_mm.map(|pitch| pitch / STEPS as f64));
@@ -84,7 +85,8 @@ fn nodes(shape: Shape, half: [f64; 2], angle_deg: f64, step: [f64; 2]) -> [usize
     [0, 1].map(|axis| (reach[axis] / step[axis]).ceil() as usize + STEPS / 2 + 1)
 }
 
-/// Sums over the cell of a taxel along one axis; both ends of the cell count half, so that cells tile the axis.
+/// Sums over the cell of a taxel along one axis; both ends of the cell have half the weight, so that cells
+/// tile the axis.
 fn over_cells(values: &[f64], columns: usize, rows: usize, stride: usize) -> Vec<f64> {
     let (length, position): (usize, fn(usize, usize) -> usize) =
         if stride == 1 { (columns, |i, c| i % c) } else { (rows, |i, c| i / c) };
@@ -114,7 +116,7 @@ const fn edge_mm(shape: Shape) -> f64 {
     }
 }
 
-/// Half the width and height of the box around the turned footprint, mm.
+/// Half the width and height of the bounding box of the turned footprint, mm.
 pub(super) fn reach_mm(shape: Shape, half: [f64; 2], angle_deg: f64) -> [f64; 2] {
     let (sin, cos) = angle_deg.to_radians().sin_cos();
     let [length, width] = half.map(|h| h + edge_mm(shape) / 2.0);
@@ -134,7 +136,7 @@ fn pressure(shape: Shape, half: [f64; 2], u: f64, v: f64) -> f64 {
     }
 }
 
-/// 1 inside, a half on the edge, 0 outside, along one axis.
+/// 1 inside, 0.5 on the edge, 0 outside, along one axis.
 fn inside(at: f64, half: f64) -> f64 {
     let beyond = at.abs() - half;
     if beyond.abs() < 1e-6 { 0.5 } else { f64::from(beyond < 0.0) }
@@ -146,7 +148,7 @@ fn outside(half: [f64; 2], corner: f64, u: f64, v: f64) -> f64 {
     a.max(0.0).hypot(b.max(0.0)) + a.max(b).min(0.0) - corner
 }
 
-/// 1 well inside, 0 well outside, half a cosine across an edge of that width.
+/// 1 well inside, 0 well outside, half a cosine across an edge of this width.
 fn soft(outside: f64, width: f64) -> f64 {
     0.5 - 0.5 * (PI * (outside / width).clamp(-0.5, 0.5)).sin()
 }
@@ -173,7 +175,7 @@ mod tests {
         sums
     }
 
-    /// Means of the sums over all places of the centre within a taxel: what a panel sees on average.
+    /// Means of the sums over all positions of the centre within a taxel: what a panel sees on average.
     fn mean_sums(footprint: &Footprint) -> [f64; 5] {
         let mut mean = [0.0; 5];
         for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (f64::from(i), f64::from(j)))) {
@@ -193,7 +195,7 @@ mod tests {
                 for _ in 0..5 {
                     let [sum, x, y, ..] = sums(&footprint, rng.f64(), rng.f64());
                     assert!((sum - 1.0).abs() < 1e-5, "{shape:?} at {angle}: {sum}");
-                    // Taxels of 12 mm cannot place a thing of 16 mm any better.
+                    // With taxels of 12 mm, an object of 16 mm cannot be located better.
                     assert!(x.abs() < 1.2 && y.abs() < 1.2, "{shape:?}: centre off by {x}, {y} mm");
                 }
             }

@@ -1,4 +1,4 @@
-//! Pins, delay and clock of the simulated board, all over one virtual time. Nothing sleeps.
+//! Pins, delay and clock of the simulated board, on a common virtual time. Nothing sleeps.
 
 use super::pads::{self, Drive};
 use embedded_hal::delay::DelayNs;
@@ -10,25 +10,25 @@ use taxel_core::acquire::{Clock, Pad, Pull};
 use taxel_core::format::Micros;
 use taxel_core::selftest::PinFault;
 
-/// Pins that the simulated board may have: GPIO 0 to 63.
+/// Most pins of the simulated board: GPIO 0 to 63.
 pub const PINS: usize = 64;
 
-/// How long the steps take where the processor scans. Where a chain does, [`taxel_core::acquire::Rounds`]
-/// says it.
+/// Durations in a scan by the processor. Those in a scan by a DMA chain are in
+/// [`taxel_core::acquire::Rounds`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Timing {
     /// One conversion, ns. The input is sampled at its start.
     pub conversion_ns: u32,
-    /// The garment's settling time is spent in whole conversions (rounded down, at least one); otherwise it
-    /// is waited for exactly.
+    /// True if the settling time is spent in whole conversions (rounded down, at least one); else it is
+    /// waited for exactly.
     pub in_slots: bool,
 }
 
 impl Timing {
-    /// As quick as the reference board's chain at its shipped settling: 500 kS/s, settling in slots. The
+    /// Timing of the reference board's chain at its shipped settling: 500 kS/s, settling in slots. The
     /// reference garment takes 512 (1 + 4) conversions = 5.12 ms: 195 frames per second.
     pub const REFERENCE: Timing = Timing { conversion_ns: 2_000, in_slots: true };
-    /// A loop that waits: 512 (3 us + 4 conversions) = 5.632 ms for the reference garment.
+    /// A waiting loop: 512 (3 us + 4 conversions) = 5.632 ms for the reference garment.
     pub const LOOP: Timing = Timing { conversion_ns: 2_000, in_slots: false };
 
     /// Time from a change of the select lines to the first sample, ns.
@@ -40,21 +40,21 @@ impl Timing {
     }
 }
 
-/// What the parts of the board share.
+/// State shared by the parts of the board.
 #[derive(Debug, Default)]
 pub(super) struct Bus {
     /// Levels, bit `n` for GPIO `n`.
     pub levels: Cell<u64>,
     pub drive: Cell<Drive>,
-    /// What is wrong with the wires, and from when on, ns.
+    /// Faults of the wires, and the time at which they begin, ns.
     pub faults: RefCell<(u64, Vec<PinFault>)>,
     pub now_ns: Cell<u64>,
-    /// When a level changed last.
+    /// Time of the last change of a level.
     pub changed_ns: Cell<u64>,
 }
 
 impl Bus {
-    /// The board does something else to its pins.
+    /// Changes what the board drives.
     pub fn act(&self, change: impl FnOnce(&mut Drive)) {
         let mut drive = self.drive.get();
         change(&mut drive);
@@ -65,7 +65,7 @@ impl Bus {
         }
     }
 
-    /// Looks at what is wrong with the wires now.
+    /// Calls `look` with the present faults of the wires.
     pub fn with_faults<T>(&self, look: impl FnOnce(&[PinFault]) -> T) -> T {
         let (from_ns, faults) = &*self.faults.borrow();
         look(if self.now_ns.get() >= *from_ns { faults } else { &[] })
@@ -76,7 +76,7 @@ impl Bus {
     }
 }
 
-/// An output of the simulated board.
+/// An output pin.
 #[derive(Debug, Clone)]
 pub struct SimPin {
     pub(super) bus: Rc<Bus>,
@@ -122,7 +122,7 @@ impl Pad for SimPin {
     }
 }
 
-/// Lets virtual time pass.
+/// Advances virtual time.
 #[derive(Debug, Clone)]
 pub struct SimDelay {
     pub(super) bus: Rc<Bus>,
@@ -142,7 +142,7 @@ pub struct SimClock {
 }
 
 impl SimClock {
-    /// Lets the board be idle until that time, us since its start; no effect if it has passed already.
+    /// Idles until this time, us since the board's start; no effect if it has passed.
     pub fn advance_to(&self, us: u64) {
         let ns = us.saturating_mul(1000);
         self.bus.now_ns.set(self.bus.now_ns.get().max(ns));

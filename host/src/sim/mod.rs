@@ -1,11 +1,10 @@
 //! The simulated board: scripted touches on a garment, read through simulated pins, multiplexers and a
 //! converter.
 //!
-//! A [`Script`] says who touches what, when and how hard. [`World`] turns it into the code that the converter
-//! gives for a taxel at a time, a pure function of both as long as the wiring is ideal. [`SimBoard`] puts
-//! pins, a delay, a converter and a clock of virtual time in front of it, so that the portable scan of the
-//! core reads it like a real board; [`Player`] reads the same codes without pins, for benchmarks and
-//! campaigns. Nothing here sleeps.
+//! A [`Script`] lists touches with place, time and force. [`World`] computes the code of a taxel at a time, a
+//! pure function of both as long as the wiring is ideal. [`SimBoard`] adds pins, a delay, a converter and a
+//! clock of virtual time, so that the core's portable scan reads it like a real board. [`Player`] reads the
+//! same codes without pins, for benchmarks and campaigns. Nothing here sleeps.
 //!
 //! | quantity | unit |
 //! |---|---|

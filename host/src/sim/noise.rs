@@ -1,4 +1,4 @@
-//! Noise without state: a hash, so that a sample's noise does not depend on what else was read.
+//! Stateless noise from a hash, so that a sample's noise does not depend on other samples.
 
 /// Standard deviation of [`unit_noise`]: four uniform 16-bit numbers, `sqrt(4 / 12) 2^16`.
 pub(super) const UNIT_NOISE_RMS: f32 = 37_837.2;

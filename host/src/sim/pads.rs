@@ -1,19 +1,19 @@
-//! What stands at the pins: what drives them, the board's weak resistors, and what is wrong with the wires.
+//! Electrical state of the pins: drivers, the board's pull resistors, and faults of the wires.
 
 use taxel_core::acquire::Pull;
 use taxel_core::selftest::{Fault, PinFault};
 
-/// A weak resistor of a pin, kOhm.
+/// Pull resistor of a pin, kOhm.
 const PULL_KOHM: f64 = 55.0;
-/// What drives a converter's input where a script does not say, kOhm.
+/// Default source resistance of a converter's input, kOhm.
 const SOURCE_KOHM: f64 = 1.0;
 
-/// What the board does to its pins, bit `n` for GPIO `n`.
+/// Drive of the board's pins, bit `n` for GPIO `n`.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Drive {
     /// Driven.
     pub on: u64,
-    /// To the supply, where driven.
+    /// Driven high, if driven.
     pub high: u64,
     /// Pulled to the supply.
     pub up: u64,
@@ -22,15 +22,14 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// Pulls the pins of a mask, and no other way.
+    /// Sets the pulls of the pins in a mask.
     pub fn pull(&mut self, mask: u64, pull: Pull) {
         self.up = self.up & !mask | if pull == Pull::Up { mask } else { 0 };
         self.down = self.down & !mask | if pull == Pull::Down { mask } else { 0 };
     }
 }
 
-/// The levels of all pins. A bridge is stronger than a resistor; of two outputs that fight over one, the one
-/// to ground wins.
+/// Levels of all pins. A bridge is stronger than a resistor; if two outputs fight over one, the low one wins.
 pub(super) fn levels(drive: Drive, faults: &[PinFault]) -> u64 {
     let mut levels = drive.on & drive.high | !drive.on & drive.up;
     for PinFault { pin, fault } in faults {
@@ -49,8 +48,8 @@ pub(super) fn levels(drive: Drive, faults: &[PinFault]) -> u64 {
     levels
 }
 
-/// The code of an input that a source brings to `settled`. `held`: what the converter sampled before, which
-/// an input that nothing drives keeps.
+/// Code of an input that a source drives to `settled`. `held`: last sampled code, which an undriven input
+/// keeps.
 pub(super) fn code(
     input: u8,
     drive: Drive,

@@ -1,4 +1,4 @@
-//! Reading and checking a script. Every error is one sentence that names the file and the key.
+//! Reads and checks scripts. Errors are one sentence that names the file and the key.
 
 use super::script::{Joint, Script};
 use super::touch::Touch;
@@ -7,11 +7,11 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Longest time in a script, s.
+/// Latest time in a script, s.
 const LONGEST_S: f64 = 86_400.0;
 /// Largest footprint, mm.
 const LARGEST_MM: f64 = 1_000.0;
-/// Largest count: far beyond a converter, small enough for an `f32`.
+/// Largest count: far above a converter's range, small enough for an `f32`.
 const MOST_COUNTS: f64 = 1e6;
 
 impl Script {
@@ -99,7 +99,7 @@ fn check_joint(joint: &Joint) -> Result<()> {
     within("fall_s", joint.fall_s.unwrap_or(0.0), 0.0..=LONGEST_S)
 }
 
-/// Also refuses what is not a number.
+/// Also refuses NaN.
 fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
     if !range.contains(&value) {
         bail!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());
@@ -145,10 +145,7 @@ mod tests {
     fn errors_name_file_line_and_key() {
         assert_eq!(error("seed = 2\n"), "x.toml, line 1: `duration_s` is missing");
         let unknown = error("duration_s = 1\ncolour = 3\n");
-        assert!(
-            unknown.starts_with("x.toml, line 2: `colour` is no key that is known here: `name`"),
-            "{unknown}"
-        );
+        assert!(unknown.starts_with("x.toml, line 2: `colour` is not a known key: `name`"), "{unknown}");
         let wrong = error("duration_s = 1\nseed = \"a\"\n");
         assert_eq!(wrong, "x.toml, line 2, `seed`: must be a whole number of 0 or more, not \"a\"");
         let size = error(&format!("{TOUCH}size_mm = \"large\"\n"));

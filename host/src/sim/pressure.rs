@@ -1,4 +1,4 @@
-//! All contacts of a scene on a garment: the force on a taxel at a time.
+//! All contacts of a scene on a garment: force on a taxel at a time.
 
 use super::contact::Contact;
 use super::footprint::is_too_fine;
@@ -7,7 +7,7 @@ use anyhow::{Result, anyhow, ensure};
 use std::sync::Arc;
 use taxel_core::garment::{Area, Layout, Transform};
 
-/// Pitch where the garment does not say, mm.
+/// Pitch of a garment without one, mm.
 const USUAL_PITCH_MM: f64 = 10.0;
 /// Most images of one contact; a garment has eight panels, and a contact goes around the body less than once.
 const MOST_IMAGES: usize = 64;
@@ -18,20 +18,20 @@ pub struct Pressure {
     panels: Vec<Vec<Image>>,
 }
 
-/// A contact as one panel sees it: across a seam its position goes on, so the panel's taxels are looked up in
-/// the coordinates of the panel on which the contact began.
+/// A contact as seen from one panel: its position continues across a seam, so the panel's taxels are looked
+/// up in the coordinates of the panel on which the contact began.
 #[derive(Debug, Clone)]
 struct Image {
     first_ns: u64,
     last_ns: u64,
-    /// Taxels of this panel that the contact may reach, ends included: `[x_min, x_max, y_min, y_max]`.
+    /// Taxels of this panel within reach, ends included: `[x_min, x_max, y_min, y_max]`.
     sweep: [i32; 4],
     to_home: Transform,
     contact: Arc<Contact>,
 }
 
 impl Pressure {
-    /// The touches of a checked script on a garment.
+    /// Contacts of a valid script on a garment.
     pub fn build(script: &Script, layout: &Layout) -> Result<Pressure> {
         let mut pressure = Pressure { panels: vec![Vec::new(); layout.areas().len()] };
         for (index, touch) in script.touches.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Pressure {
         Ok(pressure)
     }
 
-    /// Adds the images of a contact on its panel and across the seams, as far as it reaches.
+    /// Adds the images of a contact on its panel and across seams, as far as it reaches.
     fn add(&mut self, contact: Arc<Contact>, home: usize, layout: &Layout) {
         let (first_ns, last_ns) = contact.span_ns();
         let mut seen = vec![(home, Transform::IDENTITY)];
@@ -83,8 +83,7 @@ impl Pressure {
         }
     }
 
-    /// Force on the taxel at column `x`, row `y` of a panel at a time as the taxel feels it, N; 0 outside the
-    /// garment.
+    /// Felt force on the taxel at column `x`, row `y` of a panel at a time, N; 0 outside the garment.
     #[inline]
     pub fn newtons(&self, panel: usize, x: i32, y: i32, t_ns: u64) -> f32 {
         let Some(images) = self.panels.get(panel) else { return 0.0 };
@@ -106,7 +105,7 @@ pub(super) fn pitch_mm(area: &Area) -> [f64; 2] {
     area.pitch_um.map(|um| if um == 0 { USUAL_PITCH_MM } else { f64::from(um) / 1000.0 })
 }
 
-/// The part of a panel that a box in home coordinates covers; none if it misses the panel.
+/// Part of a panel covered by a box in home coordinates; none if it misses the panel.
 fn sweep_on(area: &Area, home: &[f64; 4], to_home: &Transform) -> Option<[i32; 4]> {
     let [left, right, top, bottom] = *home;
     // A whole taxel wider, so that rounding to integers loses nothing.
@@ -183,7 +182,7 @@ mod tests {
         }
         let end = totals(&pressure, &layout, 3_900_000_000);
         assert!((end[1][1] - 9.6).abs() < 0.05 && end[1][0] > 9.99, "{end:?}");
-        // It goes on over the other flank, back to the chest.
+        // It continues over the other flank, back to the chest.
         let text = "panel = \"chest\"\nshape = \"ball\"\nat = [8, 16]\nvelocity = [10, 0]";
         let pressure = Pressure::build(&script(text), &layout).unwrap();
         let end = totals(&pressure, &layout, 3_200_000_000);

@@ -1,11 +1,11 @@
-//! A garment whose wires somebody has soldered without a plan.
+//! A garment with random wiring.
 
 use fastrand::Rng;
 use taxel_core::garment::{Block, Garment, Group};
 
-/// How a garment may be wired, by chance: any address line on any pin, any of them inverted; any input on any
-/// panel; panels sewn in mirrored or turned; single blocks mirrored or turned within them; blocks of a panel
-/// in any order.
+/// Rewires a garment at random: any address line on any pin, any of them inverted; any input on any panel;
+/// panels sewn in mirrored or turned; single blocks mirrored or turned within them; blocks of a panel in any
+/// order.
 pub fn rewire(garment: &Garment, rng: &mut Rng) -> Garment {
     let mut wired = garment.clone();
     let mut pins: Vec<u8> =
@@ -55,7 +55,7 @@ fn turn(block: &mut Block, mirror: [bool; 2]) {
     block.orientation.mirror_y ^= mirror[1];
 }
 
-/// Puts a block where it lies in a panel of that size (columns, rows) that is sewn in mirrored.
+/// Places a block in a panel of this size (columns, rows) that is sewn in mirrored.
 fn sew(block: &mut Block, size: [u16; 2], mirror: [bool; 2]) {
     let (mut width, mut height) = (u16::from(block.columns), u16::from(block.rows));
     if block.orientation.transposed {

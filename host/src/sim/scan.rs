@@ -1,6 +1,5 @@
-//! The simulated board's scan, as the reference board's: by a chain that never waits wherever the garment's
-//! wiring allows that, else by the processor. An interlaced one is checked after each sub-field, and moves
-//! pins then.
+//! Scan of the simulated board, as by the reference board: by a DMA chain if the garment's wiring allows it,
+//! else by the processor. An interlaced scan is checked after each sub-field, and may move pins then.
 
 use super::board::SimAdc;
 use super::hardware::{PINS, SimDelay, SimPin};
@@ -17,31 +16,30 @@ use taxel_core::selftest::{Examine, Findings};
 /// Taxels of the largest garment.
 const TAXELS: usize = 2048;
 
-/// Reads the simulated garment. A frame takes as long as [`taxel_core::acquire::frame_us`] says where a chain
-/// can read it.
+/// Reads the simulated garment. If a chain can read it, a frame takes [`taxel_core::acquire::frame_us`].
 pub struct SimScan<'l, C> {
     processor: MuxScan<'l, SimPin, SimDelay, SimAdc, C, PINS, TAXELS>,
     delay: SimDelay,
     clock: C,
-    /// What is being scanned; none: anew.
+    /// Circuit and plan of the scan; none before the first.
     of: Option<(Circuit, Plan)>,
-    /// GPIO numbers of the inputs that are read at each address.
+    /// GPIO numbers of the inputs read at each address.
     inputs: Vec<u8>,
-    /// Levels of the select lines by address; empty where no chain can read them.
+    /// Levels of the select lines by address; empty if no chain can drive them.
     levels: Vec<u32>,
-    /// The taxel of each input at each address.
+    /// Taxel of each input at each address.
     taxels: Vec<Option<u16>>,
     codes: Box<[Code; TAXELS]>,
-    /// Codes of an interlaced scan, by its order.
+    /// Codes of an interlaced scan, in its order.
     scanned: Vec<Code>,
     reflex: Box<Reflex<TAXELS>>,
     scans: u32,
-    /// A select line showed another level than it was driven to.
+    /// A select line had another level than it was driven to.
     misled: bool,
 }
 
 impl<'l, C: Clock + Clone> SimScan<'l, C> {
-    /// Over the parts of a [`super::SimBoard`].
+    /// A scan with the parts of a [`super::SimBoard`].
     pub fn new(lines: &'l mut Lines<SimPin, PINS>, delay: SimDelay, adc: SimAdc, clock: C) -> SimScan<'l, C> {
         SimScan {
             processor: MuxScan::new(lines, delay.clone(), adc, clock.clone()),
@@ -59,7 +57,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         }
     }
 
-    /// Begins to scan something else, if it is.
+    /// Prepares a scan of another circuit or plan.
     fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
         if self.of.as_ref().is_some_and(|(worn, read)| worn == circuit && read == plan) {
             return;
@@ -77,7 +75,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         }
     }
 
-    /// The addresses of a progressive scan, if a chain can read them.
+    /// Addresses of a progressive scan, if a chain can read them.
     fn sweep(&mut self, circuit: &Circuit, plan: &Plan) {
         let mut sweep = Box::new(Sweep::<SWEEP_ADDRESSES, SWEEP_STRETCHES>::new());
         if sweep.fill(circuit, plan).is_err() {
@@ -95,7 +93,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         }
     }
 
-    /// Those of an interlaced one.
+    /// Addresses of an interlaced scan.
     fn interlace(&mut self, circuit: &Circuit, plan: &Plan) {
         let Ok(fields) = Fields::of(circuit, plan) else { return };
         self.inputs = fields.inputs().into();
@@ -107,12 +105,12 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         });
     }
 
-    /// One scan after the other, as many as the depth asks for: their mean.
+    /// Runs as many scans as the depth requires, and takes their mean.
     fn run(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
         let rounds = Rounds::of(self.inputs.len(), circuit.settle_ns());
         let lines = circuit.lines().iter().fold(0, |lines, pin| lines | 1 << (pin & 63));
-        // The multiples of this number are spread evenly, and so are their digits: each scan looks at the
-        // lines somewhere else.
+        // Multiples of this number are evenly spread, and so are their digits: each scan checks the lines at
+        // another address.
         self.scans = self.scans.wrapping_add(1);
         let spread = self.scans.wrapping_mul(0xb529_7a4d);
         let look = ((u64::from(spread) * self.levels.len() as u64) >> 32) as usize;
@@ -132,7 +130,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         Ok(())
     }
 
-    /// One sub-field after the other, each of which is checked at its end.
+    /// Runs one sub-field after the other, each with a check at its end.
     fn run_fields(&mut self, lines: u64, rounds: Rounds, look: usize) -> Result<(), ScanError> {
         let fields = self.reflex.fields().clone();
         for field in 0..fields.count() {
@@ -154,7 +152,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         Ok(())
     }
 
-    /// Every input at an address: its taxel and its code, 0 where none is read.
+    /// Reads every input at an address: taxel and code, 0 for unread ones.
     fn read(
         &mut self,
         address: usize,
@@ -186,7 +184,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
         Ok(read)
     }
 
-    /// Does something to the code of every taxel that is read.
+    /// Changes the code of every taxel that is read.
     fn each_read(&mut self, change: impl Fn(&mut Code)) {
         for taxel in self.taxels.iter().flatten() {
             if let Some(code) = self.codes.get_mut(usize::from(*taxel)) {
@@ -293,7 +291,7 @@ mod tests {
         }
     }
 
-    /// A script's frames without pins are those that the board reads, over lines that do not settle, too.
+    /// Frames of a script without pins equal those of the board, also on lines that do not settle.
     #[test]
     fn the_player_reads_what_the_board_reads() {
         let ball = "[[touch]]\npanel = \"chest\"\nshape = \"ball\"\nat = [8, 16]\nforce_n = 60\nstart_s = 0\n\
@@ -315,8 +313,7 @@ mod tests {
         }
     }
 
-    /// A still scene is the same in both orders, over lines that have settled; a reflex moves its pin within
-    /// the frame.
+    /// A still scene is equal in both orders on settled lines; a reflex moves its pin within the frame.
     #[test]
     fn an_interlaced_scan_reads_the_same_and_moves_a_pin_at_once() {
         let script = script(
@@ -351,7 +348,7 @@ mod tests {
         assert_eq!(still(&scene.plan), still(&Plan::default()));
     }
 
-    /// What a plan leaves out keeps its code, and what no chain can read is read by the processor.
+    /// Taxels left out by a plan keep their codes; what no chain can read is read by the processor.
     #[test]
     fn the_rest_of_the_garment() {
         let mut garment = Garment::reference();
@@ -366,7 +363,7 @@ mod tests {
         assert!(codes.iter().all(|code| *code == 100));
     }
 
-    /// A line that is stuck in use is seen within some scans, and a sound one never.
+    /// A line that sticks during operation is detected within some scans; a good one never is.
     #[test]
     fn a_stuck_line_is_seen() {
         let garment = Garment::reference();

@@ -1,4 +1,4 @@
-//! The scripts of touches that come with the program, and scripts and garments from files.
+//! Shipped scripts of touches, and scripts and garments from files.
 
 use super::script::Script;
 use crate::fault::Fault;
@@ -7,12 +7,12 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::path::Path;
 use taxel_core::garment::Garment;
 
-/// What a list of scripts of touches shows.
+/// Description of a script of touches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneInfo {
-    /// Name to load it by.
+    /// Name.
     pub name: String,
-    /// What it shows, in a few words.
+    /// Title.
     pub title: String,
     /// Length, s.
     pub duration: f64,
@@ -41,7 +41,7 @@ const SCENES: [(&str, &str); 13] = scenes![
     "idle",
 ];
 
-/// The scripts of touches that come with the program.
+/// All shipped scripts of touches.
 pub fn list() -> Vec<SceneInfo> {
     let parse = |(name, text): &(&str, &str)| {
         let script = Script::parse(text, &format!("{name}.toml")).ok()?;
@@ -50,7 +50,7 @@ pub fn list() -> Vec<SceneInfo> {
     SCENES.iter().filter_map(parse).collect()
 }
 
-/// A script of touches that comes with the program, or its TOML file.
+/// Loads a shipped script of touches, or a TOML file.
 pub fn load(name_or_path: &str) -> Result<Script> {
     if let Some((name, text)) = SCENES.iter().find(|(name, _)| *name == name_or_path) {
         return Script::parse(text, &format!("{name}.toml"));
@@ -62,7 +62,7 @@ pub fn load(name_or_path: &str) -> Result<Script> {
     Script::parse(&read(name_or_path)?, name_or_path)
 }
 
-/// A garment that comes with the program, or a garment's TOML file, see [`garments::read`].
+/// Loads a preset, or a garment's TOML file, see [`garments::read`].
 pub fn garment(name_or_path: &str) -> Result<Garment> {
     Ok(garments::read(name_or_path)?.garment)
 }
@@ -77,7 +77,7 @@ fn read(path: &str) -> Result<String> {
 }
 
 impl Script {
-    /// The garment that the script names.
+    /// Loads the garment that the script names.
     pub fn load_garment(&self) -> Result<Garment> {
         garment(&self.garment)
             .with_context(|| format!("in script {}: `garment`", self.name))
@@ -105,7 +105,7 @@ mod tests {
         }
     }
 
-    /// Newtons by panel at a time.
+    /// Forces by panel at a time, N.
     fn forces(name: &str, seconds: f64) -> [f32; 4] {
         let script = load(name).unwrap();
         let world = World::build(&script, &Garment::reference()).unwrap();

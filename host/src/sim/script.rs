@@ -1,38 +1,37 @@
-//! A script of touches as its author writes it: one small TOML file (docs/touches.md).
+//! A script of touches as written by its author: one small TOML file (docs/touches.md).
 //!
 //! Times are seconds since the board started, forces newtons; lengths end in `_mm`, or are in taxels of the
-//! panel where they carry no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first
-//! taxel.
+//! panel if they have no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first taxel.
 
 use super::touch::Touch;
 use serde::{Deserialize, Serialize};
 use taxel_core::selftest::PinFault;
 
-/// A script of touches: who touches a simulated garment where, when and how hard.
+/// A script of touches: place, time and force of touches on a simulated garment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Script {
-    /// Short name; a file's stem where the file does not say.
+    /// Short name; the file's stem if absent.
     #[serde(default)]
     pub name: String,
-    /// What it shows, in a few words.
+    /// Title.
     #[serde(default)]
     pub title: String,
-    /// What it shows, in a sentence or two.
+    /// Description, in a sentence or two.
     #[serde(default)]
     pub description: String,
-    /// Length, s. The garment goes on at rest after it.
+    /// Length, s. Afterwards the garment stays at rest.
     pub duration_s: f64,
-    /// A garment that comes with the program, or a garment's TOML file.
+    /// Preset, or TOML file of a garment.
     #[serde(default = "reference")]
     pub garment: String,
     /// Seed of the taxels' spread, of noise and of random faults.
     #[serde(default = "one_u64")]
     pub seed: u64,
-    /// Frames at the start over which the board is tared; nothing should touch the garment yet.
+    /// Frames at the start averaged by a tare; nothing should touch the garment yet.
     #[serde(default = "tare_frames")]
     pub tare_frames: u32,
-    /// Settings of the deployment that differ from the defaults, handed on as they are.
+    /// Settings of the scene that differ from the defaults, passed on unchanged.
     #[serde(default)]
     pub scene: toml::Table,
     /// The garment at rest.
@@ -41,19 +40,19 @@ pub struct Script {
     /// Broken taxels and wires.
     #[serde(default)]
     pub faults: Faults,
-    /// What the wiring does to the signal; nothing by default.
+    /// Effects of the wiring on the signal; none by default.
     #[serde(default)]
     pub wiring: WiringEffects,
-    /// How the taxels answer to force; all alike and straight by default.
+    /// Response of the taxels to force; equal and linear by default.
     #[serde(default)]
     pub sensor: Sensor,
-    /// What the converter does to the signal; nothing but rounding by default.
+    /// Effects of the converter on the signal; only rounding by default.
     #[serde(default)]
     pub converter: Converter,
     /// The touches.
     #[serde(default, rename = "touch")]
     pub touches: Vec<Touch>,
-    /// How the robot's joints move meanwhile.
+    /// Movements of the robot's joints.
     #[serde(default, rename = "joint")]
     pub joints: Vec<Joint>,
 }
@@ -62,13 +61,13 @@ pub struct Script {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Idle {
-    /// Mean code of a taxel that nothing touches, counts.
+    /// Mean code of an untouched taxel, counts.
     pub base_code: f64,
-    /// Standard deviation of that code from taxel to taxel, counts.
+    /// Spread of this code among taxels, standard deviation, counts.
     pub spread_counts: f64,
     /// Noise of a sample, counts rms.
     pub noise_counts: f64,
-    /// Mean drift of a taxel, counts per second; taxels differ by half of it at most.
+    /// Mean drift of a taxel, counts per second; taxels differ by at most half of it.
     pub drift_counts_per_s: f64,
 }
 
@@ -82,25 +81,25 @@ impl Default for Idle {
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Faults {
-    /// When they break, s.
+    /// Time at which they break, s.
     pub from_s: f64,
-    /// Taxels that no longer answer to pressure.
+    /// Taxels that do not respond to pressure.
     pub dead: Vec<u16>,
-    /// That many more dead taxels, chosen by the seed.
+    /// Number of further dead taxels, chosen by the seed.
     pub dead_count: u16,
-    /// Taxels whose line is broken: no signal.
+    /// Taxels with a broken line: no signal.
     pub open: Vec<u16>,
     /// Taxels with a short circuit: full signal.
     pub shorted: Vec<u16>,
-    /// Taxels that give one code, without noise.
+    /// Taxels with a constant code, without noise.
     pub stuck: Vec<Stuck>,
-    /// Taxels that are noisy.
+    /// Noisy taxels.
     pub noisy: Vec<Noisy>,
     /// Select lines and inputs that are stuck, bridged, open or shorted, by GPIO number.
     pub pins: Vec<PinFault>,
 }
 
-/// A taxel with a noise of its own.
+/// A taxel with extra noise.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Noisy {
@@ -110,7 +109,7 @@ pub struct Noisy {
     pub counts: f32,
 }
 
-/// A taxel that always gives the same code.
+/// A taxel with a constant code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stuck {
@@ -120,19 +119,19 @@ pub struct Stuck {
     pub code: u16,
 }
 
-/// What the wiring does to the signal; all zero is an ideal wiring.
+/// Effects of the wiring on the signal; all zero for ideal wiring.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WiringEffects {
     /// Resistance that charges a converter input's line, kOhm.
     pub source_kohm: f64,
-    /// Capacitance of that line, pF. The voltage settles with the product since the last change of a select
-    /// line.
+    /// Capacitance of that line, pF. The voltage settles with the product as time constant after a change of
+    /// a select line.
     pub line_pf: f64,
-    /// Part of the signal of every taxel on the same wired row or column of the block that is added to a
-    /// taxel's own: what their common lines couple.
+    /// Coupling through common lines: share of the signal of every taxel on the same wired row or column of
+    /// the block that is added to a taxel's own.
     pub crosstalk: f64,
-    /// The blocks are passive matrices: three pressed corners of a rectangle show at the fourth as well.
+    /// Passive matrices: three pressed corners of a rectangle also show at the fourth.
     pub passive: bool,
 }
 
@@ -142,30 +141,30 @@ impl WiringEffects {
         self.source_kohm * self.line_pf
     }
 
-    /// Whether the wiring changes nothing.
+    /// True if the wiring has no effect.
     pub fn is_ideal(&self) -> bool {
         self.settling_ns() == 0.0 && self.crosstalk == 0.0 && !self.passive
     }
 }
 
-/// How the taxels answer to force.
+/// Response of the taxels to force.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensor {
-    /// Standard deviation of the gain from taxel to taxel, part of 1.
+    /// Spread of the gain among taxels, standard deviation, share of 1.
     pub gain_spread: f64,
-    /// How much more a taxel signals of a force that goes than of the same while it comes, part of it; half
-    /// of that more, half less than the truth far below the peak, and nothing at the peak.
+    /// Difference of the signal between decreasing and increasing force, as a share of the signal: half of it
+    /// above and half below the truth far below the peak, none at the peak.
     pub hysteresis: f64,
-    /// Noise by the signal, part of it rms, beside that of the garment at rest: how the cloth lies changes
-    /// all 20 ms.
+    /// Noise proportional to the signal, rms share of it, besides that of the garment at rest: the position
+    /// of the fabric changes every 20 ms.
     pub noise: f64,
-    /// Force on a taxel at which it signals half of what it would if it were straight, N: a divider with a
-    /// fixed resistor; 0: straight.
+    /// Force on a taxel at which the signal is half of a linear one, N: a divider with a fixed resistor; 0
+    /// for linear.
     pub half_n: f64,
 }
 
-/// What the converter does to the signal.
+/// Effects of the converter on the signal.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Converter {
@@ -175,7 +174,7 @@ pub struct Converter {
     pub noise_counts: f64,
 }
 
-/// A joint of the robot that bends and straightens with the profile of a touch.
+/// A joint of the robot that bends and straightens with the time profile of a touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
@@ -186,14 +185,14 @@ pub struct Joint {
     pub from_deg: f64,
     /// Angle reached, degrees.
     pub to_deg: f64,
-    /// Begin of the motion, s.
+    /// Begin of the movement, s.
     pub start_s: f64,
-    /// Time to the angle reached, s.
+    /// Duration of the movement, s.
     pub rise_s: f64,
-    /// Time there, s.
+    /// Time at the reached angle, s.
     #[serde(default)]
     pub hold_s: f64,
-    /// Time back, s; without it the joint stays.
+    /// Duration of the return, s; without it the joint stays.
     pub fall_s: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! From newtons to codes: what the converter gives for a taxel at a time.
+//! From newtons to codes: the converter's code of a taxel at a time.
 
 use super::decode::Decoder;
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
@@ -10,17 +10,17 @@ use anyhow::{Result, ensure};
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
 
-/// Signal of one newton on one taxel, counts; linear until the code is full. The force limits of the
-/// intention map are in the same scale: 30 N in all are 30,000 counts in all.
+/// Signal of one newton on one taxel, counts; linear up to full scale. The force limits of the intention map
+/// use the same scale: 30 N in total are 30,000 counts in total.
 pub const COUNTS_PER_NEWTON: f32 = 1000.0;
 
 /// Highest code of the 12-bit converter.
 pub const FULL_SCALE: u16 = 4095;
 
-/// Time for which the noise of the pressed cloth keeps its value, ns.
+/// Time for which the noise of the pressed fabric stays constant, ns.
 const CLOTH_NS: u64 = 20_000_000;
 
-/// A garment with everything that happens to it: the codes of a scene.
+/// A garment and everything that happens to it: the codes of a scene.
 ///
 /// With ideal wiring [`World::code`] is a pure function of taxel and time, noise included: a taxel's noise is
 /// a hash of the seed, its number and the time.
@@ -35,12 +35,12 @@ pub struct World {
     settling_ns: f64,
     crosstalk: f32,
     mates: Vec<Vec<u16>>,
-    /// Of passive matrices.
+    /// Sneak paths, for passive matrices.
     sneak: Option<Sneak>,
     dnl: bool,
-    /// Noise by signal, parts per unit of [`unit_noise`].
+    /// Noise proportional to the signal, share per unit of [`unit_noise`].
     live: f32,
-    /// One over the force at which half is signalled, 1/N.
+    /// Reciprocal of the force with half the linear signal, 1/N.
     bend: f32,
 }
 
@@ -68,7 +68,7 @@ enum Fault {
 }
 
 impl World {
-    /// Of a checked script on a garment. Errors name the script and the key.
+    /// World of a valid script on a garment. Errors name the script and the key.
     pub fn build(script: &Script, garment: &Garment) -> Result<World> {
         let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)
             .map_err(|e| anyhow::anyhow!("garment {}: {e}", garment.name))?;
@@ -129,7 +129,7 @@ impl World {
         Ok(())
     }
 
-    /// Taxels of the garment.
+    /// Number of taxels.
     pub fn taxels(&self) -> usize {
         self.taxels.len()
     }
@@ -140,19 +140,19 @@ impl World {
         self.pressure.newtons(usize::from(t.panel), i32::from(t.x), i32::from(t.y), t_ns)
     }
 
-    /// Code of a taxel at a time once the line has settled; 0 for a number past the last.
+    /// Code of a taxel at a time on a settled line; 0 for a number past the last.
     #[inline]
     pub fn code(&self, taxel: usize, t_ns: u64) -> u16 {
         let Some(t) = self.taxels.get(taxel) else { return 0 };
         self.convert(t, self.signal(taxel, t, t_ns), t_ns)
     }
 
-    /// Whether the code of a taxel depends on what was read before it.
+    /// True if the code of a taxel depends on earlier samples.
     pub fn settles(&self) -> bool {
         self.settling_ns > 0.0
     }
 
-    /// Code of a taxel, or of an open input, whose line has been settling since `changed_ns`.
+    /// Code of a taxel, or of an open input, on a line that has been settling since `changed_ns`.
     pub(super) fn sample(&self, line: &mut Line, taxel: Option<usize>, changed_ns: u64, t_ns: u64) -> u16 {
         let found = taxel.and_then(|index| Some((index, self.taxels.get(index)?)));
         let target = match found {
@@ -196,7 +196,7 @@ impl World {
         self.level(t.base + t.drift_per_ns * t_ns as f32 + COUNTS_PER_NEWTON * noisy)
     }
 
-    /// What stands at the input for that much conductance: pressure may lower it.
+    /// Level at the input for this conductance; pressure may lower it.
     fn level(&self, rising: f32) -> f32 {
         let rising = rising.clamp(0.0, f32::from(FULL_SCALE));
         if self.falling { f32::from(FULL_SCALE) - rising } else { rising }
@@ -218,13 +218,13 @@ impl World {
     }
 }
 
-/// The nearest code; an `as` conversion saturates.
+/// Nearest code; an `as` conversion saturates.
 #[inline]
 fn round(signal: f32) -> u16 {
     ((signal + 0.5) as u16).min(FULL_SCALE)
 }
 
-/// Normally distributed, mean 0, standard deviation 1, at most 6.
+/// Normal distribution, mean 0, standard deviation 1, at most 6.
 fn normal(rng: &mut Rng) -> f64 {
     (0..12).map(|_| rng.f64()).sum::<f64>() - 6.0
 }

@@ -1,15 +1,15 @@
-//! The sneak paths of a passive matrix: where its cloth alone joins rows and columns, current also gets from
-//! the row that is read to the column that is read through three other taxels: along the row, over to another
-//! row, and along the column.
+//! Sneak paths of a passive matrix: if only the fabric joins rows and columns, current also flows from the
+//! read row to the read column through three other taxels: along the row, over to another row, and along the
+//! column.
 
 use super::decode::Decoder;
 use taxel_core::garment::Garment;
 
-/// The blocks of a garment as matrices.
+/// Blocks of a garment as matrices.
 #[derive(Debug, Clone)]
 pub(super) struct Sneak {
     blocks: Vec<Matrix>,
-    /// By taxel: its block, wired row and column.
+    /// Block, wired row and column of each taxel.
     places: Vec<Option<(usize, usize, usize)>>,
 }
 
@@ -34,9 +34,9 @@ impl Sneak {
         Sneak { blocks, places }
     }
 
-    /// What reaches a taxel along all such paths, where every taxel conducts in proportion to its force: over
-    /// each other row, the ways to that row side by side, and the taxel from there on behind them. Paths over
-    /// several rows are left out.
+    /// Contribution of all sneak paths to a taxel, if every taxel conducts in proportion to its force: for
+    /// each other row, the ways to that row in parallel, in series with the taxel from there to the column.
+    /// Paths over several rows are ignored.
     pub fn newtons(&self, taxel: usize, own: impl Fn(usize) -> f32) -> f32 {
         let place = self.places.get(taxel).copied().flatten();
         let Some((matrix, row, column)) =
@@ -48,7 +48,7 @@ impl Sneak {
             matrix.get(row).and_then(|taxels| taxels.get(column)).map_or(0.0, |taxel| own(*taxel))
         };
         let columns = matrix.first().map_or(0, Vec::len);
-        // Most of a row is not pressed, and nothing gets through what is not.
+        // Most of a row is not pressed, and unpressed taxels do not conduct.
         let along: Vec<(usize, f32)> = (0..columns)
             .filter(|c| *c != column)
             .map(|c| (c, at(row, c)))
@@ -64,7 +64,7 @@ impl Sneak {
     }
 }
 
-/// Two conductances one behind the other.
+/// Two conductances in series.
 fn series(a: f32, b: f32) -> f32 {
     if a > 0.0 && b > 0.0 { a * b / (a + b) } else { 0.0 }
 }

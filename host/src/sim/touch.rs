@@ -1,22 +1,22 @@
-//! One touch of a script: what touches where, how hard, when.
+//! One touch of a script: shape, place, force and time.
 
 use serde::{Deserialize, Serialize};
 
-/// One touch, possibly repeated: a footprint that appears, moves straight on and vanishes.
+/// One touch, possibly repeated: a footprint that appears, moves in a straight line and vanishes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Touch {
-    /// Name of the panel on which `at` lies; the touch may go on across its seams.
+    /// Name of the panel of `at`; the touch may continue across its seams.
     pub panel: String,
-    /// What touches.
+    /// Shape of the object.
     pub shape: Shape,
-    /// Force at its peak, N.
+    /// Peak force, N.
     pub force_n: f64,
     /// Centre at the start, `[x, y]` in taxels.
     pub at: Option<[f64; 2]>,
     /// Centre at the start, `[x, y]` in mm from the centre of the panel's first taxel.
     pub at_mm: Option<[f64; 2]>,
-    /// Size of the footprint, mm; the usual size of the shape by default.
+    /// Size of the footprint, mm; by default the shape's usual size.
     pub size_mm: Option<Size>,
     /// Direction of the footprint's length, degrees from +x towards +y.
     #[serde(default)]
@@ -32,17 +32,17 @@ pub struct Touch {
     /// Time from the peak to zero (half a cosine), s.
     #[serde(default = "edge_s")]
     pub fall_s: f64,
-    /// Parts of `force_n` that are reached one after the other, each in `rise_s` and held for `hold_s`:
+    /// Shares of `force_n` that are reached one after the other, each within `rise_s` and held for `hold_s`:
     /// weights that are put on and taken off again.
     #[serde(default = "whole")]
     pub levels: Vec<f64>,
     /// Velocity of the centre, `[vx, vy]` in taxels per second.
     #[serde(default)]
     pub velocity: [f64; 2],
-    /// How often the touch happens; each time it starts at the same place.
+    /// Number of touches; each starts at the same place.
     #[serde(default = "one_u32")]
     pub repeat: u32,
-    /// Time from one onset to the next, s; the length of the touch by default.
+    /// Time between two onsets, s; by default the length of the touch.
     pub period_s: Option<f64>,
 }
 
@@ -67,7 +67,7 @@ impl Touch {
         }
     }
 
-    /// Centre at the start in taxels of a panel of that pitch (mm).
+    /// Initial centre in taxels of a panel with this pitch (mm).
     pub fn centre(&self, pitch_mm: [f64; 2]) -> [f64; 2] {
         match (self.at, self.at_mm) {
             (Some(at), _) => at,
@@ -77,7 +77,7 @@ impl Touch {
     }
 }
 
-/// What touches: how the pressure is spread over the footprint.
+/// Shape of a touching object: distribution of pressure over the footprint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -87,7 +87,7 @@ pub enum Shape {
     Strap,
     /// Flat rectangle with edges 3 mm wide.
     Box,
-    /// Flat rectangle with sharp edges, as to calibrate with.
+    /// Flat rectangle with sharp edges, for calibration.
     Plate,
     /// Elliptic patch, pressure `sqrt(1 - r^2)` (Hertz); usually 16 mm.
     Finger,
@@ -100,7 +100,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Length and width where the script does not say, mm.
+    /// Usual length and width, mm.
     pub const fn usual_mm(self) -> [f64; 2] {
         match self {
             Shape::Palm => [100.0, 85.0],
@@ -118,7 +118,7 @@ impl Shape {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "must be a number or [length, width]")]
 pub enum Size {
-    /// The same in both directions, mm.
+    /// Equal in both directions, mm.
     Round(f64),
     /// Length and width, mm.
     Both([f64; 2]),

@@ -1,4 +1,4 @@
-//! Seeded variants of a scene: the same touch elsewhere, harder or softer, faster or slower; and controls.
+//! Seeded variants of a scene: other places, forces and speeds; and controls.
 
 use super::footprint::reach_mm;
 use super::pressure::pitch_mm;
@@ -7,10 +7,10 @@ use super::touch::Touch;
 use fastrand::Rng;
 use taxel_core::garment::{Area, Layout};
 
-/// A variant: each touch somewhere on its panel such that it stays on it, all panels exchanged by the same
-/// number of steps, all forces times one number and all durations times another, both uniform in 0.5 ..= 1.5.
-/// The seed also becomes the seed of the variant's noise. A script whose garment cannot be loaded keeps its
-/// places.
+/// A variant: each touch is moved to a random place of its panel at which it stays on the panel, all panels
+/// are exchanged by the same number of steps, all forces are scaled by one factor and all durations by
+/// another, both uniform in 0.5 ..= 1.5. The seed also becomes the seed of the noise. A script whose garment
+/// cannot be loaded keeps its places.
 pub fn vary(script: &Script, seed: u64) -> Script {
     let mut rng = Rng::with_seed(seed);
     let factor = |rng: &mut Rng| 0.5 + rng.f64();
@@ -31,7 +31,7 @@ pub fn vary(script: &Script, seed: u64) -> Script {
     variant
 }
 
-/// The same scene with all forces times `factor`: a control at 0.05 should mean nothing.
+/// The scene with all forces times `factor`: a control at 0.05 should have no meaning.
 pub fn scale_force(script: &Script, factor: f64) -> Script {
     let mut scaled = script.clone();
     for touch in &mut scaled.touches {
@@ -40,8 +40,8 @@ pub fn scale_force(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The same scene `factor` times as fast, from its first onset on (above 0): durations and times shrink,
-/// speeds grow.
+/// The scene `factor` (above 0) times as fast, from its first onset on: durations and times shrink, speeds
+/// grow.
 pub fn scale_rate(script: &Script, factor: f64) -> Script {
     let mut scaled = script.clone();
     let starts = script.touches.iter().map(|t| t.start_s).chain(script.joints.iter().map(|j| j.start_s));
@@ -66,8 +66,8 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The script on another garment. Touches on a panel that the garment lacks go to its largest panel: to the
-/// same place in parts of the panel's width and height, as large and as fast in mm as before.
+/// The script on another garment. Touches on a missing panel move to the largest panel, to the same relative
+/// place in width and height, with the same size and speed in mm.
 pub fn refit(script: &Script, layout: &Layout) -> Script {
     let mut fitted = script.clone();
     let (Some(old), Some(to)) = (layout_of(script), largest(layout)) else { return fitted };
@@ -76,7 +76,7 @@ pub fn refit(script: &Script, layout: &Layout) -> Script {
         let (old_mm, new_mm) = (pitch_mm(from), pitch_mm(to));
         let at = touch.centre(old_mm);
         let sizes = [(from.columns, to.columns), (from.rows, to.rows)];
-        // The panel reaches half a taxel beyond its first and its last centre.
+        // The panel extends half a taxel beyond its first and its last centre.
         let part = |axis: usize| (at[axis] + 0.5) / f64::from(sizes[axis].0);
         let place = |axis: usize| (part(axis) * f64::from(sizes[axis].1) - 0.5) * new_mm[axis];
         touch.panel = to.name.as_str().into();
@@ -86,7 +86,7 @@ pub fn refit(script: &Script, layout: &Layout) -> Script {
     fitted
 }
 
-/// Panels on which a script touches and that a garment lacks, each once.
+/// Panels used by a script but missing in a garment, each once.
 pub fn lacking(script: &Script, layout: &Layout) -> Vec<String> {
     let mut panels: Vec<String> = script.touches.iter().map(|touch| touch.panel.clone()).collect();
     panels.retain(|panel| !has(layout, panel));
@@ -99,7 +99,7 @@ fn has(layout: &Layout, panel: &str) -> bool {
     layout.areas().iter().any(|area| area.name == panel)
 }
 
-/// The panel of the largest surface; the first of equals.
+/// The panel with the largest surface; the first of equals.
 pub fn largest(layout: &Layout) -> Option<&Area> {
     let mm2 = |area: &Area| {
         let [x, y] = pitch_mm(area);
@@ -112,8 +112,8 @@ fn layout_of(script: &Script) -> Option<Layout> {
     Layout::build(&script.load_garment().ok()?, usize::from(u16::MAX), super::FULL_SCALE).ok()
 }
 
-/// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room that footprint and way leave, per axis.
-/// Where they leave none, it is centred.
+/// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room left by footprint and path, per axis.
+/// Without room it is centred.
 fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
     let pitch = pitch_mm(area);
     let reach = reach_mm(touch.shape, touch.size().map(|s| s / 2.0), touch.angle_deg);
@@ -123,7 +123,7 @@ fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
         at.iter_mut().zip(part).zip(counts).zip(reach).zip(pitch.into_iter().zip(touch.velocity))
     {
         let way = speed * touch.once_s();
-        // The panel reaches half a taxel beyond the first and the last centre.
+        // The panel extends half a taxel beyond the first and the last centre.
         let low = reach / pitch - 0.5 - way.min(0.0);
         let high = f64::from(count) - 0.5 - reach / pitch - way.max(0.0);
         *at = if low < high { low + part * (high - low) } else { (low + high) / 2.0 };
@@ -194,7 +194,7 @@ mod tests {
         assert!(script.touches.iter().all(|t| t.panel == "mat"));
         assert_eq!((lacking(&hands, &layout).len(), lacking(&script, &layout).len()), (2, 0));
         World::build(&script, &Garment::mat()).unwrap();
-        // The middle stays the middle, and what is fast in mm stays as fast.
+        // The middle stays the middle, and the speed in mm stays the same.
         let stroke = Script::parse(
             "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [7.5, 15.5]\nvelocity = [5, 6]\nstart_s = 0.2",
             "x.toml",

@@ -1,13 +1,13 @@
-//! What wiring and converter do to a signal: settling of the lines, sneak paths of a passive matrix, a
-//! converter whose codes are not equally wide.
+//! Effects of wiring and converter on a signal: settling of the lines, sneak paths of a passive matrix,
+//! unequal code widths of a converter.
 
 use super::decode::Decoder;
 use taxel_core::garment::Garment;
 
-/// The line to one converter input: a capacitance that is charged through the taxel under the present address.
+/// Line to one converter input: a capacitance charged through the taxel at the present address.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Line {
-    /// Signal after the last sample and what it was settling to, counts.
+    /// Signal at the last sample, and its final value, counts.
     held: f32,
     target: f32,
     sampled_ns: u64,
@@ -17,7 +17,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The signal at `t_ns` if the address changed at `changed_ns` to a taxel whose settled signal is `target`.
+    /// Signal at `t_ns` if the address changed at `changed_ns` to a taxel whose settled signal is `target`.
     pub fn settle(&mut self, target: f32, changed_ns: u64, t_ns: u64, tau_ns: f64) -> f32 {
         if self.changed_ns != Some(changed_ns) {
             self.changed_ns = Some(changed_ns);
@@ -36,7 +36,7 @@ fn approach(from: f32, to: f32, since_ns: u64, tau_ns: f64) -> f32 {
     to + (from - to) * (-(since_ns as f64) / tau_ns).exp() as f32
 }
 
-/// For each taxel, the other taxels on its wired row and on its wired column within the block.
+/// For each taxel, the other taxels on its wired row and column within the block.
 pub(super) fn mates(garment: &Garment, decoder: &Decoder, taxels: usize) -> Vec<Vec<u16>> {
     let mut mates = vec![Vec::new(); taxels];
     for block in &garment.blocks {
@@ -57,7 +57,7 @@ const WIDE: [f32; 4] = [512.0, 1536.0, 2560.0, 3584.0];
 /// Additional width of those codes, counts.
 const EXTRA: f32 = 8.0;
 
-/// The converter's transfer curve: an ideal signal to what it converts, 0 ..= 4095 counts both.
+/// Transfer curve of the converter, from and to 0 ..= 4095 counts.
 pub(super) fn uneven(signal: f32) -> f32 {
     // All codes together span the same range of voltages, so the others are a little narrower.
     let stretched = signal * ((4096.0 + EXTRA * WIDE.len() as f32) / 4096.0);

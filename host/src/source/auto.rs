@@ -1,4 +1,4 @@
-//! A real board: found by what it says on USB that it is, or heard on a probe's port; else a simulated one.
+//! Finds a real board by its USB id, or by listening on a probe's port; else simulates one.
 
 use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
@@ -11,28 +11,28 @@ use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Vendor and product that a board says it is on USB, and its name: the numbers are for tests
-/// (<https://pid.codes>), so others may have them, too.
+/// USB vendor, product and name of a board. The numbers are for tests (<https://pid.codes>), so other devices
+/// may have them, too.
 const BOARD: (u16, u16, &str) = (0x1209, 0x0001, "taxel");
-/// Vendors of probes that pass on a board's UART: Raspberry Pi, Adafruit. Bridges that sit in front of
-/// anything (FTDI, CP210x, CH34x) are not opened, because opening them restarts some boards.
+/// Vendors of probes that forward a board's UART: Raspberry Pi, Adafruit. General-purpose bridges (FTDI,
+/// CP210x, CH34x) are not opened, because opening them restarts some boards.
 const PROBES: [u16; 2] = [0x2e8a, 0x239a];
-/// How long a port is listened to, without a byte being sent.
+/// Time to listen on a port, without sending anything.
 const LISTEN: Duration = Duration::from_millis(1500);
 const BAUD: u32 = 921_600;
 
-/// Opens the first port on which a board is heard.
+/// Opens the first port on which a board is found.
 pub fn open(options: &SourceOptions) -> Result<Source> {
     let known = known(ports());
     let mut silent = Vec::new();
     for port in &known {
-        verbose::tell(format_args!("{} is listened to for a board", port.port_name));
+        verbose::tell(format_args!("listening for a board on {}", port.port_name));
         match Serial::open(&port.port_name, BAUD) {
             Ok(serial) => {
                 if let Some(serial) = listen(serial) {
                     return Ok(real(port, serial, BAUD));
                 }
-                silent.push(format!("{} says no Hello", port.port_name));
+                silent.push(format!("no Hello on {}", port.port_name));
             }
             Err(error) => silent.push(error.to_string()),
         }
@@ -46,7 +46,7 @@ pub fn open(options: &SourceOptions) -> Result<Source> {
     open_source(&simulation, options)
 }
 
-/// Opens the first board on USB whose port nobody else has open.
+/// Opens the first USB board whose port is not in use.
 pub fn usb() -> Result<Source> {
     let (mut boards, mut why) = (known(ports()), Vec::new());
     boards.retain(|port| usb_of(port).is_some_and(is_board));
@@ -59,17 +59,17 @@ pub fn usb() -> Result<Source> {
     let (vendor, product, name) = BOARD;
     match why.len() {
         0 => bail!(Fault::board(format!(
-            "no board on USB: no serial port says that it is {vendor:04x}:{product:04x} {name}"
+            "no board on USB: no serial port has the id {vendor:04x}:{product:04x} {name}"
         ))),
         _ => bail!(Fault::board(format!("no board on USB can be used: {}", why.join(", ")))),
     }
 }
 
-/// Opens a serial port by its name.
+/// Opens a serial port by name.
 pub fn port(path: &str, baud: u32) -> Result<Source> {
     let serial = Serial::open(path, baud)?;
-    // A name that leads to the port (`/dev/serial/by-id/...`) is none of those that are listed, and comes back
-    // by itself.
+    // A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and needs no search when the
+    // port comes back.
     let listed = ports().into_iter().find(|port| port.port_name == path);
     let port = listed.unwrap_or_else(|| SerialPortInfo {
         port_name: path.into(),
@@ -83,13 +83,13 @@ fn real(port: &SerialPortInfo, serial: Serial, baud: u32) -> Source {
     named(label(port), port.clone(), serial, baud)
 }
 
-/// A board on this port, called so until it comes back on another.
+/// A board on this port with this label, which changes if it comes back on another port.
 fn named(label: String, port: SerialPortInfo, serial: Serial, baud: u32) -> Source {
     Source::real(label, serial, move || returned(&port, ports(), baud))
 }
 
-/// Opens the port on which a board is that was unplugged: the one that says the same of itself, whatever it is
-/// called now, or the one of its name, where ports say nothing of themselves.
+/// Opens the port of an unplugged board: the port with the same USB description under any name, or the port
+/// with the same name if ports have no description.
 fn returned(lost: &SerialPortInfo, ports: Vec<SerialPortInfo>, baud: u32) -> Result<Source> {
     let found = match usb_of(lost) {
         Some(_) => back(lost, &ports).context("it is not plugged in")?,
@@ -104,7 +104,7 @@ fn returned(lost: &SerialPortInfo, ports: Vec<SerialPortInfo>, baud: u32) -> Res
     Ok(named(label, found.clone(), serial, baud))
 }
 
-/// The port of a device that was unplugged: with its number, where it has one; else the only one of its kind.
+/// Finds the port of an unplugged device: by its serial number if it has one, else the only port of its kind.
 fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a SerialPortInfo> {
     let known = usb_of(lost)?;
     let alike: Vec<_> = ports
@@ -121,19 +121,19 @@ fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a Se
     }
 }
 
-/// What may be behind a port.
+/// Kind of device behind a port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortKind {
-    /// It says that it is a board.
+    /// A board, by its USB id.
     Board,
-    /// A probe that may pass on a board's UART.
+    /// A probe that may forward a board's UART.
     Probe,
     /// Anything else.
     Other,
 }
 
 impl PortKind {
-    /// In a word.
+    /// The kind in words.
     pub fn word(self) -> &'static str {
         match self {
             PortKind::Board => "taxel board",
@@ -143,7 +143,7 @@ impl PortKind {
     }
 }
 
-/// The serial ports of this machine: name, what is behind it, and what it says of itself on USB.
+/// Serial ports of this machine: name, kind, and USB description.
 pub fn listed() -> Vec<(String, PortKind, String)> {
     let describe = |port: SerialPortInfo| {
         let Some(usb) = usb_of(&port) else { return (port.port_name, PortKind::Other, String::new()) };
@@ -161,15 +161,15 @@ pub fn listed() -> Vec<(String, PortKind, String)> {
 
 /// All serial ports of this machine.
 fn ports() -> Vec<SerialPortInfo> {
-    // Without this folder serialport panics.
+    // serialport panics without this folder.
     if cfg!(target_os = "linux") && !Path::new("/sys/class/tty").is_dir() {
         return Vec::new();
     }
-    // A system without serial ports may say so by an error.
+    // A system without serial ports may report an error.
     serialport::available_ports().unwrap_or_default()
 }
 
-/// The ports on which a board may be: first those that are one.
+/// Ports that may have a board, boards first.
 fn known(ports: Vec<SerialPortInfo>) -> Vec<SerialPortInfo> {
     let (boards, others): (Vec<_>, Vec<_>) =
         ports.into_iter().partition(|port| usb_of(port).is_some_and(is_board));
@@ -184,13 +184,13 @@ fn usb_of(port: &SerialPortInfo) -> Option<&UsbPortInfo> {
     }
 }
 
-/// A name that the system does not tell may be the right one.
+/// The name may be unknown to the system.
 fn is_board(usb: &UsbPortInfo) -> bool {
     let (vendor, product, name) = BOARD;
     (usb.vid, usb.pid) == (vendor, product) && usb.product.as_deref().is_none_or(|told| told.contains(name))
 }
 
-/// The port's name; what is on USB has no speed.
+/// Label of a port; a USB port has no speed.
 fn label(port: &SerialPortInfo) -> String {
     match usb_of(port).is_some_and(is_board) {
         true => format!("usb:{}", port.port_name),
@@ -198,8 +198,8 @@ fn label(port: &SerialPortInfo) -> String {
     }
 }
 
-/// The port, with what was heard, if a board speaks there: `Hello`, or whatever it still streams to somebody
-/// before.
+/// Returns the port, with the bytes heard, if a board sends on it: a `Hello`, or anything that it still
+/// streams to an earlier program.
 fn listen(mut serial: Serial) -> Option<Serial> {
     let begun = Instant::now();
     let (mut client, mut heard, mut buffer) = (Client::new(), Vec::new(), [0; 1024]);
@@ -241,7 +241,7 @@ mod tests {
         let other = with(board("ttyACM0"), "B2");
         assert_eq!(found(&lost, std::slice::from_ref(&other)), None, "another board has taken its name");
         assert_eq!(found(&lost, &[other, with(board("ttyACM3"), "A1")]).as_deref(), Some("ttyACM3"));
-        // Boards without a number: the only one, or the one of its name.
+        // Boards without a serial number: the only one, or the one with the same name.
         assert_eq!(found(&board("ttyACM0"), &[board("ttyACM1")]).as_deref(), Some("ttyACM1"));
         let two = [board("ttyACM1"), board("ttyACM0")];
         assert_eq!(found(&board("ttyACM0"), &two).as_deref(), Some("ttyACM0"));

@@ -11,11 +11,11 @@ use std::process::{Child, Command, Stdio};
 use std::time::SystemTime;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
-/// The program of the harness.
+/// File name of the harness.
 const PROGRAM: &str = "emulator.mjs";
-/// Where the image lies in cargo's target folder.
+/// Path of the image in cargo's target folder.
 const IMAGE: &str = "thumbv6m-none-eabi/release/taxel-firmware";
-/// Code of a pin where no taxel is wired.
+/// Code of an unwired pin.
 const IDLE: &str = "90";
 
 /// Starts the emulator and connects to its UART.
@@ -69,7 +69,7 @@ fn wiring(garment: &Garment) -> Result<Value> {
     wiring_json(garment, &layout, &circuit)
 }
 
-/// The folder of the harness: told by `TAXEL_EMULATOR`, or found upwards from here.
+/// Folder of the harness: `TAXEL_EMULATOR`, or found upwards from the working folder.
 fn harness() -> Result<PathBuf> {
     let folder = match std::env::var_os("TAXEL_EMULATOR").map(PathBuf::from) {
         Some(told) => {
@@ -77,14 +77,16 @@ fn harness() -> Result<PathBuf> {
                 if told.is_file() { told.parent().map(Path::to_path_buf) } else { Some(told.clone()) };
             folder
                 .filter(|folder| folder.join(PROGRAM).is_file())
-                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} holds no {PROGRAM}", told.display()))?
+                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} has no {PROGRAM}", told.display()))?
         }
         None => std::env::current_dir()?
             .ancestors()
             .map(|above| above.join("tests/emulator"))
             .find(|folder| folder.join(PROGRAM).is_file())
             .ok_or_else(|| {
-                anyhow!("there is no tests/emulator/{PROGRAM} here or above; TAXEL_EMULATOR may say where")
+                anyhow!(
+                    "there is no tests/emulator/{PROGRAM} here or above; set TAXEL_EMULATOR to its folder"
+                )
             })?,
     };
     if !folder.join("node_modules").is_dir() {
@@ -93,15 +95,19 @@ fn harness() -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// The newest image that was built: told by `TAXEL_FIRMWARE`, or where `cargo xtask firmware` leaves it.
+/// The newest firmware image: `TAXEL_FIRMWARE`, or where `cargo xtask firmware` writes it.
 fn image(harness: &Path) -> Result<PathBuf> {
     if let Some(told) = std::env::var_os("TAXEL_FIRMWARE").map(PathBuf::from) {
-        return if told.is_file() { Ok(told) } else { bail!("TAXEL_FIRMWARE={} is no file", told.display()) };
+        return if told.is_file() {
+            Ok(told)
+        } else {
+            bail!("TAXEL_FIRMWARE={} is not a file", told.display())
+        };
     }
     let told = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let repository = harness.ancestors().nth(2).map(|root| root.join("target"));
     let built = |path: &PathBuf| path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
-    // Each way of having a compiler has a folder of its own.
+    // Each toolchain has a folder of its own.
     let ways =
         told.into_iter().chain(repository).filter_map(|target| target.join("firmware").read_dir().ok());
     ways.flatten()
@@ -111,7 +117,7 @@ fn image(harness: &Path) -> Result<PathBuf> {
         .ok_or_else(|| anyhow!("there is no firmware image: build it with `cargo xtask firmware`"))
 }
 
-/// A folder that goes with its owner.
+/// A folder that is deleted with its owner.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -151,7 +157,7 @@ impl Emulator {
     }
 }
 
-/// The harness tells its port in its first line.
+/// Connects to the port that the harness prints in its first line.
 fn connect(child: &mut Child) -> Result<Tcp> {
     let mut out = BufReader::new(child.stdout.take().context("the emulator has no output")?);
     let mut line = String::new();
@@ -159,8 +165,8 @@ fn connect(child: &mut Child) -> Result<Tcp> {
     let told: Value =
         serde_json::from_str(&line).map_err(|_| anyhow!("the emulator ended before it began"))?;
     let port =
-        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator told no port but {}", line.trim()))?;
-    // What it says later is read, so that it never waits for a reader.
+        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator printed no port, but {}", line.trim()))?;
+    // Further output is drained, so that the emulator never blocks on it.
     std::thread::spawn(move || io::copy(&mut out, &mut io::sink()));
     Tcp::open(&format!("127.0.0.1:{port}"), CONNECT)
 }

@@ -27,7 +27,7 @@ impl Port for Saved {
         Ok((count > 0).then_some(count))
     }
 
-    /// Nobody listens.
+    /// Discards the bytes: a file has no reader.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         Ok(bytes.len())
     }

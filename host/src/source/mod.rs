@@ -1,5 +1,5 @@
-//! Where bytes come from and requests go: a simulated board, a board on USB, a serial port, TCP, the
-//! emulator, a file, a recording.
+//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, the emulator, a file, a
+//! recording.
 
 mod auto;
 mod emulator;
@@ -23,64 +23,64 @@ use anyhow::Result;
 use std::io;
 use std::time::Duration;
 
-/// Bytes both ways. What is written before the first read waits for it, so that a simulated board finds it. An
-/// error means that the link is broken.
+/// A byte stream in both directions. Bytes written before the first read are delivered before it, so that a
+/// simulated board finds them. An error means that the link is broken.
 pub trait Port: Send {
-    /// Bytes that have come, after a short wait if there are none (then 0); none: no more will come.
+    /// Reads available bytes, after a short wait if there are none (then 0); none at the end of the stream.
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
-    /// Sends as many of the bytes as the other end takes within a short while: how many; it may read slowly, or
-    /// not at all.
+    /// Writes as many bytes as the other end accepts within a short while, which may be 0. Returns their
+    /// number.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
-    /// What is to be said of it at the end.
+    /// A remark to print at the end.
     fn remark(&self) -> Option<String> {
         None
     }
 }
 
-/// What a source is to do beyond giving bytes.
+/// Options of a source.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct SourceOptions {
-    /// Seed of a simulation in place of its script's.
+    /// Seed of a simulation, instead of its script's.
     pub seed: Option<u64>,
     /// Pace simulations to real time.
     pub realtime: bool,
-    /// A simulation begins again when its script is over.
+    /// Repeat a simulation's script.
     pub repeat: bool,
-    /// Images that somebody waits for: a simulation lasts that long.
+    /// Images that are awaited; a simulation lasts that long.
     pub frames: Option<u64>,
-    /// Seconds of the board that somebody waits for.
+    /// Seconds of board time that are awaited.
     pub seconds: Option<f64>,
     /// A simulation sends raw codes with every frame.
     pub raw: bool,
-    /// A simulated board wears this garment, a preset or a TOML file, in place of that of its script.
+    /// Garment of a simulated board, a preset or a TOML file, instead of its script's.
     pub garment: Option<String>,
 }
 
-/// Opens a source again that was lost.
+/// Opens a lost source again.
 pub type Return = dyn FnMut() -> Result<Source> + Send;
 
 /// An open source.
 pub struct Source {
-    /// What it is, in a few words.
+    /// Short name.
     pub label: String,
-    /// Its bytes.
+    /// Byte stream.
     pub port: Box<dyn Port>,
-    /// Frames over which it should be tared at the start; 0: as it is.
+    /// Frames over which it should be tared at the start; 0 for no tare.
     pub tare: u16,
-    /// Its board lives in real time: its clock can be compared with the host's.
+    /// Its board runs in real time, so that its clock can be compared with the host's.
     pub real_time: bool,
-    /// Counts per newton on a taxel, where that is known.
+    /// Counts per newton on a taxel, if known.
     pub counts_per_newton: Option<f32>,
-    /// Its board wears the garment that was asked for already.
+    /// Its board already has the requested garment.
     pub wears_asked: bool,
-    /// There is a board that hears what is asked of it: nothing was recorded before.
+    /// It has a board that receives requests; false for recordings.
     pub listens: bool,
-    /// How it is opened again when it is lost; none: it ends for good.
+    /// Opens it again when it is lost; none if it ends for good.
     pub returns: Option<Box<Return>>,
 }
 
 impl Source {
-    /// Of something that ends by itself.
+    /// A source that ends by itself.
     pub fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
         Source {
             label: label.into(),
@@ -94,7 +94,7 @@ impl Source {
         }
     }
 
-    /// Of a real board, and how its link is opened again.
+    /// A real board, and how to open its link again.
     pub fn real(
         label: impl Into<String>,
         port: impl Port + 'static,
@@ -104,15 +104,15 @@ impl Source {
     }
 }
 
-/// Connects to a board within a time.
+/// Connects to a board within a time limit.
 fn tcp(address: &str, longest: Duration) -> Result<Source> {
     let known = address.to_string();
-    // A try to come back is short: who waits may want to do something else.
+    // Attempts to reconnect are short, so that the caller can do other things.
     let returns = move || tcp(&known, tcp::RETURN);
     Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address, longest)?, returns))
 }
 
-/// Opens a simulated board that plays a script of this name.
+/// Opens a simulated board that plays this script.
 pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
     let label = format!("sim:{}", script.name);
     sim::play(script, label, options)

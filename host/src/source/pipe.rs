@@ -1,5 +1,5 @@
-//! Two byte queues between the host and a board in another thread. The board waits for a slow reader, so that
-//! in a simulation nothing is thinned because of it.
+//! Two byte queues between the host and a board in another thread. The board blocks on a slow reader, so that
+//! a simulation thins out nothing because of it.
 
 use crate::shared::Shared;
 use std::collections::VecDeque;
@@ -7,9 +7,9 @@ use std::sync::Arc;
 use std::time::Duration;
 use taxel_core::run::Link;
 
-/// Bytes that wait for each end at most.
+/// Most bytes queued for each end.
 const ROOM: usize = 64 * 1024;
-/// How long a read of the host waits.
+/// Longest wait of a read by the host.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 #[derive(Debug, Default)]
@@ -22,7 +22,7 @@ struct Queues {
     board_gone: bool,
 }
 
-/// Both ends.
+/// Creates both ends.
 pub fn pipe() -> (HostEnd, BoardEnd) {
     let shared = Arc::new(Shared::default());
     (HostEnd(shared.clone()), BoardEnd(shared))
@@ -67,7 +67,7 @@ impl Drop for HostEnd {
 pub struct BoardEnd(Arc<Shared<Queues>>);
 
 impl BoardEnd {
-    /// Waits for the host's first read: whether it came.
+    /// Waits for the host's first read. Returns false if there will be none.
     pub fn begin(&self) -> bool {
         let mut queues = self.0.lock();
         while !queues.begun && !queues.host_gone {
@@ -76,12 +76,12 @@ impl BoardEnd {
         !queues.host_gone
     }
 
-    /// Nobody reads any more.
+    /// True if the host's end is closed.
     pub fn is_alone(&self) -> bool {
         self.0.lock().host_gone
     }
 
-    /// Lets time pass, unless nobody reads any more.
+    /// Sleeps, or returns early if the host's end is closed.
     pub fn sleep(&self, time: Duration) {
         let queues = self.0.lock();
         if !queues.host_gone {

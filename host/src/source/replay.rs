@@ -1,5 +1,4 @@
-//! A recording, played: the bytes that the board sent, when it sent them, faster, slower, or as fast as they
-//! can be read.
+//! Plays a recording: the board's bytes in their original timing, scaled, or as fast as possible.
 
 use super::{Port, Source, SourceOptions};
 use crate::progress::{Progress, Unit};
@@ -12,18 +11,18 @@ use std::path::Path;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-/// How long a read waits at most.
+/// Longest wait of a read.
 const PATIENCE: Duration = Duration::from_millis(10);
 
-/// How fast a recording is played.
+/// Speed of a replay.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// As it was where somebody watches, else as fast as it can be read: as a simulation.
+    /// As a simulation: at the recorded speed if somebody watches, else as fast as possible.
     #[default]
     AsAsked,
-    /// So many times as fast as it was.
+    /// Multiple of the recorded speed.
     Times(f64),
-    /// As fast as it can be read.
+    /// As fast as possible.
     Max,
 }
 
@@ -60,7 +59,7 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
     };
     let overview = Overview::of(path)?;
     if !overview.channels.iter().any(|info| info.channel.topic == WIRE) {
-        bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
+        bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
     }
     let scale = overview.counts_per_newton().map(|counts| counts as f32);
     let wire = WireReader::open(path)?;
@@ -79,15 +78,15 @@ struct Replay {
     speed: Option<f64>,
     /// When the first message was played, and its log time, ns.
     began: Option<(Instant, u64)>,
-    /// Bytes that wait, and when they are due.
+    /// Pending bytes, and when they are due.
     next: Vec<u8>,
     due: Option<Instant>,
-    /// None: what is played is seen.
+    /// None if the replay is displayed.
     progress: Option<Progress>,
 }
 
 impl Replay {
-    /// The bytes of the next message; false: there are no more.
+    /// Loads the bytes of the next message. Returns false at the end.
     fn fetch(&mut self) -> Result<bool> {
         if let Some(message) = self.wire.next_frame()? {
             let time = message.header.log_time;
@@ -137,7 +136,7 @@ impl Port for Replay {
         (!skipped.is_none()).then(|| skipped.to_string())
     }
 
-    /// Nobody listens.
+    /// Discards the bytes: a recording has no board.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         Ok(bytes.len())
     }

@@ -1,4 +1,4 @@
-//! Scenes as people write them: the one that ships, with what a script or a file says otherwise.
+//! Scene files: the shipped scene, with the values of a script or a file.
 
 use crate::fcm;
 use crate::sim::Script;
@@ -9,24 +9,24 @@ use std::fmt::Display;
 use std::path::Path;
 use taxel_core::scene::Scene;
 
-/// The shipped scene with the settings of a script's `[scene]` in their places.
+/// The shipped scene with the values of a script's `[scene]`.
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
     filled(said, Path::new("."))
         .map_err(|Wrong { key, why }| anyhow!("script {}: `scene.{key}`: {why}", script.name))
 }
 
-/// A scene's file, read.
+/// A scene's file and its contents.
 #[derive(Debug, Clone)]
 pub struct SceneFile {
-    /// The scene; what the file does not say is as in the shipped scene.
+    /// The scene; missing keys have the shipped scene's values.
     pub scene: Scene,
     name: String,
     text: String,
 }
 
 impl SceneFile {
-    /// Reads the file of a scene, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
+    /// Reads a scene's file, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
         crate::verbose::reads(path);
@@ -40,24 +40,24 @@ impl SceneFile {
         Ok(SceneFile { scene, name, text })
     }
 
-    /// An error about one of its keys, with its line.
+    /// Error about one of its keys, with its line.
     pub fn error(&self, key: &str, why: impl Display) -> Error {
         toml_key::error(&self.name, &self.text, key, why)
     }
 }
 
-/// Reads the file of a scene, see [`SceneFile::read`].
+/// Reads a scene's file, see [`SceneFile::read`].
 pub fn read_scene(path: &Path) -> Result<Scene> {
     Ok(SceneFile::read(path)?.scene)
 }
 
-/// What is wrong with what is said of a scene, and under which key.
+/// What is wrong with a scene's values, and under which key.
 struct Wrong {
     key: String,
     why: String,
 }
 
-/// The shipped scene with what is said in its place. `folder` is where the path of a map begins.
+/// Merges values into the shipped scene. Paths of maps are relative to `folder`.
 fn filled(mut said: Value, folder: &Path) -> Result<Scene, Wrong> {
     fcm::scene::resolve(&mut said, folder).map_err(|error| Wrong {
         key: "intent.map".into(),
@@ -66,15 +66,15 @@ fn filled(mut said: Value, folder: &Path) -> Result<Scene, Wrong> {
     scene_as(&said).map_err(|why| Wrong { key: key_of(&why, &said), why })
 }
 
-/// The scene, or what the reader says of it.
+/// Parses a scene, or returns the parser's message.
 fn scene_as(said: &Value) -> Result<Scene, String> {
-    // JSON in between: TOML has no 64-bit masks.
+    // Via JSON, because TOML has no 64-bit masks.
     let mut merged = serde_json::to_value(Scene::shipped()).map_err(|error| error.to_string())?;
     merge(&mut merged, said.clone());
     serde_json::from_value(merged).map_err(|error| words::cause(&error))
 }
 
-/// The path of the innermost value without which the reader no longer says this.
+/// Finds the path of the innermost value without which the parser no longer reports this message.
 fn key_of(why: &str, said: &Value) -> String {
     let is_missing = |why: &str| why.contains("is missing") || why.starts_with("missing field");
     let (mut path, mut pointer) = (String::new(), String::new());
@@ -89,7 +89,7 @@ fn key_of(why: &str, said: &Value) -> String {
         };
         let decides = |(step, _): &&(String, String)| match scene_as(&without(said, &pointer, step)) {
             Ok(_) => true,
-            // Where something is missing, something else that is missing as well tells nothing.
+            // If something is missing, another missing thing proves nothing.
             Err(other) => words_of(&other) != words_of(why) && !(is_missing(why) && is_missing(&other)),
         };
         let Some((step, name)) = children.iter().find(decides) else { break };
@@ -99,12 +99,12 @@ fn key_of(why: &str, said: &Value) -> String {
     path
 }
 
-/// A message without its numbers: a list of two values that has one tells the same of none.
+/// A message without its numbers: those of a list's length change as its values are left out.
 fn words_of(why: &str) -> String {
     why.chars().filter(|letter| !letter.is_ascii_digit()).collect()
 }
 
-/// What is said but for one value of the node at `pointer`.
+/// A copy of the values without one value of the node at `pointer`.
 fn without(said: &Value, pointer: &str, step: &str) -> Value {
     let mut rest = said.clone();
     let key = step.trim_start_matches('/');
@@ -116,7 +116,7 @@ fn without(said: &Value, pointer: &str, step: &str) -> Value {
     rest
 }
 
-/// Tables are merged, everything else is replaced.
+/// Merges tables; replaces everything else.
 fn merge(base: &mut Value, over: Value) {
     match (base, over) {
         (Value::Object(base), Value::Object(over)) => {
@@ -153,14 +153,8 @@ mod tests {
             "{error}"
         );
         let error = of("contact = { lo = 3 }").unwrap_err().to_string();
-        assert!(
-            error.starts_with("script a: `scene.contact.lo`: `lo` is no key that is known here"),
-            "{error}"
-        );
+        assert!(error.starts_with("script a: `scene.contact.lo`: `lo` is not a known key"), "{error}");
         let error = of("speed = 3").unwrap_err().to_string();
-        assert!(
-            error.starts_with("script a: `scene.speed`: `speed` is no key that is known here"),
-            "{error}"
-        );
+        assert!(error.starts_with("script a: `scene.speed`: `speed` is not a known key"), "{error}");
     }
 }

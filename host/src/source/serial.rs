@@ -7,20 +7,20 @@ use serialport::SerialPort;
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
 
-/// How long a read waits.
+/// Longest wait of a read.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 /// An open serial port.
 pub struct Serial {
     port: Box<dyn SerialPort>,
-    /// Bytes that were read before, while listening.
+    /// Bytes read while listening.
     heard: Vec<u8>,
 }
 
 impl Serial {
     /// Opens a port, 8N1.
     pub fn open(path: &str, baud: u32) -> Result<Serial> {
-        // DTR: a board on USB talks to a port that is open, and takes this line for it.
+        // DTR: a board on USB sends only while the port is open, which it detects by this line.
         let port =
             serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open().map_err(|error| {
                 let why = why(&error);
@@ -29,7 +29,7 @@ impl Serial {
         Ok(Serial { port, heard: Vec::new() })
     }
 
-    /// Gives bytes back, to be read again.
+    /// Returns bytes, to be read again.
     pub fn unread(&mut self, bytes: Vec<u8>) {
         self.heard.splice(0..0, bytes);
     }
@@ -40,10 +40,10 @@ fn why(error: &serialport::Error) -> String {
     match (error.kind(), error.description.as_str()) {
         (serialport::ErrorKind::NoDevice, _) => "another program has it open".into(),
         (serialport::ErrorKind::Io(ErrorKind::NotFound), _) => {
-            "there is no such port, `taxel ports` lists those that there are".into()
+            "there is no such port; `taxel ports` lists the ports".into()
         }
-        // What a system says of a file that is no terminal.
-        (_, "Not a typewriter" | "Inappropriate ioctl for device") => "it is no serial port".into(),
+        // The system's message about a file that is not a terminal.
+        (_, "Not a typewriter" | "Inappropriate ioctl for device") => "it is not a serial port".into(),
         (_, told) => told.to_lowercase(),
     }
 }
@@ -58,7 +58,7 @@ impl Port for Serial {
             return Ok(Some(count));
         }
         match self.port.read(buffer) {
-            // What could be read was the end: the other side has hung up.
+            // End of file: the other end has hung up.
             Ok(0) => Ok(None),
             Ok(count) => Ok(Some(count)),
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(Some(0)),

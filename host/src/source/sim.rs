@@ -1,4 +1,4 @@
-//! The simulated board as a source: the core's own loop in a thread, on virtual time.
+//! The simulated board as a source: runs the core's loop in a thread, on virtual time.
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
@@ -21,18 +21,18 @@ use taxel_store::{Found, Store, StoreError};
 const TAXELS: usize = 2048;
 const RUNS: usize = TAXELS / 2;
 const PARTS: usize = TAXELS / 4;
-/// The board lies in boxes, but is made on the stack.
+/// Boards are boxed, but built on the stack.
 const STACK: usize = 8 << 20;
-/// What a USB link carries, bytes per second.
+/// Capacity of a USB link, bytes per second.
 const LINK: u32 = 1_000_000;
-/// How far behind real time a simulation may be before it gives up to catch up.
+/// Lag behind real time beyond which a simulation gives up catching up.
 const LAG: Duration = Duration::from_millis(250);
 
-/// What is played, for how long.
+/// What to play, and for how long.
 struct Play {
     script: Script,
     garment: Garment,
-    /// What the board is used for when it starts.
+    /// Scene of the board at its start.
     scene: Scene,
     seed: u64,
     realtime: bool,
@@ -45,7 +45,7 @@ pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
     play(sim::load(scene)?, format!("sim:{scene}"), options)
 }
 
-/// A simulated board that plays a script.
+/// Starts a simulated board that plays a script.
 pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<Source> {
     let mut board_scene = scene_of(&script)?;
     let (script, garment) = match &options.garment {
@@ -72,7 +72,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     let (told, ready) = mpsc::channel();
     thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
         let made = play.board().map(Box::new);
-        // What is built here for the check is built again for each round.
+        // Built here for the check only; it is built again for each round.
         let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
         match made {
             Ok(mut board) => {
@@ -89,7 +89,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), wears_asked, ..Source::new(label, host) })
 }
 
-/// The script on another garment than its own, once that is checked. What had to be changed is said on stderr.
+/// The script on another garment, once checked. Changes are reported on standard error.
 fn fitted(
     script: Script,
     asked: &garments::Read,
@@ -121,10 +121,10 @@ fn fitted(
     Ok((script, garment))
 }
 
-/// The script's end, or later where somebody waits for more.
+/// End of the script, or later if more is awaited.
 fn end_us(duration_s: f64, options: &SourceOptions) -> u64 {
     let seconds = duration_s.max(options.seconds.unwrap_or(0.0));
-    // Whoever counts frames ends by himself; this is for scenes that send none.
+    // The caller stops at its number of frames; this limit is for scenes that send none.
     let frames = options.frames.map_or(0, |frames| 10_000_000 + frames.saturating_mul(100_000));
     ((seconds * 1e6) as u64).max(frames)
 }
@@ -141,14 +141,14 @@ fn info(garment: &Garment) -> BoardInfo {
 }
 
 impl Play {
-    /// The board as it is when its power comes.
+    /// A board as after power-up.
     fn board(&self) -> Result<Board<TAXELS, RUNS, PARTS>> {
         let mut board = Board::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
         board.booted(Boot::default());
         Ok(board)
     }
 
-    /// The board starts anew, with what is stored.
+    /// Restarts the board from its stored settings.
     fn restart(&self, board: &mut Board<TAXELS, RUNS, PARTS>, flash: &mut SimFlash) -> Result<()> {
         *board = self.board()?;
         let found = Store::new(flash, 0..SimFlash::BYTES)?.load(board)?;
@@ -157,12 +157,12 @@ impl Play {
         Ok(())
     }
 
-    /// One round of the script, or round after round, each on the board's time after the last.
+    /// Plays the script once, or round after round with the board's time running on.
     fn all(&self, board: &mut Board<TAXELS, RUNS, PARTS>, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
         let mut flash = SimFlash::default();
-        // The board is the same in every round: what it was built from has been checked.
+        // The inputs have been checked, so every round builds the same board.
         while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock } = simulated;
             let clock = Shifted { clock, offset_us };
@@ -179,7 +179,7 @@ impl Play {
             block_on(run(&mut scan, &mut ends, &mut platform, board));
             offset_us = clock.now().0;
             if platform.restarts && self.restart(board, &mut flash).is_ok() {
-                // Its time begins anew, and so does the script.
+                // Both its clock and the script restart.
                 offset_us = 0;
                 origin = Instant::now();
                 continue;
@@ -188,7 +188,7 @@ impl Play {
                 break;
             }
         }
-        // What the last frame said.
+        // Messages of the last frame.
         loop {
             let count = (&link).try_write(board.pending(Micros(offset_us), &mut ()));
             board.sent(count);
@@ -199,7 +199,7 @@ impl Play {
     }
 }
 
-/// The simulated clock, so much later.
+/// The simulated clock, shifted.
 #[derive(Debug, Clone)]
 struct Shifted {
     clock: SimClock,
@@ -212,16 +212,16 @@ impl Clock for Shifted {
     }
 }
 
-/// What the simulated board is besides its pins.
+/// The simulated board apart from its pins.
 struct Virtual<'a> {
     clock: Shifted,
     end: Micros,
     link: &'a BoardEnd,
-    /// Holds what is saved for as long as the simulation runs.
+    /// Keeps saved settings as long as the simulation runs.
     flash: &'a mut SimFlash,
-    /// The board is to start anew.
+    /// The board is to restart.
     restarts: bool,
-    /// When the board's time was 0, where it is not to run ahead.
+    /// Real time at which the board's time was 0; none if it may run ahead.
     origin: Option<&'a mut Instant>,
 }
 

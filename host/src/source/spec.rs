@@ -1,16 +1,16 @@
-//! The words for a source on the command line.
+//! Parses a source from the command line.
 
 use super::replay::Speed;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Speed of a serial port where none is given, Bd.
+/// Default speed of a serial port, Bd.
 const BAUD: u32 = 921_600;
-/// The script of touches that is played where none is given.
+/// Default script of touches.
 const SCENE: &str = "pat";
 
-/// Where the bytes come from.
+/// A source of a stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SourceSpec {
     /// A board on a port with a known USB id, else a simulation.
@@ -28,26 +28,26 @@ pub enum SourceSpec {
     },
     /// `HOST:PORT`
     Tcp(String),
-    /// The firmware image in the emulator, on which this script of touches is played.
+    /// The firmware image in the emulator, with this script of touches.
     Emulator(String),
-    /// Bytes that were saved.
+    /// Saved bytes.
     File(PathBuf),
     /// A recording.
     Replay {
         /// The file.
         path: PathBuf,
-        /// How fast.
+        /// Speed of the replay.
         speed: Speed,
     },
 }
 
 impl SourceSpec {
-    /// The simulation that is played where nothing is asked for.
+    /// The default simulation.
     pub fn simulation() -> SourceSpec {
         SourceSpec::Sim(SCENE.into())
     }
 
-    /// The file that it names, if it names one: no output may replace it.
+    /// Path of its file, if it has one, which no output may replace.
     pub fn file(&self) -> Option<PathBuf> {
         match self {
             SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Some(path.clone()),
@@ -92,7 +92,7 @@ fn serial(port: &str) -> Result<SourceSpec, String> {
     }
 }
 
-/// What stands behind the last `@` and is no speed belongs to the file's name.
+/// Text behind the last `@` that is not a speed belongs to the file name.
 fn replay(text: &str) -> SourceSpec {
     let (path, speed) = match text.rsplit_once('@').map(|(path, speed)| (path, speed.parse())) {
         Some((path, Ok(speed))) if !path.is_empty() => (path, speed),

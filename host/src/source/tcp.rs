@@ -7,9 +7,9 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::Duration;
 
-/// How long a read or a write waits.
+/// Longest wait of a read or write.
 const PATIENCE: Duration = Duration::from_millis(10);
-/// How long a connection may take at first, and how long when it was lost.
+/// Time limits for the first connection, and for a reconnection.
 pub const CONNECT: Duration = Duration::from_secs(5);
 pub const RETURN: Duration = Duration::from_secs(1);
 
@@ -17,12 +17,11 @@ pub const RETURN: Duration = Duration::from_secs(1);
 pub struct Tcp(TcpStream);
 
 impl Tcp {
-    /// Connects to `HOST:PORT`, within a time for each of its addresses.
+    /// Connects to `HOST:PORT`, with this time limit for each of its addresses.
     pub fn open(address: &str, longest: Duration) -> Result<Tcp> {
         let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
-        let unknown =
-            |_| Fault::board(format!("tcp:{address} cannot be reached: its name leads to no address"));
+        let unknown = |_| Fault::board(format!("tcp:{address} cannot be reached: its name has no address"));
         for target in address.to_socket_addrs().map_err(unknown)? {
             match TcpStream::connect_timeout(&target, longest) {
                 Ok(stream) => {

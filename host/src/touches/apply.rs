@@ -1,4 +1,4 @@
-//! Applying a model to recorded touches as the board does.
+//! Applies a model to recorded touches as the board does.
 
 use super::data::{Data, Touch};
 use crate::progress::{Progress, Unit};
@@ -6,35 +6,35 @@ use anyhow::{Result, bail};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{Decision, Model, TouchState, Touches};
 
-/// What a touch is taken for.
+/// A decision about a touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Taken {
     /// The class, in the numbering of the data.
     pub class: usize,
-    /// The share of such touches that are of it; none: the model does not know.
+    /// Share of right decisions among such touches; none if the model does not know.
     pub confidence: Option<f64>,
 }
 
-/// What a touch is taken for while it goes on, and at its end.
+/// Decisions during a touch and at its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Applied {
-    /// At its end.
+    /// Decision at its end.
     pub last: Taken,
-    /// Its frames.
+    /// Number of its frames.
     pub frames: usize,
-    /// After frames that were asked for and are no more than there are, by their number.
+    /// Decisions after the requested numbers of frames, as far as the touch lasts.
     pub early: Vec<(usize, Taken)>,
 }
 
 impl Applied {
-    /// After so many frames, or at the end of a shorter touch.
+    /// Decision after this many frames, or at the end of a shorter touch.
     pub fn after(&self, frames: usize) -> Taken {
         let found = self.early.binary_search_by_key(&frames, |(at, _)| *at);
         found.map_or(self.last, |place| self.early[place].1)
     }
 }
 
-/// Applies a model to touches, and asks it after as many frames as `times`, which ascend, say.
+/// Applies a model to touches, with a decision after each of `times` frames, in ascending order.
 pub fn apply(model: &Model<'_>, data: &Data, touches: &[&Touch], times: &[usize]) -> Result<Vec<Applied>> {
     let names: Vec<String> =
         (0..model.classes()).filter_map(|class| model.name(class)).map(|n| n.to_string()).collect();

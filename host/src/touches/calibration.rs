@@ -1,33 +1,33 @@
-//! How sure a decision is: the share of right ones by lead and age, fitted to predictions of touches that were
-//! kept apart.
+//! Confidence of decisions: the share of right ones by lead and age, fitted to predictions of left-out
+//! touches.
 
 use crate::learn::linear::{Square, back, forward};
 use taxel_core::gesture::LEADS;
 
-/// A decision about a touch that was kept apart.
+/// A decision about a left-out touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judged {
-    /// By how much the class scored more than the second.
+    /// Lead of the class over the second, in score.
     pub lead: f64,
-    /// Frames that were observed.
+    /// Frames observed.
     pub frames: usize,
-    /// It was right.
+    /// True if it was right.
     pub right: bool,
 }
 
-/// The logarithm of the odds as a function of the lead and of the logarithm of the age: constant, lead, age,
-/// lead times age.
+/// Logarithm of the odds as a function of the lead and of the logarithm of the age: constant, lead, age, lead
+/// times age.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calibration([f64; 4]);
 
-/// Draws the function towards even odds as that many touches would.
+/// Prior towards even odds, with the weight of this many touches.
 const PENALTY: f64 = 1.0;
 
-/// Steps of Newton's method; it settles within ten.
+/// Steps of Newton's method; it converges within ten.
 const STEPS: usize = 25;
 
 impl Calibration {
-    /// The function by which the decisions are likeliest.
+    /// Penalised maximum-likelihood fit to the decisions.
     pub fn fit(judged: &[Judged]) -> Calibration {
         let mut weights = [0.0; 4];
         for _ in 0..STEPS {
@@ -48,7 +48,7 @@ impl Calibration {
         Calibration(weights)
     }
 
-    /// The share of right ones at each of the leads of a row; it never falls with the lead.
+    /// Share of right decisions at each lead of a row; non-decreasing in the lead.
     pub fn row(&self, frames: usize) -> [f64; LEADS] {
         let mut row = std::array::from_fn(|knot| {
             logistic(dot(&self.0, &terms(knot as f64 * 2.0 / (LEADS - 1) as f64, frames)))
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn a_greater_lead_is_never_less_sure() {
-        // The greater the lead, the wronger: what came by chance must not be believed.
+        // Right decisions become rarer with the lead: such a random result must not be believed.
         let judged: Vec<Judged> =
             (0..100).map(|n| Judged { lead: f64::from(n) / 50.0, frames: 9, right: n < 30 }).collect();
         let row = Calibration::fit(&judged).row(9);

@@ -1,19 +1,19 @@
-//! Whether the confidence of decisions is what it says, and what it costs to wait for it.
+//! Reliability of the confidence of decisions, and the cost of waiting for it.
 
 use super::apply::{Applied, Taken};
 use serde_json::{Value, json};
 
-/// Bins of a table of reliability.
+/// Bins of the reliability table.
 const BINS: usize = 10;
 
-/// Certainties for which is told what it costs to wait for them.
+/// Confidences whose cost of waiting is reported.
 const CERTAINTIES: [f64; 7] = [0.0, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 
 /// A prediction: its confidence, and whether it was right.
 pub type Prediction = (f64, bool);
 
-/// The table of reliability: for each bin of confidence its predictions, their mean confidence and the share
-/// that was right; and the expected calibration error: how far these two are apart, on average over the
+/// Reliability table: for each bin of confidence the number of predictions, their mean confidence and the
+/// share of right ones. Also the expected calibration error: the mean difference of these two over the
 /// predictions.
 pub fn reliability(predictions: &[Prediction]) -> Value {
     let bin = |confidence: f64| ((confidence * BINS as f64) as usize).min(BINS - 1);
@@ -37,9 +37,9 @@ pub fn reliability(predictions: &[Prediction]) -> Value {
     json!({ "predictions": count, "expected_error": error / count.max(1) as f64, "bins": bins })
 }
 
-/// For each certainty: which share of touches is announced before the end, after how long (the median, in
-/// `unit`s, of which a frame is `frame`), and which shares are right of those announced and of all, where the
-/// rest are told at the end.
+/// For each confidence: the share of touches announced before their end, the median time until then (in
+/// `unit`s; a frame is `frame`), and the shares of right answers among those announced and among all, where
+/// the rest are decided at the end.
 pub fn waits(touches: &[(usize, Applied)], unit: &str, frame: f64) -> Value {
     let row = |certainty: f64| {
         let sure = |(_, taken): &&(usize, Taken)| taken.confidence.is_some_and(|sure| sure >= certainty);

@@ -1,4 +1,4 @@
-//! What `taxel gestures` and `taxel intent` have in common: training and evaluation of a model of touches.
+//! Training and evaluation of a model of touches, shared by `taxel gestures` and `taxel intent`.
 
 use super::compare::{Times, as_it_is, cross, example};
 use super::course::courses;
@@ -35,20 +35,20 @@ pub struct TrainArgs {
     /// File to write
     #[arg(short, long, value_name = "MODEL")]
     pub output: PathBuf,
-    /// Whether the output is replaced.
+    /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Force,
 }
 
 impl TrainArgs {
-    /// The model that is going to be written.
+    /// The output file of the model.
     pub fn output(&self) -> Result<Output> {
         let inputs = [Some(&self.files.frames), self.files.labels.as_ref()];
         Output::file(&self.output, self.force, inputs.into_iter().flatten())
     }
 }
 
-/// Arguments of `eval`, where `C` names what may be kept apart.
+/// Arguments of `eval`; `C` names the groups that may be left out.
 #[derive(Debug, Clone, Args)]
 pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
     /// What to recognise
@@ -68,14 +68,14 @@ pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
     pub json: bool,
 }
 
-/// What a command knows of its task.
+/// Task of a command.
 #[derive(Debug, Clone, Copy)]
 pub struct Task {
-    /// The model that is shipped.
+    /// The shipped model.
     pub shipped: Shipped,
-    /// How it was trained.
+    /// Its training settings.
     pub settings: Settings,
-    /// Among which settings `--nested` chooses.
+    /// Settings that `--nested` chooses from.
     pub candidates: fn() -> Vec<Settings>,
 }
 
@@ -102,7 +102,7 @@ impl Task {
         C: ValueEnum + Clone + Send + Sync + 'static,
     {
         if let (Some(model), Some(_)) = (&args.model, &args.cross) {
-            eprintln!("note: --cross trains anew on the files, {} is not asked", model.display());
+            eprintln!("note: --cross trains on the files; {} is not used", model.display());
         }
         let mut doubts = doubts(&data);
         let mut report = match (&args.cross, args.nested) {
@@ -120,8 +120,7 @@ impl Task {
         Ok(())
     }
 
-    /// Applies the model of a file, else the shipped one, as it is; adds to the doubts whether the touches fit
-    /// it.
+    /// Applies the model of a file, else the shipped one. Adds to the doubts if the touches do not fit it.
     fn apply(
         &self,
         mut data: Data,
@@ -137,7 +136,7 @@ impl Task {
         let mut report = as_it_is(&model, &data, times)?;
         if trained_on {
             eprintln!(
-                "warning: the model was trained on this file; how well it does on others is what --cross tells"
+                "warning: the model was trained on this file; use --cross for its accuracy on other touches"
             );
         }
         report.add("trained_on", trained_on.into());
@@ -146,17 +145,17 @@ impl Task {
     }
 }
 
-/// What speaks against conclusions from touches, in sentences.
+/// Reasons against conclusions from these touches, in sentences.
 fn doubts(data: &Data) -> Vec<String> {
     data.doubts.iter().cloned().chain(saturation(data)).collect()
 }
 
-/// Tells doubts.
+/// Prints warnings.
 fn tell(doubts: &[String]) {
     doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
 }
 
-/// Adds the classes that a model knows and the labels do not name; an error where they have none in common.
+/// Adds the model's classes that the labels do not name. Error if they have none in common.
 fn add_classes(data: &mut Data, model: &Model<'_>) -> Result<()> {
     let known = (0..model.classes()).filter_map(|class| model.name(class)).map(|name| name.to_string());
     let (own, more): (Vec<String>, Vec<String>) = known.partition(|name| data.classes.contains(name));
@@ -166,7 +165,7 @@ fn add_classes(data: &mut Data, model: &Model<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Settings that differ from `one` in what is chosen by trial.
+/// Settings that differ from `one` in the values chosen by trial.
 pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
     let mut all = Vec::new();
     for penalty in penalties {
@@ -177,7 +176,7 @@ pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings>
     all
 }
 
-/// The labels of recorded touches; the error says that they are missing.
+/// Path of the labels of recorded touches; error if it is missing.
 pub fn labels(files: &Files) -> Result<&Path> {
     let frames = files.frames.display();
     ensure!(

@@ -1,4 +1,4 @@
-//! Evaluation of a model as it is, and of the method on groups that were kept apart.
+//! Evaluates a model, or the method on left-out groups.
 
 use super::apply::{Applied, Taken, apply};
 use super::certainty::{Prediction, reliability, waits};
@@ -14,21 +14,21 @@ use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::gesture::{Features, Model};
 
-/// Touches observed for a time only.
+/// Observation times.
 #[derive(Debug, Clone)]
 pub struct Times {
-    /// What time is told in.
+    /// Unit of the times.
     pub unit: &'static str,
-    /// How long a frame is.
+    /// Duration of a frame in that unit.
     pub frame: f64,
-    /// Times, and how many frames each is; they ascend.
+    /// Times with their numbers of frames, ascending.
     pub steps: Vec<(f64, usize)>,
-    /// Frames from one decision to the next where is told what it costs to wait for certainty.
+    /// Frames between two decisions in the evaluation of waiting.
     pub every: usize,
 }
 
 impl Times {
-    /// The numbers of frames after which a touch of `longest` frames at most is decided upon.
+    /// Numbers of frames after which a touch of at most `longest` frames is decided.
     fn asked(&self, longest: usize) -> Vec<usize> {
         let steps = self.steps.iter().map(|(_, frames)| *frames);
         let mut asked: Vec<usize> = steps.chain((self.every..=longest).step_by(self.every.max(1))).collect();
@@ -38,11 +38,11 @@ impl Times {
     }
 }
 
-/// What was recognised, in the order of the touches, each with its class.
+/// Decisions in the order of the touches, each with the true class.
 #[derive(Debug, Clone, Default)]
 struct Found {
     touches: Vec<(usize, Applied)>,
-    /// What stretches in which nobody touches were taken for.
+    /// Decisions about periods without a touch.
     idle: Vec<usize>,
 }
 
@@ -63,12 +63,12 @@ impl Found {
         Ok(())
     }
 
-    /// What touches were taken for at their end.
+    /// Decisions at the end of the touches.
     fn last(&self) -> Vec<Outcome> {
         self.touches.iter().map(|(was, applied)| (*was, applied.last.class)).collect()
     }
 
-    /// What touches were taken for after so many frames, or at the end of a shorter one.
+    /// Decisions after this many frames, or at the end of shorter touches.
     fn after(&self, frames: usize) -> Vec<Outcome> {
         self.touches.iter().map(|(was, applied)| (*was, applied.after(frames).class)).collect()
     }
@@ -105,7 +105,7 @@ impl Found {
         report
     }
 
-    /// The decisions after each of the times that touches lasted, and at their ends, with their confidence.
+    /// Decisions at each observation time within a touch, and at its end, with their confidence.
     fn predictions(&self, times: &Times) -> Vec<Prediction> {
         let mut predictions = Vec::new();
         for (was, applied) in &self.touches {
@@ -119,8 +119,8 @@ impl Found {
         predictions
     }
 
-    /// The median time from which touches of a class that are recognised at their end are taken for it
-    /// without a break.
+    /// Median time from which touches of a class that are recognised at their end are recognised without a
+    /// break.
     fn onset(&self, class: usize, times: &Times) -> Option<f64> {
         let right = self.touches.iter().filter(|(was, applied)| (*was, applied.last.class) == (class, class));
         let since = right.map(|(_, applied)| {
@@ -134,18 +134,18 @@ impl Found {
     }
 }
 
-/// Applies a model as it is.
+/// Evaluates a model as it is.
 pub fn as_it_is(model: &Model<'_>, data: &Data, times: &Times) -> Result<Report> {
     let mut found = Found::default();
     found.add(model, data, |_| true, times)?;
     Ok(found.report(data, times))
 }
 
-/// Trains on all groups but one and applies to that one, for each; beside it nearest neighbours and a
-/// cognitive map, which know the same features.
+/// Leave-one-group-out: trains on all other groups and applies to each group in turn. For comparison also
+/// nearest neighbours and a cognitive map, on the same features.
 pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> {
     let groups = data.groups();
-    ensure!(groups.len() >= 2, "there is one group only: nothing can be kept apart");
+    ensure!(groups.len() >= 2, "there is only one group: it cannot be left out");
     let courses = courses(data, settings);
     let (mut found, mut by_group) = (Found::default(), serde_json::Map::new());
     let (mut near, mut map) = (Vec::new(), Vec::new());
@@ -175,14 +175,14 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
     Ok(report)
 }
 
-/// A touch and what is learnt of it.
+/// A touch with its training data.
 pub(super) fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
     Example { course, class: touch.class, group: &touch.group }
 }
 
-/// Trains on the touches of the groups that are known and applies to those of another group as a whole. For
-/// these the last expert speaks, which alone is trained; and one group alone spares the search for what is not
-/// asked here, hand-over and confidence.
+/// Trains on the touches of the known groups and applies to those of another group as a whole. These are
+/// decided by the last expert, so only this one is trained, and all examples count as one group, which skips
+/// the fit of hand-over and confidence.
 pub(super) fn apart(
     data: &Data,
     courses: &[Course],

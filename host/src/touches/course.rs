@@ -1,5 +1,4 @@
-//! What is learnt of a touch: features of the whole, of parts of it, of its mirror images, and of its
-//! beginnings.
+//! Training data of a touch: features of the whole, of its parts, of its mirror images and of its beginnings.
 
 use super::data::{Data, Touch};
 use super::model::{EARLY, Settings};
@@ -7,26 +6,26 @@ use super::windows::{Windows, ladder};
 use crate::progress::{Progress, Unit};
 use taxel_core::gesture::{Cells, Features, SIDE, Sheet, TouchState};
 
-/// Fewest frames of a half.
+/// Least number of frames of a half.
 const LEAST: usize = 3;
 
-/// What is learnt of a touch.
+/// Training data of a touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Course {
-    /// The whole touch.
+    /// Features of the whole touch.
     pub whole: Features,
-    /// Its halves and its mirror images, where these are learnt.
+    /// Features of its halves and mirror images, if these are used.
     pub more: Vec<Features>,
-    /// What each expert for early touches learns of it.
+    /// Training features for each early expert.
     pub early: [Vec<Features>; EARLY],
-    /// Its frames.
+    /// Number of frames.
     pub frames: usize,
-    /// Its beginnings, by their frames: each 1.41 times as long as the one before.
+    /// Features of its beginnings, by frames: each 1.41 times as long as the one before.
     pub beginnings: Vec<(usize, Features)>,
 }
 
 impl Course {
-    /// Of a touch.
+    /// Training data of this touch.
     pub fn of(data: &Data, touch: &Touch, settings: &Settings) -> Course {
         let sheet = Sheet::new(data.rows, data.columns);
         let cells: Vec<Cells> = data.frames(touch).map(|frame| sheet.cells(frame)).collect();
@@ -49,7 +48,7 @@ impl Course {
     }
 }
 
-/// What is learnt of each touch.
+/// Training data of all touches.
 pub fn courses(data: &Data, settings: &Settings) -> Vec<Course> {
     let count = data.touches.len() as u64;
     let mut progress = Progress::of("finding features", Unit::Steps("touches"), Some(count));
@@ -60,17 +59,17 @@ pub fn courses(data: &Data, settings: &Settings) -> Vec<Course> {
     (0..).zip(&data.touches).map(course).collect()
 }
 
-/// The features of the windows of a touch.
+/// Features of the windows of a touch.
 fn cut(cells: &[Cells], windows: &Windows, settings: &Settings) -> Vec<Features> {
     let lengths = windows.lengths();
     let from = |start: usize| growing(&cells[start..], &lengths, settings.pressed);
     windows.starts(cells.len()).into_iter().flat_map(from).collect()
 }
 
-/// Which cell is seen at a place.
+/// Maps a place of the mirror image to the original cell.
 type Mirror = fn(usize, usize) -> (usize, usize);
 
-/// The mirror images of a touch: by columns, by rows, by both.
+/// Mirror images of a touch: by columns, by rows, by both.
 fn mirrored(cells: &[Cells]) -> Vec<Vec<Cells>> {
     let images: [Mirror; 3] =
         [|x, y| (SIDE - 1 - x, y), |x, y| (x, SIDE - 1 - y), |x, y| (SIDE - 1 - x, SIDE - 1 - y)];
@@ -89,7 +88,7 @@ fn features(cells: &[Cells], pressed: u16) -> Features {
     state.features()
 }
 
-/// The features after as many frames as `lengths`, which ascend, say, as far as there are frames.
+/// Features after each of `lengths` frames, in ascending order, as far as there are frames.
 fn growing(cells: &[Cells], lengths: &[usize], pressed: u16) -> Vec<Features> {
     let mut state = TouchState::new();
     let mut grown = Vec::new();

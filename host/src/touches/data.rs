@@ -1,23 +1,23 @@
-//! Labelled touches and where they come from.
+//! Labelled touches and their files.
 
 use crate::learn::fingerprint::Fingerprint;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// A file that was learnt from.
+/// A file of training data.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
-    /// Its name without folders.
+    /// Name without folders.
     pub file: String,
-    /// Its length.
+    /// Size.
     pub bytes: usize,
     /// FNV-1a of its bytes, 64 bits in hexadecimal.
     pub fnv1a: String,
 }
 
 impl Source {
-    /// Reads a file for its hash.
+    /// Reads a file and hashes it.
     pub fn of(path: &Path) -> Result<Source> {
         let Fingerprint { bytes, fnv1a } = Fingerprint::of(path)?;
         let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -28,17 +28,17 @@ impl Source {
 /// A touch from its first frame to its last.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Touch {
-    /// Frames after frames.
+    /// Frames, one after the other.
     pub values: Vec<u16>,
-    /// Its class, of [`Data::classes`].
+    /// Index of the class in [`Data::classes`].
     pub class: usize,
-    /// What it is called in its recording.
+    /// Label in its recording.
     pub label: String,
-    /// Whose it is, or of which recording or day: what is kept apart in cross-validation.
+    /// Group that is left out together in cross-validation: person, recording or day.
     pub group: String,
 }
 
-/// Touches of one kind of sheet.
+/// Touches on sheets of one size.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Data {
     /// Rows of a frame.
@@ -49,21 +49,21 @@ pub struct Data {
     pub classes: Vec<String>,
     /// The touches.
     pub touches: Vec<Touch>,
-    /// Stretches in which nobody touches; their class means nothing.
+    /// Periods without a touch; their class is unused.
     pub idle: Vec<Touch>,
-    /// What speaks against the recordings, in sentences.
+    /// Warnings about the recordings.
     pub doubts: Vec<String>,
     /// The files.
     pub sources: Vec<Source>,
 }
 
 impl Data {
-    /// The frames of a touch.
+    /// Frames of a touch.
     pub fn frames<'a>(&self, touch: &'a Touch) -> std::slice::ChunksExact<'a, u16> {
         touch.values.chunks_exact(usize::from(self.rows) * usize::from(self.columns))
     }
 
-    /// What is kept apart, in order.
+    /// Groups, sorted.
     pub fn groups(&self) -> Vec<String> {
         let mut groups: Vec<String> = self.touches.iter().map(|touch| touch.group.clone()).collect();
         groups.sort();

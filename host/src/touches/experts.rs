@@ -1,8 +1,6 @@
-//! Training the experts of a model: each on touches of its age, where one hands over to the next, and how sure
-//! they are.
+//! Trains the experts of a model, each on touches of its age, the ages of hand-over, and the confidence.
 //!
-//! Hand-over and confidence are learnt from decisions about groups that were kept apart within what is trained
-//! on.
+//! Hand-over and confidence are fitted to decisions about groups left out of the training data.
 
 use super::calibration::{Calibration, Judged};
 use super::course::Course;
@@ -11,35 +9,35 @@ use super::ridge::Ridge;
 use std::ops::Range;
 use taxel_core::gesture::{Features, LEADS};
 
-/// A touch to learn from.
+/// A training example.
 #[derive(Debug, Clone, Copy)]
 pub struct Example<'a> {
-    /// What is learnt of it.
+    /// Training data of the touch.
     pub course: &'a Course,
     /// Its class.
     pub class: usize,
-    /// What is kept apart together with it.
+    /// Group that is left out together.
     pub group: &'a str,
 }
 
-/// An expert before it is written.
+/// A trained expert.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trained {
-    /// The age from which it speaks, frames.
+    /// First age at which it decides, frames.
     pub from: usize,
-    /// Its planes.
+    /// Linear classifier.
     pub ridge: Ridge,
-    /// From which age on, the confidence at each lead.
+    /// Confidence at each lead, by first age.
     pub rows: Vec<(usize, [f64; LEADS])>,
 }
 
-/// Most parts into which groups are put to be kept apart.
+/// Most folds of groups.
 const PARTS: usize = 7;
 
-/// Fewest decisions from which a confidence is learnt.
+/// Least number of decisions for a fit of the confidence.
 const FEWEST: usize = 50;
 
-/// Trains the experts, by age.
+/// Trains the experts, ordered by age.
 pub fn train_experts(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Trained> {
     let trials = trials(examples, classes, settings);
     let ridges = fit(examples, classes, settings);
@@ -53,15 +51,15 @@ pub fn train_experts(examples: &[Example<'_>], classes: usize, settings: &Settin
     each.collect()
 }
 
-/// A decision of every expert about a touch that was kept apart, after some frames.
+/// Decisions of all experts about a left-out touch after some frames.
 struct Trial {
     frames: usize,
     over: bool,
-    /// For each expert whether it was right, and its lead.
+    /// For each expert: right or wrong, and lead.
     decided: Vec<(bool, f64)>,
 }
 
-/// Decisions about the examples of each part by experts that learnt from the others; none of one group alone.
+/// Decisions about each fold by experts trained on the others; none for a single group.
 fn trials(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Trial> {
     let mut groups: Vec<&str> = examples.iter().map(|example| example.group).collect();
     groups.sort();
@@ -88,7 +86,7 @@ fn trials(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<
     trials
 }
 
-/// The planes of each expert, by age.
+/// Classifier of each expert, by age.
 fn fit(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Ridge> {
     let learn = |of: &dyn Fn(&Course) -> Vec<Features>| {
         let windows: Vec<(Features, usize)> = examples
@@ -106,14 +104,14 @@ fn fit(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Rid
     ridges
 }
 
-/// Whether planes take the features for that class, and by how much they prefer one.
+/// True if a classifier decides for this class, and its lead.
 fn judge(ridge: &Ridge, features: &Features, class: usize) -> (bool, f64) {
     let mut scores: Vec<(f64, usize)> = ridge.scores(features).into_iter().zip(0..).collect();
     scores.sort_by(|a, b| b.0.total_cmp(&a.0));
     (scores[0].1 == class, scores[0].0 - scores[1].0)
 }
 
-/// The ages of beginnings that were tried.
+/// Ages of the beginnings in the trials.
 fn ages(trials: &[Trial]) -> Vec<usize> {
     let mut ages: Vec<usize> = trials.iter().filter(|trial| !trial.over).map(|trial| trial.frames).collect();
     ages.sort_unstable();
@@ -121,7 +119,7 @@ fn ages(trials: &[Trial]) -> Vec<usize> {
     ages
 }
 
-/// The age from which each expert speaks: the ages by which the most beginnings are recognised.
+/// First age of each expert: the ages with the most right decisions.
 fn handovers(trials: &[Trial], ages: &[usize], experts: usize) -> Vec<usize> {
     let right: Vec<Vec<usize>> = (0..experts)
         .map(|expert| {
@@ -132,7 +130,7 @@ fn handovers(trials: &[Trial], ages: &[usize], experts: usize) -> Vec<usize> {
         })
         .collect();
     let (_, starts) = best(&right, 0);
-    // Where touches are too short for all experts, the later ones speak of ages that were not seen.
+    // If touches are too short for all experts, the later ones start beyond the ages seen.
     let beyond = |start: usize| ages.last().map_or(0, |last| last + 1 + start - ages.len());
     let from = starts.into_iter().map(|start| ages.get(start).copied().unwrap_or_else(|| beyond(start)));
     let mut from: Vec<usize> = from.collect();
@@ -140,8 +138,8 @@ fn handovers(trials: &[Trial], ages: &[usize], experts: usize) -> Vec<usize> {
     from
 }
 
-/// How many are recognised at most from the age number `start` on, where the first of the experts begins there,
-/// and with which beginnings. Each has one age at least, as far as they reach.
+/// Most right decisions from the age with index `start` on, if the first expert starts there, and the starts
+/// of all experts. Each expert has at least one age, as far as there are enough.
 fn best(right: &[Vec<usize>], start: usize) -> (usize, Vec<usize>) {
     let own = &right[0][start.min(right[0].len())..];
     if right.len() == 1 {
@@ -163,7 +161,7 @@ fn best(right: &[Vec<usize>], start: usize) -> (usize, Vec<usize>) {
     chosen
 }
 
-/// The ages where nothing was kept apart: each expert from the shortest of its windows on, the last after all
+/// Ages without left-out groups: each expert from the shortest of its windows on, the last one after all
 /// others'.
 fn assumed(settings: &Settings) -> Vec<usize> {
     let early: Vec<_> = settings.early.iter().flatten().collect();
@@ -173,7 +171,7 @@ fn assumed(settings: &Settings) -> Vec<usize> {
     from
 }
 
-/// The rows of confidence of an expert that speaks in a `span` of ages; none where too little was kept apart.
+/// Confidence rows of an expert for a `span` of ages; none if there are too few decisions.
 fn confidence(
     trials: &[Trial],
     ages: &[usize],
@@ -207,7 +205,7 @@ mod tests {
         let right = [vec![9, 8, 7, 6, 5], vec![1, 2, 8, 9, 6], vec![0, 0, 0, 9, 9]];
         assert_eq!(best(&right, 0), (9 + 8 + 8 + 9 + 9, vec![0, 2, 3]));
         assert_eq!(best(&right[..1], 0), (35, vec![0]));
-        // One age for each, as far as they reach.
+        // One age for each, as far as there are enough.
         assert_eq!(best(&[vec![1], vec![1], vec![1]], 0).1, [0, 1, 2]);
     }
 }

@@ -1,23 +1,23 @@
-//! A trained model as the bytes that a board reads.
+//! Encodes a trained model for the board.
 
 use super::experts::Trained;
 use anyhow::{Context, Result, ensure};
 use taxel_core::gesture::{MAGIC, Model, checksum};
 
-/// What a model has beside its experts.
+/// Parts of a model besides its experts.
 #[derive(Debug, Clone, Copy)]
 pub struct Head<'a> {
     /// Names of the classes.
     pub names: &'a [String],
-    /// A cell above this counts as touched.
+    /// Value above which a cell counts as touched.
     pub pressed: u16,
-    /// The last expert tells what a touch was, whatever its age.
+    /// True if the last expert decides at the end of a touch, whatever its age.
     pub concludes: bool,
-    /// The provenance as JSON.
+    /// Provenance as JSON.
     pub notes: &'a str,
 }
 
-/// The bytes of a model; the layout is that of [`Model`].
+/// Encodes a model in the layout of [`Model`].
 pub fn export(experts: &[Trained], head: Head<'_>) -> Result<Vec<u8>> {
     let mut bytes = MAGIC.to_vec();
     bytes.extend(u32::try_from(head.notes.len())?.to_le_bytes());
@@ -38,7 +38,7 @@ pub fn export(experts: &[Trained], head: Head<'_>) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Adds the bytes of an expert.
+/// Appends an expert.
 fn add(bytes: &mut Vec<u8>, expert: &Trained) -> Result<()> {
     let Trained { from, ridge, rows } = expert;
     let count = ridge.middle.len();

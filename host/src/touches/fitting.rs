@@ -1,15 +1,13 @@
-//! What speaks against conclusions from labelled touches: force that saturates in several classes, units of
-//! another sheet.
+//! Warnings about labelled touches: forces that saturate in several classes, and units of another sheet.
 
 use super::data::{Data, Touch};
 use crate::doubts::top;
 use taxel_core::gesture::{Model, Sheet, TouchState};
 
-/// The feature by which levels are compared: the mean over the frames of the total, log2 in Q8.
+/// Feature used to compare levels: the mean over the frames of the total, log2 in Q8.
 const LEVEL: usize = 0;
 
-/// The sentence on classes of which most touches reach the value at which values stop; none where at most one
-/// does.
+/// Warning about classes of which most touches saturate; none if there is at most one such class.
 pub fn saturation(data: &Data) -> Option<String> {
     let top = top(data.touches.iter().flat_map(|touch| touch.values.iter().copied()))?;
     let classes = data.classes.iter().enumerate().filter_map(|(class, name)| {
@@ -21,11 +19,11 @@ pub fn saturation(data: &Data) -> Option<String> {
     let classes: Vec<String> = classes.collect();
     let which = classes.join(", ");
     (classes.len() > 1).then(|| {
-        format!("saturation: values stop at {top} in {which}: how hard these press tells them apart no more")
+        format!("saturation: values stop at {top} in {which}: force no longer tells these classes apart")
     })
 }
 
-/// The sentence on touches whose levels are far from those that a model was trained on; none where they fit.
+/// Warning about touches whose levels are far from those of the training; none if they fit.
 pub fn units(data: &Data, model: &Model<'_>) -> Option<String> {
     let (middle, deviation) = model.experts().last()?.known(LEVEL)?;
     let sheet = Sheet::new(data.rows, data.columns);
@@ -48,7 +46,7 @@ mod tests {
     use super::*;
     use taxel_core::gesture::Shipped;
 
-    /// Touches of two classes whose taxels have these values, frame after frame.
+    /// Touches of two classes with these values in all taxels and frames.
     fn data(first: u16, second: u16) -> Data {
         let touch = |class: usize, most: u16| Touch {
             values: (0..64 * 20u32).map(|i| ((i * 7919 % 701) as u16).min(most)).collect(),
@@ -84,7 +82,7 @@ mod tests {
     fn another_unit_is_told() {
         let model = Model::read(Shipped::Gestures.bytes()).unwrap();
         let (middle, _) = model.experts().last().unwrap().known(LEVEL).unwrap();
-        // A sheet whose total is that of the training.
+        // A sheet with the total of the training.
         let cell = (2f64.powf(f64::from(middle) / 256.0) / 64.0).round() as u16;
         let even = |times: u16| {
             let mut data = data(0, 0);

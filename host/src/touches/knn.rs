@@ -1,13 +1,13 @@
-//! The nearest touches vote: what a model is compared with.
+//! Nearest neighbours, for comparison with a model.
 
 use super::ridge::standard;
 use taxel_core::gesture::{FEATURES, Features};
 
-/// Neighbours that vote.
+/// Number of voting neighbours.
 const VOTERS: usize = 5;
 
-/// The class of each of the `asked` by its nearest `examples`, in standardised features; of equal votes that
-/// of the nearest.
+/// Class of each of the `asked` by a vote of its nearest `examples`, in standardised features; ties go to the
+/// class of the nearest.
 pub fn nearest(examples: &[(&Features, usize)], classes: usize, asked: &[&Features]) -> Vec<usize> {
     let (_, deviation) = standard(examples);
     let distance = |a: &Features, b: &Features| -> f64 {

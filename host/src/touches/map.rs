@@ -1,22 +1,22 @@
-//! A fuzzy cognitive map of features and classes: what a model is compared with.
+//! A fuzzy cognitive map of features and classes, for comparison with a model.
 //!
-//! Each of the features that tell the classes apart best is a concept fed with its membership in "much", each
-//! class a concept that they all feed; one step of the map activates the classes. The weights, in [-1, 1],
-//! are learnt by descent.
+//! Each of the most discriminating features is a concept with its membership in "much"; each class is a
+//! concept caused by all of them; one step of the map activates the classes. The weights, in [-1, 1], are
+//! learnt by gradient descent.
 
 use super::ridge::standard;
 use taxel_core::gesture::{FEATURES, Features};
 
-/// Features that are concepts: with eight classes and the bias, a board's map has room.
+/// Number of features used: with eight classes and the bias they fit a board's map.
 const CONCEPTS: usize = 48;
 
-/// Steps of descent.
+/// Steps of gradient descent.
 const STEPS: usize = 400;
 
 /// Steepness of the sigmoid.
 const LAMBDA: f64 = 2.5;
 
-/// The class of each of the `asked` by a map learnt from `examples`.
+/// Class of each of the `asked` by a map learnt from `examples`.
 pub fn mapped(examples: &[(&Features, usize)], classes: usize, asked: &[&Features]) -> Vec<usize> {
     let (middle, deviation) = standard(examples);
     let chosen = telling(examples, classes, &middle, &deviation);
@@ -42,7 +42,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The weights that feed one class.
+/// Weights towards one class.
 fn learn(rows: &[(Vec<f64>, usize)], class: usize) -> Vec<f64> {
     let mut weights = vec![0.0; rows.first().map_or(0, |(row, _)| row.len())];
     for step in 0..STEPS {
@@ -58,7 +58,7 @@ fn learn(rows: &[(Vec<f64>, usize)], class: usize) -> Vec<f64> {
     weights
 }
 
-/// The features whose class means differ most, measured by their deviation.
+/// Features whose class means differ most relative to their deviation.
 fn telling(examples: &[(&Features, usize)], classes: usize, middle: &[f64], deviation: &[f64]) -> Vec<usize> {
     let mut counts = vec![0usize; classes];
     examples.iter().for_each(|(_, class)| counts[*class] += 1);

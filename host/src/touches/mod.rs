@@ -1,5 +1,4 @@
-//! Learning from recorded touches: examples, a model that fits the board, what it is compared with, and the
-//! report.
+//! Learning from recorded touches: examples, a model for the board, methods for comparison, and the report.
 
 mod apply;
 mod calibration;
@@ -33,5 +32,5 @@ pub use ridge::Ridge;
 pub use table::Table;
 pub use windows::Windows;
 
-/// Cards of the models that ship.
+/// Cards of the shipped models.
 pub const CARDS: &str = include_str!("../../../docs/models.md");

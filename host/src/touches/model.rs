@@ -1,4 +1,4 @@
-//! Training a model of touches.
+//! Trains a model of touches.
 
 use super::data::{Data, Source};
 use super::experts::{Example, train_experts};
@@ -10,59 +10,59 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::gesture::{EXPERTS, Model};
 
-/// Most experts beside the one that learns from whole touches.
+/// Most experts besides the one trained on whole touches.
 pub const EARLY: usize = EXPERTS - 1;
 
-/// How a model is trained; a task's own, chosen by cross-validation.
+/// Training settings, specific to a task and chosen by cross-validation.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// A cell above this counts as touched.
+    /// Value above which a cell counts as touched.
     pub pressed: u16,
     /// Also train on each half of a touch.
     pub halves: bool,
-    /// Draws weights towards 0.
+    /// Ridge penalty.
     pub penalty: f64,
-    /// 1: every class counts alike, 0: every example.
+    /// Balance: at 1 every class has the same weight, at 0 every example.
     pub balance: f64,
-    /// Whether is learnt from the mirror images of a touch, too.
+    /// Also train on the mirror images of a touch.
     pub mirrored: bool,
-    /// What the experts for early touches learn from, by age.
+    /// Training windows of the early experts, by age.
     #[serde(default)]
     pub early: [Option<Windows>; EARLY],
-    /// What is learnt from are touches from their beginning to their end, so that the last expert tells what a
-    /// touch was, however short; else they are cut, and the expert of its age does.
+    /// True if the training touches are complete, so that the last expert decides at the end of a touch,
+    /// however short. False if they are cut; then the expert of its age decides.
     #[serde(default)]
     pub concludes: bool,
 }
 
-/// What a model says of itself.
+/// Origin of a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// Day of the training.
+    /// Date of the training.
     pub date: String,
-    /// The files it was trained on.
+    /// Training files.
     pub data: Vec<Source>,
-    /// Touches it was trained on.
+    /// Number of training touches.
     pub touches: usize,
-    /// How it was trained.
+    /// Training settings.
     pub settings: Settings,
 }
 
 impl Provenance {
-    /// Of a model.
+    /// Reads the provenance of a model.
     pub fn of(model: &Model<'_>) -> Result<Provenance> {
         serde_json::from_slice(model.notes()).context("the notes of the model cannot be read")
     }
 
-    /// Whether one of the files is one it was trained on.
+    /// True if one of the files is a training file.
     pub fn knows(&self, sources: &[Source]) -> bool {
         sources.iter().any(|source| self.data.iter().any(|known| known.fnv1a == source.fnv1a))
     }
 }
 
-/// Trains on touches; the bytes of a model.
+/// Trains on touches. Returns the bytes of a model.
 pub fn train(data: &Data, examples: &[Example<'_>], settings: &Settings) -> Result<Vec<u8>> {
-    ensure!(data.classes.len() >= 2, "touches of one class only: nothing can be told apart");
+    ensure!(data.classes.len() >= 2, "touches of one class only: at least two are needed");
     let experts = train_experts(examples, data.classes.len(), settings);
     let notes = Provenance {
         date: today(),
@@ -75,7 +75,7 @@ pub fn train(data: &Data, examples: &[Example<'_>], settings: &Settings) -> Resu
     export(&experts, Head { names: &data.classes, pressed, concludes, notes: &notes })
 }
 
-/// Reads the bytes of a model; the error names the file.
+/// Reads the bytes of a model. Errors name the file.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
     crate::verbose::reads(path);
     let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;

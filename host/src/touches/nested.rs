@@ -1,4 +1,4 @@
-//! An honest figure: settings are chosen without the touches that they are judged by.
+//! Nested cross-validation: settings are chosen without the touches that they are tested on.
 
 use super::compare::apart;
 use super::course::courses;
@@ -9,8 +9,8 @@ use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
-/// For each group: chooses the settings that do best on the other groups, each of those kept apart in turn,
-/// trains with them on all the others, and applies to the group.
+/// For each group: chooses the settings that perform best in cross-validation on the other groups, trains
+/// with them on all the others, and applies to the group.
 pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());
@@ -19,7 +19,7 @@ pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
     let first = candidates.first().context("there are no settings to choose from")?;
     ensure!(
         candidates.iter().all(|other| same(first, other)),
-        "settings differ in what is learnt of a touch"
+        "settings differ in the training data of a touch"
     );
     let courses = courses(data, first);
     let (mut found, mut chosen) = (Vec::new(), serde_json::Map::new());

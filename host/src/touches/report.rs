@@ -1,11 +1,11 @@
-//! How well touches were recognised.
+//! Accuracy of the recognition of touches.
 
 use serde_json::{Map, Value, json};
 
-/// A touch that was recognised: what it was and what it was taken for.
+/// Class of a touch, and decision.
 pub type Outcome = (usize, usize);
 
-/// Accuracy and confusion, and what else was measured.
+/// Accuracy, confusion and further results.
 #[derive(Debug, Clone, Default)]
 pub struct Report {
     classes: Vec<String>,
@@ -14,29 +14,29 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of touches of these classes.
+    /// A report on touches of these classes.
     pub fn new(classes: &[String], outcomes: Vec<Outcome>) -> Report {
         Report { classes: classes.to_vec(), outcomes, more: Map::new() }
     }
 
-    /// Share of those that were recognised; 0 of none.
+    /// Share of right decisions; 0 without touches.
     pub fn accuracy(&self) -> f64 {
         accuracy(&self.outcomes)
     }
 
-    /// Adds what else was measured.
+    /// Adds a further result.
     pub fn add(&mut self, key: &str, value: Value) {
         self.more.insert(key.into(), value);
     }
 
-    /// Rows are what touches were, columns what they were taken for.
+    /// Confusion matrix: rows are true classes, columns decisions.
     fn confusion(&self) -> Vec<Vec<usize>> {
         let mut confusion = vec![vec![0; self.classes.len()]; self.classes.len()];
         self.outcomes.iter().for_each(|(was, taken)| confusion[*was][*taken] += 1);
         confusion
     }
 
-    /// The object that `--json` prints.
+    /// JSON for `--json`.
     pub fn json(&self) -> Value {
         let mut object = json!({
             "accuracy": self.accuracy(),
@@ -51,7 +51,7 @@ impl Report {
         object
     }
 
-    /// The form for people.
+    /// Readable form.
     pub fn text(&self) -> String {
         let width = self.classes.iter().map(String::len).max().unwrap_or(0).max(6);
         let mut text =
@@ -68,8 +68,8 @@ impl Report {
     }
 }
 
-/// What was measured: a table where it is a list of objects, an object's parts one by one where one of them is
-/// such, else a line.
+/// Formats a result: a list of objects as a table, an object with such a part by its parts, anything else as
+/// a line.
 fn line(key: &str, value: &Value) -> String {
     let is_table =
         |value: &Value| value.as_array().is_some_and(|rows| rows.first().is_some_and(Value::is_object));
@@ -82,7 +82,7 @@ fn line(key: &str, value: &Value) -> String {
     }
 }
 
-/// A list of objects with the keys of the first, a row each.
+/// Formats a list of objects with the keys of the first, one row each.
 fn table(rows: &Value) -> String {
     let rows: Vec<&Map<String, Value>> =
         rows.as_array().into_iter().flatten().filter_map(Value::as_object).collect();
@@ -101,7 +101,7 @@ fn table(rows: &Value) -> String {
     std::iter::once(head).chain(rows.iter().map(cells)).map(|row| row + "\n").collect()
 }
 
-/// Share of the touches that were taken for what they were.
+/// Share of right decisions.
 pub fn accuracy(outcomes: &[Outcome]) -> f64 {
     outcomes.iter().filter(|(was, taken)| was == taken).count() as f64 / outcomes.len().max(1) as f64
 }

@@ -1,10 +1,10 @@
-//! Linear classes by least squares: for each class the plane that is nearest to +1 on its examples and to -1
-//! on the others.
+//! Linear classifier by least squares: for each class the plane nearest to +1 on its examples and to -1 on
+//! the others.
 
 use crate::learn::linear::{Square, back, forward};
 use taxel_core::gesture::{FEATURES, Features, LIMIT};
 
-/// Deviations beyond which a feature counts as that far, as on the board.
+/// Limit of standardised features, as on the board.
 const FARTHEST: f64 = LIMIT as f64 / 256.0;
 
 /// Planes over standardised features.
@@ -12,18 +12,17 @@ const FARTHEST: f64 = LIMIT as f64 / 256.0;
 pub struct Ridge {
     /// Mean of each feature.
     pub middle: Vec<f64>,
-    /// Standard deviation of each feature, and one unit.
+    /// Standard deviation of each feature, plus one unit.
     pub deviation: Vec<f64>,
-    /// For each class the weight of each feature.
+    /// Weight of each feature, by class.
     pub weights: Vec<Vec<f64>>,
-    /// For each class its offset.
+    /// Offset of each class.
     pub offsets: Vec<f64>,
 }
 
 impl Ridge {
-    /// Fits examples with their classes, 0 .. `classes`. `penalty` draws the weights towards 0, per window of
-    /// an example. With `balance` 1 every class counts alike however many examples it has, with 0 every
-    /// example.
+    /// Fits examples with their classes, 0 .. `classes`. `penalty` is the ridge penalty per window of an
+    /// example. With `balance` 1 every class has the same weight, with 0 every example.
     pub fn fit(examples: &[(&Features, usize)], classes: usize, penalty: f64, balance: f64) -> Ridge {
         let (middle, deviation) = standard(examples);
         let mut counts = vec![0usize; classes];
@@ -56,7 +55,7 @@ impl Ridge {
         Ridge { middle, deviation, weights, offsets }
     }
 
-    /// What each class scores.
+    /// Score of each class.
     pub fn scores(&self, features: &Features) -> Vec<f64> {
         let mut row = vec![1.0; FEATURES + 1];
         standardise(features, &self.middle, &self.deviation, &mut row);
@@ -78,12 +77,12 @@ pub(super) fn standard(examples: &[(&Features, usize)]) -> (Vec<f64>, Vec<f64>) 
         let values = middle.iter().zip(features.iter()).map(|(middle, value)| f64::from(*value) - middle);
         deviation.iter_mut().zip(values).for_each(|(sum, value)| *sum += value * value / count);
     }
-    // One unit more: a feature that hardly varies is no lever.
+    // Plus one unit, so that a nearly constant feature gets no large weight.
     deviation.iter_mut().for_each(|value| *value = value.sqrt() + 1.0);
     (middle, deviation)
 }
 
-/// The features as they count, into a row that ends with 1.
+/// Standardised and limited features, in a row that ends with 1.
 fn standardise(features: &Features, middle: &[f64], deviation: &[f64], row: &mut [f64]) {
     let standard = middle.iter().zip(deviation);
     for ((place, value), (middle, deviation)) in row.iter_mut().zip(features).zip(standard) {

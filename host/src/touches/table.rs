@@ -1,9 +1,9 @@
-//! A CSV with a line of names, and by what columns are found.
+//! CSV files with named columns.
 
 use anyhow::{Context, Result, ensure};
 use std::path::Path;
 
-/// Lines of texts, all as long as the line of names. Fields with quotes or commas are not known.
+/// Rows of texts, as long as the header. Quoted fields are not supported.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     names: Vec<String>,
@@ -11,14 +11,14 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a file; every error names it.
+    /// Reads a file. Errors name it.
     pub fn read(path: &Path) -> Result<Table> {
         crate::verbose::reads(path);
         let text = std::fs::read_to_string(path).context("cannot be read");
         text.and_then(|text| Table::parse(&text)).with_context(|| path.display().to_string())
     }
 
-    /// Reads a text.
+    /// Parses a text.
     pub fn parse(text: &str) -> Result<Table> {
         let split = |line: &str| line.split(',').map(|field| field.trim().to_string()).collect::<Vec<_>>();
         let mut lines = text.trim_start_matches('\u{feff}').lines().map(split);
@@ -31,17 +31,17 @@ impl Table {
         Ok(Table { names, lines })
     }
 
-    /// Number of lines below the names.
+    /// Number of rows below the header.
     pub fn len(&self) -> usize {
         self.lines.len()
     }
 
-    /// Whether there is nothing below the names.
+    /// True if there is no row below the header.
     pub fn is_empty(&self) -> bool {
         self.lines.is_empty()
     }
 
-    /// The fields of a column.
+    /// Fields of a column.
     pub fn column(&self, name: &str) -> Result<Vec<&str>> {
         let index = self.names.iter().position(|known| known == name);
         let index =

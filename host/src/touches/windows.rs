@@ -1,15 +1,15 @@
-//! Stretches of a touch that an expert for early touches learns from.
+//! Windows of a touch used to train an early expert.
 
 use serde::{Deserialize, Serialize};
 
 /// Windows of several lengths, each 1.41 times as long as the one before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Windows {
-    /// Frames of the shortest.
+    /// Length of the shortest, frames.
     pub shortest: usize,
-    /// Frames that none exceeds.
+    /// Limit of the length, frames.
     pub longest: usize,
-    /// Frames from the beginning of one window to that of the next; 0: all begin with the touch.
+    /// Frames between the beginnings of two windows; 0 if all begin with the touch.
     pub every: usize,
 }
 
@@ -19,7 +19,7 @@ impl Windows {
         ladder(self.shortest).take_while(|length| *length <= self.longest).collect()
     }
 
-    /// Where windows begin in a touch of so many frames.
+    /// Beginnings of windows in a touch with this many frames.
     pub fn starts(&self, frames: usize) -> Vec<usize> {
         match self.every {
             0 => vec![0],

@@ -1,10 +1,10 @@
-//! The files of the page, which are part of the program.
+//! Files of the page, embedded in the program.
 
-/// A file.
+/// An embedded file.
 pub struct Asset {
     /// Its media type.
     pub kind: &'static str,
-    /// What is in it.
+    /// Contents.
     pub bytes: &'static [u8],
 }
 
@@ -57,7 +57,7 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "dom.js",
 ];
 
-/// The file that a path names.
+/// Returns the file at a path.
 pub fn find(path: &str) -> Option<Asset> {
     if path == "/plotly.js" {
         return Some(Asset { kind: SCRIPT, bytes: plotly()?.as_bytes() });
@@ -67,7 +67,7 @@ pub fn find(path: &str) -> Option<Asset> {
     found.map(|(_, asset)| Asset { kind: asset.kind, bytes: asset.bytes })
 }
 
-/// plotly.js out of the tags between which its crate gives it.
+/// Extracts plotly.js from the HTML tags in which its crate provides it.
 #[cfg(feature = "surface")]
 fn plotly() -> Option<&'static str> {
     use std::sync::OnceLock;
@@ -103,7 +103,7 @@ mod tests {
                 let import = import.split('"').next().unwrap();
                 assert!(find(&format!("/{import}")).is_some(), "{name} imports {import}");
             }
-            // Nothing is fetched from elsewhere; names of SVG's own language are no addresses.
+            // Nothing is fetched from elsewhere. The namespace of SVG is a name, not an address.
             let foreign = text.replace("http://www.w3.org/2000/svg", "");
             assert!(!foreign.contains("http://") && !foreign.contains("https://"), "{name}");
         }

@@ -1,9 +1,9 @@
-//! The user's browser.
+//! Starts the user's browser.
 
 use anyhow::{Context, Result};
 use std::process::{Command, Stdio};
 
-/// Opens an address in the browser that the system prefers.
+/// Opens an address in the system's default browser.
 pub fn open(url: &str) -> Result<()> {
     let mut command = if cfg!(target_os = "windows") {
         let mut start = Command::new("cmd");

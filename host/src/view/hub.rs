@@ -1,4 +1,4 @@
-//! Between the board's one thread and the threads of the pages.
+//! Connects the board's thread with the threads of the pages.
 
 use super::mailbox::{Mailbox, Shot};
 use super::message::{self, Wish};
@@ -14,24 +14,24 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel_core::garment::Circuit;
 
-/// Pages at a time.
+/// Most pages at a time.
 pub const PAGES: usize = 16;
-/// Lines of the log that a page is told that comes later.
+/// Log lines sent to a new page.
 const LOG: usize = 32;
-/// Recordings that are sent at a time: each takes as much memory as what is kept of the board.
+/// Recordings sent at a time: each takes as much memory as the bytes kept of the board.
 const TRANSFERS: usize = 3;
-/// Tares that wait at most: one is under way, and one more may be wanted.
+/// Most tares queued: one in progress, and another.
 const TARES: usize = 2;
-/// Orders to the player of a recording that wait at most.
+/// Most orders queued for the player of a recording.
 const ORDERS: usize = 64;
 
-/// What all threads know.
+/// State shared by all threads.
 #[derive(Default)]
 pub struct Hub {
     shared: Mutex<Shared>,
     recent: Mutex<Recent>,
     orders: shared::Shared<VecDeque<Order>>,
-    /// Recordings that are being sent, once more for the hub itself.
+    /// One reference per recording being sent, plus the hub's own.
     transfers: Arc<()>,
 }
 
@@ -43,15 +43,15 @@ struct Shared {
     log: VecDeque<Arc<str>>,
     circuit: Option<Box<Circuit>>,
     tares: VecDeque<u16>,
-    /// The image that holds for who comes later.
+    /// The image for pages that come later.
     shown: Option<Shot>,
     tape: Option<Tape>,
-    /// The part of a recording that is saved, us.
+    /// Range of the recording that is saved, us.
     range: [u64; 2],
 }
 
 impl Hub {
-    /// A thread that panicked leaves everything as it was.
+    /// Locks the state. A panic of another thread does not invalidate it.
     fn lock(&self) -> MutexGuard<'_, Shared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -60,7 +60,7 @@ impl Hub {
         self.recent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A new page, told what is known; none: there are too many.
+    /// Adds a page with the current state; none if there are too many pages.
     pub fn join(&self) -> Option<Arc<Mailbox>> {
         let mut shared = self.lock();
         if shared.pages.len() >= PAGES {
@@ -74,18 +74,18 @@ impl Hub {
         Some(page)
     }
 
-    /// A page has gone.
+    /// Removes a page.
     pub fn leave(&self, page: &Arc<Mailbox>) {
         page.close();
         self.lock().pages.retain(|other| !Arc::ptr_eq(other, page));
     }
 
-    /// Pages that are open.
+    /// Number of open pages.
     pub fn pages(&self) -> usize {
         self.lock().pages.len()
     }
 
-    /// Tells all pages, also those that come later, what holds until the next of its kind.
+    /// Sends a message to all pages, and to later ones until the next message of its kind.
     pub fn state(&self, kind: &'static str, line: &serde_json::Value) {
         let line: Arc<str> = line.to_string().into();
         let mut shared = self.lock();
@@ -93,7 +93,7 @@ impl Hub {
         shared.known.insert(kind, line);
     }
 
-    /// What was told of that kind holds no more.
+    /// Withdraws the current message of a kind.
     pub fn forget(&self, kind: &'static str) {
         self.state(kind, &serde_json::json!({ "type": "none", "of": kind }));
     }
@@ -109,28 +109,28 @@ impl Hub {
         }
     }
 
-    /// Shows an image to all pages.
+    /// Sends an image to all pages.
     pub fn shot(&self, shot: &Shot) {
         self.lock().pages.iter().for_each(|page| page.shot(shot));
     }
 
-    /// Shows an image to all pages, also to those that come before the next.
+    /// Sends an image to all pages, and to later ones until the next image.
     pub fn show(&self, shot: Shot) {
         self.shot(&shot);
         self.lock().shown = Some(shot);
     }
 
-    /// The image that comes next does not follow the one that is shown.
+    /// The next image does not follow the current one.
     pub fn forget_images(&self) {
         self.lock().pages.iter().for_each(|page| page.forget_images());
     }
 
-    /// How the garment that is worn is wired.
+    /// Sets the wiring of the current garment.
     pub fn wired(&self, circuit: Option<Circuit>) {
         self.lock().circuit = circuit.map(Box::new);
     }
 
-    /// Raw codes of a frame have come.
+    /// Handles the raw codes of a frame.
     pub fn codes(&self, frame: u32, codes: &[u16]) {
         let shared = self.lock();
         for page in &shared.pages {
@@ -141,12 +141,12 @@ impl Hub {
         }
     }
 
-    /// Whether a pointer is on some taxel.
+    /// True if a pointer is on a taxel.
     pub fn is_looked_at(&self) -> bool {
         self.lock().pages.iter().any(|page| page.hovered().is_some())
     }
 
-    /// Does what a page asks for, or keeps it for the board's thread.
+    /// Handles a page's request, or queues it for the board's thread.
     pub fn wish(&self, page: &Mailbox, wish: Wish) {
         let mut shared = self.lock();
         match wish {
@@ -163,7 +163,7 @@ impl Hub {
         }
     }
 
-    /// Keeps an order for the player of a recording.
+    /// Queues an order for the player of a recording.
     fn order(&self, order: Order) {
         self.orders.change(|orders| {
             if orders.back().is_some_and(|waiting| order.replaces(waiting)) {
@@ -175,7 +175,7 @@ impl Hub {
         });
     }
 
-    /// Orders that have come, after a wait of so long where there are none.
+    /// Takes the queued orders, after waiting up to `longest` if there are none.
     pub fn orders(&self, longest: Duration) -> VecDeque<Order> {
         let mut orders = self.orders.lock();
         if orders.is_empty() {
@@ -184,17 +184,17 @@ impl Hub {
         std::mem::take(&mut *orders)
     }
 
-    /// What is saved.
+    /// Sets what can be saved.
     pub fn tape(&self, tape: Tape) {
         self.lock().tape = Some(tape);
     }
 
-    /// The part of the recording that is saved, us.
+    /// Sets the range of the recording that is saved, us.
     pub fn cut_at(&self, range: [u64; 2]) {
         self.lock().range = range;
     }
 
-    /// Whether there is something to save.
+    /// True if there is something to save.
     pub fn has_tape(&self) -> bool {
         match &self.lock().tape {
             Some(Tape::Live(_)) => self.recent().is_readable(),
@@ -202,17 +202,17 @@ impl Hub {
         }
     }
 
-    /// Writes what is saved, as a recording.
+    /// Writes what is saved as a recording.
     pub fn save<S: Store>(&self, store: S) -> Result<()> {
         let (tape, range) = {
             let shared = self.lock();
             (shared.tape.clone(), shared.range)
         };
-        match tape.context("nothing is there to save")? {
+        match tape.context("there is nothing to save")? {
             Tape::Live(origin) => {
                 let (bytes, newest) = {
                     let recent = self.recent();
-                    (recent.recording().context("no image has come")?, recent.newest())
+                    (recent.recording().context("no image was received")?, recent.newest())
                 };
                 tape::live(&bytes, newest, (*origin).clone(), store)
             }
@@ -220,19 +220,19 @@ impl Hub {
         }
     }
 
-    /// Frames over which a page wants a baseline.
+    /// Takes the frames of a tare that a page requests.
     pub fn tare(&self) -> Option<u16> {
         self.lock().tares.pop_front()
     }
 
-    /// Keeps the bytes of the board.
+    /// Keeps received bytes.
     pub fn keep(&self, bytes: &[u8]) {
         self.recent().push(bytes);
     }
 
-    /// The right to send a recording while it is kept; none: as many as can be are being sent.
+    /// Permission to send a recording, held while sending; none if too many are being sent.
     pub fn transfer(&self) -> Option<Arc<()>> {
-        // With the lock, so that two that come at once are counted one after the other.
+        // Under the lock, so that concurrent calls are counted one after the other.
         let _shared = self.lock();
         (Arc::strong_count(&self.transfers) <= TRANSFERS).then(|| self.transfers.clone())
     }

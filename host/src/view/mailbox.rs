@@ -1,4 +1,4 @@
-//! What waits for one page: never more than one image and a few lines, however slow the page is.
+//! Outgoing messages of one page: at most one image and a few lines, however slow the page is.
 
 use super::message;
 use crate::shared::Shared;
@@ -6,17 +6,17 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Lines of the log that wait at most.
+/// Most log lines queued.
 const LINES: usize = 64;
-/// Samples that wait at most: more than a second of them.
+/// Most samples queued: more than a second of them.
 const SAMPLES: usize = 256;
-/// Shortest time between two images of a page: 60 a second, and a little for clocks that differ.
+/// Shortest time between two images: 60 per second, with a margin for differing clocks.
 const PERIOD: Duration = Duration::from_micros(16_500);
 
-/// An image with what was found in it.
+/// An image and its contacts.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// The line that `taxel live --json` prints of it.
+    /// Its line as printed by `taxel live --json`.
     pub line: Arc<str>,
     /// Pressure by taxel, counts.
     pub image: Arc<[u16]>,
@@ -26,34 +26,34 @@ pub struct Shot {
     pub total: u32,
 }
 
-/// What is sent at a time.
+/// A message to a page.
 #[derive(Debug, PartialEq)]
 pub enum Parcel {
     /// A text message.
     Line(Arc<str>),
     /// A binary message, see [`message`].
     Image(Vec<u8>),
-    /// The page has gone.
+    /// The page is closed.
     Closed,
 }
 
-/// The waiting place.
+/// The queue of one page.
 #[derive(Debug, Default)]
 pub struct Mailbox(Shared<Waiting>);
 
 #[derive(Debug, Default)]
 struct Waiting {
-    /// The newest of each kind.
+    /// Latest message of each kind.
     states: BTreeMap<&'static str, Arc<str>>,
     lines: VecDeque<Arc<str>>,
     shot: Option<Shot>,
-    /// Greatest pressure of each taxel since the last image was taken.
+    /// Greatest pressure of each taxel since the last image was sent.
     highest: Vec<u16>,
     /// Time and total of each frame since then.
     samples: VecDeque<(u64, u32)>,
-    /// Images that another one replaced before they were taken.
+    /// Number of images replaced before they were sent.
     replaced: u64,
-    /// Samples and lines that found no place.
+    /// Number of samples and lines dropped.
     missed: u64,
     sent: Option<Instant>,
     hovered: Option<u16>,
@@ -61,12 +61,12 @@ struct Waiting {
 }
 
 impl Mailbox {
-    /// What holds until the next of its kind.
+    /// Queues a message that replaces the last one of its kind.
     pub fn state(&self, kind: &'static str, line: Arc<str>) {
         self.0.change(|waiting| _ = waiting.states.insert(kind, line));
     }
 
-    /// A line that is to be seen besides all others.
+    /// Queues a line of the log.
     pub fn line(&self, line: Arc<str>) {
         self.0.change(|waiting| {
             waiting.lines.push_back(line);
@@ -77,12 +77,12 @@ impl Mailbox {
         });
     }
 
-    /// The newest image.
+    /// Queues an image.
     pub fn shot(&self, shot: &Shot) {
         self.0.change(|waiting| waiting.take(shot));
     }
 
-    /// What waits of images is of no use any more.
+    /// Discards the queued image.
     pub fn forget_images(&self) {
         let mut waiting = self.0.lock();
         waiting.shot = None;
@@ -90,22 +90,22 @@ impl Mailbox {
         waiting.samples.clear();
     }
 
-    /// A text message that waits.
+    /// Takes a queued text message.
     pub fn line_now(&self) -> Option<Parcel> {
         self.0.lock().line().map(Parcel::Line)
     }
 
-    /// The page has gone.
+    /// True if the page is closed.
     pub fn is_closed(&self) -> bool {
         self.0.lock().closed
     }
 
-    /// The image that waits, at once.
+    /// Takes the queued image at once.
     pub fn take(&self) -> Option<Parcel> {
         self.0.lock().image()
     }
 
-    /// The taxel under the pointer.
+    /// Sets the taxel under the pointer.
     pub fn hover(&self, taxel: Option<u16>) {
         self.0.lock().hovered = taxel;
     }
@@ -115,12 +115,12 @@ impl Mailbox {
         self.0.lock().hovered
     }
 
-    /// Nobody reads any more.
+    /// Closes the queue.
     pub fn close(&self) {
         self.0.change(|waiting| waiting.closed = true);
     }
 
-    /// Waits for what is to be sent next: lines at once, images when it is time for one.
+    /// Waits for the next message: lines at once, images when due.
     pub fn next(&self) -> Parcel {
         let mut waiting = self.0.lock();
         loop {
@@ -173,7 +173,7 @@ impl Waiting {
         self.image()
     }
 
-    /// The image that waits, with what was since the one before.
+    /// Takes the queued image, with the maxima and samples since the last one.
     fn image(&mut self) -> Option<Parcel> {
         let shot = self.shot.take()?;
         let samples: Vec<_> = self.samples.drain(..).collect();

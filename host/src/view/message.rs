@@ -1,37 +1,37 @@
-//! What is said between the program and a page, over one WebSocket at `/socket`.
+//! Messages between the program and a page, over one WebSocket at `/socket`.
 //!
-//! Text messages to a page are JSON objects with a `type`. Those that `taxel live --json` also prints are the
-//! same: `hello`, `health`, `health_map`, `budget`. A page has besides:
+//! Text messages to a page are JSON objects with a `type`. Those of `taxel live --json` are the same:
+//! `hello`, `health`, `health_map`, `budget`. In addition:
 //!
 //! | type | holds |
 //! |---|---|
-//! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (places without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
+//! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (positions without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
 //! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
-//! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one that all is well) |
+//! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one if there are none) |
 //! | `say` | a line of the log: `text`; `kind` (`onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`), `time_us` (or null), `said` (the text without its time) |
-//! | `taxel` | of the taxel under the pointer: `taxel`, `code` (raw; null until it comes), `frame`, `block`, `wired_row`, `wired_column` (null where it has no block) |
-//! | `end` | nothing more comes, `text` says why |
-//! | `none` | what was told of the type `of` holds no more |
-//! | `player` | of a recording: `at`, `duration`, `range` (first and last), all s; `speed`, `loop`, `playing`; `seeks`, how often the moment did not follow from the one before |
-//! | `glow` | of a moment of a recording that was gone to: `time_us`, `seeks`; `taxels`, `[taxel, counts]` of what was felt before it, less the longer ago it was |
-//! | `overview` | of a recording, up to `known_us`: `duration_us`; `totals`, the greatest total of each `width_us`; `intentions`, `[at_us, leading]` where another leads; `said`, `[at_us, kind, text]`; `unlisted`, lines of contacts that are too many |
+//! | `taxel` | the taxel under the pointer: `taxel`, `code` (raw; null until received), `frame`, `block`, `wired_row`, `wired_column` (null if it has no block) |
+//! | `end` | the stream has ended; `text` says why |
+//! | `none` | the last message of the type `of` is no longer valid |
+//! | `player` | of a recording: `at`, `duration`, `range` (first and last), all s; `speed`, `loop`, `playing`; `seeks`, number of jumps in time |
+//! | `glow` | after a jump in a recording: `time_us`, `seeks`; `taxels`, `[taxel, counts]` of the pressure just before, fading with its age |
+//! | `overview` | of a recording, up to `known_us`: `duration_us`; `totals`, the greatest total of each `width_us`; `intentions`, `[at_us, leading]` at each change; `said`, `[at_us, kind, text]`; `unlisted`, number of contact lines left out |
 //!
 //! A binary message is an image, all numbers little-endian:
 //!
 //! | bytes | what |
 //! |---|---|
 //! | 4 | length h of the head |
-//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` that `taxel live --json` prints, but for the activations, which are those of the last moment at which the announced intention led; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images that were not sent because a newer one came; `missed`, samples and lines that found no place because the page did not read |
+//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` of `taxel live --json`, but with the activations of the last moment at which the announced intention led; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images not sent because of a newer one; `missed`, samples and lines dropped because the page did not read |
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
-//! | 2 n | the greatest pressure of each since the last image that was sent |
+//! | 2 n | the greatest pressure of each since the last image sent |
 //!
 //! The line of an image of a recording also has `at_us`, its time since the recording began, and `seeks` as
-//! above; an image that was there before the page came has `past`.
+//! above; an image from before the page was opened has `past`.
 //!
-//! A page says `{"hover": taxel}` (or null), and `{"tare": frames}`. Where it shows a recording, it says
-//! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`,
-//! `{"range": [from, to]}` (s, or null), and all pages follow. Everything else is ignored, and so are numbers
-//! that are not finite, a speed of 0 or less, a step of 0; a time beyond the recording is taken for its end.
+//! A page sends `{"hover": taxel}` (or null), and `{"tare": frames}`. If it shows a recording, it sends
+//! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
+//! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
+//! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
 
 use super::mailbox::Shot;
 use super::recorded::Order;
@@ -75,7 +75,7 @@ pub fn hello(client: &Client, label: &str, counts_per_newton: Option<f32>) -> Va
     line
 }
 
-/// The cognitive map; layers as `taxel fcm draw` has them.
+/// Encodes the cognitive map, in layers as in `taxel fcm draw`.
 fn map(map: &taxel_core::intent::MapConfig) -> Value {
     let one = 10f64.powi(map.decimals.into());
     let edges: Vec<_> = map.edges.iter().filter(|edge| edge.weight != 0).collect();
@@ -90,15 +90,15 @@ fn map(map: &taxel_core::intent::MapConfig) -> Value {
     json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
 }
 
-/// The line of an image. The activations are those of the last moment at which the announced intention led: a
-/// board announces it a moment longer than the touch activates it, and a page shows both as one.
+/// Encodes an image's line. The activations are those of the last moment at which the announced intention
+/// led: a board announces it a little longer than the touch activates it, and a page shows both together.
 pub fn frame(client: &Client, event: &Event) -> Value {
     let mut line = message(client, event);
     line["intent"] = json::intent(client.leading(), client.concepts(), &client.activations_of_leading());
     line
 }
 
-/// `glow`: what was felt in the second before a moment of a recording, by taxel.
+/// `glow`: the pressure in the second before a moment of a recording, by taxel.
 pub fn glow(glow: &[u16], time: Micros, seeks: u32) -> Value {
     let taxels: Vec<_> = (0..).zip(glow).filter(|(_, counts)| **counts > 0).collect::<Vec<(u16, _)>>();
     json!({ "type": "glow", "time_us": time.0, "seeks": seeks, "taxels": taxels })
@@ -140,20 +140,20 @@ pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize)
     })
 }
 
-/// What a page asks for.
+/// A request of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Wish {
     /// The taxel under the pointer.
     Hover(Option<u16>),
-    /// A baseline over so many frames.
+    /// A tare over this many frames.
     Tare(u16),
-    /// Of the player of a recording.
+    /// An order to the player of a recording.
     #[serde(untagged)]
     Player(Order),
 }
 
-/// Reads what a page said; none: nothing that is known.
+/// Parses a message of a page; none if it is unknown.
 pub fn wish(text: &str) -> Option<Wish> {
     let wish: Wish = serde_json::from_str(text).ok()?;
     let known = match &wish {

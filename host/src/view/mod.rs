@@ -1,9 +1,9 @@
-//! `taxel view`: what a board tells, live in the browser, or a recording of it (see `recorded`).
+//! `taxel view`: shows a board's stream or a recording (see `recorded`) in the browser.
 //!
-//! One program serves one page with all that it needs, on this machine alone, and tells each page over a
-//! WebSocket what comes; see [`message`] for what is said. Three rules keep the board's stream free of its
-//! watchers: a page has one [`Mailbox`] that never grows, the newest image replaces the one before it, and
-//! whoever writes to a page is a thread of its own.
+//! One program serves one page and all its files, to this machine only, and sends each page the stream over a
+//! WebSocket; see [`message`]. Three rules keep the pages from delaying the board's stream: each page has one
+//! [`Mailbox`] of bounded size, a newer image replaces a queued one, and each page has its own writing
+//! thread.
 
 mod assets;
 mod browser;
@@ -41,7 +41,7 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The port where none is given, unless it is taken: T, A, X, L on a telephone.
+/// Default port, unless it is taken: T, A, X, L on a telephone keypad.
 const PORT: u16 = 8295;
 
 /// Arguments of `taxel view`.
@@ -62,7 +62,7 @@ pub struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// The recording that is to be shown, and how many times as fast as it was; none: a board.
+    /// Recording to show, and its speed; none for a board.
     fn recording(&self) -> Option<(PathBuf, f64)> {
         match (&self.file, &self.board.source) {
             (Some(file), _) => Some((file.clone(), 1.0)),
@@ -109,7 +109,7 @@ fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
     player.run()
 }
 
-/// Serves the pages, and says where.
+/// Serves the pages, and prints their address.
 fn announce(what: &str, listener: TcpListener, hub: &Arc<Hub>, open: bool) -> Result<()> {
     let port = serve(listener, hub.clone())?;
     let url = format!("http://127.0.0.1:{port}/");
@@ -117,7 +117,7 @@ fn announce(what: &str, listener: TcpListener, hub: &Arc<Hub>, open: bool) -> Re
     if open { browser::open(&url) } else { Ok(()) }
 }
 
-/// Listens on this machine alone.
+/// Binds to the loopback interface.
 fn bind(port: Option<u16>) -> Result<TcpListener> {
     let listen = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     let wanted = port.unwrap_or(PORT);

@@ -1,17 +1,17 @@
-//! What was saved is shown as fast as it was taken.
+//! Paces saved bytes to the time in which they were recorded.
 
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 
-/// A gap that nobody wants to wait for.
+/// Gap beyond which there is no waiting.
 const GAP: Duration = Duration::from_secs(2);
 
-/// Remembers which time of the board is now.
+/// Host time and board time of the same moment.
 #[derive(Debug, Default)]
 pub struct Pace(Option<(Instant, Micros)>);
 
 impl Pace {
-    /// How long a frame of that time is to wait. Time that went back or leapt is not waited for.
+    /// Time to wait before a frame of this time; zero if its time went back or leapt.
     pub fn wait(&mut self, time: Micros, now: Instant) -> Duration {
         let (began, first) = *self.0.get_or_insert((now, time));
         let wait = began.checked_add(Duration::from_micros(time.since(first))).and_then(|due| {

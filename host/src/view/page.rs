@@ -1,4 +1,4 @@
-//! The WebSocket of one page: one thread reads what the page asks for, this one writes what it is told.
+//! The WebSocket of one page: one thread reads its requests, this one writes its messages.
 
 use super::hub::Hub;
 use super::mailbox::{Mailbox, Parcel};
@@ -12,14 +12,14 @@ use std::thread;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Bytes, Message, Utf8Bytes, WebSocket};
 
-/// Longest message of a page.
+/// Longest message from a page.
 const LONGEST: usize = 4096;
 
-/// Talks to a page until it goes, or has not read for as long as the stream's timeout.
+/// Serves a page until it closes, or has not read for the stream's timeout.
 pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Arc<Mailbox>) -> io::Result<()> {
     let end = stream.try_clone()?;
     let reading = stream.try_clone()?;
-    // A page may say nothing for ever.
+    // A page may be silent for any time.
     reading.set_read_timeout(None)?;
     thread::scope(|scope| {
         let reader = thread::Builder::new().name("page reader".into());
@@ -52,11 +52,11 @@ fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
         };
         socket.send(message).map(|()| true).map_err(io::Error::other)
     };
-    // What is known, then what was before, then what comes.
+    // The current state, then earlier images, then the stream.
     while let Some(line) = mailbox.line_now() {
         send(line)?;
     }
-    // Where many come at once, some see no more than what comes: what was before takes memory for each.
+    // If many pages open at once, some get no earlier images, because these take memory for each page.
     if let Some((_transfer, bytes)) = hub.transfer().and_then(|kept| Some((kept, hub.recording()?))) {
         for parcel in Past::of(&bytes) {
             if mailbox.is_closed() || !send(parcel)? {
@@ -68,11 +68,10 @@ fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
     Ok(())
 }
 
-/// Does what a page asks for over its WebSocket, until it goes. `rest` are the first bytes, which have been
-/// read already.
+/// Handles a page's requests until it closes. `rest` holds its first bytes, read already.
 pub fn hear(stream: impl Read, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
     let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
-    // Any error ends it: the page has gone, or does not speak WebSocket.
+    // Any error ends it: the page is closed, or does not speak WebSocket.
     while let Ok(said) = socket.read() {
         if let Message::Text(text) = said
             && let Some(wish) = message::wish(&text)

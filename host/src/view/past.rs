@@ -1,5 +1,4 @@
-//! The half minute before a page came: its images, so that a page that is loaded again can step back through
-//! them, too.
+//! Images of the half minute before a page was opened, so that a reloaded page can step back through them.
 
 use super::mailbox::{Mailbox, Parcel, Shot};
 use super::message;
@@ -7,10 +6,10 @@ use crate::client::{Client, Event, ImageNews};
 use serde_json::json;
 use taxel_core::format::Micros;
 
-/// Shortest time between two images, us of the board: what a page draws.
+/// Shortest time between two images, us of the board: that of a page's display.
 const PERIOD: u64 = 16_500;
 
-/// Tells images of before, oldest first, by way of a mailbox of its own.
+/// Returns earlier images, oldest first, by way of a mailbox of its own.
 pub struct Past<'a> {
     bytes: std::slice::Iter<'a, u8>,
     client: Client,
@@ -19,12 +18,12 @@ pub struct Past<'a> {
 }
 
 impl<'a> Past<'a> {
-    /// Of what [`super::Recent::recording`] gives.
+    /// Reads the result of [`super::Recent::recording`].
     pub fn of(bytes: &'a [u8]) -> Past<'a> {
         Past { bytes: bytes.iter(), client: Client::new(), mailbox: Mailbox::default(), last: None }
     }
 
-    /// Takes an image; whether it is time to tell it.
+    /// Handles an image. Returns whether it is due.
     fn take(&mut self, event: &Event) -> bool {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return false };
         let Some((_, image)) = self.client.image() else { return false };

@@ -1,25 +1,25 @@
-//! Raw codes for the taxel under the pointer: the board sends them while somebody looks.
+//! Requests raw codes from the board while a pointer is on a taxel.
 
 use crate::client::Client;
 use anyhow::Result;
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
 
-/// Raw codes a second: enough to read a number.
+/// Raw codes per second: enough to read a number.
 const RATE: u16 = 10;
-/// How long nobody looked when the board need not send them any more.
+/// Time without a pointer on a taxel after which raw codes are stopped.
 const REST: Duration = Duration::from_secs(10);
 
-/// Whether the board sends raw codes because of us.
+/// Raw codes requested by the page.
 #[derive(Debug, Default)]
 pub struct RawCodes {
     asked: bool,
-    /// Since when nobody looks.
+    /// Since when no pointer is on a taxel.
     since: Option<Instant>,
 }
 
 impl RawCodes {
-    /// Asks the board for what is needed, where something is.
+    /// Starts or stops raw codes as needed.
     pub fn tend(&mut self, client: &mut Client, looked_at: bool, now: Instant) -> Result<()> {
         let Some(worn) = client.worn() else { return Ok(()) };
         let comes = worn.scene.stream.raw_hz > 0;

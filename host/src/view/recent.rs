@@ -1,39 +1,38 @@
-//! The bytes of the last half minute, as a file that `--source file:FILE` reads.
+//! Bytes of the last half minute, as a file for `--source file:FILE`.
 
 use crate::passed::Passed;
 use std::collections::VecDeque;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};
 
-/// How long bytes are kept, us of the board. Where it starts anew, its clock does, and time goes on from
-/// where it was.
+/// Time for which bytes are kept, us of the board. Across restarts of the board's clock, time runs on.
 const KEPT: u64 = 30_000_000;
-/// How many of them at most, whatever the board says of its time.
+/// Most bytes kept, whatever the board's clock says.
 const BYTES: usize = 64 << 20;
 /// Longest message of a board.
 const LONGEST: usize = 8192;
 
-/// A message in its frame.
+/// A message as a frame of the wire.
 #[derive(Debug)]
 struct Piece {
     bytes: Vec<u8>,
-    /// The board's time that had passed then, us.
+    /// Elapsed board time, us.
     at: u64,
-    /// Its number on the line.
+    /// Message number.
     seq: u32,
-    /// An image that stands alone.
+    /// True for a key frame.
     key: bool,
 }
 
-/// Keeps what came last.
+/// Keeps the latest bytes.
 #[derive(Default)]
 pub struct Recent {
     receiver: Box<Receiver<LONGEST>>,
-    /// Bytes of the frame that has not ended.
+    /// Bytes of an incomplete frame.
     begun: Vec<u8>,
-    /// The message of the last `Hello`.
+    /// Message of the last `Hello`.
     hello: Vec<u8>,
-    /// The garment that it names.
+    /// Garment of the last `Hello`.
     garment: Vec<u8>,
     pieces: VecDeque<Piece>,
     held: usize,
@@ -43,7 +42,7 @@ pub struct Recent {
 }
 
 impl Recent {
-    /// Takes bytes in any split.
+    /// Handles bytes in any split.
     pub fn push(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.begun.push(*byte);
@@ -58,7 +57,7 @@ impl Recent {
                 Report::Hello(hello) => {
                     if self.garment != hello.garment {
                         self.garment = hello.garment.to_vec();
-                        // What came before cannot be read any more.
+                        // Earlier messages cannot be decoded with this garment.
                         self.pieces.clear();
                         self.held = 0;
                     }
@@ -85,7 +84,7 @@ impl Recent {
         }
     }
 
-    /// Whether there is an image that stands alone, and so a recording.
+    /// True if there is a key frame, and so a recording.
     pub fn is_readable(&self) -> bool {
         self.pieces.iter().any(|piece| piece.key)
     }
@@ -95,13 +94,13 @@ impl Recent {
         self.newest
     }
 
-    /// A `Hello` and all that came from the first image on that stands alone; none before there is one.
+    /// Returns a `Hello` and everything from the first key frame on; none before the first.
     pub fn recording(&self) -> Option<Vec<u8>> {
         let first = self.pieces.iter().position(|piece| piece.key)?;
         let seq = self.pieces.get(first)?.seq.wrapping_sub(1);
         let hello: Report<'_> = decode(&self.hello).ok()?;
         let mut room = vec![0; frame_bound(LONGEST)];
-        // It takes the number before, so that nothing seems to be lost.
+        // It gets the preceding number, so that nothing counts as lost.
         let mut frame = encode(&(seq, &hello), &mut room).ok()?.to_vec();
         frame.extend(self.pieces.iter().skip(first).flat_map(|piece| &piece.bytes));
         Some(frame)
@@ -137,7 +136,7 @@ mod tests {
         Report::Hello(said)
     }
 
-    /// An image a tenth of a second, each tenth of which stands alone.
+    /// An image every 0.1 s; every tenth is a key frame.
     fn image(number: u32) -> Report<'static> {
         let base = (!number.is_multiple_of(10)).then(|| number - 1);
         Report::Frame(Frame {
@@ -163,7 +162,7 @@ mod tests {
             .collect();
         assert_eq!((frames.first(), frames.last(), frames.len()), (Some(&940), Some(&1234), 295));
         assert_eq!((client.counts().lost, client.counts().messages), (0, 296));
-        // The board starts anew every eight seconds: its clock does, too.
+        // The board restarts every eight seconds, with its clock.
         let mut seq = 1234;
         for image in (0..20).flat_map(|_| (1..=80).map(image)) {
             seq += 1;
@@ -171,7 +170,7 @@ mod tests {
         }
         let kept = recent.recording().unwrap().iter().filter(|byte| **byte == 0).count();
         assert!((300..=330).contains(&kept), "{kept}");
-        // Another garment: nothing of before is of use.
+        // Another garment: earlier messages are discarded.
         recent.push(&sent(seq + 1, &hello(b"two")));
         assert!(recent.recording().is_none());
     }

@@ -1,4 +1,4 @@
-//! What is worth a line in the log and a mark on the timeline.
+//! Events as lines of the log and marks on the timeline.
 
 use crate::client::{Client, Event};
 use crate::live::narrate::{Narrator, seconds};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use taxel_core::contact::Phase;
 use taxel_core::format::Micros;
 
-/// What a line is about.
+/// Kind of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -18,24 +18,24 @@ pub enum Kind {
     Release,
     /// Another intention leads.
     Intention,
-    /// The garment begins or ends a reaction by itself.
+    /// A reaction of the garment begins or ends.
     Reaction,
     /// A gesture was recognised.
     Gesture,
     /// Messages or a part of a recording are missing.
     Gap,
-    /// Everything else: garments, answers, sentences of the board.
+    /// Everything else: garments, answers, log messages of the board.
     Note,
 }
 
 /// A line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Said {
-    /// What it is about.
+    /// Kind.
     pub kind: Kind,
-    /// The board's time of it, us; none: it has none.
+    /// Board time, us; none if it has none.
     pub time_us: Option<u64>,
-    /// The sentence, without its time.
+    /// Sentence without its time.
     pub text: String,
 }
 
@@ -45,7 +45,7 @@ impl Said {
         Said { kind: Kind::Note, time_us: None, text: text.into() }
     }
 
-    /// The sentence behind the board's time, as the log shows it.
+    /// The sentence behind the board's time, as shown in the log.
     pub fn line(&self) -> String {
         self.time_us
             .map_or_else(|| self.text.clone(), |time| format!("{} {}", seconds(Micros(time)), self.text))
@@ -57,7 +57,7 @@ impl Said {
     }
 }
 
-/// Tells what events are worth.
+/// Turns events into lines.
 #[derive(Debug, Clone)]
 pub struct Teller {
     narrator: Narrator,
@@ -65,12 +65,12 @@ pub struct Teller {
 }
 
 impl Teller {
-    /// From the beginning of a stream.
+    /// Starts at the beginning of a stream.
     pub fn new(counts_per_newton: Option<f32>) -> Teller {
         Teller { narrator: Narrator::new(counts_per_newton), lost: 0 }
     }
 
-    /// What an event says, and that messages before it were lost.
+    /// Lines for an event, and for messages lost before it.
     pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<Said> {
         let lost = client.counts().lost.saturating_sub(self.lost);
         self.lost = client.counts().lost;
@@ -79,7 +79,7 @@ impl Teller {
         said
     }
 
-    /// What an event says.
+    /// Lines for an event.
     pub fn lines(&mut self, client: &Client, event: &Event) -> Vec<Said> {
         let time_us = time_of(client, event);
         let kinds = kinds(event);
@@ -97,13 +97,13 @@ impl Teller {
     }
 }
 
-/// So many messages did not come.
+/// Line about lost messages.
 pub fn gap(lost: u64, time_us: Option<u64>) -> Said {
     let text = if lost == 1 { "1 message is missing".into() } else { format!("{lost} messages are missing") };
     Said { kind: Kind::Gap, time_us, text }
 }
 
-/// Of each line of an event; the last of all that follow.
+/// Kind of each line of an event; the last one applies to all further lines.
 fn kinds(event: &Event) -> Vec<Kind> {
     match event {
         Event::Symbols(list) => {

@@ -1,4 +1,4 @@
-//! The server of the pages and of their files.
+//! Serves the pages and their files.
 
 use super::assets;
 use super::hub::Hub;
@@ -12,22 +12,22 @@ use std::io::BufWriter;
 use std::net::{TcpListener, TcpStream};
 use std::sync::Arc;
 
-/// Connections at a time beside those of pages: what a browser opens for the files of a few.
+/// Connections at a time besides those of pages: those that browsers open for the files of a few pages.
 const CONNECTIONS: usize = 48;
-/// A file that is not there.
-const MISSING: Refusal = Refusal { status: "404 Not Found", why: "there is nothing of that name" };
-/// Another one waits.
+/// The file does not exist.
+const MISSING: Refusal = Refusal { status: "404 Not Found", why: "no such file" };
+/// Too many transfers.
 const BUSY: Refusal = Refusal {
     status: "503 Service Unavailable",
     why: "recordings are being sent to others: try again in a moment",
 };
 
-/// Serves the pages of a hub from a thread of its own; the port.
+/// Serves the pages of a hub in a thread of its own. Returns the port.
 pub fn serve(listener: TcpListener, hub: Arc<Hub>) -> Result<u16> {
     serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hub)?))
 }
 
-/// Answers one request, or talks to a page until it goes.
+/// Answers one request, or serves a page until it closes.
 fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Result<()> {
     let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
     let request = match request {
@@ -61,7 +61,7 @@ fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Resul
     }
 }
 
-/// Sends what a page can save.
+/// Sends a recording to be saved.
 fn recording(mut stream: TcpStream, path: &str, hub: &Hub) -> std::io::Result<()> {
     let kind = "application/octet-stream";
     if path == "/recording.taxel" {
@@ -76,7 +76,7 @@ fn recording(mut stream: TcpStream, path: &str, hub: &Hub) -> std::io::Result<()
     let mut stream = Hurry::new(stream);
     http::begin(&mut stream, kind, name)?;
     let mut transfer = Transfer(BufWriter::new(stream));
-    // Where it fails, the end is missing, and the browser says so.
+    // On failure the end of the body is missing, which the browser reports.
     match hub.save(&mut transfer) {
         Ok(()) => transfer.end(),
         Err(error) => {

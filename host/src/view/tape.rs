@@ -1,4 +1,4 @@
-//! What a page can save: the last half minute of a board, or a part of a recording, as a recording.
+//! What a page can save as a recording: the last half minute of a board, or a part of a recording.
 
 use super::recorded::Cut;
 use crate::client::{Client, Event, Worn};
@@ -9,10 +9,10 @@ use anyhow::Result;
 use std::sync::Arc;
 use taxel_core::format::Micros;
 
-/// Time of the messages of a chunk, us.
+/// Board time per chunk, us.
 const CHUNK_US: u64 = 1_000_000;
 
-/// Where it comes from.
+/// Origin of what is saved.
 #[derive(Clone)]
 pub enum Tape {
     /// A board.
@@ -21,7 +21,7 @@ pub enum Tape {
     Recorded(Arc<Cut>),
 }
 
-/// A recording that is written frame by frame.
+/// A recording written frame by frame.
 pub struct Copy<S: Store> {
     file: RecordingFile<S>,
     client: Client,
@@ -31,13 +31,13 @@ pub struct Copy<S: Store> {
 }
 
 impl<S: Store> Copy<S> {
-    /// Begins it.
+    /// Begins the recording.
     pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
         let file = RecordingFile::create(store, None)?;
         Ok(Copy { file, client: Client::new(), origin, worn: None, chunk_us: 0 })
     }
 
-    /// Takes a frame of the wire.
+    /// Adds a frame of the wire.
     pub fn take(&mut self, stamp: Stamp, frame: &[u8]) -> Result<()> {
         let client = &mut self.client;
         match frame.iter().find_map(|byte| client.push(*byte)) {
@@ -46,7 +46,7 @@ impl<S: Store> Copy<S> {
         }
     }
 
-    /// Writes what the client has just told.
+    /// Writes the client's latest event.
     fn keep(&mut self, stamp: Stamp, event: &Event) -> Result<()> {
         self.client.take_requests();
         if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
@@ -69,7 +69,7 @@ impl<S: Store> Copy<S> {
     }
 }
 
-/// Bytes that a board has sent up to now, the last image of which is of the time `newest`, as a recording.
+/// Writes the received bytes of a board as a recording; `newest` is the time of their last image.
 pub fn live<S: Store>(bytes: &[u8], newest: Micros, origin: Origin, store: S) -> Result<()> {
     let mut copy = Copy::begin(store, origin)?;
     let now = SteadyTime::start().now_us();

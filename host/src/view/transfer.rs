@@ -1,10 +1,10 @@
-//! A recording that is sent while it is written: HTTP's chunked coding, so that a browser knows whether all
-//! of it has come.
+//! A recording that is sent while it is written, in HTTP's chunked coding, so that a browser can detect a
+//! truncated one.
 
 use crate::recording::Store;
 use std::io::{self, Write};
 
-/// Writes pieces of a body.
+/// Writes the body in chunks.
 pub struct Transfer<W: Write>(pub W);
 
 impl<W: Write> Transfer<W> {
@@ -18,7 +18,7 @@ impl<W: Write> Transfer<W> {
 impl<W: Write> Write for Transfer<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if !bytes.is_empty() {
-            // A piece without bytes would be the end.
+            // An empty chunk would end the body.
             write!(self.0, "{:x}\r\n", bytes.len())?;
             self.0.write_all(bytes)?;
             self.0.write_all(b"\r\n")?;
@@ -36,7 +36,8 @@ impl<W: Write> Store for &mut Transfer<W> {
         self.0.flush()
     }
 
-    /// What is sent cannot be called back: whoever reads has gone, which is told as the reason.
+    /// Sent bytes cannot be taken back. It is called after a failed write: the reader is gone, which is the
+    /// error.
     fn cut(&mut self, _: u64) -> io::Result<()> {
         Err(io::ErrorKind::BrokenPipe.into())
     }

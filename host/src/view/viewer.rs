@@ -1,4 +1,4 @@
-//! Takes what a board tells, for the pages.
+//! Passes a board's stream to the pages.
 
 use super::hub::Hub;
 use super::mailbox::Shot;
@@ -20,17 +20,17 @@ use taxel_core::wire::Request;
 
 /// Time between two messages about the link.
 const LINK: Duration = Duration::from_millis(250);
-/// Time between two questions of how long an answer takes.
+/// Time between two latency measurements.
 const ROUND: Duration = Duration::from_secs(1);
 
-/// Shows everything to the pages of a hub.
+/// Shows a stream to the pages of a hub.
 pub struct Viewer {
     hub: Arc<Hub>,
     label: String,
     counts_per_newton: Option<f32>,
     teller: Teller,
     rate: Rate,
-    /// What comes is not live, and is slowed down to the speed of its own time.
+    /// Paces a saved stream to its own time; none for a live one.
     pace: Option<Pace>,
     raw: RawCodes,
     told: Instant,
@@ -41,7 +41,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// Of what comes from a source.
+    /// A viewer of a source.
     pub fn new(source: &Source, hub: Arc<Hub>) -> Viewer {
         let now = Instant::now();
         Viewer {

@@ -1,8 +1,8 @@
-//! Where and what is wrong in JSON.
+//! Places and causes of errors in JSON.
 
 use super::plain;
 
-/// What the reader of JSON found in the text of a file, as `FILE, line 3, `key`: ...`.
+/// Formats an error in the text of a file as `FILE, line 3, `key`: ...`.
 pub fn json(error: &serde_json::Error, text: &str, file: &str) -> String {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or("");
     let before = line.get(..error.column().min(line.len())).unwrap_or(line);
@@ -12,13 +12,13 @@ pub fn json(error: &serde_json::Error, text: &str, file: &str) -> String {
     }
 }
 
-/// The last key that is named before a value: what stands in quotes before a colon.
+/// The last key before a value: the text in quotes before a colon.
 fn key(before: &str) -> Option<&str> {
     let (key, _) = before.rsplit_once(':')?;
     key.trim_end().strip_suffix('"')?.rsplit_once('"').map(|(_, key)| key)
 }
 
-/// The same for what is no file, or for a text that is gone.
+/// Formats an error without a file, or without its text.
 pub(super) fn without_text(error: &serde_json::Error) -> String {
     match (error.line(), error.column()) {
         (0, _) => told(error),
@@ -34,9 +34,9 @@ fn told(error: &serde_json::Error) -> String {
     let missing = |what: &str| format!("{what} is missing");
     match message {
         "expected value" => missing("a value"),
-        "key must be a string" => "a key must stand in quotes".into(),
-        "trailing characters" => "something follows behind the end".into(),
-        "trailing comma" => "a comma stands before a closing bracket".into(),
+        "key must be a string" => "a key must be in quotes".into(),
+        "trailing characters" => "there is text behind the end".into(),
+        "trailing comma" => "there is a comma before a closing bracket".into(),
         "recursion limit exceeded" => "it is nested too deeply".into(),
         _ => match (message.strip_prefix("EOF while parsing "), message.strip_prefix("expected `")) {
             (Some(inside), _) => format!("it ends within {inside}"),
@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(wrong("{\"a\": "), "a.json, line 1, character 6: it ends within a value");
         assert_eq!(wrong("{\"a\": ]"), "a.json, line 1, character 7: a value is missing");
         assert_eq!(wrong("{\"a\" 3}"), "a.json, line 1, character 6: `:` is missing");
-        assert_eq!(wrong("{a: 3}"), "a.json, line 1, character 2: a key must stand in quotes");
+        assert_eq!(wrong("{a: 3}"), "a.json, line 1, character 2: a key must be in quotes");
         assert_eq!(wrong("[]"), "a.json, line 1, character 0: must be a table, not a list");
     }
 }

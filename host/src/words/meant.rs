@@ -1,6 +1,6 @@
-//! Names that are not known, and the one that was probably meant.
+//! Errors about unknown names, with a suggestion.
 
-/// The known name that is nearest to what was said; none where nothing is near.
+/// The known name nearest to the given one; none if none is near.
 pub fn meant<'a>(said: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = |text: &str| text.to_lowercase().chars().collect::<Vec<_>>();
     let wrong = lower(said);
@@ -9,8 +9,7 @@ pub fn meant<'a>(said: &str, known: impl IntoIterator<Item = &'a str>) -> Option
     (edits <= (wrong.len().max(name.len()) / 3).max(1)).then_some(name)
 }
 
-/// A sentence about a name that is not known:
-/// `there is no scene "pta": did you mean "pat"? Known are pat, lash`.
+/// Sentence about an unknown name: `there is no scene "pta": did you mean "pat"? Known are pat, lash`.
 pub fn unknown<'a>(what: &str, said: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     let all = known.join(", ");
@@ -20,7 +19,7 @@ pub fn unknown<'a>(what: &str, said: &str, known: impl IntoIterator<Item = &'a s
     }
 }
 
-/// Letters to insert, remove, replace or swap with their neighbour.
+/// Edit distance: insertions, deletions, replacements and swaps of neighbours.
 fn distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
     rows[0] = (0..=b.len()).collect();

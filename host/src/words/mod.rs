@@ -1,9 +1,8 @@
-//! Errors in the words of the user, not in those of the libraries: `must be a whole number from 0 to 255, not
+//! Errors in the words of the user instead of those of libraries: `must be a whole number from 0 to 255, not
 //! "a"` instead of `invalid type: string "a", expected u8`.
 //!
-//! Who parses a file of the user turns the reader's error into a sentence by [`toml`] or [`json`], which name
-//! file, line and key. What nobody has put into words on its way up is translated where the program prints it,
-//! by [`sentence`].
+//! Parsers of user files turn the reader's error into a sentence by [`toml`] or [`json`], which name file,
+//! line and key. All other errors are translated when they are printed, by [`sentence`].
 
 mod json;
 mod meant;
@@ -21,17 +20,17 @@ pub use self::toml::toml;
 
 use std::error::Error;
 
-/// An error and its causes as one sentence on one line, without what a terminal would obey: causes quote files
-/// and boards.
+/// Formats an error and its causes as one sentence on one line, without control characters: causes quote
+/// files and boards.
 pub fn sentence(error: &anyhow::Error) -> String {
     let mut causes: Vec<String> = error.chain().map(cause).collect();
-    // Some libraries quote their cause, and name it as well.
+    // Some libraries quote their cause in addition to returning it.
     causes.dedup_by(|cause, quoting| quoting.ends_with(cause.as_str()));
     let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");
     printable(&line).into_owned()
 }
 
-/// One error without its causes.
+/// Formats one error without its causes.
 pub fn cause(error: &(dyn Error + 'static)) -> String {
     if let Some(error) = error.downcast_ref::<serde_json::Error>() {
         return json::without_text(error);
@@ -42,10 +41,10 @@ pub fn cause(error: &(dyn Error + 'static)) -> String {
     io(&error.to_string())
 }
 
-/// What the system says, without its number; sentences go on in lower case.
+/// The system's message without its number, in lower case.
 fn io(message: &str) -> String {
     match message {
-        "stream did not contain valid UTF-8" => return "it is no text (UTF-8)".into(),
+        "stream did not contain valid UTF-8" => return "it is not text (UTF-8)".into(),
         "failed to fill whole buffer" => return "it ends too early".into(),
         _ => {}
     }
@@ -53,7 +52,7 @@ fn io(message: &str) -> String {
     while let Some(start) = text.find(" (os error ") {
         let Some(length) = text[start..].find(')') else { break };
         text.replace_range(start..=start + length, "");
-        // What comes before the number is a sentence of the system.
+        // The text before the number is a sentence of the system.
         let begin = text[..start].rfind(": ").map_or(0, |at| at + 2);
         if let Some(lower) = text[begin..].chars().next().map(|first| first.to_lowercase().to_string()) {
             text.replace_range(begin..begin + text[begin..].chars().next().map_or(0, char::len_utf8), &lower);

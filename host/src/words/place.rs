@@ -1,25 +1,25 @@
-//! Lines and keys of a TOML text: what stands at a byte, and where a value stands.
+//! Lines and keys of a TOML text: what is at a byte, and where a value is.
 
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A step from a table or list to what is in it.
+/// A step from a table or list to one of its values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step<'a> {
     /// The value of a key.
     Key(&'a str),
-    /// The value at a place of a list, from 0.
+    /// The value with this index in a list, from 0.
     At(usize),
 }
 
-/// The line, from 1, of a byte.
+/// Line of a byte, from 1.
 pub(super) fn line(text: &str, at: usize) -> usize {
     1 + text.bytes().take(at).filter(|byte| *byte == b'\n').count()
 }
 
-/// The line, from 1, on which the value stands to which the steps lead, or the last of them that is there;
-/// none where the text is no TOML.
+/// Line, from 1, of the value at the end of the steps, or of the last step that exists; none if the text is
+/// not TOML.
 pub fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
     let table = DeTable::parse(text).ok()?;
     let mut start = 0;
@@ -38,7 +38,7 @@ pub fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
     Some(line(text, start))
 }
 
-/// The innermost key whose value holds these bytes; where the text is no TOML, the key before them on their
+/// Innermost key whose value contains these bytes; if the text is not TOML, the key before them on their
 /// line.
 pub(super) fn key_at(text: &str, span: &Range<usize>) -> Option<String> {
     let Ok(table) = DeTable::parse(text) else {
@@ -61,7 +61,7 @@ fn within(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
     })
 }
 
-/// Tables that stand under a header have the header's place alone, so all are looked into.
+/// Tables under a header have only the header's place, so all of them are searched.
 fn deeper(value: &Spanned<DeValue<'_>>, span: &Range<usize>) -> Option<String> {
     match value.get_ref() {
         DeValue::Table(table) => within(table, span),

@@ -1,24 +1,24 @@
-//! Words from outside, without what a terminal would obey.
+//! Text from outside, without control characters.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// What stands in the place of a sign that a terminal obeys.
+/// Replacement of a control character.
 const STANDS: &str = "?";
 
-/// Whether a terminal obeys a sign, or shows what stands beside it elsewhere: control codes, ends of lines and
-/// of paragraphs, turns of the direction of writing.
+/// True for characters that control a terminal or move the text beside them: control codes, line and
+/// paragraph separators, changes of writing direction.
 fn is_obeyed(sign: char) -> bool {
     let turns = matches!(sign, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     sign.is_control() || turns
 }
 
-/// The words with `?` for each sign that a terminal would obey.
+/// Replaces each control character by `?`.
 pub fn printable(text: &str) -> Cow<'_, str> {
     if text.contains(is_obeyed) { text.replace(is_obeyed, STANDS).into() } else { text.into() }
 }
 
-/// A line of JSON in which signs that a terminal would obey are escaped: it says the same.
+/// Escapes control characters in a line of JSON; the meaning stays the same.
 pub fn printable_json(line: &str) -> Cow<'_, str> {
     if !line.contains(is_obeyed) {
         return line.into();
@@ -26,7 +26,7 @@ pub fn printable_json(line: &str) -> Cow<'_, str> {
     let mut escaped = String::with_capacity(line.len());
     for sign in line.chars() {
         if is_obeyed(sign) {
-            // A string takes all, and all of these signs have four digits.
+            // Writing to a string cannot fail, and all of these characters have four digits.
             let _ = write!(escaped, "\\u{:04x}", u32::from(sign));
         } else {
             escaped.push(sign);

@@ -1,6 +1,6 @@
-//! What a reader of TOML or JSON found, in plain words.
+//! Translates errors of TOML and JSON readers to plain words.
 
-/// Translates the message of a reader; what is in plain words already stays as it is.
+/// Translates a message; others stay as they are.
 pub fn plain(message: &str) -> String {
     let message = message.lines().map(str::trim).collect::<Vec<_>>().join(", ");
     match message.as_str() {
@@ -45,14 +45,14 @@ fn length(message: &str) -> Option<String> {
         let most = most.trim_end_matches(" long");
         return Some(format!("must be a text of at most {most}, not of {count}"));
     }
-    // A list without a length of its own is too long for the room that it has.
+    // A list without a fixed length exceeds the room for it.
     if let ("a sequence", Ok(count)) = (wanted, count.parse::<u64>()) {
         return Some(format!("there is room for {} values only", count.saturating_sub(1)));
     }
     Some(format!("must be {}, not of {count}", this(wanted)))
 }
 
-/// Keys and names that are missing, unknown or given twice.
+/// Missing, unknown and duplicate keys and names.
 fn name(message: &str) -> Option<String> {
     let field = |prefix: &str| message.strip_prefix(prefix).map(str::to_string);
     if let Some(field) = field("missing field ") {
@@ -62,7 +62,7 @@ fn name(message: &str) -> Option<String> {
         return Some(format!("{field} is given twice"));
     }
     if message.starts_with("data did not match any variant of untagged enum") {
-        return Some("has none of the forms that are known here".into());
+        return Some("has none of the known forms".into());
     }
     let (what, rest) = match (field("unknown field "), field("unknown variant ")) {
         (Some(rest), _) => ("key", rest),
@@ -76,18 +76,16 @@ fn name(message: &str) -> Option<String> {
             let names = known.split(", ").map(|name| name.trim_matches('`'));
             match super::meant(unknown.trim_matches('`'), names) {
                 Some(name) => {
-                    format!(
-                        "{unknown} is no {what} that is known here, did you mean `{name}`? Known are {known}"
-                    )
+                    format!("{unknown} is not a known {what}, did you mean `{name}`? Known are {known}")
                 }
-                None => format!("{unknown} is no {what} that is known here: {known}"),
+                None => format!("{unknown} is not a known {what}: {known}"),
             }
         }
-        None => format!("{unknown} is no {what} that is known here"),
+        None => format!("{unknown} is not a known {what}"),
     })
 }
 
-/// What is wanted.
+/// Translates the expected type.
 fn this(wanted: &str) -> String {
     let number = |low: i64, high: i64| format!("a whole number from {low} to {high}");
     match wanted.strip_prefix("a nonzero ").unwrap_or(wanted) {
@@ -111,7 +109,7 @@ fn this(wanted: &str) -> String {
     }
 }
 
-/// Types that a program has names for: a table, a list or a name of the file.
+/// Translates types with names of their own: a table, a list, or a name.
 fn shape(wanted: &str) -> String {
     let count = || wanted.split(' ').find_map(|word| word.parse::<u64>().ok());
     let list =
@@ -126,7 +124,7 @@ fn shape(wanted: &str) -> String {
     }
 }
 
-/// What was found.
+/// Translates what was found.
 fn that(found: &str) -> String {
     let quoted = |kind: &str| found.strip_prefix(kind).map(|value| value.trim_matches('`').to_string());
     match found {
@@ -170,10 +168,10 @@ mod tests {
             ("duplicate field `at`", "`at` is given twice"),
             (
                 "unknown field `lo`, expected one of `low`, `high`",
-                "`lo` is no key that is known here, did you mean `low`? Known are `low`, `high`",
+                "`lo` is not a known key, did you mean `low`? Known are `low`, `high`",
             ),
-            ("unknown variant `xyz`, expected `b` or `c`", "`xyz` is no name that is known here: `b`, `c`"),
-            ("unknown field `a`, there are no fields", "`a` is no key that is known here"),
+            ("unknown variant `xyz`, expected `b` or `c`", "`xyz` is not a known name: `b`, `c`"),
+            ("unknown field `a`, there are no fields", "`a` is not a known key"),
             ("number would be zero for non-zero type", "it must be 1 or more"),
             ("99999 is not in 0..=65535", "it must be 0 to 65535"),
             ("the taxel is not in the garment", "the taxel is not in the garment"),

@@ -1,8 +1,8 @@
-//! Where and what is wrong in a TOML file.
+//! Places and causes of errors in TOML files.
 
 use super::{place, plain};
 
-/// What the reader of TOML found in the text of a file, as `FILE, line 3, `key`: ...`.
+/// Formats an error in the text of a file as `FILE, line 3, `key`: ...`.
 pub fn toml(error: &toml::de::Error, text: &str, file: &str) -> String {
     let message = plain(error.message());
     let Some(span) = error.span() else { return format!("{file}: {message}") };
@@ -55,7 +55,7 @@ mod tests {
         let unknown = told("row = 1\n[[pins]]\npin = 3\nkinds = 3\n");
         assert_eq!(
             unknown,
-            "a.toml, line 4: `kinds` is no key that is known here, did you mean `kind`? Known are `pin`, `kind`"
+            "a.toml, line 4: `kinds` is not a known key, did you mean `kind`? Known are `pin`, `kind`"
         );
         assert!(told("row = = 1").starts_with("a.toml, line 1"));
     }

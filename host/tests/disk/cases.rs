@@ -1,21 +1,21 @@
-//! The commands that write files, each with what it writes.
+//! The commands that write files, with their outputs.
 
-/// How it is known that an output is complete.
+/// How a complete output is recognised.
 #[derive(Debug, Clone, Copy)]
 pub enum Content {
     /// Each run writes the same.
     Same,
-    /// It ends like this; a date or a name stands in it.
+    /// It ends like this; it contains a date or a name.
     Ends(&'static str),
-    /// Whatever was taken before a fault stays.
+    /// Data from before a fault stays.
     Begins,
-    /// A table of TOML; a date or what was measured stands in it.
+    /// A TOML table; it contains a date or measurements.
     Toml,
-    /// A recording, of which a fault leaves what was said before.
+    /// A recording, of which a fault leaves earlier messages.
     Recording,
 }
 
-/// What a command writes.
+/// An output of a command.
 #[derive(Debug, Clone, Copy)]
 pub struct Output {
     pub name: &'static str,
@@ -24,7 +24,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Whether a file is it, or lies in it.
+    /// True if a file is the output, or in it.
     pub fn holds(&self, name: &str) -> bool {
         let temporary = name.contains(".part");
         let rest = name.strip_prefix(self.name).filter(|_| !temporary);
@@ -33,7 +33,7 @@ impl Output {
         })
     }
 
-    /// Files that it held before.
+    /// Files that it had before.
     pub fn old(&self) -> Vec<String> {
         match (self.is_folder, self.name) {
             (false, name) => vec![name.into()],
@@ -48,7 +48,7 @@ impl Output {
 pub enum Replaces {
     /// With `--force`.
     Forced,
-    /// Always: it is what the user names.
+    /// Always: the user names the file to change.
     Always,
 }
 
@@ -59,14 +59,14 @@ pub struct Case {
     pub args: &'static str,
     pub outputs: &'static [Output],
     pub replaces: Replaces,
-    /// What it reads from its standard input.
+    /// Its standard input.
     pub answers: &'static str,
     /// It takes seconds: fewer of its calls are tried.
     pub is_slow: bool,
 }
 
 impl Case {
-    /// Whether the output exists.
+    /// Variants: the output exists or not.
     pub fn variants(&self) -> impl Iterator<Item = bool> + use<> {
         let always = self.replaces == Replaces::Always;
         [false, true].into_iter().filter(move |replaces| *replaces || !always)
@@ -78,7 +78,7 @@ impl Case {
         self.args.split(' ').chain(force).collect()
     }
 
-    /// What a variant is called.
+    /// Name of a variant.
     pub fn shown(&self, replaces: bool) -> &'static str {
         if replaces { "exists" } else { "new" }
     }
@@ -114,7 +114,7 @@ const fn case(name: &'static str, args: &'static str, outputs: &'static [Output]
 
 const MAP: &str = "press\nkindness\n\npress > kindness\n\n0.9\ntanh\n0\n\npress rise 0 30000\n";
 
-/// All of them.
+/// All commands.
 pub const CASES: &[Case] = &[
     case("export csv", "export in.mcap --to csv --every 20 -o out.csv", &[file("out.csv")]),
     case("export contacts", "export in.mcap --to csv --contacts -o out.csv", &[file("out.csv")]),

@@ -1,8 +1,8 @@
-//! What a disk does.
+//! Faults of a disk.
 
 use crate::cases::Case;
 
-/// A fault, by the name that the library knows.
+/// A fault, by its name in the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     None,
@@ -54,7 +54,7 @@ impl Fault {
         matches!(self, Fault::KillBefore | Fault::KillHalf | Fault::KillAfter)
     }
 
-    /// Whether a call, as it is noted, can have it.
+    /// True if a logged call can have the fault.
     pub fn concerns(self, call: &str) -> bool {
         let writes = call.starts_with("write") || call.starts_with("copy_file_range");
         match self {
@@ -65,7 +65,7 @@ impl Fault {
         }
     }
 
-    /// Outside of a campaign a call has some of the faults, others in each command.
+    /// Outside of a campaign a call has some of the faults, which differ between commands.
     pub fn is_left_out(self, call: usize, case: &Case) -> bool {
         let one_of = if case.is_slow { 16 } else { 5 };
         !crate::is_campaign() && !(call + case.name.len() + self as usize).is_multiple_of(one_of)

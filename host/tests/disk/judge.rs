@@ -1,4 +1,4 @@
-//! What must hold of a run that met a fault.
+//! Requirements on a run with a fault.
 
 use crate::cases::{Case, Content, Output, Replaces};
 use crate::faults::Fault;
@@ -9,10 +9,10 @@ use std::fs;
 use std::path::Path;
 use taxel::recording::{repair, scan};
 
-/// Words of the program's language, which no user knows.
+/// Words of the programming language that must not reach the user.
 const FOREIGN: [&str; 7] = ["panicked", "os error", "Err(", "Os {", "unwrap", "kind:", "RUST_"];
 
-/// What a command finds, and leaves where nothing fails.
+/// Files of a command before a run, and after one without a fault.
 pub struct Judge<'a> {
     pub case: &'a Case,
     pub stage: &'a Stage,
@@ -21,7 +21,7 @@ pub struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// What is wrong.
+    /// Violations of the requirements.
     pub fn judge(&self, fault: Fault, done: &Done) -> Vec<String> {
         let mut wrong = Vec::new();
         let mut require = |holds: bool, why: &dyn Fn() -> String| {
@@ -57,7 +57,7 @@ impl Judge<'_> {
         self.case.outputs.iter().any(|output| output.holds(name))
     }
 
-    /// Files and folders that are no input and no output.
+    /// Files and folders that are neither input nor output.
     fn left(&self, done: &Done) -> Vec<String> {
         let is_known = |name: &&String| self.before.contains_key(*name) || self.is_output(name);
         let top = |name: &String| {
@@ -72,7 +72,7 @@ impl Judge<'_> {
         left
     }
 
-    /// An output holds all of the old or all of the new.
+    /// Checks that an output has all of the old or all of the new content.
     fn output(&self, output: &Output, fault: Fault, done: &Done) -> Result<(), String> {
         let of = |files: &Files| -> Files {
             let own = files.iter().filter(|(name, _)| output.holds(name));
@@ -123,7 +123,7 @@ impl Judge<'_> {
         }
     }
 
-    /// One sentence that names a file, in plain words.
+    /// Checks for one sentence that names a file, in plain words.
     fn told(&self, fault: Fault, done: &Done) -> Result<(), String> {
         if let Some(word) = FOREIGN.iter().find(|word| done.said.contains(*word)) {
             return Err(format!("says {word:?}"));
@@ -146,7 +146,7 @@ impl Judge<'_> {
         if names_one { Ok(()) } else { Err("the error names no output".into()) }
     }
 
-    /// After a kill the command runs once more, and nothing is in its way.
+    /// Runs the command again after a kill; nothing may be in its way.
     fn again(&self, done: &Done) -> Result<(), String> {
         let replaces =
             self.case.outputs.iter().any(|output| done.after.keys().any(|name| output.holds(name)));
@@ -156,20 +156,20 @@ impl Judge<'_> {
             return Err(again.said);
         }
         if self.case.replaces == Replaces::Always {
-            // What it went on from is another file by now.
+            // Its input was changed by the first run.
             return Ok(());
         }
         self.case.outputs.iter().try_for_each(|output| self.output(output, Fault::None, &again))
     }
 }
 
-/// The keys of a table of TOML; none where it is none.
+/// Keys of a TOML table; none for other text.
 fn keys(bytes: &[u8]) -> Option<Vec<String>> {
     let table: toml::Table = std::str::from_utf8(bytes).ok()?.parse().ok()?;
     Some(table.keys().cloned().collect())
 }
 
-/// Messages of a recording that can be read, once it is repaired; an error: some of it is damaged.
+/// Number of readable messages of a recording after a repair; error if some of it is damaged.
 fn messages(path: &Path, must_be_whole: bool) -> Result<u64, String> {
     let told = |error: anyhow::Error| format!("{error:#}");
     let found = scan(path).map_err(told)?;

@@ -1,5 +1,5 @@
-//! Every command that writes a file, on a disk that fails: full, read-only, broken, a link changed meanwhile, a
-//! kill, at each of the calls by which it writes. `cargo xtask test` gives the library that makes them fail
+//! Every command that writes a file, on a failing disk: full, read-only, broken, a link changed meanwhile, or
+//! a kill, at each of its writing calls. `cargo xtask test` provides the library that makes them fail
 //! (`TAXEL_DISK`).
 
 mod cases;
@@ -17,12 +17,12 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::thread;
 
-/// Whether every call is tried, not some of each command.
+/// True if every call is tried, not only some of each command.
 fn is_campaign() -> bool {
     std::env::var_os("TAXEL_CAMPAIGN").is_some()
 }
 
-/// Numbers of the calls that are tried, of so many.
+/// Numbers of the calls to try, of `calls`.
 fn tried(calls: usize) -> BTreeSet<usize> {
     let all = 1..=calls;
     if is_campaign() {
@@ -32,7 +32,7 @@ fn tried(calls: usize) -> BTreeSet<usize> {
     all.filter(chosen).collect()
 }
 
-/// What the runs of one command came to.
+/// Results of the runs of one command.
 #[derive(Default)]
 struct Tally {
     runs: usize,
@@ -40,7 +40,7 @@ struct Tally {
     wrong: Vec<String>,
 }
 
-/// Tries a command with each fault, in a folder where its output exists already or does not.
+/// Tries a command with each fault, in a folder where its output exists already or not.
 fn try_out(case: &Case, stage: &Stage, replaces: bool) -> Tally {
     let before = stage.before(case, replaces);
     let whole = Run { case, replaces, call: 0, fault: Fault::None }.go(stage, &before);
@@ -55,7 +55,7 @@ fn try_out(case: &Case, stage: &Stage, replaces: bool) -> Tally {
             let run = Run { case, replaces, call, fault };
             let done = run.go(stage, &before);
             if done.calls.len() < call {
-                // What a board sends in time is written in more calls or fewer.
+                // A live stream is written in a varying number of calls.
                 continue;
             }
             tally.runs += 1;
@@ -103,7 +103,7 @@ fn a_recording_that_grows_is_not_repaired_in_place() {
     let case = CASES.iter().find(|case| case.args.contains("--in-place")).unwrap();
     let before = stage.before(case, true);
     let done = Run { case, replaces: true, call: 1, fault: Fault::Grown }.go(&stage, &before);
-    assert!(!done.succeeded() && done.said.contains("has grown meanwhile"), "{}", done.said);
+    assert!(!done.succeeded() && done.said.contains("is still being recorded"), "{}", done.said);
     assert_eq!(done.after["cut.mcap"], [&before["cut.mcap"][..], b"more"].concat());
     assert_eq!(names(&done.after), names(&before));
 }

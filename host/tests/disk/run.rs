@@ -1,4 +1,4 @@
-//! One run of a command, with one fault at one call.
+//! Runs a command with one fault at one call.
 
 use crate::cases::Case;
 use crate::faults::Fault;
@@ -7,27 +7,27 @@ use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, ExitStatus, Stdio};
 
-/// What is to be run.
+/// A run.
 pub struct Run<'a> {
     pub case: &'a Case,
     pub replaces: bool,
-    /// Number of the call that fails; 0: none.
+    /// Number of the failing call; 0 for none.
     pub call: usize,
     pub fault: Fault,
 }
 
-/// What became of it.
+/// Result of a run.
 pub struct Done {
     pub place: Place,
     pub status: ExitStatus,
     pub said: String,
-    /// The calls that changed files, as they are noted.
+    /// The calls that changed files, as logged.
     pub calls: Vec<String>,
     pub after: Files,
 }
 
 impl Run<'_> {
-    /// Runs it in a folder of its own.
+    /// Runs the command in a folder of its own.
     pub fn go(&self, stage: &Stage, before: &Files) -> Done {
         let place = stage.folder(before);
         let target = self.case.outputs[0].name;

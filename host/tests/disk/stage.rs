@@ -1,4 +1,4 @@
-//! The folders in which commands run.
+//! Folders in which the commands run.
 
 use crate::cases::{Case, Output};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Files by their paths inside a folder.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// What is precious: a link may lead there.
+/// A file that a link may lead to and that must not change.
 pub const PRECIOUS: &str = "nobody may write this";
 
 /// The inputs of all commands, and a folder for each run.
@@ -20,7 +20,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Makes the inputs.
+    /// Creates the inputs.
     pub fn new(name: &str) -> Stage {
         let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("disk-{name}-{}", std::process::id()));
         let folder = root.join("inputs");
@@ -53,7 +53,7 @@ impl Stage {
         Stage { root, inputs }
     }
 
-    /// What a folder holds before a run.
+    /// Contents of a folder before a run.
     pub fn before(&self, case: &Case, replaces: bool) -> Files {
         let mut files: Files = self.inputs.clone();
         if replaces {
@@ -63,7 +63,7 @@ impl Stage {
         files
     }
 
-    /// A new folder with these files, and beside it what is precious; its path and where notes are taken.
+    /// A new folder with these files, and beside it the precious file. Returns its paths.
     pub fn folder(&self, files: &Files) -> Place {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let around = self.root.join(format!("run-{}", COUNT.fetch_add(1, Ordering::Relaxed)));
@@ -87,19 +87,19 @@ impl Drop for Stage {
     }
 }
 
-/// Where a command runs; removed when dropped.
+/// Folder of a run; deleted when dropped.
 pub struct Place {
     pub around: PathBuf,
     pub folder: PathBuf,
 }
 
 impl Place {
-    /// Where copies lie of what the folder held when the fault came.
+    /// Folder with copies of the contents at the time of the fault.
     pub fn held(&self) -> PathBuf {
         self.around.join("held")
     }
 
-    /// Whether what is precious is as it was.
+    /// True if the precious file is unchanged.
     pub fn is_precious_safe(&self) -> bool {
         let safe =
             |name: &str| fs::read(self.around.join(name)).is_ok_and(|text| text == PRECIOUS.as_bytes());
@@ -114,7 +114,7 @@ impl Drop for Place {
     }
 }
 
-/// All files below a folder; links are files that say where they lead to, and so is an empty folder.
+/// All files below a folder; links and empty folders are represented by files that describe them.
 pub fn read(folder: &Path) -> Files {
     fn add(folder: &Path, inside: &str, files: &mut Files) {
         for entry in fs::read_dir(folder).unwrap() {

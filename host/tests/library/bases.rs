@@ -1,5 +1,5 @@
-//! Bases of shapes as files: whatever is in them, they are read or refused with one sentence, and what is
-//! read recognises.
+//! Files of shape bases: any content is either read or refused with one sentence, and a base that was read
+//! recognises shapes.
 
 use proptest::prelude::*;
 use taxel::learn::confusion::Confusion;
@@ -69,12 +69,12 @@ fn what_is_wrong_is_said_in_one_sentence() {
     refused("taxel shapes 1", "taxel shapes 9", "expected \"taxel shapes 1\"");
     refused("nmi_s2", "nmi_s3", "other measures");
     refused("\"k\":3", "\"k\":0", "shapes.k");
-    refused("\"weights\":[", "\"weights\":[[],", "no base of shapes");
-    refused("\"reject\":", "\"reject\":-", "no base of shapes");
+    refused("\"weights\":[", "\"weights\":[[],", "not a base of shapes");
+    refused("\"reject\":", "\"reject\":-", "not a base of shapes");
     refused("\"prototypes\":[{\"class\":0", "\"prototypes\":[{\"class\":31", "shapes.names");
     for length in [0, 1, 100, text.len() / 2, text.len() - 3] {
         let error = format!("{:#}", Base::parse(&text[..length]).unwrap_err());
-        assert!(error.starts_with("is no base of shapes"), "{error}");
+        assert!(error.starts_with("is not a base of shapes"), "{error}");
     }
     let many = "{\"class\":0,\"at\":[0,0,0,0,0,0,0,0,0,0,0,0]},".repeat(201);
     refused("\"prototypes\":[", &format!("\"prototypes\":[{many}"), "at most 200");

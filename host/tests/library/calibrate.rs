@@ -1,5 +1,5 @@
-//! Calibrating simulated garments whose taxels differ, lag and are noisy: forces of other touches, and when
-//! it no longer holds.
+//! Calibration of simulated garments with unequal gains, hysteresis and noise: forces of other touches, and
+//! detection of drift.
 
 use anyhow::Result;
 use fastrand::Rng;
@@ -15,9 +15,9 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
-/// What the bar asks for.
+/// Sensor properties of the requirement.
 const SENSOR: Sensor = Sensor { gain_spread: 0.10, hysteresis: 0.03, noise: 0.02, half_n: 0.0 };
-/// Onset of the first touch, time of each level, and time from touch to touch, s.
+/// Onset of the first touch, time of each level, and time between touches, s.
 const TOUCH_S: [f64; 3] = [20.0, 0.4, 2.0];
 const TOUCHES: usize = 40;
 
@@ -33,7 +33,7 @@ fn calibrated(sensor: &Sensor, seed: u64) -> Result<Calibration> {
     calibrate(&mut board, &Task { over: Over::Panel, weights, by: "a test".into(), wait: 60.0, json: true })
 }
 
-/// Touches of 0.5 to 20 N, each at a half, whole, and at a half of its force again.
+/// Touches of 0.5 to 20 N, each at half, full, and half of its force again.
 fn touches(sensor: &Sensor, seed: u64) -> (Script, Vec<f64>) {
     let mut rng = Rng::with_seed(seed ^ 0x70);
     let mut text = format!(
@@ -43,7 +43,7 @@ fn touches(sensor: &Sensor, seed: u64) -> (Script, Vec<f64>) {
     let mut forces = Vec::new();
     for index in 0..TOUCHES {
         let force = 20.0 * 40f64.powf(-rng.f64());
-        // Light ones with a fingertip's width, heavy ones with a hand's.
+        // Light ones with the width of a fingertip, heavy ones with that of a hand.
         let size = if force < 3.0 { 12.0 + 10.0 * rng.f64() } else { 28.0 + 8.0 * rng.f64() };
         let room = [16.0, 4.0].map(|count| (rng.f64() - 0.5) * (count - size / 10.0 - 0.5));
         text += &format!(
@@ -58,7 +58,7 @@ fn touches(sensor: &Sensor, seed: u64) -> (Script, Vec<f64>) {
     (Script::parse(&text, "touches.toml").unwrap(), forces)
 }
 
-/// For a measurement every count counts: no filter, and a floor within the noise.
+/// Scene for measurements, where every count matters: no filter, and a floor within the noise.
 fn measuring() -> Scene {
     let mut scene = Scene::shipped();
     (scene.condition.filter, scene.condition.floor) = (Filter::Off, 4);
@@ -69,8 +69,8 @@ fn measuring() -> Scene {
     scene
 }
 
-/// Forces that stand still, the felt ones in the mean of 0.26 s: `[true, felt]`, N; and what the board says
-/// of its calibration.
+/// Steady forces with their measured means over 0.26 s: `[true, felt]`, N; and the board's description of its
+/// calibration.
 fn felt(calibration: &Calibration, sensor: &Sensor, seed: u64) -> (Vec<[f64; 2]>, String) {
     let (script, forces) = touches(sensor, seed);
     let mut source = source::simulated(script, &SourceOptions::default()).unwrap();
@@ -101,7 +101,7 @@ fn felt(calibration: &Calibration, sensor: &Sensor, seed: u64) -> (Vec<[f64; 2]>
     }
 }
 
-/// The means of what was felt of one force after the other.
+/// Means of the measurements of one force after the other.
 fn means(frames: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let one = |frames: &[[f64; 2]]| {
         [frames[0][0], frames.iter().map(|[_, felt]| felt).sum::<f64>() / frames.len() as f64]
@@ -109,17 +109,17 @@ fn means(frames: &[[f64; 2]]) -> Vec<[f64; 2]> {
     frames.chunk_by(|a, b| a[0] == b[0]).map(one).collect()
 }
 
-/// The force at a time, if it stands still.
+/// The force at a time, if it is steady.
 fn standing(forces: &[f64], now: f64) -> Option<f64> {
     let since = now - TOUCH_S[0];
     let force = forces.get((since / TOUCH_S[2]).floor() as usize).filter(|_| since >= 0.0)?;
     let at = since.rem_euclid(TOUCH_S[2]);
     let level = [0.5, 1.0, 0.5].get((at / TOUCH_S[1]) as usize)?;
-    // Not the first or last of it: a frame takes a while.
+    // Not the first or last part: a frame takes time.
     (0.12..0.38).contains(&(at % TOUCH_S[1])).then_some(force * level)
 }
 
-/// Error rms over forces within a range, part of each, and their number.
+/// Rms error over forces within a range, as a share of each, and their number.
 fn error(frames: &[[f64; 2]], range: std::ops::RangeInclusive<f64>) -> (f64, usize) {
     let errors: Vec<f64> = frames
         .iter()
@@ -159,19 +159,19 @@ fn forces_of_half_to_twenty_newtons_are_within_three_percent() {
             100.0 * fit.error
         );
         assert!(count > 80 && rms < 0.03, "seed {seed}: {rms} of {count}");
-        // What the gains are good for: with another garment's, the same forces are off.
+        // Effect of the gains: with another garment's, the same forces are off.
         let (others, _) = felt(&calibration, &SENSOR, seed + 1_000);
         assert!(error(&others, 0.5..=20.0).0 > 1.3 * rms);
     }
 }
 
-/// A calibration of a garment by its usual weights; the last taxel is dead where that is asked for.
+/// A calibration of a garment with its default weights; optionally the last taxel is dead.
 fn made(garment: &Garment, name: &str, over: Over, dead: bool) -> Calibration {
     let layout = Layout::build(garment, 128, 4095).unwrap();
     let plates = plates(garment, &layout, over).unwrap();
     let weights = over.weights().to_vec();
     let mut session = script(name, &layout, &plates, &weights, &SENSOR, 401).unwrap();
-    // The last, because whoever loads does not wait.
+    // Last, because the simulated user does not wait.
     session.faults.dead.extend(dead.then_some(layout.taxels() as u16 - 1));
     let mut board = RawBoard::on(source::simulated(session, &RawBoard::options()).unwrap()).unwrap();
     calibrate(&mut board, &Task { over, weights, by: "a test".into(), wait: 60.0, json: true }).unwrap()
@@ -203,8 +203,8 @@ fn a_plate_over_blocks_or_over_taxels_gives_the_same_gains() {
             100.0 * spread,
             100.0 * parts.fit.error
         );
-        // Taxels that differ by 10 %, and two measurements of each, whose noise of 2 % has hardly changed
-        // within a reading.
+        // Taxels differ by 10 %; two measurements of each, whose noise of 2 % hardly changes within a
+        // reading.
         assert!(spread < 0.025, "{over:?}: {spread}");
     }
     std::fs::remove_file(&file).unwrap();
@@ -234,9 +234,9 @@ fn a_file_is_read_as_it_was_written_and_a_changed_one_is_refused() {
         std::fs::write(&file, text.replacen(from, to, 1)).unwrap();
         format!("{:#}", Calibration::read(&file).unwrap_err())
     };
-    assert!(refused("gains = [", "gains = [4096, ").contains("`rest` and `gains` must be as long"));
+    assert!(refused("gains = [", "gains = [4096, ").contains("`rest` and `gains` must have the same length"));
     let id = format!("id = \"{}\"", calibration.id);
-    assert!(refused(&id, "id = \"00000000\"").ends_with("it was changed"));
+    assert!(refused(&id, "id = \"00000000\"").ends_with("the file was changed"));
     let wrong = refused("by = ", "bye = ");
     assert!(wrong.contains("line 3") && wrong.contains("bye"), "{wrong}");
     std::fs::remove_file(&file).unwrap();
@@ -266,7 +266,7 @@ fn the_reasons_to_calibrate_again_are_named() {
     assert_eq!(why(Seen { rest: vec![], ..well.clone() }), [Reason::Garment(0, 64)]);
     assert_eq!(why(Seen { ill: BTreeSet::from([1, 2]), ..well.clone() }), [Reason::Ill(2)]);
     assert_eq!(why(Seen { press: Some((20.0, 17.0)), ..well.clone() }), [Reason::Press(20.0, 17.0)]);
-    // The simulated board has no thermometer: nothing is said until both temperatures are known.
+    // The simulated board has no thermometer: nothing is reported unless both temperatures are known.
     assert_eq!(calibration.celsius, None);
     assert_eq!(why(Seen { celsius: Some(60.0), ..well.clone() }), []);
     let warm = Calibration { celsius: Some(24.0), ..calibration.clone() };

@@ -1,9 +1,10 @@
 //! The host's time of a board's frames over an hour, against a simulated truth that the client does not see.
 //!
-//! The board's clock runs 50 ppm fast, and wanders by 5 ppm with a period of ten minutes, as with the warmth
-//! of a room (0.052 ppm/s at most). The way to the board takes 0.1 to 5 ms: the board reads its link between
-//! two stages of a frame. The way back takes 0.8 ms at least, 0.3 ms more on average; in bursts, ten seconds
-//! of each half minute, 20 ms more on average, as behind images on a busy link. One answer in twenty is lost.
+//! The board's clock runs 50 ppm fast, and wanders by 5 ppm with a period of ten minutes, as with the
+//! temperature of a room (0.052 ppm/s at most). The way to the board takes 0.1 to 5 ms, because the board
+//! reads its link between two stages of a frame. The way back takes at least 0.8 ms, on average 0.3 ms more;
+//! in bursts, ten seconds of each half minute, on average 20 ms more, as behind images on a busy link. One
+//! answer in twenty is lost.
 
 use fastrand::Rng;
 use std::collections::VecDeque;
@@ -31,7 +32,7 @@ struct Line {
     /// When the board's clock showed 0.
     booted: f64,
     rng: Rng,
-    /// Bytes on their way to the host, and when they arrive.
+    /// Bytes on their way to the host, and their times of arrival.
     coming: VecDeque<(f64, Vec<u8>)>,
 }
 
@@ -59,7 +60,7 @@ impl Line {
         -mean * (1.0 - self.rng.f64()).ln()
     }
 
-    /// The host sends what is due, and takes what has come by now.
+    /// The host sends due requests, and handles arrived bytes.
     fn poll(&mut self, now: f64) {
         while let Some((at, bytes)) = self.coming.pop_front_if(|(at, _)| *at <= now) {
             self.client.tell_time((EPOCH + at) as u64);
@@ -85,7 +86,7 @@ impl Line {
         }
     }
 
-    /// All that the board has to say.
+    /// Everything that the board sends.
     fn answers(&mut self, now: f64) -> Vec<u8> {
         let (time, mut bytes) = (self.board_time(now), Vec::new());
         loop {
@@ -140,7 +141,7 @@ fn after_a_restart_of_the_board_its_time_is_learnt_anew() {
     let now = 2_000.0 * FRAME;
     (line.board, line.booted) = (board(), now);
     line.coming.clear();
-    // Its first words; nobody has asked yet.
+    // Its first messages, before any request.
     let hello = line.answers(now + 1_000.0);
     line.coming.push_back((now + 2_000.0, hello));
     line.poll(now + 2_500.0);

@@ -4,21 +4,21 @@
 use taxel_core::format::Code;
 use taxel_core::shape::Class;
 
-/// What is drawn.
+/// The drawn classes.
 pub const CLASSES: [Class; 3] = [Class::RECTANGLE, Class::ROUND, Class::FINGER];
 
-/// A generator of numbers, by its seed.
+/// A seeded random generator.
 pub struct Rng(pub u64);
 
 impl Rng {
-    /// A number between two.
+    /// A number in a range.
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         low + (high - low) * (self.0 >> 33) as f64 / (1u64 << 31) as f64
     }
 }
 
-/// One drawn touch; lengths in taxels.
+/// A drawn touch; lengths in taxels.
 pub struct Touch {
     class: Class,
     /// Centre.
@@ -26,13 +26,13 @@ pub struct Touch {
     pub y: f64,
     angle: f64,
     pub size: f64,
-    /// Of a rectangle: length to width. Of a finger: half width to `size`.
+    /// Length to width of a rectangle; half width to `size` of a finger.
     ratio: f64,
     pub gain: f64,
 }
 
 impl Touch {
-    /// One of a class, somewhere in the middle of a panel.
+    /// A random touch of a class near the middle of a panel.
     pub fn random(class: Class, rows: u16, columns: u16, rng: &mut Rng) -> Touch {
         let (low, high) = match rows.min(columns) {
             ..=4 => (1.2, 1.6),
@@ -50,7 +50,7 @@ impl Touch {
         }
     }
 
-    /// Pressure at a point, of 1.
+    /// Relative pressure at a point, 0 to 1.
     fn at(&self, x: f64, y: f64) -> f64 {
         let ((s, c), x, y) = (self.angle.sin_cos(), x - self.x, y - self.y);
         let (u, v) = (x * c + y * s, y * c - x * s);
@@ -70,7 +70,7 @@ impl Touch {
         }
     }
 
-    /// Codes of a converter of 12 bits: each taxel sees the mean of 6 x 6 points.
+    /// Codes of a 12-bit converter: each taxel is the mean of 6 x 6 points.
     pub fn codes(&self, rows: u16, columns: u16) -> Vec<Code> {
         let taxel = |row: u16, column: u16| {
             let point = |i: i32| (f64::from(i) + 0.5) / 6.0 - 0.5;

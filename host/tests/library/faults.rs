@@ -1,4 +1,4 @@
-//! Faults of lines and inputs, and what the simulated board says of them: a part of the targets that test
+//! Faults of lines and inputs, and the self-test of the simulated board; shared by the targets that test
 //! health.
 
 use taxel::sim::{PINS, Script, SimBoard};
@@ -6,7 +6,7 @@ use taxel_core::acquire::MuxScan;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::selftest::{Examine, Fault, Findings, PinFault};
 
-/// What a self-test of the simulated board finds.
+/// Findings of a self-test of the simulated board.
 pub fn examine(garment: &Garment, script: &Script) -> Findings {
     let layout = Layout::build(garment, 2048, 4095).unwrap();
     let circuit = Circuit::build(garment, &layout, Pins::ANY).unwrap();
@@ -17,7 +17,7 @@ pub fn examine(garment: &Garment, script: &Script) -> Findings {
     findings
 }
 
-/// Every fault of one line or input of a garment, a line bridged to the next one.
+/// Every fault of one line or input of a garment; bridges are to the next line.
 pub fn pin_faults(garment: &Garment) -> Vec<PinFault> {
     let wiring = &garment.wiring;
     let groups = [&wiring.block, &wiring.row, &wiring.column];

@@ -1,5 +1,6 @@
-//! Fuzzy cognitive maps against exact trajectories of published and made maps (tests/reference/fcm_*.json: 50
-//! digits, fractions for thresholds), for the f64 engine, the exact one and the core's integers.
+//! Fuzzy cognitive maps against exact trajectories of published and generated maps
+//! (tests/reference/fcm_*.json: 50 digits, fractions for thresholds), for the f64 engine, the exact one and
+//! the core's integers.
 
 use serde_json::Value;
 use taxel::fcm::decimal::Decimal;
@@ -156,14 +157,14 @@ fn the_core_follows_the_first_states() {
     assert!(worst[0] < 2.1e-4 && worst[1] < 4e-4, "{worst:?}");
 }
 
-/// A step's rounding is carried on until the map settles: on the way the core is further off than where it
-/// ends.
+/// Rounding errors of steps accumulate until the map settles: the core is further off during the trajectory
+/// than at its end.
 #[test]
 fn the_core_follows_the_whole_trajectory() {
     let mut worst = [(0.0, String::new()), (0.0, String::new())];
     for (problem, case) in all().filter(|(_, c)| !c.settings.transfer.is_threshold() && c.outcome == "fixed")
     {
-        // What is within 1e-12 of the reference wherever that has a state.
+        // Within 1e-12 of the reference wherever that has a state.
         let exact = engine::run(&problem, &case.settings, 1500);
         let run = engine::q15(&problem, &case.settings, 1500).unwrap();
         let errors = run.states.iter().zip(&exact.states).map(|(state, exact)| apart(state, exact));
@@ -178,8 +179,8 @@ fn the_core_follows_the_whole_trajectory() {
     assert!(worst[0].0 < 8e-4 && worst[1].0 < 2.5e-4, "{worst:?}");
 }
 
-/// A map that approaches its limit ever more slowly comes to rest in the core as soon as its steps are below
-/// half of 2^-15: `Fixed` says that the state reproduces itself, not that it is near the limit.
+/// A map with ever slower convergence stops in the core as soon as its steps are below half of 2^-15: `Fixed`
+/// says that the state reproduces itself, not that it is near the limit.
 #[test]
 fn a_creeping_map_rests_before_its_limit() {
     let mut told = Vec::new();
@@ -204,7 +205,7 @@ fn a_creeping_map_rests_before_its_limit() {
     }
 }
 
-/// `infer`, which remembers one state, and the host, which remembers all, end alike.
+/// `infer`, which remembers one state, and the host, which remembers all, have the same result.
 #[test]
 fn the_core_ends_where_its_trajectory_does() {
     for (problem, case) in all() {
@@ -263,8 +264,8 @@ fn decimal_ties_are_exactly_zero() {
     }
 }
 
-/// The source's rule as printed, C_j = 1 if C E_j > 0 else 0, has no memory: without a cycle among the edges
-/// the inputs go out at the first step, what they caused at the second, and so on.
+/// The published rule, C_j = 1 if C E_j > 0 else 0, has no memory: without a cycle among the edges the inputs
+/// become 0 at the first step, their effects at the second, and so on.
 #[test]
 fn the_published_rule_puts_out_every_map_without_cycles() {
     let d = |text: &str| Decimal::parse(text).unwrap();

@@ -1,5 +1,5 @@
-//! Ghosts of a passive matrix, whose currents are solved for here: three pressed corners make a fourth, and
-//! only that is taken for a ghost.
+//! Ghosts of a passive matrix with exactly solved currents: three pressed corners create a fourth, and only
+//! this one is reported as a ghost.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use taxel::health::{HealthArgs, Told, candidates, look};
@@ -14,16 +14,16 @@ use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 
 const ROWS: usize = 4;
 const COLUMNS: usize = 16;
-/// Conductances: at rest, and pressed.
+/// Conductances at rest and under pressure.
 const REST: f64 = 1e-4;
 const PRESSED: f64 = 1.0;
 
-/// Codes of a matrix of conductances between its rows and columns. To read a taxel its row is at 1 and its
-/// column at 0; everything else floats.
+/// Codes of a matrix of conductances between rows and columns. To read a taxel, its row is at 1 and its
+/// column at 0; all others float.
 fn codes(conductance: &[[f64; COLUMNS]; ROWS]) -> Vec<Code> {
     let read = |row: usize, column: usize| {
         let (mut rows, mut columns) = ([0.5; ROWS], [0.5; COLUMNS]);
-        // Gauss-Seidel: each floating node takes the mean of what it is connected to.
+        // Gauss-Seidel: each floating node takes the mean of its neighbours.
         for _ in 0..2000 {
             (rows[row], columns[column]) = (1.0, 0.0);
             for r in (0..ROWS).filter(|r| *r != row) {
@@ -41,7 +41,7 @@ fn codes(conductance: &[[f64; COLUMNS]; ROWS]) -> Vec<Code> {
     taxels.map(|(row, column)| Code((2000.0 * read(row, column)).round() as u16)).collect()
 }
 
-/// The contacts of a board at rest on which these taxels are then pressed.
+/// Contacts of a board at rest on which these taxels are then pressed.
 fn contacts(pressed: &[(usize, usize, f64)]) -> Vec<Placed> {
     let mut scene = Scene::shipped();
     scene.condition.filter = taxel_core::condition::Filter::Off;
@@ -75,7 +75,7 @@ fn contacts(pressed: &[(usize, usize, f64)]) -> Vec<Placed> {
     present
 }
 
-/// Places of the peaks of contacts, sorted.
+/// Sorted places of the peaks of contacts.
 fn places<'a>(contacts: impl IntoIterator<Item = &'a Placed>) -> Vec<(u16, u16)> {
     let mut places: Vec<_> =
         contacts.into_iter().map(|p| (p.contact.peak_at.row, p.contact.peak_at.column)).collect();
@@ -97,7 +97,7 @@ fn what_makes_no_rectangle_is_no_candidate() {
     for pressed in [
         vec![(0, 3, PRESSED), (3, 11, PRESSED)],
         vec![(0, 1, PRESSED), (0, 5, PRESSED), (0, 9, PRESSED), (0, 13, PRESSED)],
-        // Four that are pressed alike.
+        // Four, pressed equally.
         vec![(0, 3, PRESSED), (0, 11, PRESSED), (3, 3, PRESSED), (3, 11, PRESSED)],
     ] {
         let present = contacts(&pressed);
@@ -106,9 +106,9 @@ fn what_makes_no_rectangle_is_no_candidate() {
     }
 }
 
-/// What `taxel health` says of pens on a simulated board whose wiring is passive or not. They press the
-/// corners of a rectangle on the first and the last row, each within its row: on four rows, wider ones run
-/// into each other, and make two contacts.
+/// Result of `taxel health` for pens on a simulated board with passive or other wiring. They press the
+/// corners of a rectangle on the first and the last row, each within its row: on four rows, wider ones would
+/// merge to two contacts.
 fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<bool>) -> Told {
     static FILES: AtomicU32 = AtomicU32::new(0);
     let pen = |(row, column): &(f64, f64)| {
@@ -123,7 +123,7 @@ fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<b
     let file = std::env::temp_dir().join(name);
     std::fs::write(&file, text).unwrap();
     let source = format!("sim:{}", file.display()).parse().unwrap();
-    // A block alone is scanned in a sixth of the time, as often as the link takes.
+    // A single block is scanned in a sixteenth of the time, as often as the link allows.
     let frames = if garment == "block-4x16" { 1_500 } else { 200 };
     let told = look(&HealthArgs { source, frames, tare: None, self_test: false, passive, json: true });
     std::fs::remove_file(&file).unwrap();
@@ -136,14 +136,14 @@ const UNFILTERED: &str = "\n[scene.condition]\nfilter = \"off\"";
 
 #[test]
 fn the_fourth_corner_of_a_passive_block_is_named_by_the_command() {
-    // The second is a block among others, which is said to be passive. Its pens are too narrow for the filter.
+    // The second is a block among others, declared as passive. Its pens are too narrow for the filter.
     let unfiltered = format!("passive = true{UNFILTERED}");
     for (garment, wiring, passive) in
         [("block-4x16", "passive = true", None), ("mat-64x32", unfiltered.as_str(), Some(true))]
     {
         let told = health(garment, wiring, &CORNERS[..3], passive);
         let ghosts = told.json["ghosts"].as_array().unwrap();
-        // Its peak is now one taxel, now the next: all of them are of the fourth corner.
+        // Its peak alternates between taxels, all of the fourth corner.
         let is_there = |ghost: &serde_json::Value| {
             let column = ghost["column"].as_u64().unwrap();
             ghost["panel"] == "mat" && ghost["row"] == 3 && (10..=12).contains(&column)
@@ -157,12 +157,12 @@ fn the_fourth_corner_of_a_passive_block_is_named_by_the_command() {
 
 #[test]
 fn nothing_that_is_pressed_is_called_a_ghost() {
-    // Read by amplifiers, or through a diode at each taxel, three corners make no fourth.
+    // With amplifiers, or a diode at each taxel, three corners create no fourth.
     let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], Some(true));
     assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
     let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], None);
     assert!(told.json["ghosts"].is_null());
-    // Two make none on a passive one.
+    // Two create none on a passive matrix.
     let told = health("block-4x16", "passive = true", &CORNERS[..2], None);
     assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
 }

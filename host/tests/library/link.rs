@@ -1,5 +1,5 @@
-//! The link under every kind of fault: what is delivered is what was sent, what is lost is counted exactly,
-//! and what no fault has touched arrives. `cargo xtask campaign --only link` sends ten million messages
+//! The link under every kind of fault: delivered messages equal the sent ones, lost ones are counted exactly,
+//! and those untouched by faults arrive. `cargo xtask campaign --only link` sends ten million messages
 //! through each.
 
 use fastrand::Rng;
@@ -7,12 +7,12 @@ use taxel::client::{Client, Event};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Report, SyncReport, encode};
 
-/// Messages between which faults are strewn.
+/// Messages per batch.
 const BATCH: usize = 64;
-/// Of so many batches one passes unharmed.
+/// One in this many batches has no fault.
 const SPARED: usize = 8;
 
-/// What happens to the bytes of a link.
+/// A fault of the bytes on a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fault {
     Bit,
@@ -39,7 +39,7 @@ const FAULTS: [Fault; 9] = [
 ];
 
 impl Fault {
-    /// How many bytes it may reach.
+    /// Most bytes that it affects.
     fn reach(self, random: &mut Rng) -> usize {
         match self {
             Fault::Bit | Fault::Byte | Fault::Zeroed | Fault::Inserted => 1,
@@ -49,7 +49,7 @@ impl Fault {
         }
     }
 
-    /// What becomes of some bytes.
+    /// Applies the fault to some bytes.
     fn on(self, bytes: &[u8], random: &mut Rng) -> Vec<u8> {
         let mut bytes = bytes.to_vec();
         match self {
@@ -66,20 +66,20 @@ impl Fault {
     }
 }
 
-/// The message of a number: everything in it follows from that.
+/// The message with this number, which determines its contents.
 fn message(seq: u32) -> SyncReport {
     let mixed = u64::from(seq).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let received = Micros(mixed >> 8);
     SyncReport { token: (mixed >> 32) as u32, received, sent: Micros(mixed >> (mixed & 15)) }
 }
 
-/// What came of some messages.
+/// Counts of messages.
 #[derive(Debug, Default)]
 struct Outcome {
     sent: u64,
     delivered: u64,
     lost: u64,
-    /// Those that a fault has touched.
+    /// Messages affected by a fault.
     touched: u64,
 }
 
@@ -99,8 +99,7 @@ impl Link {
         Link { fault, client, random, seq: 0, outcome: Outcome::default(), last: None }
     }
 
-    /// Sends a batch; the first and the last of its messages are spared, so that all losses lie between two
-    /// that arrive.
+    /// Sends a batch. Its first and last messages are spared, so that all losses are between two that arrive.
     fn batch(&mut self, spared: bool) {
         let first = self.seq;
         let (mut wire, mut ends) = (Vec::new(), Vec::new());
@@ -142,7 +141,7 @@ impl Link {
         self.outcome.sent += BATCH as u64;
     }
 
-    /// Strews faults over the bytes, from the last to the first.
+    /// Applies faults to the bytes, from the last to the first.
     fn harm(&mut self, wire: &mut Vec<u8>, ends: &[usize], touched: &mut [bool; BATCH]) {
         let mut to = ends[BATCH - 2];
         loop {
@@ -152,7 +151,7 @@ impl Link {
             let range = from..from + reach;
             for (at, end) in ends.iter().enumerate() {
                 let begin = at.checked_sub(1).map_or(0, |before| ends[before]);
-                // The end of the one before belongs to it: without that, two are one.
+                // The delimiter before a message belongs to it: without it, two messages become one.
                 touched[at] |= range.start < *end && range.end > begin.saturating_sub(1);
             }
             let harmed = self.fault.on(&wire[range.clone()], &mut self.random);

@@ -1,4 +1,4 @@
-//! The library: simulated boards and garments, maps, shapes, touches, recordings.
+//! Tests of the library: simulated boards and garments, maps, shapes, touches, recordings.
 
 mod bases;
 mod calibrate;

@@ -1,11 +1,10 @@
-//! A mat of one block: a box that is pressed on it, and its calibration.
+//! A mat of one block: a box pressed on it, and its calibration.
 
 use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::{Garment, Layout};
 
-/// A script in which a box of 5 N, all of whose counts are above the floor, lies on the mat for so many
-/// seconds.
+/// A script in which a box of 5 N, with all counts above the floor, lies on the mat for this many seconds.
 pub fn box_for(hold_s: u32) -> String {
     format!(
         r#"
@@ -25,7 +24,7 @@ hold_s = {hold_s}
     )
 }
 
-/// A knee: 1,000 counts of the first newton on a taxel and 500 of those after it.
+/// A curve with a knee: 1,000 counts for the first newton on a taxel and 500 for each further one.
 pub fn knee() -> Calibration {
     let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
     let fitted = Fitted {

@@ -1,4 +1,5 @@
-//! What simulated touches mean: 500 seeded variants of a pat and of a lash, and controls with the map's reason.
+//! Intentions of simulated touches: 500 seeded variants of a pat and of a lash, and controls with the map's
+//! reason.
 
 mod family;
 mod flicker;
@@ -21,11 +22,10 @@ use taxel_core::scene::Scene;
 
 const TAXELS: usize = 2048;
 const VARIANTS: u64 = 500;
-/// The right answer in at least so many of them.
+/// Least number of right answers.
 const RIGHT: usize = 490;
 
-/// What the garment made of a script: every intention that led, in order, and the map's reason for the last
-/// one.
+/// Reaction to a script: every intention that led, in order, and the map's reason for the last one.
 struct Course {
     led: Vec<Leading>,
     reason: String,
@@ -62,7 +62,7 @@ fn perceive(script: &Script) -> Course {
     course
 }
 
-/// How many variants are right: nothing else than `wanted` leads, and it does lead.
+/// Number of variants in which `wanted` leads, and nothing else.
 fn right(scene: &str, wanted: Leading) -> usize {
     let script = sim::load(scene).expect("built in");
     let mut wrong = Vec::new();
@@ -139,7 +139,7 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         friendliness: 40,
         duration_ms,
         speed,
-        // What is left, the stage finds.
+        // The stage computes the rest.
         ..Touch::default()
     };
     let mut latest = [0; 2];
@@ -166,12 +166,12 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         latest = [latest[0].max(slap - 100), latest[1].max(stroke - 460)];
     }
     println!("attack at most {} ms after its onset, kindness {} ms", latest[0], latest[1]);
-    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke takes some time to be
-    // one.
+    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke is recognised after
+    // some time.
     assert!(latest[0] <= 40 && latest[1] <= 700, "{latest:?}");
 }
 
-/// An arm that bends folds its own garment: nobody touches it.
+/// A bending arm folds its own garment, without a touch.
 #[test]
 fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
     let script = sim::load("elbow").expect("built in");
@@ -206,7 +206,7 @@ fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
     assert!(led(false).len() > 1, "without its posture it may be a hand");
 }
 
-/// Forty families of touches against what a person would say. `TAXEL_CAMPAIGN=1`: five of each instead of one.
+/// Forty families of touches against a person's judgement. `TAXEL_CAMPAIGN=1`: five of each instead of one.
 #[test]
 fn families_are_understood() {
     let each = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 5 } else { 1 };

@@ -1,5 +1,5 @@
-//! Small hard things through the shipped scene: how much of their force is told, wherever they land, and how
-//! soon they are felt.
+//! Small hard objects in the shipped scene: the share of their force that is reported at any position, and
+//! the delay.
 
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
 use taxel_core::format::{Code, Micros};
@@ -8,14 +8,13 @@ use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
 const TAXELS: usize = 2048;
-/// Frames of the baseline, and the one in which the thing begins to press.
+/// Frames averaged by the tare, and the frame in which the object begins to press.
 const TARE: u16 = 16;
 const BEGIN: u64 = 40;
-/// Counts of a newton.
+/// Counts per newton.
 const COUNTS: f64 = 1000.0;
 
-/// What is told in each frame of something that presses the chest: the sum of all contacts, N, and the
-/// largest code.
+/// For each frame of an object pressed on the chest: the total of all contacts, N, and the largest code.
 fn told(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> Vec<(f64, u16)> {
     let start_s = (BEGIN * FRAME_PERIOD_US) as f64 / 1e6;
     let text = format!(
@@ -42,7 +41,7 @@ fn told(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> V
     (0..BEGIN + frames).map(&mut frame).collect()
 }
 
-/// Places all over a taxel in the middle of the chest.
+/// Positions over the area of a taxel in the middle of the chest.
 fn places() -> impl Iterator<Item = [f64; 2]> {
     (0..36).map(|place| [8.0 + f64::from(place % 6) / 6.0, 15.0 + f64::from(place / 6) / 6.0])
 }
@@ -65,7 +64,7 @@ fn the_force_of_small_things_is_told_wherever_they_land() {
     }
 }
 
-/// The first frame is that in which a taxel alone would begin a contact.
+/// The first frame is that in which a single taxel would begin a contact.
 #[test]
 fn a_needle_is_felt_within_three_frames() {
     let high = Scene::shipped().contact.high;
@@ -75,7 +74,7 @@ fn a_needle_is_felt_within_three_frames() {
         let shows = told.iter().position(|(_, code)| *code >= rest + high).unwrap();
         let felt = told.iter().position(|(force, _)| *force > 0.0).unwrap();
         assert!(felt < shows + 3, "at {at:?}: shown in frame {shows}, felt in {felt}");
-        // A taxel is full at 4 N.
+        // A taxel saturates at 4 N.
         assert!(told.last().unwrap().0 >= 3.8, "at {at:?}: {:?}", told.last());
     }
 }

@@ -16,7 +16,7 @@ use taxel_core::acquire::{Acquire, Adc, Clock, Lines, MuxScan, Plan, ScanError};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Coding, Garment, Layout, Line, Pins};
 
-/// Runs a future whose awaits are all ready at once.
+/// Runs a future that never waits.
 fn block_on<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
     loop {
@@ -31,7 +31,7 @@ fn circuit(garment: &Garment) -> Circuit {
     Circuit::build(garment, &layout, Pins::ANY).unwrap()
 }
 
-/// What happened on the board, in order.
+/// An operation on the board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Event {
     Set(u8, bool),
@@ -41,7 +41,7 @@ enum Event {
 
 type Log = Rc<RefCell<Vec<Event>>>;
 
-/// A mocked pin that also writes down when it was driven.
+/// A mocked pin that also records when it was driven.
 struct Probe {
     number: u8,
     mock: PinMock,
@@ -72,7 +72,7 @@ impl DelayNs for Delay {
     }
 }
 
-/// A mocked converter: the inputs that it expects to be read, and what it answers.
+/// A mocked converter: the inputs expected to be read, and the answers.
 struct Converter {
     mock: Generic<(u8, Result<u16, ()>)>,
     log: Log,
@@ -97,7 +97,7 @@ impl Clock for Still {
     }
 }
 
-/// A mocked board. `levels` are the pins with the levels that each expects to be driven to, in order.
+/// A mocked board. `levels` are the pins with the levels expected to be driven, in order.
 struct Bench {
     mocks: Vec<PinMock>,
     adc: Generic<(u8, Result<u16, ()>)>,
@@ -115,7 +115,8 @@ impl Bench {
         Bench { mocks, adc: Generic::new(reads), log, lines }
     }
 
-    /// Scans once or more, checks that every mock got all it expected, and returns the codes and the events.
+    /// Scans one or more times, checks that every expectation was met, and returns the codes and the
+    /// operations.
     fn scan(mut self, garment: &Garment, times: usize) -> (Result<Vec<u16>, ScanError>, Vec<Event>) {
         let circuit = circuit(garment);
         let converter = Converter { mock: self.adc.clone(), log: self.log.clone() };
@@ -348,7 +349,7 @@ fn a_scan_of_the_reference_garment_takes_5120_us() {
     assert_eq!(block_on(scan.scan(&circuit, &half)).unwrap().report.duration_us, 512 * 6);
 }
 
-/// The last of 60 frames of a hard box on the chest without noise, every taxel at 90 where nothing is.
+/// The last of 60 frames of a hard box on the chest without noise; untouched taxels are at 90.
 fn wired(effects: impl FnOnce(&mut Script)) -> Vec<u16> {
     let garment = Garment::reference();
     let script = scene("box", &garment, |s| {
@@ -366,8 +367,8 @@ fn wired(effects: impl FnOnce(&mut Script)) -> Vec<u16> {
 #[test]
 fn a_slow_line_smears_along_the_scan() {
     let ideal = wired(|_| {});
-    // 10 kOhm and 100 pF are 1 us: after 2 us of settling 13.5 % of the difference to the taxel before are
-    // left.
+    // 10 kOhm and 100 pF are 1 us: after 2 us of settling, 13.5 % of the difference from the previous taxel
+    // is left.
     let slow = wired(|s| {
         s.wiring.source_kohm = 10.0;
         s.wiring.line_pf = 100.0;
@@ -381,8 +382,8 @@ fn a_slow_line_smears_along_the_scan() {
     let mut worst = 0f64;
     for taxel in 1..512 {
         let (before, here) = (f64::from(ideal[taxel - 1]), f64::from(ideal[taxel]));
-        // The line goes on settling while the other inputs are read, so what is left stems from the taxel
-        // before.
+        // The line continues to settle while the other inputs are read, so the residue is that of the
+        // previous taxel.
         let expected = here + (before - here) * (-2f64).exp();
         worst = worst.max((f64::from(slow[taxel]) - expected).abs());
     }

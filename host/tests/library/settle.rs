@@ -1,4 +1,4 @@
-//! The settling that is found on a simulated garment, against the exact need of its lines.
+//! The settling time found on a simulated garment, against the exact requirement of its lines.
 
 use anyhow::Result;
 use taxel::bench::acquisition::LINE_PF;
@@ -8,9 +8,9 @@ use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::run::block_on;
 
-/// Counts that a full-scale step may leave.
+/// Allowed residue of a full-scale step, counts.
 const ERROR: f64 = 4.0;
-/// Two things on two panels.
+/// Two objects on two panels.
 const THINGS: &str = r#"
 duration_s = 10000
 [[touch]]
@@ -65,12 +65,12 @@ impl Scanner for Lines {
     }
 }
 
-/// Time after which a line leaves that much of a full-scale step, ns: kOhm times pF.
+/// Time after which a line has this residue of a full-scale step, ns; the time constant is kOhm times pF.
 fn need_ns(source_kohm: f64) -> f64 {
     source_kohm * LINE_PF * (4095.0 / ERROR).ln()
 }
 
-/// The least whole slots, ns.
+/// Least number of whole slots, ns.
 fn slots(need_ns: f64) -> f64 {
     (need_ns / 2_000.0).ceil().max(1.0) * 2_000.0
 }
@@ -93,7 +93,7 @@ fn a_board_with_slots_gets_the_least_slots_that_do() {
         let timing = Timing::REFERENCE;
         let mut lines = Lines { source_kohm, timing, script: THINGS.into(), now_us: 1_000_000 };
         let settled = settle(&mut lines, &Garment::reference(), ERROR).unwrap();
-        // Where the least number of slots is within 5 % of the need, noise may ask for one more.
+        // If the least number of slots is within 5 % of the requirement, noise may require another.
         let (taken, need) = (f64::from(timing.settling_ns(settled.settle_ns)), need_ns(source_kohm));
         let (least, most) = (slots(need), slots(1.05 * need));
         assert!(
@@ -111,7 +111,7 @@ fn without_an_edge_nothing_is_claimed() {
     assert!(why.starts_with("not sure: the picture has too few edges") && why.contains("GP26"), "{why}");
 }
 
-/// A board that takes no longer settling than its watchdog allows, of lines that never settle.
+/// A board with lines that never settle; it refuses settling times beyond its watchdog's limit.
 struct Never(u32);
 
 impl Scanner for Never {
@@ -129,7 +129,7 @@ fn no_settling_is_tried_that_the_board_refuses() {
     assert!(why.ends_with("at most 800 us of settling for this garment"), "{why}");
 }
 
-/// A board whose lines settle in 20 us, with the noise of its converter.
+/// A board whose lines settle in 20 us, with a noisy converter.
 struct Noisy {
     random: fastrand::Rng,
 }
@@ -148,7 +148,7 @@ impl Scanner for Noisy {
     }
 }
 
-/// One search in three took noise for a residue of a scan that had settled, and one in a hundred gave up.
+/// One search in three took noise for a residue of a settled scan, and one in a hundred gave up.
 #[test]
 fn noise_does_not_make_a_settled_board_slower() {
     for seed in 0..300 {

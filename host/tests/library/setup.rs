@@ -1,4 +1,4 @@
-//! Setup by touch of random wirings by a simulated user: right, or not sure, never wrong.
+//! Setup by touch of random wirings by a simulated user: right, or not sure, but never wrong.
 //!
 //! `TAXEL_CAMPAIGN=1` takes 1,000 wirings of the reference garment instead of 50.
 
@@ -7,7 +7,7 @@ use taxel::setup::{Bundle, Found, Next, Solver, User};
 use taxel::sim::{Decoder, rewire};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
-/// A random wiring, one in four with a dead input, and what setup makes of it.
+/// A random wiring, one in four with a dead input, and the result of its setup.
 fn set_up(template: &Garment, seed: u64) -> (Garment, Option<u8>, Result<Found, String>) {
     let mut rng = Rng::with_seed(seed);
     let wired = rewire(template, &mut rng);
@@ -25,7 +25,7 @@ fn set_up(template: &Garment, seed: u64) -> (Garment, Option<u8>, Result<Found, 
     }
 }
 
-/// Every address shows the same taxel; those of a dead input show none.
+/// True if every address shows the same taxel; addresses of a dead input show none.
 fn is_right(bundle: &Bundle, wired: &Garment, dead: Option<u8>, found: &Garment) -> bool {
     let (truth, guess) = (Decoder::build(wired), Decoder::build(found));
     let layout = Layout::build(found, 2048, 4095).unwrap();
@@ -39,7 +39,7 @@ fn is_right(bundle: &Bundle, wired: &Garment, dead: Option<u8>, found: &Garment)
     })
 }
 
-/// Right, not sure.
+/// Numbers of right and of "not sure" results.
 fn campaign(template: &Garment, seeds: std::ops::Range<u64>) -> (usize, usize) {
     let bundle = Bundle::of(template).unwrap();
     let (mut right, mut unsure, mut touches, mut margins) = (0, 0, 0, Vec::new());

@@ -1,4 +1,4 @@
-//! From an image to the shape of its greatest contact.
+//! Shape of the greatest contact of an image.
 #![allow(dead_code)] // each test that uses this takes a part of it
 
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image, Sampled};
@@ -7,17 +7,17 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{BUILT_IN, Base, Shape, ShapeConfig, Shapes};
 
-/// The stage with the base that is built in.
+/// The shape stage with the built-in base.
 pub fn shapes() -> Shapes<BUILT_IN> {
     ShapeConfig::default().build(Base::built_in()).unwrap()
 }
 
-/// The shape of the greatest contact of an image.
+/// Shape of the greatest contact of an image.
 pub fn shape_of(layout: &Layout, image: &Image) -> Option<Shape> {
     greatest(layout, image, |moments, contact| shapes().process(moments, contact))
 }
 
-/// What is made of the greatest contact of an image.
+/// Applies `of` to the greatest contact of an image.
 pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Contact) -> T) -> Option<T> {
     let mut state: ContactState<8, 1024> = ContactState::new();
     let contacts = ContactConfig::default().build().unwrap();
@@ -26,12 +26,12 @@ pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Contac
     all.max_by_key(|(_, contact)| contact.total).map(|(moments, contact)| of(moments, contact))
 }
 
-/// The shape of the greatest contact of a frame of codes.
+/// Shape of the greatest contact of a frame of codes.
 pub fn shape_of_codes(layout: &Layout, codes: &[Code]) -> Option<Shape> {
     greatest_of_codes(layout, codes, |moments, contact| shapes().process(moments, contact))
 }
 
-/// What is made of the greatest contact of a frame of codes.
+/// Applies `of` to the greatest contact of a frame of codes.
 pub fn greatest_of_codes<T>(
     layout: &Layout,
     codes: &[Code],
@@ -44,7 +44,7 @@ pub fn greatest_of_codes<T>(
     greatest(layout, &condition.process(&mut state, layout, &sampled, &Feedback::<8>::new()), of)
 }
 
-/// A garment of one panel, as recordings are.
+/// A garment of one panel, like that of a recording.
 pub fn recorded(rows: u16, columns: u16) -> Layout {
     Layout::build(&Garment::recorded(rows, columns), 2048, u16::MAX).unwrap()
 }

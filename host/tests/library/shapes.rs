@@ -37,7 +37,7 @@ fn forms_do_not_follow_pressure() {
         shape_of_codes(&layout, &touch.codes(32, 64)).unwrap()
     };
     let (soft, firm) = (at(0.05), at(0.8));
-    // As published it goes as one by the root of the pressure: 4 times less at 16 times the pressure.
+    // The published NMI scales with one over the root of the pressure: 4 times less at 16 times the pressure.
     let ratio = soft.nmi.to_f64() / firm.nmi.to_f64();
     assert!((ratio - 4.0).abs() < 0.1, "{ratio}");
     for (form, ideal) in
@@ -89,7 +89,7 @@ fn settings_are_checked() {
     }
 }
 
-/// The map that ships for shapes knows nothing but the NMI by peak: 0.399 for a disc, more for what is long.
+/// The shipped map for shapes uses only the NMI by peak: 0.399 for a disc, more for elongated shapes.
 #[test]
 fn the_shape_map_stands_beside_the_knn() {
     let map = BoardMap::build(&load::map("shape").unwrap()).unwrap();
@@ -97,7 +97,7 @@ fn the_shape_map_stands_beside_the_knn() {
     let mut rng = Rng(42);
     for (rows, columns, least) in [(4u16, 16u16, 45), (16, 16, 80), (32, 64, 95)] {
         let layout = recorded(rows, columns);
-        // Rows are what shapes were, columns what they were taken for.
+        // Rows are true shapes, columns decisions.
         let mut confusion = [[0; 3]; 3];
         for (index, class) in CLASSES.into_iter().enumerate().cycle().take(300) {
             let touch = Touch::random(class, rows, columns, &mut rng);

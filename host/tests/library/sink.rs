@@ -1,8 +1,8 @@
-//! Where a test finds what was written.
+//! A writer whose output a test can read.
 
 use std::sync::{Arc, Mutex};
 
-/// Writes into a list that the test keeps.
+/// Writes to a list that the test keeps.
 #[derive(Default, Clone)]
 pub struct Sink(Arc<Mutex<Vec<u8>>>);
 

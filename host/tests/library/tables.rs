@@ -1,5 +1,4 @@
-//! The tables and charts in docs/bench are what the program prints. Refreshed with TAXEL_BLESS=1 before this
-//! test.
+//! The tables and charts in docs/bench equal the program's output. TAXEL_BLESS=1 updates them.
 
 use std::path::Path;
 use taxel::bench::{Report, acquisition, amplifier, nmi};

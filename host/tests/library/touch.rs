@@ -1,5 +1,4 @@
-//! Models of touches: what bytes are refused, what a trained one decides in the board's arithmetic, and
-//! whether it fits.
+//! Models of touches: refused bytes, decisions of a trained model in the board's arithmetic, and its size.
 
 use proptest::prelude::*;
 use taxel::touches::{Head, Provenance, Ridge, Trained, export};
@@ -8,7 +7,7 @@ use taxel_core::gesture::{
     FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchState, Touches, checksum,
 };
 
-/// Touches of a sheet that differ by how fast they go to and fro.
+/// Touches of a sheet that differ in the speed of their back-and-forth movement.
 fn rubbing(period: usize, seed: usize) -> impl Iterator<Item = Vec<u16>> {
     (0..100).map(move |frame| {
         let at = (frame + seed) % period * 8 / period;
@@ -60,7 +59,7 @@ fn the_board_scores_as_the_planes_do() {
                 |i: usize| ((f64::from(features[i]) - ridge.middle[i]) / ridge.deviation[i]).clamp(-2.5, 2.5);
             let exact: f64 = (0..FEATURES).map(|i| weights[i] * away(i)).sum::<f64>() + ridge.offsets[class];
             let have = f64::from(scores[class]) / 262_144.0;
-            // Half of 2^-10 of each weight and a unit of 2^-8 of each feature.
+            // Half of 2^-10 of each weight, and a unit of 2^-8 of each feature.
             let most: f64 = weights.iter().map(|weight| weight.abs() / 100.0 + 2.5 / 2048.0).sum();
             assert!((have - exact).abs() <= most, "{have} of {exact}");
         }
@@ -79,7 +78,7 @@ fn the_shipped_models_fit_a_board_and_name_their_data() {
     assert!(size_of::<TouchState>() <= 4 << 10, "{} bytes", size_of::<TouchState>());
 }
 
-/// A model of two classes whose experts, by age, each prefer the class that is given.
+/// A model of two classes with experts, by age, that each prefer the given class.
 fn of_experts(experts: &[(usize, usize)], concludes: bool) -> Vec<u8> {
     let (ridge, _) = trained();
     let experts: Vec<Trained> = experts
@@ -131,8 +130,8 @@ fn the_expert_of_its_age_decides_and_the_last_concludes_where_touches_are_whole(
 #[test]
 fn a_model_of_version_2_is_read_and_knows_no_confidence() {
     let (_, three) = trained();
-    // Without the word on the last expert and its head and row; instead of the number of experts that of the
-    // features.
+    // Without the flag of the last expert and its header and row; with the number of features instead of that
+    // of the experts.
     let notes = 12 + 2;
     let mut two = three[..three.len() - 4 - 20].to_vec();
     two[7] = 2;

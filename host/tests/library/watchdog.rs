@@ -1,4 +1,4 @@
-//! The watchdog is fed in time by what is scanned and examined, however long that takes.
+//! Long scans and self-tests feed the watchdog in time.
 
 use std::cell::Cell;
 use taxel::sim::{PINS, Script, SimBoard, SimClock};
@@ -9,10 +9,10 @@ use taxel_core::run::block_on;
 use taxel_core::selftest::Examine;
 
 const TAXELS: usize = 2048;
-/// Longest time without a step, us: a twentieth of what a frame may take.
+/// Longest time without progress, us: a twentieth of a frame's limit.
 const LONGEST_STEP_US: u64 = 50 * LONGEST_MS as u64;
 
-/// A clock that is told of progress.
+/// A clock that records progress.
 struct Watched {
     clock: SimClock,
     fed: Cell<Micros>,
@@ -30,13 +30,13 @@ impl Clock for Watched {
     }
 }
 
-/// How long it took, and the longest time without a step, us.
+/// Duration, and the longest time without progress, us.
 fn watched(watched: &Watched, act: impl FnOnce()) -> (u64, u64) {
     let begun = watched.now();
     watched.fed.set(begun);
     watched.longest_us.set(0);
     act();
-    // What is left after the last step.
+    // The time since the last progress.
     watched.progressed();
     (watched.now().since(begun), watched.longest_us.get())
 }

@@ -1,4 +1,4 @@
-//! What a program says of the parts that it was built without, and completions for shells.
+//! Messages about features that are not built in, and completions for shells.
 
 use std::process::{Command, Output};
 

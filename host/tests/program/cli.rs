@@ -1,4 +1,4 @@
-//! The program from outside: its answers on the reference images, and one sentence and an exit status for bad
+//! The program from outside: results on the reference images, and one sentence and an exit status for bad
 //! input.
 
 use crate::reference;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// A file of this test in the build folder.
+/// Path of this test's file in the build folder.
 fn file(name: &str, bytes: &[u8]) -> String {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
     std::fs::create_dir_all(&folder).unwrap();
@@ -54,7 +54,7 @@ fn json(args: &[&str]) -> Value {
     serde_json::from_str(&answer(args)).unwrap()
 }
 
-/// Bad input: this exit status, nothing on stdout, one line on stderr that names each of `words`.
+/// Checks bad input: this exit status, nothing on stdout, one line on stderr with each of `words`.
 fn refused(status: i32, args: &[&str], words: &[&str]) {
     let output = run(args);
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -85,7 +85,7 @@ fn bad_arrays_are_refused_by_name() {
     }
 }
 
-/// What a command says on its error output, and what it prints.
+/// Standard error and standard output of a command.
 fn said(args: &[&str]) -> (String, String) {
     let output = run(args);
     let [error, text] =
@@ -159,7 +159,7 @@ fn bad_maps_are_refused_by_name() {
     refused(1, &["fcm", "/no/such/map.json"], &["/no/such/map.json", "cannot be read"]);
 }
 
-/// From the shipped map to a combined, a merged, a taught and a drawn one, and back to answers.
+/// From the shipped map to a combined, a merged, a trained and a drawn one, and back to results.
 #[test]
 fn maps_are_made_of_maps() {
     let at = |name: &str| file(name, b"");
@@ -243,7 +243,7 @@ fn bad_garments_are_refused_by_name() {
     refused(
         1,
         &["process", &image, "--layout", &garment],
-        &["extra.toml, line 2", "`extra` is no key that is known here"],
+        &["extra.toml, line 2", "`extra` is not a known key"],
     );
     refused(2, &["process", &image, "--layout", "nothing"], &["no garment", "nothing", "mat-64x32"]);
     refused(1, &["process", &image, "--layout", "mat-64x32"], &["garment.npy", "2 x 3", "mat-64x32"]);
@@ -255,7 +255,7 @@ fn bad_sources_are_refused_by_name() {
     refused(
         1,
         &["live", "--source", &format!("sim:{scene}")],
-        &["colour.toml, line 2", "`colour` is no key that is known here"],
+        &["colour.toml, line 2", "`colour` is not a known key"],
     );
     refused(2, &["live", "--source", "sim:nothing"], &["no script of touches", "nothing", "pat"]);
     refused(3, &["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);
@@ -265,7 +265,7 @@ fn bad_sources_are_refused_by_name() {
     refused(1, &["live", "--source", &format!("file:{garbage}"), "--json"], &["garbage.bin", "no Hello"]);
 }
 
-/// An argument that cannot be read has the same status; clap adds how to get help.
+/// An unreadable argument has the same status; clap adds how to get help.
 #[test]
 fn bad_arguments_have_the_same_status() {
     for args in
@@ -277,7 +277,7 @@ fn bad_arguments_have_the_same_status() {
     }
 }
 
-/// Of some the pixels stand in the reference itself; those of the others lie with the recordings.
+/// Some pixels are in the reference itself; the others are with the recordings.
 #[test]
 fn features_are_those_of_the_reference() {
     let cases = reference::cases();
@@ -313,7 +313,7 @@ fn every_subcommand_has_a_help_with_an_example() {
     }
 }
 
-/// The reader of a pipe may leave before all is said.
+/// The reader of a pipe may exit early.
 #[test]
 fn a_broken_pipe_is_quiet() {
     let text = r#"{"names": ["a", "b"], "W": [[0, 1], [0.5, 0]], "x0": [1, 0]}"#;
@@ -379,7 +379,7 @@ fn settling_is_found_and_written() {
     assert_eq!(settled["settle_ns"], garment.wiring.settle_ns);
 }
 
-/// Nine touches in the order in which they are asked for, on a garment that is wired as shipped.
+/// Nine touches in the order of the requests, on a garment wired as shipped.
 #[test]
 fn a_board_is_set_up_by_touch() {
     let mut script = String::from("duration_s = 30\n");
@@ -409,7 +409,7 @@ fn a_board_is_set_up_by_touch() {
     );
     let found = taxel::sim::Decoder::build(&taxel::sim::garment(&output).unwrap());
     let wired = taxel::sim::Decoder::build(&taxel_core::garment::Garment::reference());
-    // Every level of the nine address lines, on every input.
+    // All levels of the nine address lines, on every input.
     let lines = [2, 3, 6, 7, 8, 9, 10, 11, 12];
     for word in 0..512u64 {
         let levels = lines.iter().enumerate().map(|(bit, pin)| (word >> bit & 1) << pin).sum();

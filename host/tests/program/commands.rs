@@ -22,7 +22,7 @@ fn scene(name: &str, script: &str) -> String {
     format!("sim:{}", path.display())
 }
 
-/// A pen on a taxel, from then on.
+/// A pen on a taxel from this time on.
 fn pen(panel: &str, row: u16, column: u16, force_n: f64) -> String {
     format!(
         "[[touch]]\npanel = \"{panel}\"\nshape = \"box\"\nsize_mm = [8, 8]\nat = [{column}, {row}]\nforce_n = {force_n}\n\
@@ -34,10 +34,7 @@ fn pen(panel: &str, row: u16, column: u16, force_n: f64) -> String {
 fn settings_are_stored_or_it_is_said_why_not() {
     let done = run(&["save", "--source", "sim:idle", "--tare", "20"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
-    assert_eq!(
-        text(&done.stdout),
-        "sim:idle has stored garment, scene, gains and baseline: they survive a restart.\n"
-    );
+    assert_eq!(text(&done.stdout), "sim:idle has saved garment, scene, gains and baseline to its flash.\n");
     let touched = scene("touched.toml", &format!("duration_s = 9\n{}", pen("back", 4, 4, 9.0)));
     let other = run(&["save", "--source", &touched, "--garment", "no-such-garment"]);
     assert_eq!(other.status.code(), Some(2));
@@ -62,7 +59,7 @@ fn health_names_what_is_ill_and_where() {
     assert_eq!(told["taxels"], json!(expected));
     let table = run(&args[..args.len() - 1]);
     let lines: Vec<&str> = text(&table.stdout).lines().collect();
-    assert_eq!(lines[0], "reference: 9 select lines and 4 inputs are well.");
+    assert_eq!(lines[0], "reference: no faults on 9 select lines and 4 inputs.");
     assert_eq!(lines[1], "stuck    chest, row 4, column 13 (block 1, its row 0, column 13; taxel 77)");
 }
 

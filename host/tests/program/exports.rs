@@ -1,4 +1,4 @@
-//! What `taxel export` writes: names of columns, units, brightness.
+//! Output of `taxel export`: names of columns, units, brightness.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ fn file(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// A pat, recorded; and what a form of it is.
+/// A recorded pat, exported in a format.
 fn exported(name: &str, raw: bool, to: &str, more: &[&str]) -> (Output, PathBuf) {
     let (recording, output) = (file(&format!("{name}.mcap")), file(name));
     let mut record = vec!["record", "--source", "sim:pat", "--force", "-o", text(&recording)];
@@ -32,7 +32,7 @@ fn exported(name: &str, raw: bool, to: &str, more: &[&str]) -> (Output, PathBuf)
     (taxel(&[&args, more].concat()), output)
 }
 
-/// Grey of an image.
+/// Grey levels of an image.
 fn grey(path: &Path) -> Vec<u16> {
     let mut reader =
         png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap())).read_info().unwrap();

@@ -1,5 +1,5 @@
-//! The live server for Foxglove: what a client that subscribes is told of a simulated pat, and one that does
-//! not read.
+//! The live server for Foxglove: messages to a client that subscribes to a simulated pat, and to one that
+//! does not read.
 
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -49,13 +49,13 @@ fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &Hub, id: u32, topic: &str)
     }
 }
 
-/// Tells the clients, and keeps what is said of contacts.
+/// Sends to the clients, and keeps the messages about contacts.
 struct Both(Publisher, Vec<Value>);
 
 impl Show for Both {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         if let Event::Contacts { .. } = event {
-            // As it is read again: the last digit of a number may differ.
+            // Parsed again, because the last digit of a number may differ.
             self.1.push(serde_json::from_str(&message(client, event).to_string())?);
         }
         self.0.event(client, event)
@@ -148,7 +148,7 @@ fn clients_that_say_nothing_shut_nobody_out_and_subscriptions_are_bounded() {
     assert!(begun.elapsed() < Duration::from_secs(4), "{:?}", begun.elapsed());
     let _ = (line(&mut one), line(&mut one));
     drop(held);
-    // A hundred thousand wishes for one channel: it is told some times, and no more.
+    // A hundred thousand subscriptions to one channel: it gets some messages, and no more.
     let channel = channel("log").unwrap();
     for first in (0..100_000u32).step_by(1000) {
         let all: Vec<Value> =

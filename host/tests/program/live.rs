@@ -1,5 +1,4 @@
-//! `taxel live` through the library: a simulated board, the wire, the client, and all three ways to show what
-//! comes.
+//! `taxel live` through the library: a simulated board, the wire, the client, and all three outputs.
 
 use crate::sink::Sink;
 use ratatui::buffer::Buffer;
@@ -27,7 +26,7 @@ fn open(args: &LiveArgs) -> Source {
     args.board.open(options).unwrap().0
 }
 
-/// What `taxel live --json` prints.
+/// Output of `taxel live --json`.
 fn json(args: &LiveArgs) -> String {
     let sink = Sink::default();
     watch(args, open(args), &mut Messages::new(args.pixels, sink.clone())).unwrap();
@@ -42,7 +41,7 @@ fn of_type<'a>(lines: &'a [Value], kind: &'static str) -> impl Iterator<Item = &
     lines.iter().filter(move |line| line["type"] == kind)
 }
 
-/// The intentions that lead in a run, each once.
+/// Leading intentions of a run, each once.
 fn leading(lines: &[Value]) -> Vec<String> {
     let mut all: Vec<String> =
         of_type(lines, "frame").map(|line| line["intent"]["leading"].as_str().unwrap().into()).collect();
@@ -106,7 +105,7 @@ fn a_run_is_repeated_to_the_byte_and_a_saved_one_reads_the_same() {
     assert_eq!(last["panels"][3]["rows"][31].as_array().unwrap().len(), 16);
 }
 
-/// The bytes of a run, and all events that come of them.
+/// Bytes of a run, and all their events.
 fn recorded(scene: &str, frames: u64) -> Vec<u8> {
     let file = scratch(&scene.replace(':', "-"));
     json(&LiveArgs { save: Some(file.clone()), ..args(scene, Some(frames)) });
@@ -165,7 +164,7 @@ fn a_lost_frame_is_counted_and_a_key_frame_asked_for() {
     }
     let counts = client.counts();
     assert_eq!((counts.lost, counts.refused(), counts.thinned), (1, 1, 0));
-    // Nobody answers the request here.
+    // There is no board to answer the request.
     assert_eq!(missing, 50);
     assert!(client.image().is_none());
     assert!(!client.take_requests().is_empty());
@@ -352,7 +351,7 @@ fn gestures_are_told_where_they_are_asked_for() {
     let lines = parsed(&json(&certain));
     let sure = |line: &&Value| line["confidence"].as_f64().unwrap() >= 0.7;
     assert!(of_type(&lines, "gesture").filter(|line| line["ended"] == false).all(|line| sure(&line)));
-    // Each is told before the gesture that it is of.
+    // Each confidence precedes its gesture.
     let pair = |line: &Value| (line["frame"].clone(), line["touch"].clone(), line["confidence"].clone());
     let [told, before] =
         ["gesture", "confidence"].map(|kind| of_type(&lines, kind).map(pair).collect::<Vec<_>>());
@@ -371,12 +370,11 @@ fn gestures_are_told_where_they_are_asked_for() {
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }
 
-/// Teaches a board a base, and compares what it says of a contact that is alone with what the base says of
-/// its image.
+/// Teaches a board a base, and compares the shape of a single contact with the base's result for its image.
 struct Teacher {
     base: Base,
     taught: bool,
-    /// Lists of contacts since the base is in force.
+    /// Number of contact lists since the base is in use.
     lists: Option<u32>,
     compared: usize,
 }

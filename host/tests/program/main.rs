@@ -1,4 +1,4 @@
-//! The program and its examples from outside.
+//! Tests of the program and its examples from outside.
 
 mod builds;
 mod cli;

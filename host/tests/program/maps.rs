@@ -1,4 +1,4 @@
-//! `taxel fcm` from outside: where a map is wrong, and whose opinion is whose.
+//! `taxel fcm` from outside: places of errors in maps, and opinions by map.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -52,7 +52,7 @@ fn a_wrong_map_is_told_by_line_and_key() {
             "name = \"an attack of somebody\"",
             "line 5, `name`: map tactile: concept an attack",
         ),
-        ("source =", "sauce =", "line 8: `sauce` is no key that is known here, did you mean `source`?"),
+        ("source =", "sauce =", "line 8: `sauce` is not a known key, did you mean `source`?"),
     ] {
         let text = MAP.replacen(from, to, 1).replace(
             "to = \"attack\"\n",

@@ -1,17 +1,17 @@
-//! Every command writes through the one writer: no input and no other file is lost by a name.
+//! Every command writes through `output`: no input and no other file is lost by a name.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Modules that write to a disk by themselves, and why.
+/// Modules that write to a disk without it, and why.
 const ALLOWED: [(&str, &str); 4] = [
     ("output/", "the writer"),
     ("flash.rs", "a board's drive, which restarts the board at the last block"),
     ("source/emulator.rs", "a temporary folder of its own"),
     ("bench/record.rs", "a temporary folder of its own"),
 ];
-/// How a file is written, replaced or removed.
+/// Calls that write, replace or remove a file.
 const WRITES: [&str; 11] = [
     "File::create",
     "File::options",
@@ -49,10 +49,10 @@ fn no_other_module_writes_files() {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        // Tests of a module stand behind everything else.
+        // Unit tests are at the end of a module.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         for call in WRITES {
-            // `RecordingFile::create` is another.
+            // `RecordingFile::create` does not create a file by itself.
             let calls = |line: &str| line.contains(call) && !line.contains("RecordingFile::create");
             let line = code.lines().position(calls);
             assert!(
@@ -64,7 +64,7 @@ fn no_other_module_writes_files() {
     }
 }
 
-/// A folder of a test with a recording, removed at its end.
+/// A test's folder with a recording, deleted at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -100,7 +100,7 @@ impl Drop for Folder {
     }
 }
 
-/// Commands that write, all but the name of the output.
+/// Commands that write, without the name of the output.
 const WRITERS: [&[&str]; 13] = [
     &["record", "--source", "sim:press", "--frames", "5", "-o"],
     &["live", "--source", "sim:press", "--frames", "5", "--save"],
@@ -196,7 +196,7 @@ fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     folder.refused(&["report", "in.mcap", "-o", "/dev/full"], "/dev/full cannot be written");
     folder.refused(
         &["record", "--source", "sim:press", "--frames", "40", "-o", "/dev/full"],
-        "its last record is written in part: no space left on device",
+        "its last record is incomplete: no space left on device",
     );
     let done = folder.run(&["calibrate", "--simulate", "7", "-o", "/dev/full"]);
     assert!(!done.status.success());
@@ -206,7 +206,7 @@ fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the garment is printed");
 }
 
-/// A command whose standard output or error leads to a full disk.
+/// Runs a command whose standard output or error is on a full disk.
 #[cfg(target_os = "linux")]
 fn on_full_disk(folder: &Folder, args: &[&str], is_error: bool) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_taxel"));

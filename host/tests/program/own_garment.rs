@@ -1,9 +1,9 @@
-//! A garment of one's own: begun, checked, and simulated with any script of touches.
+//! A user's own garment: created, checked, and simulated with any script of touches.
 
 use super::tools::{file, refused, run, said};
 use serde_json::Value;
 
-/// A file that is begun like a preset, with changes.
+/// A file created like a preset, with changes.
 fn mine(name: &str, like: &str, changes: &[(&str, &str)]) -> String {
     let path = file(name);
     let name = path.to_str().unwrap().to_string();
@@ -27,7 +27,7 @@ fn a_file_that_is_begun_keeps_the_comments_of_what_it_is_like() {
     {
         assert!(text.contains(line), "{line}");
     }
-    // And so does one that is begun like that file; it has one line for the schema.
+    // Also one created like that file; it has one line for the schema.
     let second = std::fs::read_to_string(mine("commented-2.toml", &first, &[])).unwrap();
     assert!(second.contains("# MINE: lowest bit first") && second.contains("pin = 18"), "{second}");
     assert_eq!(second.matches("#:schema").count(), 1);
@@ -36,7 +36,7 @@ fn a_file_that_is_begun_keeps_the_comments_of_what_it_is_like() {
 
 #[test]
 fn any_script_is_played_on_a_garment_of_ones_own() {
-    // GP18, which the scene that ships drives by a reaction, is a line of this garment.
+    // GP18, which the shipped scene drives by a reaction, is a line of this garment.
     let changes = [("name = \"block-4x16\"", "name = \"mine\""), ("pin = 12", "pin = 18")];
     let garment = mine("mine-simulated.toml", "block-4x16", &changes);
     let asked = ["live", "--source", "sim:pat", "--garment", &garment, "--json", "--seconds", "0.5"];

@@ -1,4 +1,4 @@
-//! `taxel info`, `report`, `replay` and `export` on recordings that are long, damaged or without their end.
+//! `taxel info`, `report`, `replay` and `export` on long, damaged and truncated recordings.
 
 use serde_json::Value;
 use std::fs;
@@ -21,7 +21,7 @@ fn file(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// Five contacts, so many seconds; with raw codes a second takes half a megabyte.
+/// Records five contacts for this many seconds; with raw codes a second takes half a megabyte.
 fn recorded(name: &str, seconds: u32, raw: bool) -> PathBuf {
     let path = file(name);
     let seconds = seconds.to_string();
@@ -39,7 +39,7 @@ fn info(path: &Path, more: &[&str]) -> Value {
     serde_json::from_slice(&done.stdout).unwrap()
 }
 
-/// A copy in which a bit of the n-th chunk's data is another.
+/// A copy with a flipped bit in the n-th chunk's data.
 fn damaged(path: &Path, name: &str, chunk: usize) -> (PathBuf, u64) {
     let place = &chunk_indexes(path).unwrap()[chunk];
     let mut bytes = fs::read(path).unwrap();
@@ -62,7 +62,7 @@ fn a_large_recording_is_summed_up_without_reading_it() {
         assert!(!told[key].is_null(), "{key}");
     }
     assert_eq!((&told["damaged_chunks"], &read["damaged_chunks"]), (&Value::Null, &0.into()));
-    // Without the data nothing but the summary can have been read.
+    // Without the data, only the summary can have been read.
     let (first, last) = {
         let places = chunk_indexes(&path).unwrap();
         let last = &places[places.len() - 1];
@@ -107,11 +107,11 @@ fn what_is_damaged_is_passed_over_and_told() {
     }
     assert!(fs::read_to_string(page).unwrap().contains(&told));
     let arrays = taxel::arrays::read(&npz, Some("chest")).unwrap();
-    // Until the next image that stands alone, those behind the damage cannot be decoded.
+    // Images behind the damage cannot be decoded until the next key frame.
     assert!(arrays.count as u64 <= frames(&after) && arrays.count as u64 + 220 > frames(&after));
 }
 
-/// Greatest memory of a run, bytes, as the system tells it while it goes on.
+/// Largest memory of a run, bytes, sampled from the system.
 #[cfg(target_os = "linux")]
 fn memory(args: &[&str]) -> u64 {
     use std::process::Stdio;
@@ -137,7 +137,7 @@ fn memory(args: &[&str]) -> u64 {
 #[test]
 fn memory_does_not_grow_with_the_recording() {
     let [short, long] =
-        // Even the short one takes long enough to be looked at when it has met its largest chunk.
+        // Even the short one takes long enough to be sampled after its largest chunk.
         [("short.mcap", 120), ("long.mcap", 300)].map(|(name, seconds)| recorded(name, seconds, false));
     let [npz, csv, page] = ["memory.npz", "memory.csv", "memory.html"].map(file);
     let runs = |path: &Path| -> Vec<u64> {
@@ -151,13 +151,13 @@ fn memory_does_not_grow_with_the_recording() {
         .map(memory)
         .to_vec()
     };
-    // A look may come long before a run's end where the machine is busy: the most of three runs counts.
+    // On a busy machine a sample may be long before a run's end: the maximum of three runs counts.
     let most = |a: Vec<u64>, b: Vec<u64>| a.into_iter().zip(b).map(|(a, b)| a.max(b)).collect();
     let short = [runs(&short), runs(&short), runs(&short)].into_iter().reduce(most).unwrap();
     let long = runs(&long);
     for (what, (short, long)) in ["info", "npz", "csv", "report"].iter().zip(short.iter().zip(&long)) {
         println!("{what}: {:.1} MB of 120 s, {:.1} MB of 300 s", *short as f64 / 1e6, *long as f64 / 1e6);
-        // 35,000 frames more: their images would be 140 MB, their contacts 18.
+        // 35,000 more frames: their images would be 140 MB, their contacts 18 MB.
         assert!(*short > 1 << 20 && *long < short + (4 << 20), "{what}: {short} and {long} bytes");
     }
 }

@@ -5,13 +5,13 @@ use crate::start::{root, taxel};
 use serde_json::Value;
 use std::process::Command;
 
-/// All of them.
+/// All cases.
 pub fn cases() -> Vec<Value> {
     let file = root().join("tests/reference/moments.json");
     serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap()
 }
 
-/// What `taxel features` says of an image.
+/// Output of `taxel features` for an image.
 pub fn features(arguments: &[&str]) -> Value {
     let output = Command::new(taxel()).arg("features").args(arguments).arg("--json").output().unwrap();
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -27,7 +27,7 @@ fn close(have: &Value, want: f64, bound: f64, what: &str) {
     assert!((have - want).abs() <= bound, "{what}: {have}, expected {want}");
 }
 
-/// Integers exactly, the rest within the bounds that the core documents.
+/// Checks integers exactly, and the rest within the bounds that the core documents.
 pub fn check(have: &Value, case: &Value) {
     let (exact, reference) = (&case["exact"], &case["f64"]);
     for key in ["m", "sx", "sy", "sxx", "syy", "sxy", "Jm"] {

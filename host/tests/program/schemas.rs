@@ -1,4 +1,4 @@
-//! The schemas of files, with what of JSON Schema (draft 7) they use checked as editors do it.
+//! The schemas of files, by a validator for the part of JSON Schema (draft 7) that they use.
 
 use super::tools::{file, said};
 use crate::start::root;
@@ -7,8 +7,8 @@ use taxel_core::garment::Garment;
 use taxel_core::react::ReactionConfig;
 use taxel_core::scene::Scene;
 
-/// The first thing in which a value is not as a schema says, with its place; none: it is valid. Panics at a
-/// key of the schema that is not known here, so that none is passed over.
+/// First violation of a schema with its place; none if the value is valid. Panics at an unknown keyword of
+/// the schema, so that none is ignored.
 fn wrong(value: &Value, schema: &Value) -> Option<String> {
     check(value, schema, schema, "")
 }
@@ -21,7 +21,7 @@ fn check(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<String
             "$ref" => return check(value, target(wanted, root), root, at),
             "anyOf" => wanted.as_array().unwrap().iter().any(|any| check(value, any, root, at).is_none()),
             "enum" => wanted.as_array().unwrap().contains(value),
-            // A whole number is a number.
+            // An integer is a number.
             "type" => match (type_of(value), wanted.as_str().unwrap()) {
                 ("integer", "number") => true,
                 (is, wanted) => is == wanted,
@@ -110,14 +110,14 @@ fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
     let schema: Value = serde_json::from_str(&said(&["config", "schema", "scene"])).unwrap();
     assert_eq!(wrong(&serde_json::to_value(Scene::shipped()).unwrap(), &schema), None);
     let begun = file("calm.toml");
-    // One of an earlier version may lie there.
+    // A schema of an earlier version may exist.
     file("taxel-scene.schema.json");
     said(&["config", "scene", begun.to_str().unwrap()]);
     let text = std::fs::read_to_string(&begun).unwrap();
     assert!(text.starts_with("#:schema ./taxel-scene.schema.json\n"), "{text}");
     let scene = toml_value(&text);
     assert_eq!(wrong(&scene, &schema), None);
-    // Every simulation's own scene.
+    // The scene of every simulation.
     for script in std::fs::read_dir(root().join("host/scenes")).unwrap() {
         let script = toml_value(&std::fs::read_to_string(script.unwrap().path()).unwrap());
         assert_eq!(script.get("scene").and_then(|scene| wrong(scene, &schema)), None);

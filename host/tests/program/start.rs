@@ -1,4 +1,4 @@
-//! The program and its examples from outside.
+//! Paths of the program and its examples.
 #![allow(dead_code)] // each test that uses this takes a part of it
 
 use std::path::{Path, PathBuf};
@@ -10,8 +10,8 @@ pub fn taxel() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_taxel"))
 }
 
-/// The example `intentions`. Cargo builds it for a whole test run, not for one target: it is built here where
-/// it is missing or older than its sources.
+/// The example `intentions`. Cargo builds it for a whole test run, but not for one target: it is built here
+/// if it is missing or older than its sources.
 pub fn intentions() -> PathBuf {
     let folder = taxel().parent().unwrap();
     let example = folder.join("examples/intentions").with_extension(std::env::consts::EXE_EXTENSION);
@@ -40,7 +40,7 @@ fn newest_source() -> SystemTime {
     folders.into_iter().flatten().max().unwrap()
 }
 
-/// Into the folder that is named after the profile.
+/// Builds into the folder of the profile.
 fn build(folder: &Path, what: &[&str]) {
     let profile = folder.file_name().unwrap().to_str().unwrap();
     let profile = if profile == "debug" { "dev" } else { profile };

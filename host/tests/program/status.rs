@@ -7,14 +7,14 @@ fn taxel(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_taxel")).args(args).stdin(Stdio::null()).output().unwrap()
 }
 
-/// A scene in which this is faulty, as a source.
+/// A source of a scene with these faults.
 fn faulty(name: &str, faults: &str) -> String {
     let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("status-{name}.toml"));
     std::fs::write(&file, format!("duration_s = 2\n[faults]\n{faults}\n")).unwrap();
     format!("sim:{}", file.display())
 }
 
-/// The status, and one sentence on the standard error that holds these words.
+/// Checks the status, and for one sentence on standard error that contains these words.
 #[track_caller]
 fn ends(args: &[&str], status: i32, words: &str) {
     let output = taxel(args);
@@ -63,8 +63,8 @@ fn mistakes_are_told_in_plain_words() {
     let live = |option: &str, value: &str, status: i32, words: &str| {
         ends(&["live", "--source", "sim:pat", option, value], status, words);
     };
-    ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is no text (UTF-8)");
-    live("--scene", binary, 1, "cannot be read: it is no text (UTF-8)");
+    ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is not text (UTF-8)");
+    live("--scene", binary, 1, "cannot be read: it is not text (UTF-8)");
     live("--scene", "no-such.toml", 1, "no-such.toml cannot be read: no such file or directory");
     live("--seconds", "-1", 2, "'-1' for '--seconds <S>': must be a time of 0 or more");
     live("--tare", "99999", 2, "'99999' for '--tare <N>': it must be 0 to 4096");
@@ -79,14 +79,10 @@ fn mistakes_are_told_in_plain_words() {
     ends(
         &["live", "--source", "serial:/dev/null"],
         3,
-        "/dev/null at 921600 Bd cannot be opened: it is no serial",
+        "/dev/null at 921600 Bd cannot be opened: it is not a serial",
     );
-    ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port, `taxel ports` lists");
-    ends(
-        &["live", "--source", "tcp:no-such.invalid:80"],
-        3,
-        "cannot be reached: its name leads to no address",
-    );
+    ends(&["live", "--source", "serial:/dev/no-such"], 3, "there is no such port; `taxel ports` lists");
+    ends(&["live", "--source", "tcp:no-such.invalid:80"], 3, "cannot be reached: its name has no address");
 }
 
 #[test]
@@ -115,7 +111,7 @@ fn a_board_that_refuses_what_was_asked_for_ends_the_command() {
     ends(&[&["view", "--port", "0"][..], &asks].concat(), 3, why);
     let record = ["record", "--force", "-o", recording.to_str().unwrap()];
     ends(&[&record[..], &asks].concat(), 3, why);
-    // What was recorded until then is whole; and what a recorded board refused is no fault of who plays it.
+    // The data recorded until then is intact; refusals by a recorded board are no fault of the replay.
     ends(&["info", recording.to_str().unwrap()], 0, "");
     let source = format!("replay:{}", recording.display());
     ends(&["live", "--source", &source], 0, "");

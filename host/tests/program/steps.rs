@@ -1,4 +1,4 @@
-//! What the program says of its own steps: with `-v`, and where a simulated scene is over.
+//! Messages about the program's steps: with `-v`, and at the end of a simulated scene.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -29,7 +29,7 @@ fn verbose_tells_source_board_and_files() {
     for step in [
         format!("taxel: reads {scene}\n"),
         format!("taxel: source {source} is open\n"),
-        "wears garment block-4x16 and plays scene".into(),
+        "garment block-4x16, scene".into(),
         "the board has done start\n".into(),
     ] {
         assert!(told.contains(&step), "{step}\n{told}");
@@ -53,7 +53,7 @@ fn a_recorded_scene_is_played_once_and_said_to_be_over() {
     }
 }
 
-/// The last touch of a script counts, also where the script ends while it is held.
+/// The last touch of a script counts, even if the script ends while it is held.
 #[test]
 fn shapes_are_learnt_from_every_touch_of_a_script() {
     let touches = |duration_s: f64| {

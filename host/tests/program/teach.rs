@@ -1,5 +1,5 @@
-//! A user teaches shapes, from outside: by touches, `taxel shapes learn` on a simulated board, then
-//! `taxel live` with the base; and by labelled images, `taxel shapes train`.
+//! A user teaches shapes, from outside: by touches with `taxel shapes learn` on a simulated board, then
+//! `taxel live` with the base; and by labelled images with `taxel shapes train`.
 
 use crate::drawn::{CLASSES, Rng, Touch};
 use crate::start::taxel;
@@ -20,7 +20,7 @@ fn run(folder: &Path, args: &[&str]) -> Output {
     Command::new(taxel()).current_dir(folder).args(args).output().unwrap()
 }
 
-/// What is printed by a command that is to succeed; what it says meanwhile comes second.
+/// Standard output of a successful command, and its standard error.
 fn done(folder: &Path, args: &[&str]) -> (String, String) {
     let Output { status, stdout, stderr } = run(folder, args);
     let text = |bytes| String::from_utf8(bytes).unwrap();
@@ -29,8 +29,8 @@ fn done(folder: &Path, args: &[&str]) -> (String, String) {
     (out, err)
 }
 
-/// A scene in which something is held against back and chest, elsewhere, turned and harder each time. Places
-/// follow `draw`.
+/// A scene in which an object is held against back and chest, each time at another place, angle and force.
+/// `draw` seeds the places.
 fn scene(folder: &Path, name: &str, (shape, size_mm): (&str, [u32; 2]), draw: u32) {
     let touch = |n: u32| {
         let step = |of: u32| f64::from((n * 7 + draw * 5) % of) / f64::from(of);
@@ -50,7 +50,7 @@ fn scene(folder: &Path, name: &str, (shape, size_mm): (&str, [u32; 2]), draw: u3
         .unwrap();
 }
 
-/// What each contact of a scene is most often taken for, by a board that was taught.
+/// Most frequent class of each contact of a scene, by a board that was taught.
 fn answers(folder: &Path, scene: &str) -> Vec<String> {
     let source = format!("sim:{scene}.toml");
     let (lines, _) = done(folder, &["live", "--source", &source, "--shapes", "mine.json", "--json"]);
@@ -80,7 +80,8 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
     learn("box");
     let said = learn("ball");
     assert!(
-        said.contains("\n5 of 5: held for 0.") && said.ends_with("100 % of 10 are known by the others\n"),
+        said.contains("\n5 of 5: held for 0.")
+            && said.ends_with("100 % of 10 are recognised by the others\n"),
         "{said}"
     );
     let (list, _) = done(&folder, &["shapes", "list", "mine.json", "--json"]);
@@ -98,7 +99,7 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
         assert_eq!(answers(&folder, &format!("other-{name}")), vec![name; 5]);
     }
     let (told, _) = done(&folder, &["shapes", "install", "mine.json", "--source", "sim:box.toml"]);
-    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it is switched off.\n");
+    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it restarts.\n");
     let (card, _) = done(&folder, &["shapes", "card", "mine.json"]);
     assert!(
         card.contains("5 touches of sim:strap.toml") && card.contains("each prototype left out in turn"),
@@ -144,7 +145,7 @@ fn what_teaches_nothing_is_said_in_one_sentence() {
     refused(&unknown, "there is no base \"no-such-base\"");
 }
 
-/// Files of so many drawn images and of their labels: NAME.csv, NAME-labels.csv.
+/// Files of drawn images and of their labels: NAME.csv, NAME-labels.csv.
 fn draw(folder: &Path, name: &str, count: usize, seed: u64) -> [String; 2] {
     let (rows, columns, mut rng) = (16, 16, Rng(seed));
     let (mut images, mut labels) = (String::new(), "index,name\n".to_string());

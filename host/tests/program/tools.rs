@@ -1,4 +1,4 @@
-//! Commands around a board, an example, and the documents that others program by: as they work from outside.
+//! Commands about a board, an example, and the documents for other programs, tested from outside.
 
 use crate::start::{intentions, root, taxel};
 use serde_json::Value;
@@ -29,7 +29,7 @@ pub fn refused(status: i32, args: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
-/// A file of these tests, not there yet.
+/// Path of a new file of these tests.
 pub fn file(name: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tools");
     std::fs::create_dir_all(&folder).unwrap();
@@ -112,8 +112,8 @@ fn a_simulated_garment_is_calibrated_and_checked() {
     );
 }
 
-/// A simulated board behind TCP, until whoever connects is gone: the garments and the scenes that it was told
-/// to take.
+/// Serves a simulated board over TCP until the client is gone. Returns the garments and the scenes that it
+/// received.
 fn serve(listener: &TcpListener) -> [Vec<Vec<u8>>; 2] {
     let options = SourceOptions { realtime: true, ..RawBoard::options() };
     let mut board = source::open(&"sim:idle".parse().unwrap(), &options).unwrap();

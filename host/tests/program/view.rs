@@ -1,4 +1,4 @@
-//! `taxel view` from outside: what is served to whom, and what a page is told while a simulated board is
+//! `taxel view` from outside: access, served files, and messages to a page while a simulated board is
 //! watched.
 
 use serde_json::Value;
@@ -22,7 +22,7 @@ fn served() -> (Arc<Hub>, u16) {
     (hub, port)
 }
 
-/// What is answered to bytes.
+/// Response to a request.
 fn answer(port: u16, request: &str) -> String {
     let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap();
     stream.write_all(request.as_bytes()).unwrap();
@@ -40,7 +40,7 @@ fn page(port: u16) -> WebSocket<TcpStream> {
     tungstenite::client(request, stream).unwrap().0
 }
 
-/// What a page is told next: a line, or an image with its head.
+/// A message to a page: a line, or an image with its head.
 enum Told {
     Line(Value),
     Image { head: Value, image: Vec<u16>, highest: Vec<u16> },
@@ -61,7 +61,7 @@ fn next(page: &mut WebSocket<TcpStream>) -> Told {
     }
 }
 
-/// Reads until a line is of that type and as wanted.
+/// Reads until a line of this type meets the condition.
 fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
     loop {
         if let Told::Line(line) = next(page)
@@ -85,7 +85,7 @@ fn watched(hub: &Arc<Hub>, scene: &str, frames: u64, realtime: bool) -> JoinHand
     })
 }
 
-/// The images of a run, by the number of the frame.
+/// Images of a run, by frame number.
 #[derive(Default)]
 struct Images(BTreeMap<u64, Vec<u16>>);
 
@@ -177,7 +177,7 @@ fn a_page_is_told_the_garment_and_the_very_images_of_the_board() {
     };
     run.join().unwrap();
     assert_eq!(end["text"], "sim:pat has ended");
-    // Each frame up to the last that was shown has its sample, once, whether it was shown or replaced.
+    // Each frame up to the last one shown has its sample once, whether it was shown or replaced.
     assert_eq!((times.len() as u64, seen + replaced), (last, last));
     assert!(times.is_sorted_by(|a, b| a < b) && seen > 20, "{seen} images");
 }
@@ -196,7 +196,7 @@ fn the_last_half_minute_reads_as_a_recording() {
             frames.insert(u64::from(frame), client.image().unwrap().1.to_vec());
         }
     }
-    // A board that is faster than time may have sent more than was waited for.
+    // A board faster than real time may have sent more than was waited for.
     frames.retain(|frame, _| *frame <= 400);
     assert_eq!(frames, images("sim:stroke", 400));
     assert_eq!((client.counts().lost, client.counts().refused()), (0, 0));
@@ -217,7 +217,7 @@ fn the_board_sends_raw_codes_while_a_pointer_is_on_a_taxel() {
         (&629.into(), &3.into(), &5.into())
     );
     assert!((1..1000).contains(&told["code"].as_u64().unwrap()), "{told}");
-    // Nonsense is ignored, and so is a taxel that is not there.
+    // Nonsense is ignored, as is a taxel that does not exist.
     for nonsense in ["{", "{\"hover\": 65535}", "{\"tare\": 0}", "[]"] {
         page.send(Message::Text(nonsense.into())).unwrap();
     }
@@ -243,7 +243,7 @@ fn a_page_that_says_too_much_goes_and_the_others_stay() {
     while bad.read().is_ok() {}
     hub.say(&Said::note("still here"));
     line(&mut good, "say", |line| line["text"] == "still here");
-    // Its threads end a moment after it is told so.
+    // Its threads end shortly after.
     let gone = (0..2000).any(|_| {
         thread::sleep(Duration::from_millis(5));
         hub.pages() == 1
@@ -270,7 +270,7 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
         thread::sleep(Duration::from_millis(2));
     }
     reader.join().unwrap();
-    // What was under way comes, and right after it the newest.
+    // Messages in transit arrive, then the newest.
     let (mut numbers, mut missed) = (Vec::new(), 0);
     while numbers.last() != Some(&1500) {
         if let Told::Image { head, .. } = next(&mut dead) {
@@ -280,6 +280,6 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
     }
     let gap = numbers.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap();
     assert!(gap > 256, "{numbers:?}");
-    // Of the samples of that time, as many as are kept came, and the others were counted.
+    // As many samples as are kept arrive; the others are counted.
     assert_eq!(missed, gap - 256);
 }

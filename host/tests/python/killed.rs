@@ -1,6 +1,6 @@
-//! `kill -9` while a recording is made: the file holds all but the last second.
+//! `kill -9` during a recording: the file has everything but the last second.
 //!
-//! A board on TCP sends what a simulated one said, each message at its time, and notes when it was sent.
+//! A board on TCP replays the messages of a simulated one at their times, and notes when each was sent.
 
 use super::read;
 use super::stage::{file, play};
@@ -14,7 +14,7 @@ use taxel::live::Show;
 use taxel::record::WIRE;
 use taxel::recording::Messages;
 
-/// The messages of a board with the time of each, us.
+/// Messages of a board with their times, us.
 #[derive(Default)]
 struct Said {
     messages: Vec<(u64, Vec<u8>)>,
@@ -35,7 +35,7 @@ fn program() -> Command {
     Command::new(crate::start::taxel())
 }
 
-/// Sends messages at their times until `end`; how many were sent a second before it.
+/// Sends messages at their times until `end`. Returns how many were sent up to a second before it.
 fn send(mut link: TcpStream, said: &Said, start: Instant, end: Instant) -> usize {
     let mut safe = 0;
     for (time, message) in &said.messages {
@@ -49,7 +49,7 @@ fn send(mut link: TcpStream, said: &Said, start: Instant, end: Instant) -> usize
     panic!("the board had no more to say before the kill");
 }
 
-/// A recording that was killed `after` it began, and how many messages it must hold.
+/// A recording killed `after` its begin, and the number of messages that it must have.
 fn kill(said: &Said, path: &Path, after: Duration) -> usize {
     let board = TcpListener::bind("127.0.0.1:0").unwrap();
     let source = format!("tcp:{}", board.local_addr().unwrap());

@@ -1,4 +1,4 @@
-//! A data set for LeRobot: two recordings, row by row, as pyarrow reads them.
+//! A LeRobot data set of two recordings, read row by row by pyarrow.
 
 use super::read;
 use super::stage::{Seen, file, plan, record};
@@ -9,7 +9,7 @@ use taxel::output::Force;
 
 const FPS: u16 = 50;
 
-/// The image of each row: the last that there was at its time.
+/// Image of each row: the last one so far at its time.
 fn rows(seen: &Seen) -> Vec<&[u16]> {
     let began = seen.frames[0].1;
     let last = seen.frames[seen.frames.len() - 1].1;

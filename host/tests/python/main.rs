@@ -1,5 +1,5 @@
-//! What Python makes of the program's files and lines: recordings of every simulated scene, what a kill
-//! leaves, the examples. `cargo xtask test` gives the interpreter that has the readers (`TAXEL_PYTHON`).
+//! The program's files and lines read by Python: recordings of every simulated scene, killed recordings, the
+//! examples. `cargo xtask test` provides the interpreter with the readers (`TAXEL_PYTHON`).
 
 mod examples;
 mod killed;
@@ -19,7 +19,7 @@ fn python() -> Command {
     Command::new(std::env::var_os("TAXEL_PYTHON").expect("TAXEL_PYTHON names no interpreter"))
 }
 
-/// What a reader found in a file.
+/// Contents of a file, by a reader.
 fn read(how: &str, file: &Path) -> Value {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/read.py");
     let output = python().arg(script).arg(how).arg(file).output().unwrap();

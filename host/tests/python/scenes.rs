@@ -8,7 +8,7 @@ use taxel_core::garment::Garment;
 
 const PANELS: [&str; 4] = ["chest", "back", "left arm", "right arm"];
 
-/// CRC-32 of a panel's images, one after the other, 16 bits a taxel.
+/// CRC-32 of a panel's images, one after the other, 16 bits per taxel.
 fn sums(seen: &Seen, rename: fn(&str) -> String) -> Value {
     let sum = |panel: usize| {
         let bytes = seen.frames.iter().flat_map(|(_, _, image)| &image[512 * panel..][..512]);

@@ -1,8 +1,8 @@
-//! Where recordings lie: in one of the folders that TAXEL_DATA lists, as PATH lists folders.
+//! Folders of recordings, as listed by TAXEL_DATA in the format of PATH.
 
 use std::path::PathBuf;
 
-/// The file or folder of this name in the first of the folders that holds it.
+/// Path of the file or folder with this name in the first folder that has it.
 pub fn find(name: &str) -> PathBuf {
     let listed = std::env::var_os("TAXEL_DATA").expect("TAXEL_DATA lists no folders of recordings");
     let mut places = std::env::split_paths(&listed).map(|folder| folder.join(name));

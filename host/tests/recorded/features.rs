@@ -1,4 +1,4 @@
-//! `taxel features` on the reference images whose pixels are too many for the repository.
+//! `taxel features` on the reference images that are too large for the repository.
 
 use crate::{data, reference};
 

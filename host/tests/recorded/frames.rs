@@ -16,7 +16,7 @@ const TAXELS: usize = 4096;
 const FILTERS: [Filter; 5] =
     [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square, Filter::Persistent];
 
-/// The array files of a folder, in the order of their names.
+/// Array files of a folder, sorted by name.
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = data::find(folder);
     let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
@@ -26,7 +26,7 @@ fn files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Perceives a recording; the number of contacts found.
+/// Runs a recording through the pipeline. Returns the number of contacts.
 fn perceive(frames: &Frames, full_scale: u16, what: &str) -> usize {
     let top = frames.values.iter().copied().max().unwrap_or(0).max(full_scale);
     let layout = Layout::build(&Garment::recorded(frames.rows, frames.columns), TAXELS, top).expect(what);
@@ -73,8 +73,8 @@ fn folder(name: &str, full_scale: u16) {
     assert!(frames > 0 && contacts > 0, "{name} holds touches");
 }
 
-/// Conditions frames of a recording, at most 100 of them, with and without leaving out what is quiet: the
-/// first is the baseline.
+/// Conditions at most 100 frames of a recording, with and without skipping inactive taxels; the first frame
+/// is the baseline.
 fn condition(frames: &Frames, filter: Filter, what: &str) {
     let top = frames.values.iter().copied().max().unwrap_or(1).max(1);
     let layout = Layout::build(&Garment::recorded(frames.rows, frames.columns), TAXELS, top).expect(what);

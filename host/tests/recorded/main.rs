@@ -1,5 +1,5 @@
-//! Recordings through the pipeline, and what is learned from them. `cargo xtask test --recorded` runs these;
-//! they read the folders that TAXEL_DATA lists.
+//! Recordings through the pipeline, and models trained on them. `cargo xtask test --recorded` runs these
+//! tests on the folders listed by TAXEL_DATA.
 
 mod data;
 #[path = "../../../core/tests/core/dense.rs"]

@@ -1,5 +1,5 @@
-//! Touches that were recorded, with groups of them kept apart: what `taxel gestures eval --cross participant`,
-//! `taxel intent eval --cross day` and `taxel shapes eval --cross 5` print, and that the docs say the same.
+//! Recorded touches with groups left out: the results of `taxel gestures eval --cross participant`, `taxel
+//! intent eval --cross day` and `taxel shapes eval --cross 5`, and their agreement with the docs.
 
 use crate::data::find as data;
 use crate::start::{root, taxel};
@@ -23,7 +23,7 @@ fn gestures_of_people_who_were_kept_apart() {
         assert!(reached >= least, "{reached} of {least}");
     }
     is_sure_as_it_says(&report);
-    // Above the 78.6 % of 800 trees, and above what it is compared with.
+    // Above the 78.6 % of 800 trees, and above the methods for comparison.
     assert!(share(&report, "/accuracy") > 0.80);
     assert!(share(&report, "/accuracy") > share(&report, "/beside/knn"));
     assert!(share(&report, "/accuracy") > share(&report, "/beside/map"));
@@ -62,7 +62,7 @@ fn objects_that_were_kept_apart() {
     assert!(objects > 0.90 && groups > 0.97);
 }
 
-/// The confidence is that of a thousand decisions and more, on average to 5 %, and the docs have its table.
+/// The confidence is within 5 % on average, over a thousand decisions and more, and the docs have its table.
 fn is_sure_as_it_says(report: &Value) {
     let (count, error) =
         (share(report, "/reliability/predictions"), share(report, "/reliability/expected_error"));
@@ -82,7 +82,7 @@ fn says(file: &str, words: &str) {
     assert!(text.contains(words), "docs/{file} does not say: {words}");
 }
 
-/// Accuracy, what it is compared with and the confusion are those that the docs print.
+/// Accuracy, methods for comparison and confusion agree with the docs.
 fn is_in_docs(file: &str, report: &Value) {
     for pointer in ["/accuracy", "/beside/knn", "/beside/map"] {
         says(file, &format!("| {:.1} % |", 100.0 * share(report, pointer)));

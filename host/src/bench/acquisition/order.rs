@@ -1,8 +1,8 @@
-//! What the order of the addresses does to settling: the same touch, scanned row by row and interlaced.
+//! Effect of the scan order on settling: one touch, scanned row by row and interlaced.
 //!
-//! Row by row a line settles from one neighbour to the next, whose signals differ little under a broad touch;
-//! interlaced it settles from a taxel far away, so that what is left is a part of the whole signal. A step of
-//! full scale, the bound of both, is the same.
+//! Row by row, a line settles between neighbours, whose signals differ little under a broad touch;
+//! interlaced, it settles from a distant taxel, so that the residue is a share of the whole signal. The
+//! bound, for a step of full scale, is the same for both.
 
 use super::{LINE_PF, texture};
 use crate::sim::{Chain, Converter, WiringEffects};
@@ -11,18 +11,18 @@ use std::fmt::Write;
 use taxel_core::acquire::{Depth, Fields, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Sweep};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
-/// Settling that the garment asks for, ns, and the resistances that charge its lines, kOhm.
+/// Settling times of the garment, ns, and resistances that charge its lines, kOhm.
 const SETTLING: [u32; 3] = [2_000, 4_000, 8_000];
 const SOURCES: [f64; 3] = [3.0, 10.0, 30.0];
-/// Signal at rest and at the peak of a touch, counts; how broad it is, taxels.
+/// Signal at rest and at the peak of a touch, counts, and its extent, taxels.
 const REST: f32 = 200.0;
 const PEAK: f32 = 3_800.0;
 const BREADTH: f32 = 4.0;
 
-/// An order of the addresses: the taxels that are read at each, input by input.
+/// A scan order: the taxels read at each address, input by input.
 type Order = Vec<usize>;
 
-/// What settling does to a scene, counts: rms and largest error.
+/// Errors of a scene by settling, counts: rms and largest.
 pub struct Row {
     settle_ns: u32,
     source_kohm: f64,
@@ -31,7 +31,7 @@ pub struct Row {
     interlaced: [f64; 2],
 }
 
-/// Both orders, over settling, sources, and two scenes.
+/// Both orders, over settling times, sources, and two scenes.
 pub fn rows() -> Vec<Row> {
     let garment = Garment::reference();
     let Some((layout, circuit)) = built(&garment) else { return Vec::new() };
@@ -104,7 +104,7 @@ fn errors(settle_ns: u32, source_kohm: f64, order: &Order, signals: &[f32]) -> [
     };
     let scanned: Vec<f32> =
         order.iter().map(|taxel| signals.get(*taxel).copied().unwrap_or_default()).collect();
-    // The first scan begins with empty lines; the second one counts.
+    // The first scan begins with empty lines; the second one is measured.
     let mut last = Vec::new();
     chain.scan(&scanned, 2, |codes| last = codes.to_vec());
     let errors =
@@ -113,7 +113,7 @@ fn errors(settle_ns: u32, source_kohm: f64, order: &Order, signals: &[f32]) -> [
     [(squares / scanned.len().max(1) as f64).sqrt(), errors().fold(0.0, f64::max)]
 }
 
-/// A table for people.
+/// Readable form.
 pub fn table(rows: &[Row], text: &mut String) -> std::fmt::Result {
     writeln!(
         text,
@@ -138,7 +138,7 @@ pub fn table(rows: &[Row], text: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
-/// The same for programs.
+/// JSON form.
 pub fn json(rows: &[Row]) -> Value {
     let both = |[rms, largest]: &[f64; 2]| json!({ "rms": rms, "largest": largest });
     let row = |row: &Row| {
@@ -162,7 +162,7 @@ mod tests {
             for [rms, largest] in [row.progressive, row.interlaced] {
                 assert!(largest <= bound + 0.51 && rms <= largest, "{} {largest} {bound}", row.scene);
             }
-            // A line that has settled does not care.
+            // On a settled line, the order does not matter.
             if bound < 1.0 {
                 assert!((row.progressive[1] - row.interlaced[1]).abs() <= 1.0);
             }

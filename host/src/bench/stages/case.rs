@@ -1,5 +1,5 @@
-//! A case: a garment, a scene's settings, and the codes of its frames; the same for the emulated board and
-//! this machine.
+//! A case: a garment, settings of a scene, and the codes of its frames; the same for the emulated board and
+//! for this machine.
 
 use crate::arrays;
 use crate::client::Client;
@@ -19,58 +19,58 @@ use taxel_suite::pattern::Pattern;
 
 /// Frames of the tare.
 const TARE: u16 = 16;
-/// Frames before those that are measured: contacts are followed by then, and the images are differences.
+/// Frames before the measured ones: contacts are tracked by then, and the images are differences.
 const WARM: usize = 8;
-/// Frames that are measured.
+/// Measured frames.
 pub const MEASURED: usize = 16;
 
-/// Posture of the recording that is used, and its first frame: a person lies still.
+/// Recording, its posture and its first frame: a person lying still.
 const RECORDING: (&str, &str, usize) = ("pmatdata/subject_01.npz", "posture_03", 40);
 
-/// What happens to the chain.
+/// An input of the chain.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Step {
     /// The host sends these bytes.
     Receive(Vec<u8>),
-    /// A scan of these codes is done.
+    /// A finished scan with these codes.
     Scan(Vec<Code>),
-    /// A kernel is run on these codes.
+    /// A kernel to run on these codes.
     Kernel(Kernel, Box<[Code; TAXELS]>),
 }
 
 /// One row of the table of the whole chain.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// The scene's name.
+    /// Name of the scene.
     pub name: &'static str,
-    /// How it differs from what ships.
+    /// Variant of the chain.
     pub variant: Variant,
-    /// What is simulated; none: it is recorded.
+    /// Simulated pattern; none for a recording.
     pub pattern: Option<Pattern>,
     garment: Garment,
     scene: Scene,
     frames: Vec<Vec<Code>>,
 }
 
-/// How a chain differs from the one that ships (12 bit, conservative filter).
+/// Difference of a chain from the shipped one (12 bit, conservative filter).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variant {
-    /// Not at all.
+    /// None.
     Shipped,
     /// No filter.
     Off,
-    /// The median of nine.
+    /// Median of nine.
     Median,
     /// The upper 8 bits of each code.
     EightBit,
-    /// Gestures are recognised, and decided upon as often as may be.
+    /// With gestures, decided as often as possible.
     Gestures,
-    /// A base of shapes is taught that ships with the program.
+    /// With a shipped base of shapes taught to the board.
     Taught,
 }
 
 impl Variant {
-    /// What tables call it.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Variant::Shipped => "shipped",
@@ -93,14 +93,14 @@ impl Variant {
         scene
     }
 
-    /// The built-in base, or a taught one.
+    /// Requests that teach a base, if the variant has one.
     fn taught(self) -> Result<Vec<Step>> {
         let mut client = Client::new();
         client.request(&Request::SetShapes(&[]))?;
         if self == Variant::Taught {
             teach(&mut client, &Base::open(Path::new("drawn"))?)?;
         }
-        // The harness hands over 4,096 bytes at most.
+        // The harness transfers at most 4,096 bytes.
         Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
     }
 
@@ -160,12 +160,12 @@ impl Case {
         Ok(Case { name: "recorded", variant, pattern: None, garment, scene, frames })
     }
 
-    /// Number of a measured frame, as [`Pattern::pressure`] counts them.
+    /// Number of a measured frame, as counted by [`Pattern::pressure`].
     pub const fn number(measured: usize) -> u32 {
         TARE as u32 + (WARM + measured) as u32
     }
 
-    /// What happens, one after the other; the last [`MEASURED`] scans are those that are measured.
+    /// Inputs in order; the last [`MEASURED`] scans are the measured ones.
     pub fn steps(&self) -> Result<Vec<Step>> {
         let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
         let (garment, scene) = (garment?, scene?);

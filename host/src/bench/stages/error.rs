@@ -1,5 +1,4 @@
-//! How far contacts are from the truth: the exact moments of the discs that press, computed from their
-//! definition.
+//! Errors of contacts against the exact moments of the pressing discs, computed from their definition.
 
 use serde_json::{Value, json};
 use taxel_core::body::Placed;
@@ -15,19 +14,19 @@ pub struct Error {
 }
 
 impl Error {
-    /// One more value is off by this much.
+    /// Adds the error of a value.
     pub fn add(&mut self, off: f64) {
         self.largest = self.largest.max(off.abs());
         self.squares += off * off;
         self.count += 1;
     }
 
-    /// Root of the mean square.
+    /// Root mean square.
     pub fn rms(&self) -> f64 {
         (self.squares / f64::from(self.count.max(1))).sqrt()
     }
 
-    /// For other programs.
+    /// JSON form.
     pub fn json(&self) -> Value {
         json!({ "largest": self.largest, "rms": self.rms() })
     }
@@ -45,7 +44,7 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// From the definition, in integers up to the last step.
+    /// Computes from the definition, in integers up to the last step.
     pub fn of(disc: Disc) -> Exact {
         let [mut m, mut sx, mut sy, mut second, mut squares] = [0i128; 5];
         for (column, row) in (-8..40).flat_map(|column| (-8..40).map(move |row| (column, row))) {
@@ -71,8 +70,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Compares the contacts of a frame with its discs; a disc without a contact on its panel counts as a
-    /// taxel off.
+    /// Compares the contacts of a frame with its discs; a disc without a contact on its panel counts as an
+    /// error of one taxel.
     pub fn compare(&mut self, pattern: Pattern, frame: u32, contacts: &[Placed]) {
         for disc in pattern.discs(frame) {
             let exact = Exact::of(disc);
@@ -90,7 +89,7 @@ impl Truth {
         }
     }
 
-    /// Of the centroid, in taxels, and of the NMI, relative; none where nothing was compared.
+    /// Errors of the centroid, in taxels, and of the NMI, relative; none without comparisons.
     pub fn errors(&self) -> Option<[Error; 2]> {
         (self.place.count > 0).then_some([self.place, self.nmi])
     }

@@ -1,4 +1,4 @@
-//! Kernels beside the chain: reading alone, the plain chain, and formats of numbers, with their errors
+//! Kernels apart from the chain: reading alone, the plain chain, and number formats, with their errors
 //! against f64.
 
 use super::case::Step;
@@ -15,26 +15,26 @@ use taxel_suite::measure::Measure;
 use taxel_suite::pattern::Pattern;
 use taxel_suite::windows::{self, AREA, SIDE, WINDOWS};
 
-/// Rounds of windows or states whose cost is measured, and whose error.
+/// Measured rounds of windows or states.
 const MEASURED: u32 = 4;
 const COMPARED: u32 = 250;
 
-/// What the row of a whole inference is called.
+/// Name of the row of a whole inference.
 pub const INFERENCE: &str = "map, to its end";
 
 /// One kernel on one kind of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
-    /// What is done.
+    /// Operation.
     pub what: &'static str,
-    /// In which scene, or in which format.
+    /// Scene or format.
     pub form: &'static str,
     kernel: Kernel,
     pattern: Option<Pattern>,
 }
 
 impl Form {
-    /// All of them.
+    /// All kernels.
     pub fn all() -> Vec<Form> {
         let of = |what, pattern: Pattern, kernel| Form {
             what,
@@ -72,7 +72,7 @@ impl Form {
         all
     }
 
-    /// What is measured, one after the other.
+    /// Inputs in order.
     pub fn steps(&self) -> Vec<Step> {
         let codes = |round| {
             let mut codes = [Code(0); TAXELS];
@@ -85,7 +85,7 @@ impl Form {
         (1..=MEASURED).map(codes).collect()
     }
 
-    /// Costs of the steps, for one frame, contact, step of the map or copy.
+    /// Row from the costs of the steps, per frame, contact, step of the map or copy.
     pub fn row(self, costs: &[Cost]) -> FormRow {
         let each = match self.kernel {
             Kernel::Measure(_) | Kernel::Describe => WINDOWS,
@@ -106,21 +106,21 @@ impl Form {
     }
 }
 
-/// What a kernel costs, and how far off it is.
+/// Cost and errors of a kernel.
 #[derive(Debug, Clone)]
 pub struct FormRow {
-    /// Which.
+    /// The kernel.
     pub form: Form,
-    /// Of one frame, contact, step or copy.
+    /// Cost per frame, contact, step or copy.
     pub cost: u64,
     /// Bytes of stack.
     pub stack: Option<u64>,
-    /// By quantity and unit.
+    /// Errors by quantity and unit.
     pub errors: Vec<(&'static str, Error)>,
 }
 
 impl FormRow {
-    /// For other programs.
+    /// JSON form.
     pub fn json(&self) -> Value {
         let errors = self.errors.iter().map(|(what, error)| (what.to_string(), error.json()));
         json!({
@@ -176,7 +176,7 @@ fn activated(activation: Activation) -> Vec<(&'static str, Error)> {
         let state: [i32; CONCEPTS] = std::array::from_fn(|_| random.i32(-32768..=32768));
         let next = activation.step(&maps, &state);
         for (raw, weights) in next.iter().zip(weights).filter(|(_, w)| w.iter().any(|w| *w != 0.0)) {
-            // The weights are hundredths, whatever their f32 is.
+            // The weights are hundredths, whatever their f32 value.
             let hundredths = weights.iter().map(|w| (f64::from(*w) * 100.0).round() / 100.0);
             let sum: f64 = hundredths.zip(&state).map(|(w, y)| w * f64::from(*y) / 32768.0).sum();
             error.add(activation.value(*raw) - (f64::from(lambda) * sum.max(0.0)).tanh());

@@ -1,5 +1,5 @@
-//! `taxel bench stages`: each stage and each variant, its cost on this machine beside its error. The emulated
-//! board runs the same steps (`cargo xtask cycles`).
+//! `taxel bench stages`: cost on this machine and error of each stage and variant. The emulated board runs
+//! the same steps (`cargo xtask cycles`).
 
 pub mod case;
 pub mod error;
@@ -17,10 +17,10 @@ use std::path::PathBuf;
 use table::Table;
 use twin::{Told, Twin};
 
-/// Everything is measured so often; what was interrupted least counts.
+/// Repetitions of each measurement; the least disturbed counts.
 const ROUNDS: usize = 5;
 
-/// The table of this machine. Recorded frames are a part of it where TAXEL_DATA names their folder.
+/// The table of this machine. It includes recorded frames if TAXEL_DATA names their folder.
 pub fn report() -> Result<Report> {
     let mut cases = Case::simulated();
     match std::env::var_os("TAXEL_DATA").map(PathBuf::from) {
@@ -37,7 +37,7 @@ pub fn report() -> Result<Report> {
     Ok(Report { text: table.to_string(), json: table.json(), chart: table.chart() })
 }
 
-/// The least cost of each step, and what was done.
+/// Least cost of each step, and its result.
 fn measure(steps: &[Step]) -> (Vec<Cost>, Vec<Told>) {
     let round = || {
         let mut twin = Twin::default();

@@ -1,4 +1,4 @@
-//! A row of the table: what a case costs, and how far off its contacts are.
+//! A row of the table: cost of a case, and errors of its contacts.
 
 use super::case::{Case, MEASURED, Variant};
 use super::error::{Error, Truth};
@@ -6,45 +6,45 @@ use super::twin::{STAGES, Told};
 use serde_json::{Value, json};
 use taxel_core::pipeline::Stage;
 
-/// Cost of a step by stage, and the stack that it took, where that is known.
+/// Cost of a step by stage, and its stack, if known.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Cost {
     /// Cycles or nanoseconds.
     pub stages: [u64; STAGES],
-    /// Bytes below the frame of whoever asked.
+    /// Stack below the caller's frame, bytes.
     pub stack: Option<u64>,
 }
 
 impl Cost {
-    /// Everything but the map.
+    /// Everything except for the map.
     fn whole(&self) -> u64 {
         self.stages.iter().sum::<u64>() - self.stages[Stage::Intent as usize]
     }
 }
 
-/// What a case costs.
+/// Cost of a case.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// The scene.
+    /// Scene.
     pub name: &'static str,
-    /// How the chain differs from what ships.
+    /// Variant of the chain.
     pub variant: Variant,
     /// Mean cost of a frame, by stage.
     stages: [u64; STAGES],
-    /// Cost of the dearest frame, without the map.
+    /// Cost of the most expensive frame, without the map.
     pub largest: u64,
-    /// Mean bytes on the wire a frame.
+    /// Mean bytes on the wire per frame.
     pub bytes: u64,
-    /// Bytes of stack that were used at most.
+    /// Largest use of stack, bytes.
     pub stack: Option<u64>,
-    /// Contacts in the last frame, and how many could not be followed.
+    /// Contacts in the last frame, and contacts dropped.
     pub contacts: [u64; 2],
-    /// How far off place and NMI are, where the truth is known.
+    /// Errors of place and NMI, if the truth is known.
     pub error: Option<[Error; 2]>,
 }
 
 impl Row {
-    /// From the steps of a case, of which the last are the measured frames.
+    /// Row from the steps of a case, of which the last are the measured frames.
     pub fn of(case: &Case, costs: &[Cost], told: &[Told]) -> Row {
         let costs = costs.get(costs.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
         let told = told.get(told.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
@@ -84,7 +84,7 @@ impl Row {
         self.perceive() + self.stage(Stage::Idle) + self.stage(Stage::Encode)
     }
 
-    /// For other programs.
+    /// JSON form.
     pub fn json(&self) -> Value {
         let error = |which: usize| self.error.as_ref().map(|errors| errors[which].json());
         json!({

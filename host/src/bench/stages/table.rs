@@ -8,10 +8,10 @@ use std::fmt;
 use taxel_core::pipeline::Stage;
 use taxel_suite::pattern::Pattern;
 
-/// All that was measured in one place.
+/// All measurements of one place.
 #[derive(Debug, Clone)]
 pub struct Table {
-    /// Where.
+    /// The place.
     pub place: String,
     /// `cycles` or `ns`.
     pub unit: &'static str,
@@ -25,7 +25,7 @@ const HEADS: [&str; 10] =
     ["condition", "contact", "shape", "symbol", "react", "perceive", "encode", "all", "largest", "map"];
 
 impl Table {
-    /// For other programs.
+    /// JSON form.
     pub fn json(&self) -> Value {
         json!({
             "place": self.place,
@@ -35,7 +35,7 @@ impl Table {
         })
     }
 
-    /// Largest error over cost: formats by quantity, and the chain's variants on five contacts.
+    /// Chart of the largest error over cost: formats by quantity, and the chain's variants on five contacts.
     pub fn chart(&self) -> Chart {
         let quantities = ["centroid_taxel", "nmi_relative", "azimuth_rad", "activation"];
         let mut series: Vec<Series> = quantities

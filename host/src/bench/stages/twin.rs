@@ -1,4 +1,4 @@
-//! The chain on this machine: what it says, what it takes, and the contacts that it tells of.
+//! The chain on this machine: its output, its cost, and its contacts.
 
 use super::case::Step;
 use std::time::Instant;
@@ -8,10 +8,10 @@ use taxel_core::wire::{Receiver, Report, decode};
 use taxel_suite::chain::{Chain, Said};
 use taxel_suite::kernel::Bench;
 
-/// Stages, by their numbers in the marks.
+/// Number of stages, as in the marks.
 pub const STAGES: usize = Stage::Scan as usize;
 
-/// The longest frame that the board sends, and more.
+/// Upper limit of a frame from the board.
 const LONGEST: usize = 8192;
 
 /// A board on this machine.
@@ -21,16 +21,16 @@ pub struct Twin {
     receiver: Box<Receiver<LONGEST>>,
 }
 
-/// What it did in a step.
+/// Result of a step.
 #[derive(Debug, Clone, Default)]
 pub struct Told {
-    /// What it said.
+    /// Output.
     pub said: Said,
     /// Nanoseconds by stage.
     pub spent: [u64; STAGES],
-    /// The contacts, if it told of any.
+    /// Contacts, if there was a list.
     pub contacts: Vec<Placed>,
-    /// Contacts that it could not follow.
+    /// Contacts dropped.
     pub dropped: u16,
 }
 
@@ -61,7 +61,7 @@ impl Default for Twin {
 }
 
 impl Twin {
-    /// Does a step.
+    /// Performs a step.
     pub fn perform(&mut self, step: &Step) -> Told {
         let (mut told, mut watch, mut sent) = (Told::default(), Watch::default(), Vec::new());
         told.said = match step {

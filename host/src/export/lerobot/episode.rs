@@ -1,4 +1,4 @@
-//! One recording as one file of rows.
+//! Writes one recording as one file of rows.
 
 use super::features::Features;
 use super::parquet::{Table, Values};
@@ -9,7 +9,7 @@ use crate::output::Folder;
 use anyhow::{Result, ensure};
 use std::num::NonZeroU16;
 
-/// Rows that are written at a time.
+/// Rows written at once.
 const ROWS: usize = 256;
 
 /// An episode being written.
@@ -17,7 +17,7 @@ pub struct Episode<'a> {
     folder: &'a Folder,
     path: String,
     number: u64,
-    /// Row of the data set with which it begins.
+    /// First row in the data set.
     first: u64,
     fps: f64,
     sampler: Sampler,
@@ -25,7 +25,7 @@ pub struct Episode<'a> {
     length: u64,
 }
 
-/// What is known as soon as an image has come.
+/// State from the first image on.
 struct Open {
     table: Table,
     names: Vec<String>,
@@ -36,13 +36,13 @@ struct Open {
 }
 
 impl Episode<'_> {
-    /// Begins the episode of a number, which begins with that row of the data set.
+    /// Begins an episode with its number and its first row in the data set.
     pub fn begin(folder: &Folder, path: String, [number, first]: [u64; 2], fps: NonZeroU16) -> Episode<'_> {
         let sampler = Sampler::new(fps);
         Episode { folder, path, number, first, fps: fps.get().into(), sampler, open: None, length: 0 }
     }
 
-    /// Takes an image. All recordings have the `known` features.
+    /// Handles an image. All recordings must have the `known` features.
     pub fn take(
         &mut self,
         frame: &Frame,
@@ -73,12 +73,12 @@ impl Episode<'_> {
         Ok(())
     }
 
-    /// Puts the last image into rows.
+    /// Writes the last image to these rows.
     fn put(&mut self, rows: std::ops::Range<u64>, stats: &mut stats::Table) -> Result<()> {
         let Some(open) = &mut self.open else { return Ok(()) };
         for row in rows {
             let time = (row as f64 / self.fps) as f32;
-            // As the columns are ordered; there is one task.
+            // In the order of the columns; there is one task.
             let own = [row, self.number, self.first + row, 0];
             let own = own.map(|number| Values::Whole(vec![number as i64]));
             let features = open.last.0.iter().cloned().chain([vec![time]]).map(Values::Floats);
@@ -96,7 +96,7 @@ impl Episode<'_> {
         Ok(())
     }
 
-    /// Writes what is left; the number of rows, and how often the time leapt.
+    /// Writes the rest. Returns the number of rows, and of leaps in time.
     pub fn finish(mut self, stats: &mut stats::Table) -> Result<[u64; 2]> {
         let end = self.open.as_ref().map_or(0, |open| open.last.1);
         let rows = self.sampler.passed(end, true);

@@ -1,4 +1,4 @@
-//! The features of a data set: what is in a row.
+//! Features of a data set: the contents of a row.
 
 use super::parquet::{Column, Kind};
 use crate::export::frames::{self, Frame, Worn};
@@ -6,7 +6,7 @@ use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::garment::Area;
 
-/// LeRobot's own features, each one number a row, and whether it is whole.
+/// LeRobot's own features, each one number per row, and whether it is an integer.
 pub const OWN: [(&str, bool); 5] = [
     ("timestamp", false),
     ("frame_index", true),
@@ -15,7 +15,7 @@ pub const OWN: [(&str, bool); 5] = [
     ("task_index", true),
 ];
 
-/// What the touch is told by: panels, then the intention.
+/// Features of touch: panels, then the intention.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
     areas: Vec<Area>,
@@ -24,7 +24,7 @@ pub struct Features {
 }
 
 impl Features {
-    /// Of a garment with its scene. Panels whose features would have one name are refused.
+    /// Features of a garment with its scene. Error if two panels' features would have the same name.
     pub fn of(worn: &Worn) -> Result<Features> {
         let areas = worn.layout.areas().to_vec();
         let units = (0..areas.len()).map(|panel| worn.units.name(panel)).collect();
@@ -36,7 +36,7 @@ impl Features {
         Ok(features)
     }
 
-    /// Name and shape of each.
+    /// Name and shape of each feature.
     pub fn shapes(&self) -> Vec<(String, Vec<usize>)> {
         let panel = |area: &Area| {
             let shape = [area.rows, area.columns].map(usize::from).to_vec();
@@ -49,7 +49,7 @@ impl Features {
         all
     }
 
-    /// The columns of a file, LeRobot's own behind them.
+    /// Columns of a file, with LeRobot's own at the end.
     pub fn columns(&self) -> Vec<Column> {
         let ours = self.shapes().into_iter().map(|(name, shape)| Column { name, kind: Kind::Floats(shape) });
         let own = OWN.map(|(name, whole)| {
@@ -59,7 +59,7 @@ impl Features {
         ours.chain(own).collect()
     }
 
-    /// What a frame says of each.
+    /// Values of each feature in a frame.
     pub fn values(&self, frame: &Frame) -> Vec<Vec<f32>> {
         let units = &frame.worn.units;
         let panel = |(panel, area): (usize, &Area)| {
@@ -73,7 +73,7 @@ impl Features {
         all
     }
 
-    /// As `info.json` describes them.
+    /// Descriptions for `info.json`.
     pub fn described(&self) -> Value {
         let mut all = serde_json::Map::new();
         for (index, (name, shape)) in self.shapes().into_iter().enumerate() {
@@ -93,7 +93,7 @@ impl Features {
     }
 }
 
-/// A name as part of a feature's.
+/// A name as part of a feature's name.
 fn word(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }

@@ -1,4 +1,4 @@
-//! What is told of the whole data set.
+//! Metadata of the data set.
 
 use super::features::Features;
 use super::parquet::{Column, Kind, Table, Values};
@@ -8,15 +8,15 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::io::Write;
 
-/// Megabytes of a file above which LeRobot begins another; ours end with their episode.
+/// Size of a file at which LeRobot begins another, MB; ours end with their episode.
 const DATA_MB: u32 = 100;
 
-/// The file of an episode.
+/// Path of an episode's file.
 pub fn data_path(episode: usize) -> String {
     format!("data/chunk-{:03}/file-{:03}.parquet", episode / CHUNK, episode % CHUNK)
 }
 
-/// Writes the folder `meta`; `episodes` are the rows of each.
+/// Writes the folder `meta`; `episodes` has the number of rows of each.
 pub fn write(
     folder: &Folder,
     features: &Features,
@@ -61,7 +61,7 @@ fn put(folder: &Folder, path: &str, value: &Value) -> Result<()> {
     done.with_context(|| format!("{path} cannot be written"))
 }
 
-/// The one task. LeRobot reads it with pandas, by its index.
+/// The single task. LeRobot reads it with pandas, by its index.
 fn tasks(folder: &Folder, task: &str) -> Result<()> {
     let column = |name: &str, kind| Column { name: name.into(), kind };
     let columns = vec![column("task_index", Kind::Whole), column("task", Kind::Text)];
@@ -79,7 +79,7 @@ fn tasks(folder: &Folder, task: &str) -> Result<()> {
     table.finish()
 }
 
-/// Where each episode lies.
+/// Place of each episode.
 fn list(folder: &Folder, episodes: &[u64], task: &str) -> Result<()> {
     let starts = episodes.iter().scan(0, |next, length| Some(std::mem::replace(next, *next + *length)));
     let starts: Vec<i64> = starts.map(|start| start as i64).collect();

@@ -1,4 +1,4 @@
-//! Tables as Parquet files: columns of numbers, of lists of numbers in lists, of texts.
+//! Parquet files: columns of numbers, of nested lists of numbers, of texts.
 
 use crate::output::Folder;
 use anyhow::{Result, bail};
@@ -12,12 +12,12 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::sync::Arc;
 
-/// What a row of a column holds.
+/// Type of a column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Kind {
-    /// Numbers in that shape; of shape \[1\], one number.
+    /// Floats in this shape; one number for shape \[1\].
     Floats(Vec<usize>),
-    /// A whole number.
+    /// An integer.
     Whole,
     /// A text.
     Text,
@@ -28,9 +28,9 @@ pub enum Kind {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What a row of it holds.
+    /// Type.
     pub kind: Kind,
 }
 
@@ -46,7 +46,7 @@ pub enum Values {
 }
 
 impl Kind {
-    /// The lists of a row.
+    /// Shape of a row.
     fn shape(&self) -> &[usize] {
         match self {
             Kind::Floats(shape) if shape[..] != [1] => shape,
@@ -72,7 +72,7 @@ impl Kind {
         }
     }
 
-    /// The type of a column that has so many lists in one another.
+    /// Parquet type of a column with this depth of lists.
     fn column(&self, name: &str, lists: usize) -> parquet::errors::Result<TypePtr> {
         let Some(inner) = lists.checked_sub(1) else {
             let (physical, logical) = self.leaf();
@@ -96,7 +96,7 @@ impl Values {
         }
     }
 
-    /// The numbers; of texts none.
+    /// The numbers; none for texts.
     pub fn numbers(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         let count = if matches!(self, Values::Texts(_)) { 0 } else { self.len() };
         (0..count).map(|index| match self {
@@ -106,7 +106,7 @@ impl Values {
         })
     }
 
-    /// Adds rows of the same kind.
+    /// Appends rows of the same kind.
     pub fn append(&mut self, more: Values) {
         match (self, more) {
             (Values::Floats(all), Values::Floats(more)) => all.extend(more),
@@ -116,7 +116,7 @@ impl Values {
         }
     }
 
-    /// Forgets all rows.
+    /// Removes all rows.
     pub fn clear(&mut self) {
         match self {
             Values::Floats(all) => all.clear(),
@@ -133,7 +133,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Begins a file of the data set; `note` is a name and what it says to readers.
+    /// Begins a file of the data set; `note` is a key and value of its metadata.
     pub fn create(
         folder: &Folder,
         path: &str,
@@ -152,7 +152,7 @@ impl Table {
         Ok(Table { columns, writer: SerializedFileWriter::new(file, schema, Arc::new(properties))? })
     }
 
-    /// Adds rows: of each column those that `values` holds of it.
+    /// Writes rows, with their values by column.
     pub fn rows(&mut self, values: &[Values]) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
         for (column, values) in self.columns.iter().zip(values) {
@@ -182,8 +182,8 @@ impl Table {
     }
 }
 
-/// What Parquet wants to know of each of `count` values in lists: how many lists around it are there (all of
-/// them), and how many go on from the value before.
+/// Repetition and definition levels of `count` values in lists: all lists around a value exist; the
+/// repetition level says how many of them continue from the value before.
 fn levels(shape: &[usize], count: usize) -> [Vec<i16>; 2] {
     let sizes: Vec<usize> = (0..shape.len()).map(|list| shape[list..].iter().product()).collect();
     let goes_on = |index: usize| {

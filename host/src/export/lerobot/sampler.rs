@@ -1,41 +1,39 @@
-//! Images at even times: at each the last that there was.
+//! Samples images at even times: at each the last one so far.
 //!
-//! Where the time leaps, be it that the link was gone, that the board started anew, or that its clock is
-//! nonsense, nothing is known of what lies between: no row is made of it, and the next image stands in the next
-//! row.
+//! If the time leaps, because the link was lost, the board restarted or its clock is invalid, nothing is
+//! known about the gap: it gets no rows, and the next image is in the next row.
 
 use std::num::NonZeroU16;
 
-/// Longest time that one image stands for, us: twice that of the slowest stream, an image a second.
+/// Longest time represented by one image, us: twice that of the slowest stream, one image per second.
 const LONGEST_US: u64 = 2_000_000;
 const SECOND_US: u128 = 1_000_000;
 
-/// Which rows an image stands in.
+/// Assigns images to rows.
 #[derive(Debug)]
 pub struct Sampler {
     fps: u64,
-    /// Time of the last image, and of the first since the time leapt, us.
+    /// Time of the last image, and of the first since the last leap, us.
     times: Option<[u64; 2]>,
-    /// The row of the first since then.
+    /// Row of the first image since the last leap.
     first: u64,
-    /// The next row.
+    /// Next row.
     row: u64,
     leaps: u64,
 }
 
 impl Sampler {
-    /// So many rows a second, the first at the first image.
+    /// A sampler with `fps` rows per second, the first at the first image.
     pub fn new(fps: NonZeroU16) -> Sampler {
         Sampler { fps: fps.get().into(), times: None, first: 0, row: 0, leaps: 0 }
     }
 
-    /// How often the time leapt.
+    /// Number of leaps in time.
     pub fn leaps(&self) -> u64 {
         self.leaps
     }
 
-    /// The rows whose time has passed at `now_us`, or comes just then where `last`: what was before it stands
-    /// in them.
+    /// Rows whose time is before `now_us`, or equal to it if `last`; they hold the image before.
     pub fn passed(&mut self, now_us: u64, last: bool) -> std::ops::Range<u64> {
         let [before, began] = *self.times.get_or_insert([now_us; 2]);
         let leaps = now_us.checked_sub(before).is_none_or(|passed| passed > LONGEST_US);
@@ -49,7 +47,7 @@ impl Sampler {
         rows
     }
 
-    /// Row n is at n / fps: those below what has passed are over, the one at that time is this image's.
+    /// Row n is at n / fps; the row exactly at the time of an image is this image's.
     fn rows(&self, now_us: u64, began: u64, last: bool) -> std::ops::Range<u64> {
         let passed = u128::from(now_us.saturating_sub(began)) * u128::from(self.fps);
         let end = if last { passed / SECOND_US + 1 } else { passed.div_ceil(SECOND_US) };
@@ -82,7 +80,7 @@ mod tests {
             rows += sampler.passed(time, false).count();
         }
         rows += sampler.passed(4_000_006, true).count();
-        // An image before each leap, and the two seconds that are none.
+        // An image before each leap, and the two seconds without images.
         assert_eq!((sampler.leaps(), rows), (6, 7 + 2 * usize::from(u16::MAX)));
     }
 }

@@ -1,9 +1,9 @@
-//! Least, greatest, mean and spread of each feature, element by element (Welford's sums).
+//! Minimum, maximum, mean and standard deviation of each feature, element by element (Welford's sums).
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// One element.
+/// Statistics of one element.
 #[derive(Debug, Clone, Copy)]
 struct Element {
     least: f64,
@@ -25,19 +25,19 @@ impl Element {
     }
 }
 
-/// One feature.
+/// Statistics of one feature.
 #[derive(Debug, Default, Clone)]
 struct Feature {
     count: u64,
     elements: Vec<Element>,
 }
 
-/// All features.
+/// Statistics of all features.
 #[derive(Debug, Default)]
 pub struct Table(BTreeMap<String, Feature>);
 
 impl Table {
-    /// Takes a row of a feature.
+    /// Adds a row of a feature.
     pub fn take(&mut self, name: &str, values: impl ExactSizeIterator<Item = f64>) {
         if !self.0.contains_key(name) {
             self.0.insert(name.into(), Feature::default());
@@ -52,7 +52,7 @@ impl Table {
             .for_each(|(element, value)| element.take(value, feature.count));
     }
 
-    /// As `stats.json` holds a feature of that shape.
+    /// Entry of `stats.json` for a feature with this shape.
     pub fn of(&self, name: &str, shape: &[usize]) -> Value {
         let Some(feature) = self.0.get(name) else { return json!({}) };
         let spread = |element: &Element| (element.squares / feature.count as f64).sqrt();
@@ -69,7 +69,7 @@ impl Table {
     }
 }
 
-/// Numbers as lists in lists.
+/// Numbers as nested lists.
 fn nested(values: &[f64], shape: &[usize]) -> Value {
     match shape {
         [_, rest @ ..] if !rest.is_empty() => {

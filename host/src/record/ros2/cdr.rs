@@ -1,6 +1,6 @@
-//! Common Data Representation, little-endian, as ROS 2 writes messages: each number aligned to its own size,
-//! counted from behind the head of four bytes; sequences and strings with their length (u32) before them,
-//! strings with a 0 at the end.
+//! Common Data Representation, little-endian, as used by ROS 2: each number is aligned to its own size,
+//! counted from behind the header of four bytes; sequences and strings are preceded by their length (u32),
+//! strings end with a 0.
 
 /// A message being written.
 #[derive(Debug, Clone)]
@@ -8,7 +8,7 @@ pub struct Cdr {
     bytes: Vec<u8>,
 }
 
-/// Bytes before the message: the representation, plain and little-endian.
+/// Header before the message: the representation, plain and little-endian.
 const HEAD: [u8; 4] = [0, 1, 0, 0];
 
 impl Default for Cdr {

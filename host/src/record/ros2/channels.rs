@@ -1,4 +1,4 @@
-//! Which message goes where.
+//! Assigns messages to topics.
 
 use super::super::names;
 use super::super::stamps::Stamp;
@@ -9,14 +9,14 @@ use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 
-/// A file with these messages alone: readers of ROS bags refuse a file in which there are others. Its
-/// channels are made when their first message comes.
+/// A file with ROS 2 messages only: readers of ROS bags refuse files with other messages. A channel is
+/// created with its first message.
 #[derive(Debug)]
 pub struct Ros2<S: Store> {
-    /// What is written to.
+    /// Writer of the file.
     pub writer: Writer<S>,
     ids: BTreeMap<String, u16>,
-    /// The panels whose frames have been told.
+    /// Panels whose frames have been written.
     areas: Vec<Area>,
 }
 
@@ -29,12 +29,12 @@ struct Sent {
 }
 
 impl<S: Store> Ros2<S> {
-    /// Begins a file.
+    /// Creates a file.
     pub fn create(store: S) -> Result<Ros2<S>> {
         Ok(Ros2 { writer: Writer::create(store, "ros2")?, ids: BTreeMap::new(), areas: Vec::new() })
     }
 
-    /// Where the panels lie, if that has not been told.
+    /// Frames of the panels, unless written already.
     fn frames(&mut self, client: &Client, stamp: Stamp) -> Vec<Sent> {
         let areas = client.layout().map_or(&[][..], |layout| layout.areas());
         if self.areas == areas {
@@ -46,7 +46,7 @@ impl<S: Store> Ros2<S> {
         vec![Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }]
     }
 
-    /// Writes what an event says.
+    /// Writes the messages for an event.
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
         let all = match event {
             Event::Frame { image: ImageNews::Whole, .. } => {

@@ -1,4 +1,4 @@
-//! The messages as bytes.
+//! Encodes the messages.
 
 use super::super::names;
 use super::cdr::Cdr;
@@ -8,16 +8,16 @@ use taxel_core::wire::Health;
 
 /// `PointField.FLOAT32`
 const FLOAT32: u8 = 7;
-/// Bytes of a point: x, y, z, pressure.
+/// Bytes per point: x, y, z, pressure.
 const POINT: u32 = 16;
 /// Space between the panels of a link, m.
 const GAP: f64 = 0.02;
-/// The frame on which panels lie that name no link.
+/// Parent frame of panels without a link.
 const NO_LINK: &str = "garment";
-/// Micrometres of a metre.
+/// Micrometres per metre.
 const UM: f32 = 1e6;
 
-/// The header: when, and in which frame.
+/// Writes the header: time and frame.
 fn head(host_us: u64, frame: &str) -> Cdr {
     header(Cdr::default(), host_us, frame)
 }
@@ -26,13 +26,13 @@ fn header(cdr: Cdr, host_us: u64, frame: &str) -> Cdr {
     cdr.i32((host_us / 1_000_000) as i32).u32((host_us % 1_000_000) as u32 * 1000).text(frame)
 }
 
-/// The frame of a panel: two panels on one link do not lie on one another.
+/// Frame of a panel; it is its own, so that panels of one link do not overlap.
 fn frame(area: &Area) -> String {
     format!("tactile/{}", names::topic(&area.name))
 }
 
 /// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie
-/// on a link, so those of one link lie side by side along x.
+/// on a link, so those of one link are placed side by side along x.
 pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
     let mut taken: BTreeMap<&str, f64> = BTreeMap::new();
     let mut cdr = Cdr::default().u32(areas.len() as u32);
@@ -48,7 +48,7 @@ pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
     cdr.finish()
 }
 
-/// `sensor_msgs/msg/Image`: 16 bits a taxel, counts.
+/// `sensor_msgs/msg/Image`: 16 bits per taxel, counts.
 pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
     head(host_us, &frame(area))
@@ -61,8 +61,8 @@ pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
         .finish()
 }
 
-/// `sensor_msgs/msg/PointCloud2`: a point a taxel, x and y in metres from the panel's first, and its pressure
-/// in counts.
+/// `sensor_msgs/msg/PointCloud2`: one point per taxel, x and y in metres from the panel's first taxel,
+/// pressure in counts.
 pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let [x_um, y_um] = area.pitch_um.map(|um| um as f32);
     let columns = usize::from(area.columns).max(1);
@@ -87,8 +87,7 @@ pub fn wrench(host_us: u64, area: &Area, newtons: f64) -> Vec<u8> {
     cdr.finish()
 }
 
-/// `diagnostic_msgs/msg/DiagnosticArray`: the counters of a board; a warning where something was lost or
-/// failed.
+/// `diagnostic_msgs/msg/DiagnosticArray`: the counters of a board; a warning if anything was lost or failed.
 pub fn diagnostics(host_us: u64, board: &str, health: &Health, ill: usize) -> Vec<u8> {
     let bad = health.failed + health.overruns + health.lost > 0 || ill > 0;
     let said = if bad { "scans, messages or taxels are missing" } else { "all is well" };
@@ -117,7 +116,7 @@ mod tests {
     use super::*;
     use taxel_core::garment::{Garment, Layout};
 
-    /// What a message names as a text: its length, its letters, 0.
+    /// True if a message holds this text: its length, its letters, 0.
     fn names(message: &[u8], text: &str) -> bool {
         let text = [&(text.len() as u32 + 1).to_le_bytes()[..], text.as_bytes(), &[0]].concat();
         message.windows(text.len()).any(|window| window == text)
@@ -137,7 +136,7 @@ mod tests {
             for message in [image(5, area, &values), points(5, area, &values), wrench(5, area, 1.0)] {
                 assert!(names(&message, &own), "{own}");
             }
-            // The place follows the name, aligned to 8 bytes behind the head of 4.
+            // The position follows the name, aligned to 8 bytes from behind the header of 4.
             let at =
                 told.windows(own.len()).position(|window| window == own.as_bytes()).unwrap() + own.len() + 1;
             let at = 4 + (at - 4).next_multiple_of(8);

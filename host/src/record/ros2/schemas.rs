@@ -1,6 +1,6 @@
-//! The definitions of the messages, each with those that it uses, in the form that MCAP calls `ros2msg`.
+//! Message definitions with those that they use, in the form that MCAP calls `ros2msg`.
 
-/// What several messages begin with.
+/// Definition of the header that several messages begin with.
 macro_rules! header {
     () => {
         "\n================================================================================

@@ -1,4 +1,4 @@
-//! Whether a record begins at a place, as far as its fields tell.
+//! Judges by its fields whether a record begins at an offset.
 
 use super::super::append::HEAD;
 use super::super::source::Source;
@@ -9,43 +9,43 @@ use mcap::records::op;
 use std::collections::BTreeSet;
 use std::io;
 
-/// Bytes of the largest record that is looked into for this; larger ones are judged by their head.
+/// Size of the largest record whose body is examined; larger ones are judged by their head.
 const LOOK: u64 = 1 << 16;
 /// Bytes of a chunk that hold its fields.
 const FIELDS: u64 = 256;
-/// Bytes of a message's fields.
+/// Size of a message's fields.
 const MESSAGE: u64 = 22;
-/// Bytes that are searched at once.
+/// Bytes searched at once.
 const BLOCK: u64 = 1 << 16;
 
-/// How sure it is that a record begins at a place.
+/// Confidence that a record begins at an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Trust {
     No,
-    /// Its head fits into the file, but any bytes might.
+    /// Its head fits into the file, as random bytes might.
     Head,
     /// Its fields fill it to the last byte.
     Fields,
 }
 
-/// What tells records from other bytes.
+/// Tells records from other bytes.
 #[derive(Debug)]
 pub struct Judge<'a> {
     /// The file.
     pub source: &'a mut Source,
-    /// What its end says.
+    /// Places listed by the file's end.
     pub marks: &'a Marks,
-    /// Channels that were told before.
+    /// Channels declared so far.
     pub channels: &'a BTreeSet<u16>,
 }
 
 impl Judge<'_> {
-    /// Whether a record may begin there, or the file ends.
+    /// True if a record may begin there, or the file ends.
     pub fn may_begin(&mut self, at: u64) -> io::Result<bool> {
         Ok(self.trust(at)?.0 > Trust::No)
     }
 
-    /// The first place of `from..until` at which a record begins for sure.
+    /// First offset of `from..until` at which a record certainly begins.
     pub fn search(&mut self, from: u64, until: u64) -> io::Result<Option<u64>> {
         let told = self.marks.records.range(from..until.max(from)).next().copied();
         let until = told.unwrap_or(until);
@@ -64,7 +64,7 @@ impl Judge<'_> {
         Ok(told)
     }
 
-    /// Whether a record begins there for sure: by itself, or by what follows it.
+    /// True if a record certainly begins there: by itself, or by what follows it.
     fn begins(&mut self, at: u64) -> io::Result<bool> {
         Ok(match self.trust(at)? {
             (Trust::No, _) => false,
@@ -73,7 +73,7 @@ impl Judge<'_> {
         })
     }
 
-    /// How sure it is that a record begins there, and where it ends.
+    /// Confidence that a record begins there, and the offset of its end.
     fn trust(&mut self, at: u64) -> io::Result<(Trust, u64)> {
         let is_known = self.marks.records.contains(&at);
         if is_known || at == self.source.length() || self.source.is_tail(at)? {
@@ -97,7 +97,7 @@ impl Judge<'_> {
             },
             number if number > op::DATA_END || head.length > LOOK => Trust::Head,
             number => match parse(number, &self.source.read(from, head.length)?) {
-                // Few bytes, which others may be by chance.
+                // So few bytes may fit by chance.
                 Some((Kind::Summary, true)) => Trust::Head,
                 Some((_, true)) => Trust::Fields,
                 _ => Trust::No,
@@ -106,7 +106,7 @@ impl Judge<'_> {
         Ok((trust, end))
     }
 
-    /// A message of a channel that is known.
+    /// Judges a message by whether its channel is known.
     fn message(&mut self, from: u64, length: u64) -> io::Result<Trust> {
         if length < MESSAGE {
             return Ok(Trust::No);

@@ -1,4 +1,4 @@
-//! What the end of a file says of where its records lie.
+//! Places of records listed by the end of a file.
 
 use super::super::source::Source;
 use super::super::summary::End;
@@ -6,27 +6,27 @@ use mcap::records::{Channel, Record, SchemaHeader, Statistics};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// Places and channels that a file's end tells.
+/// Places, schemas and channels listed by a file's end.
 #[derive(Debug, Default)]
 pub struct Marks {
-    /// A footer or the last bytes are there; they may be damaged.
+    /// A footer or the magic is there; it may be damaged.
     pub has_end: bool,
-    /// The end fits its checksum, or has none, and can be read.
+    /// The end is readable, and its checksum is right or absent.
     pub is_sound: bool,
-    /// Where chunks begin.
+    /// Offsets of chunks.
     pub chunks: BTreeSet<u64>,
-    /// Where chunks and other records begin.
+    /// Offsets of chunks and other records.
     pub records: BTreeSet<u64>,
     /// Schemas by number.
     pub schemas: BTreeMap<u16, (SchemaHeader, Vec<u8>)>,
     /// Channels by number.
     pub channels: BTreeMap<u16, Channel>,
-    /// How many records of each kind there are.
+    /// Number of records of each kind.
     pub statistics: Option<Statistics>,
 }
 
 impl Marks {
-    /// Reads them.
+    /// Reads the end of a file.
     pub fn read(source: &mut Source) -> io::Result<Marks> {
         let mut marks = Marks::default();
         let end = End::read(source, |record| marks.take(record))?;
@@ -35,10 +35,10 @@ impl Marks {
         Ok(marks)
     }
 
-    /// Takes a record of the summary; whether it can be right.
+    /// Adds a record of the summary. Returns whether it is plausible.
     fn take(&mut self, record: Record<'_>) -> bool {
         match record {
-            // Number 0 stands for no schema.
+            // Number 0 is no schema.
             Record::Schema { header, .. } if header.id == 0 => return false,
             Record::Schema { header, data } => {
                 _ = self.schemas.insert(header.id, (header, data.into_owned()));

@@ -1,14 +1,14 @@
-//! The records of a file that may be damaged: after a kill, a power cut, or on a disk that loses bits.
+//! Reads the records of a file that may be damaged by a kill, a power cut, or a failing disk.
 //!
-//! The records are read one after the other. Where none can be read, the next one that can is searched for:
-//! at the places that the file's summary names, else byte by byte. What lies between is damage.
+//! Records are read one after the other. Where none is readable, the next readable one is searched for: at
+//! the offsets listed in the file's summary, else byte by byte. The bytes between are damage.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `piece.rs` | one record, and whether it is read to its last byte |
-//! | `opened.rs` | a chunk whose checksum fits, and what is in it |
-//! | `marks.rs` | where the file's end says that its records lie |
-//! | `likely.rs` | whether a record begins at a place |
+//! | `opened.rs` | a chunk with a valid checksum, and its contents |
+//! | `marks.rs` | places of records listed by the file's end |
+//! | `likely.rs` | whether a record begins at an offset |
 //! | `walk.rs` | the records, one after the other |
 
 mod likely;

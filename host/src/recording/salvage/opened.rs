@@ -1,4 +1,4 @@
-//! A chunk whose checksum fits, and what is in it.
+//! Opens a chunk with a valid checksum.
 
 use super::super::append::write;
 use super::super::chunk::{Index, LARGEST, LZ4};
@@ -9,27 +9,27 @@ use lz4_flex::frame::FrameDecoder;
 use mcap::records::{Channel, ChunkHeader, MessageIndexEntry, SchemaHeader, op};
 use std::io::Read;
 
-/// How many times as large as its bytes LZ4 can make a chunk.
+/// Largest expansion of LZ4.
 const MOST: u64 = 255;
 
-/// What is in a chunk.
+/// Contents of a chunk.
 #[derive(Debug, Default)]
 pub struct Opened {
-    /// Where its messages lie in its plain bytes, by channel.
+    /// Offsets of its messages in its uncompressed bytes, by channel.
     pub index: Index,
-    /// Schemas that are told in it.
+    /// Schemas declared in it.
     pub schemas: Vec<(SchemaHeader, Vec<u8>)>,
-    /// Channels that are told in it.
+    /// Channels declared in it.
     pub channels: Vec<Channel>,
 }
 
-/// The fields of a chunk at the beginning of its body, and their bytes.
+/// Fields of a chunk at the beginning of its body, and their size.
 pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
     fields::<ChunkHeader>(op::CHUNK, body)
 }
 
-/// Reads a chunk's body; where its fields are wrong but its checksum fits, they and the body become right.
-/// None: it does not fit. Its plain bytes are then in `plain`, memory that serves all chunks.
+/// Reads a chunk's body. If fields are wrong but the checksum fits, corrects them and the body. None if it
+/// does not fit. The uncompressed bytes are left in `plain`, which is reused for all chunks.
 pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
     let (told, used) = header(body)?;
     let data = body.get(used..)?;
@@ -56,7 +56,7 @@ pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Ope
     Some((right, inside))
 }
 
-/// The records of a chunk, if they fit its checksum; where it has none, if they fill it as it says.
+/// Records of a chunk, if they fit its checksum; without a checksum, if they fill its stated size.
 fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
     let sum = told.uncompressed_crc;
     if sum != 0 && sum != crc32fast::hash(plain) {
@@ -67,7 +67,7 @@ fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
     fits.then_some(inside)
 }
 
-/// Puts the plain bytes of a chunk, which says that they are so many, into `plain`.
+/// Decompresses a chunk with this stated size into `plain`.
 fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Option<()> {
     let most = LARGEST.min(data.len() as u64 * MOST);
     match compression {
@@ -75,7 +75,7 @@ fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Opt
             plain.clear();
             plain.extend_from_slice(data);
         }
-        // Most chunks are what they say.
+        // The usual case: the chunk is as stated.
         LZ4 if told <= most && lz4::is_ours(data) => {
             plain.resize(told as usize, 0);
             if !lz4::decode(data, plain) {
@@ -88,7 +88,7 @@ fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Opt
     Some(())
 }
 
-/// Decodes a frame of any kind and size, its own checksums checked.
+/// Decodes a frame of any kind and size, and checks its own checksums.
 fn decode(data: &[u8], most: u64, plain: &mut Vec<u8>) -> Option<()> {
     plain.clear();
     FrameDecoder::new(data).take(most + 1).read_to_end(plain).ok()?;
@@ -96,7 +96,8 @@ fn decode(data: &[u8], most: u64, plain: &mut Vec<u8>) -> Option<()> {
 }
 
 impl Opened {
-    /// Reads the plain bytes of a chunk; also whether they are whole records to their last byte.
+    /// Reads the uncompressed bytes of a chunk. Also returns whether they are complete records to the last
+    /// byte.
     fn of(plain: &[u8]) -> (Opened, bool) {
         let (mut inside, mut records) = (Opened::default(), Inside::of(plain, 0));
         for record in records.by_ref() {

@@ -10,54 +10,54 @@ use mcap::records::{
 };
 use std::io::Cursor;
 
-/// A record that was read.
+/// A record.
 #[derive(Debug)]
 pub struct Piece {
-    /// Where it begins in the file.
+    /// Offset of its beginning.
     pub offset: u64,
-    /// Where the next begins.
+    /// Offset of the next record.
     pub end: u64,
     /// Its number.
     pub op: u8,
-    /// What it holds. What is known to be wrong in a chunk's fields is right here.
+    /// Its contents; known errors in a chunk's fields are corrected.
     pub body: Vec<u8>,
-    /// What it says.
+    /// Its meaning.
     pub kind: Kind,
-    /// Its number, its length or its fields stand wrong in the file.
+    /// Its number, length or fields are wrong in the file.
     pub is_corrected: bool,
 }
 
-/// What a record says.
+/// Meaning of a record.
 #[derive(Debug)]
 pub enum Kind {
     /// Library and profile.
     Header(Header),
-    /// How messages are to be read, with the schema's own bytes.
+    /// Format of messages, with the bytes of the schema.
     Schema(SchemaHeader, Vec<u8>),
-    /// What messages are about.
+    /// Topic of messages.
     Channel(Channel),
     /// A message outside of a chunk.
     Message(MessageHeader),
-    /// A chunk; none: of a compression or a size that is not read here.
+    /// A chunk; none if its compression or size is not supported.
     Chunk(ChunkHeader, Option<Opened>),
-    /// A chunk that does not fit its checksum.
+    /// A chunk with a wrong checksum.
     BadChunk,
-    /// Where messages of a channel lie in the chunk before.
+    /// Message index of the chunk before.
     Index(MessageIndex),
-    /// An attached file, and its bytes.
+    /// An attachment, and its size.
     Attachment(AttachmentHeader, u64),
     /// Words by name.
     Metadata(Metadata),
-    /// The end of the records, or what the summary says of them.
+    /// End of the data, or a record of the summary.
     Summary,
     /// The last record.
     Footer,
-    /// A record that is not known here.
+    /// An unknown record.
     Unknown,
 }
 
-/// Reads a record; also whether its fields end where it ends. None: it is no such record. Chunks are read by
-/// [`Opened`].
+/// Parses a record. Also returns whether its fields end where it ends. None if it is not such a record.
+/// Chunks are parsed by [`Opened`].
 pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
     let exact = |used: usize| used == body.len();
     let told = |used: usize| Some((Kind::Summary, exact(used)));
@@ -76,13 +76,13 @@ pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
         op::STATISTICS => fields::<Statistics>(number, body).and_then(|(_, used)| told(used))?,
         op::SUMMARY_OFFSET => fields::<SummaryOffset>(number, body).and_then(|(_, used)| told(used))?,
         op::DATA_END => fields::<DataEnd>(number, body).and_then(|(_, used)| told(used))?,
-        // Zeros, which a power cut can leave, are no record.
+        // Zeros, which a power cut can leave, are not a record.
         0 | op::CHUNK => return None,
         _ => (Kind::Unknown, false),
     })
 }
 
-/// The fields at the beginning of the body of a record of that number, and their bytes.
+/// Fields at the beginning of the body of a record with this number, and their size.
 pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(number: u8, body: &[u8]) -> Option<(T, usize)> {
     if !texts_fit(number, body) {
         return None;
@@ -96,7 +96,7 @@ fn schema(body: &[u8]) -> Option<(Kind, bool)> {
     let (header, used) = fields::<SchemaHeader>(op::SCHEMA, body)?;
     let (length, rest) = body.get(used..)?.split_first_chunk()?;
     let data = rest.get(..u32::from_le_bytes(*length) as usize).filter(|data| data.len() <= LONGEST)?;
-    // Number 0 stands for no schema.
+    // Number 0 is no schema.
     (header.id != 0).then(|| (Kind::Schema(header, data.to_vec()), data.len() == rest.len()))
 }
 

@@ -1,4 +1,4 @@
-//! The records of a file that may be damaged, one after the other.
+//! Iterates over the records of a file that may be damaged.
 
 use super::super::append::HEAD;
 use super::super::chunk::{Index, LARGEST, is_known};
@@ -14,47 +14,47 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Bytes of the largest record that is read without a look at what follows it.
+/// Size of the largest record that is read without checking what follows it.
 const LARGE: u64 = 1 << 26;
 
-/// Goes through the records.
+/// Iterates over the records.
 #[derive(Debug)]
 pub struct Walk {
     source: Source,
     path: PathBuf,
-    /// What the file's end says.
+    /// Places listed by the file's end.
     pub marks: Marks,
     at: u64,
-    /// Channels that were told so far.
+    /// Channels declared so far.
     channels: BTreeSet<u16>,
-    /// What the message indexes say that follow, if they are those of a chunk that was read.
+    /// Expected message indexes, if they follow a chunk that was read.
     index: Index,
-    /// Plain bytes of the chunk that was opened last: its memory serves the next.
+    /// Uncompressed bytes of the last chunk, reused for the next.
     plain: Vec<u8>,
 }
 
-/// What comes next in a file.
+/// Next part of a file.
 #[derive(Debug)]
 pub enum Step {
     /// A record.
     Piece(Piece),
-    /// Bytes that are none.
+    /// Bytes that are not a record.
     Damage(Damage),
 }
 
-/// Bytes that cannot be read.
+/// Unreadable bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Damage {
-    /// The first of them.
+    /// Offset of the first.
     pub offset: u64,
-    /// How many.
+    /// Their number.
     pub length: u64,
     /// Chunks among them.
     pub chunks: usize,
 }
 
 impl Walk {
-    /// Begins with the first record.
+    /// Opens a file at its first record.
     pub fn open(path: &Path) -> Result<Walk> {
         let mut source = Source::open(path)?;
         let place = || format!("{} cannot be read", path.display());
@@ -77,7 +77,7 @@ impl Walk {
         Ok(matches!(parse(op::HEADER, &body), Some((Kind::Header(_), true))))
     }
 
-    /// Bytes of the file.
+    /// Size of the file.
     pub fn length(&self) -> u64 {
         self.source.length()
     }
@@ -87,7 +87,7 @@ impl Walk {
         self.at
     }
 
-    /// The next record, or bytes that are none; none: the file is over.
+    /// Next record, or bytes that are not a record; none at the end.
     pub fn next_step(&mut self) -> Result<Option<Step>> {
         self.step().with_context(|| format!("{} cannot be read", self.path.display()))
     }
@@ -133,7 +133,7 @@ impl Walk {
         Ok(Damage { offset, length: self.at - offset, chunks })
     }
 
-    /// The record that begins there; none: there is none.
+    /// Record at an offset, if there is one.
     fn piece(&mut self, at: u64) -> io::Result<Option<Piece>> {
         let Some(head) = self.source.head(at)? else { return Ok(None) };
         if let Some(chunk) = self.chunk(at, head)? {
@@ -164,8 +164,8 @@ impl Walk {
         })
     }
 
-    /// A chunk. Where its record's length is wrong, that of its fields may be right; and where the record's
-    /// number is wrong, the place is that of a chunk if the summary says so.
+    /// Reads a chunk. If the record's length is wrong, that of its fields may be right; if the record's
+    /// number is wrong, it is a chunk if the summary lists one at its offset.
     fn chunk(&mut self, at: u64, head: Head) -> io::Result<Option<Piece>> {
         if head.op != op::CHUNK && !self.marks.chunks.contains(&at) {
             return Ok(None);
@@ -182,7 +182,7 @@ impl Walk {
             };
             Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind, is_corrected })
         };
-        // The shorter first: what follows a compressed chunk would not be missed by its checksum.
+        // The shorter first: the checksum does not cover bytes behind a compressed chunk.
         let mut lengths = vec![by_fields, head.length];
         lengths.sort();
         lengths.dedup();
@@ -196,7 +196,7 @@ impl Walk {
         if by_fields != head.length || end > self.length() || !self.ends(at, end)? {
             return Ok(None);
         }
-        // What is not read here may be whole all the same.
+        // Unsupported here, but possibly intact.
         Ok(if !is_known(&told.compression) || told.uncompressed_size > LARGEST {
             piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told.clone(), None))
         } else {
@@ -204,7 +204,8 @@ impl Walk {
         })
     }
 
-    /// Whether a record that says so of itself ends there: another begins there, or at least none inside it.
+    /// True if a record with this stated end does end there: another begins there, or at least none inside
+    /// it.
     fn ends(&mut self, at: u64, end: u64) -> io::Result<bool> {
         if self.swallows(at, end) {
             return Ok(false);
@@ -212,12 +213,12 @@ impl Walk {
         Ok(self.judge().may_begin(end)? || self.judge().search(at + 1, end)?.is_none())
     }
 
-    /// Whether the summary says that another record begins inside this one.
+    /// True if the summary lists another record inside this one.
     fn swallows(&self, at: u64, end: u64) -> bool {
         self.marks.records.range(at + 1..end).next().is_some()
     }
 
-    /// The message index that a body is, if it says what was found in the chunk before it.
+    /// Parses a message index, if it matches the chunk before it.
     fn follows_chunk(&self, body: &[u8]) -> Option<MessageIndex> {
         if self.index.is_empty() {
             return None;
@@ -228,8 +229,8 @@ impl Walk {
     }
 }
 
-/// What a record is whose number was that of another, and is now that of a message or of none that is known:
-/// its fields fill it to the last byte, which those of a message do not by chance.
+/// Identifies a record whose number was changed to that of a message or to an unknown one: its fields fill it
+/// to the last byte, which those of a message do not by chance.
 fn disguised(number: u8, body: &[u8]) -> Option<(u8, Kind)> {
     if number != op::MESSAGE && number <= op::DATA_END {
         return None;

@@ -1,11 +1,11 @@
-// What was felt a moment ago and is not felt any more: a touch of 61 ms is seen for most of a second.
+// Afterglow of recent pressure: a touch of 61 ms stays visible for most of a second.
 
-/** Seconds in which it fades. */
+/** Fade time, seconds. */
 export const FADE_S = 0.8;
 
 /**
- * Of each taxel the greatest of what was felt, less the longer ago it was. `images` are [values, age in seconds]; `into` is
- * filled and given back.
+ * For each taxel the greatest recent pressure, fading with its age. `images` are [values, age in seconds];
+ * `into` is filled and returned.
  */
 export function afterglow(images, into) {
   into.fill(0);
@@ -20,7 +20,7 @@ export function afterglow(images, into) {
   return into;
 }
 
-/** How opaque a taxel's glow is, 0 to 1: what it is above the pressure that is there, by the scale's end. */
+/** Opacity of a taxel's glow, 0 to 1: its excess over the present pressure, relative to the scale's end. */
 export function opacity(glow, value, top) {
   const share = (glow - value) / top;
   return share < 0.04 ? 0 : Math.min(0.9, Math.sqrt(share));

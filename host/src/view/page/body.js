@@ -1,12 +1,12 @@
-// The panels laid out on the outline of a body, seen from the front and from the back.
+// Panels laid out on the outline of a body, front and back.
 
 import { colour, fit, make } from "./dom.js";
 import { opacity } from "./afterglow.js";
 import { Raster } from "./raster.js";
 import { label } from "./marks.js";
 
-// Where a region lies, by what its name holds: figure (0 front, 1 back), left edge, top, width, height. A figure is 100 high and
-// its middle is 0; the robot's left is at the right of the one who faces it.
+// Places of regions by words in their names: figure (0 front, 1 back), left edge, top, width, height. A
+// figure is 100 high and its middle is 0; the robot's left is on the viewer's right.
 const SLOTS = [
   [/left.*(leg|thigh|shin|foot)/, [0, 3, 55, 10, 40]],
   [/right.*(leg|thigh|shin|foot)/, [0, -13, 55, 10, 40]],
@@ -19,7 +19,7 @@ const SLOTS = [
   [/head|face/, [0, -5, 3, 10, 11]],
 ];
 
-/** Regions of no known name stand beside the figures, so many to a column. */
+/** Regions with unknown names are placed beside the figures, this many per column. */
 const BESIDE = 3;
 
 /** The view. */
@@ -85,7 +85,7 @@ export class Body {
   }
 }
 
-/** The place of each panel; those that share one lie below each other in it. */
+/** The place of each panel; panels that share one are stacked in it. */
 function placesOf(garment) {
   const slotOf = ({ name, region, link }) => {
     const words = `${region} ${name} ${link}`.toLowerCase().replaceAll("_", " ");
@@ -107,7 +107,7 @@ function placesOf(garment) {
   });
 }
 
-/** Head, trunk, arms and legs, in the units of a figure. */
+/** Head, trunk, arms and legs, in units of a figure. */
 function outline(context, unit) {
   context.beginPath();
   context.ellipse(0, 8, 6, 8, 0, 0, 2 * Math.PI);

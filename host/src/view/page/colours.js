@@ -1,4 +1,4 @@
-// Pressure as colour: cividis, which people with any kind of sight read alike, its lightness growing evenly.
+// Pressure as colour: cividis, which is readable with any colour vision and grows evenly in lightness.
 
 const STOPS = [
   [0, 34, 78],
@@ -14,22 +14,22 @@ const STOPS = [
 ];
 const SIZE = 256;
 
-/** Red, green, blue of SIZE steps. */
+/** Red, green and blue of SIZE steps. */
 export const RAMP = Array.from({ length: SIZE }, (_, step) => {
   const at = (step / (SIZE - 1)) * (STOPS.length - 1);
   const low = Math.min(Math.floor(at), STOPS.length - 2);
   return STOPS[low].map((from, part) => Math.round(from + (STOPS[low + 1][part] - from) * (at - low)));
 });
 
-/** The same as one number for a pixel of ImageData (little-endian ABGR). */
+/** The steps as pixels of ImageData (little-endian ABGR). */
 export const PIXELS = new Uint32Array(RAMP.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0));
 
 /** Step of a pressure on a scale that ends at `top`. */
 export const stepOf = (value, top) => Math.max(0, Math.min(SIZE - 1, Math.round((value / top) * (SIZE - 1))));
 
-/** The CSS colour of a share of the scale, 0 to 1. */
+/** CSS colour of a share of the scale, 0 to 1. */
 export const css = (share) => `rgb(${RAMP[stepOf(share, 1)].join(" ")})`;
 
-/** Equal bands of the scale: contours lie between them, and the histogram counts them. */
+/** Equal bands of the scale: contours separate them, and the histogram counts them. */
 export const BANDS = 5;
 export const bandOf = (value, top) => Math.min(BANDS - 1, Math.floor((value / top) * BANDS));

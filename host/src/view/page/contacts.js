@@ -1,9 +1,9 @@
-// What is said of contacts and of the touch, in words and numbers.
+// Contacts and intention in words and numbers.
 
 import { make, say } from "./dom.js";
 import { force } from "./units.js";
 
-/** The table. */
+/** The table of contacts. */
 export function contacts(table, count, store) {
   const shown = store.shown();
   const list = shown ? shown.head.frame.contacts : [];
@@ -27,7 +27,7 @@ export function contacts(table, count, store) {
   });
 }
 
-/** The activation of each concept as a bar from the middle. */
+/** Activation of each concept as a bar from the middle. */
 export class Concepts {
   constructor(list, leading) {
     Object.assign(this, { list, leading, key: "", parts: [] });

@@ -1,7 +1,7 @@
-// Lines of equal pressure, by marching squares between the centres of taxels.
+// Contours by marching squares between the centres of taxels.
 
-// Which two sides of a square a line crosses, by which corners are above (1 top left, 2 top right, 4 bottom right, 8 bottom left).
-// Sides: 0 top, 1 right, 2 bottom, 3 left. Saddles are cut twice.
+// The two sides of a square that a line crosses, by the corners above the level (1 top left, 2 top right, 4
+// bottom right, 8 bottom left). Sides: 0 top, 1 right, 2 bottom, 3 left. Saddles have two lines.
 const SIDES = [
   [],
   [[3, 0]],
@@ -29,7 +29,7 @@ const SIDES = [
 
 /** Adds the lines at `level` to the path of a context in which a taxel is 1 x 1. */
 export function trace(context, image, { rows, columns, base }, level) {
-  // A frame of empty taxels around the panel closes the lines.
+  // A border of empty taxels around the panel closes the lines.
   const value = (row, column) =>
     row < 0 || column < 0 || row >= rows || column >= columns ? 0 : image[base + row * columns + column];
   for (let row = -1; row < rows; row += 1) {
@@ -45,7 +45,7 @@ export function trace(context, image, { rows, columns, base }, level) {
   }
 }
 
-/** Where the level is met on a side of a square. */
+/** Point at which a side of a square crosses the level. */
 function point(side, row, column, [a, b, c, d], level) {
   const share = (from, to) => (level - from) / (to - from);
   const [x, y] = [column + 0.5, row + 0.5];

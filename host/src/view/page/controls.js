@@ -13,25 +13,25 @@ const VIEWS = [
   ["map", "Map", "4"],
   ["health", "Health", "5"],
 ];
-/** Layers of pressure: setting, label, key, what it shows. */
+/** Layers of pressure: setting, label, key, description. */
 const LAYERS = [
   ["smooth", "Smooth", "i", "Interpolate between taxels"],
   ["contours", "Contours", "c", "Lines between the bands of pressure"],
   ["contacts", "Contacts", "e", "Ellipses with id, axis and arrow"],
   ["peaks", "Peaks", "p", "Every local maximum"],
-  ["glow", "Afterglow", "g", "What was felt a moment ago, in red, fades within a second"],
+  ["glow", "Afterglow", "g", "Pressure of the last second, in red, fading"],
   ["held", "Hold", "h", "The highest pressure since it was cleared (x)"],
 ];
 /** Keys of the live half minute. */
 const LIVE_KEYS = [
-  ["space", "pause, go on"],
+  ["space", "pause, resume"],
   ["← →", "one image back, forward; with shift one second"],
   ["t", "tare over 32 frames"],
 ];
-/** Keys besides these, and those of views and layers. */
+/** Keys apart from these, and those of views and layers. */
 const KEYS = [
   ["+ −", "scale"],
-  ["a", "the scale follows what is shown"],
+  ["a", "adapt the scale to the pressure shown"],
   ["u", "kPa or counts"],
   ["x", "clear what is held"],
   ["s", "save"],
@@ -42,7 +42,7 @@ const STORED = "taxel-view";
 const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
 
-/** The settings, kept by the browser, and whatever changes them. */
+/** The settings, kept by the browser, and the controls that change them. */
 export class Controls {
   constructor(store, ask, changed) {
     Object.assign(this, { store, ask, changed });
@@ -62,7 +62,7 @@ export class Controls {
     try {
       Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED)));
     } catch {
-      // A browser that keeps nothing still shows everything.
+      // Without storage the page still works.
     }
     this.buttons();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.set({}));
@@ -90,7 +90,7 @@ export class Controls {
     for (const [id, key] of Object.entries(acts)) $(id).addEventListener("click", () => this.key({ key }));
   }
 
-  /** Every key, those of what is shown among them. */
+  /** All keys, including those of the current view. */
   keys() {
     const rows = [
       ...VIEWS.map(([, text, key]) => [key, text]),
@@ -104,7 +104,7 @@ export class Controls {
     $("keys").showModal();
   }
 
-  /** The scale follows what is shown, where that is asked for. */
+  /** Adapts the scale to the pressure shown, if that is switched on. */
   scale() {
     const { settings, store } = this;
     const shown = settings.auto && store.shown();
@@ -119,7 +119,7 @@ export class Controls {
     this.set({ [name]: !this.settings[name] });
   }
 
-  /** Changes settings, and shows that they have. */
+  /** Changes settings, and updates the page. */
   set(change) {
     const { settings } = this;
     Object.assign(settings, change);
@@ -139,7 +139,7 @@ export class Controls {
     try {
       localStorage.setItem(STORED, JSON.stringify(settings));
     } catch {
-      // As above.
+      // Without storage the page still works.
     }
     this.changed();
   }
@@ -148,7 +148,7 @@ export class Controls {
     this.set({ auto: false, top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
   }
 
-  /** Whether a key was meant for this. */
+  /** True if the key was handled. */
   key({ key }) {
     const acts = {
       "+": () => this.zoom(2),

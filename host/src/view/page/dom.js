@@ -1,14 +1,14 @@
 // Small helpers for elements.
 
-/** The element with an id. */
+/** The element with this id. */
 export const $ = (id) => document.getElementById(id);
 
-/** A new element: attributes (functions become listeners) and children. */
+/** Creates an element with attributes (functions become listeners) and children. */
 export function make(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
 
-/** A new element of SVG. */
+/** Creates an SVG element. */
 export function draw(tag, attributes = {}, ...children) {
   return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
@@ -22,12 +22,15 @@ function fill(element, attributes, children) {
   return element;
 }
 
-/** Sets a text where it has changed. */
+/** Sets a text if it has changed. */
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** A canvas as large as it is shown, in the screen's own pixels: its context, scaled to CSS pixels, or null where it is not shown. */
+/**
+ * Fits a canvas to its displayed size in device pixels. Returns its context, scaled to CSS pixels, or null if
+ * hidden.
+ */
 export function fit(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width || !height) return null;

@@ -1,4 +1,4 @@
-// Marks of what was said, on a line of time.
+// Marks of log lines on a time line.
 
 import { colour } from "./dom.js";
 import { MARKED } from "./timeline.js";
@@ -14,7 +14,10 @@ export const KINDS = {
 /** Width of the widest mark, pixels. */
 export const WIDE = 9;
 
-/** Draws the marks of [time, kind] about the height `y`; `x` gives the place of a time. Of those that fall together the last. */
+/**
+ * Draws the marks of [time, kind] around the height `y`; `x` maps a time to its place. Of coinciding marks
+ * only the last is drawn.
+ */
 export function marks(context, said, x, y) {
   const drawn = new Map();
   for (const [time, kind] of said) {
@@ -27,7 +30,7 @@ export function marks(context, said, x, y) {
   for (const { at, kind } of list) mark(context, kind, at, y);
 }
 
-/** One mark. */
+/** Draws one mark. */
 export function mark(context, kind, x, y) {
   const half = WIDE / 2;
   context.fillStyle = colour(`mark-${kind}`);

@@ -1,5 +1,5 @@
-// The cognitive map with its live activations. As in `taxel fcm draw`: blue and unbroken increases, vermilion and dashed decreases,
-// width is strength, and what is written is the activation.
+// The cognitive map with its live activations. As in `taxel fcm draw`: blue solid edges increase, vermilion
+// dashed ones decrease, width is strength; the number is the activation.
 
 import { draw, make, say } from "./dom.js";
 
@@ -79,7 +79,7 @@ export class CognitiveMap {
   }
 }
 
-/** Causes left of effects; layers stand a little askew, so that few edges run through a concept. */
+/** Places causes left of effects; layers are slightly skewed, so that few edges cross a concept. */
 function placesOf(concepts) {
   const count = (layer) => concepts.filter((concept) => concept.layer === layer).length;
   const tallest = Math.max(...concepts.map(({ layer }) => count(layer)));
@@ -110,7 +110,9 @@ function marker(kind) {
   );
 }
 
-/** From the side of the cause to the side of the effect; back where the effect lies before it. */
+/**
+ * Edge from the side of the cause to the side of the effect; it runs back if the effect is placed before it.
+ */
 function arrow([x0, y0], [x1, y1], weight) {
   const kind = weight < 0 ? "less" : "more";
   const forward = x1 > x0;

@@ -1,8 +1,8 @@
-// A scale that follows what is shown: it grows at once, and becomes smaller after a while.
+// A scale that follows the pressure shown: it grows at once, and shrinks after a while.
 
 /** Ends of the scale, counts: each twice the one before. */
 const [LEAST, MOST] = [25, 51_200];
-/** Milliseconds for which less is felt before the scale becomes smaller. */
+/** Time of lower pressure after which the scale shrinks, milliseconds. */
 export const PATIENCE_MS = 2000;
 
 /** The smallest end at or above the greatest pressure. */
@@ -12,14 +12,17 @@ export function endFor(greatest) {
   return end;
 }
 
-/** Remembers how long less has been felt. */
+/** Remembers since when the pressure is lower. */
 export class Follow {
   constructor() {
     this.since = null;
     this.most = 0;
   }
 
-  /** The end of the scale at `now` ms, from the one before and the greatest pressure that is shown. At rest it stays. */
+  /**
+   * The end of the scale at `now` ms, from the previous end and the greatest pressure shown. Unchanged at
+   * rest.
+   */
   next(top, greatest, now) {
     const wanted = endFor(greatest);
     if (greatest <= 0 || wanted >= top) {

@@ -1,6 +1,6 @@
-// The garment that is worn: panels and the numbers of their taxels.
+// The current garment: panels and their taxel numbers.
 
-/** From a `hello`: panels with `base`, `mm` (size of a taxel), and what the page asks of places. */
+/** Built from a `hello`: panels with `base`, `mm` (size of a taxel), and look-ups of places. */
 export function garmentOf(hello) {
   let base = 0;
   const panels = hello.panels.map((panel, index) => {

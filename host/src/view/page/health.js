@@ -1,4 +1,4 @@
-// Which taxels are ill, and of what: a letter besides the colour.
+// Faulty taxels and their faults, by letter and colour.
 
 import { colour, fit, make } from "./dom.js";
 import { placeOf } from "./garment.js";
@@ -11,14 +11,14 @@ const CLASSES = {
   shorted: ["X", "#d55e00"],
   noisy: ["N", "#cc79a7"],
 };
-/** Ill taxels of the list at most; the map shows all. */
+/** Faulty taxels listed at most; the map shows all. */
 const LISTED = 200;
 const [GAP, CAPTION, LEGEND] = [14, 18, 30];
 
 /** The view. */
 export class Health {
   constructor(root) {
-    this.canvas = make("canvas", { role: "img", "aria-label": "Map of ill taxels" });
+    this.canvas = make("canvas", { role: "img", "aria-label": "Map of faulty taxels" });
     this.list = make("div", { class: "list", tabindex: 0 });
     root.append(this.canvas, this.list);
     this.told = null;
@@ -87,7 +87,7 @@ function cell(context, health, x, y, sx, sy) {
   context.fillText(letter, x + (sx - 1) / 2, y + (sy - 1) / 2 + 0.5);
 }
 
-/** The ill taxels, what the board's last self-test has found, and what it counts. */
+/** The faulty taxels, the results of the board's last self-test, and its counters. */
 function lists({ garment, states }) {
   const board = states.health;
   const ill = states.health_map?.ill || [];
@@ -108,10 +108,10 @@ function lists({ garment, states }) {
     : [];
   const cells = counts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, String(value))));
   const title = ill.length
-    ? `${ill.length} of ${garment.taxels} taxels are ill`
-    : "Nothing is known against any taxel.";
+    ? `${ill.length} of ${garment.taxels} taxels are faulty`
+    : "No faulty taxels.";
   const items = (lines) => make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
-  const pins = states.pins?.told ?? ["The board has not examined its lines and inputs."];
+  const pins = states.pins?.told ?? ["The board has not tested its lines and inputs yet."];
   return [
     make("h2", {}, title),
     items(ill.slice(0, LISTED).map(line)),

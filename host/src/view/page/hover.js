@@ -1,9 +1,9 @@
-// The taxel under the pointer, or under the cursor that the arrow keys move.
+// The taxel under the pointer, or under the cursor moved by the arrow keys.
 
 import { make } from "./dom.js";
 import { pressure } from "./units.js";
 
-/** Which taxel it is, and the note beside it. `ask` tells the program, which then sends its raw code. */
+/** The selected taxel and the note beside it. `ask` tells the program, which then sends its raw code. */
 export class Hover {
   constructor(element, ask, changed) {
     Object.assign(this, { element, ask, changed, place: null });

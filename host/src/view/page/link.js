@@ -1,4 +1,4 @@
-// Who is there, and how well it comes through.
+// The connection, and its figures.
 
 import { $, make, say } from "./dom.js";
 import { absence, agoText } from "./presence.js";
@@ -11,24 +11,24 @@ export class Link {
     Object.assign(this, { connected: false, heard: null, lost: null, told: null });
   }
 
-  /** The connection stands, or has gone. */
+  /** The connection is open, or lost. */
   connection(connected) {
     if (this.connected && !connected) this.lost = Date.now();
     this.connected = connected;
   }
 
-  /** A message has come. */
+  /** A message was received. */
   hear() {
     this.heard = Date.now();
   }
 
-  /** Why what is shown is not live; null: it is. */
+  /** Why the picture is not live; null if it is. */
   absence(store) {
     const quiet = Boolean(store.recorded) || Boolean(store.states.end);
     return absence({ ...this, quiet }, Date.now());
   }
 
-  /** Says so, and since when; the seconds that pass are not read out. */
+  /** Shows the reason and since when; the passing seconds are not announced by screen readers. */
   presence(store) {
     const gone = this.absence(store);
     document.body.classList.toggle("gone", gone !== null);
@@ -41,7 +41,7 @@ export class Link {
     say($("absence-ago"), `${ago}${again ? " — trying again …" : ""}`);
   }
 
-  /** An image has been drawn. */
+  /** An image was drawn. */
   drawn() {
     const now = performance.now();
     this.images.push(now);
@@ -64,15 +64,15 @@ export class Link {
       return;
     }
     const rate = store.recorded && store.paused ? "–" : `${link.rate.toFixed(1)} /s`;
-    this.set("board", rate, "Images a second of the board");
-    this.set("page", `${this.images.length} /s`, "Images a second that this page draws; it draws the newest");
+    this.set("board", rate, "Images per second of the board");
+    this.set("page", `${this.images.length} /s`, "Images per second drawn by this page; it draws the newest");
     if (store.recorded) return;
-    this.set("lost", String(link.lost), "Messages that the board sent and that did not come", link.lost > 0);
-    this.set("thinned", String(link.thinned), "Images that the board left out, because the line had no room");
+    this.set("lost", String(link.lost), "Messages lost on the link", link.lost > 0);
+    this.set("thinned", String(link.thinned), "Images that the board left out for lack of bandwidth");
     const missed = latest?.head.missed ?? 0;
     this.set("missed", String(missed), "Samples and lines that this page did not read in time", missed > 0);
     const latency = link.latency_ms;
-    this.set("latency", latency === null ? "–" : `${latency.toFixed(1)} ms`, "Half of the way to the board and back");
+    this.set("latency", latency === null ? "–" : `${latency.toFixed(1)} ms`, "Half of the round trip to the board");
   }
 
   set(name, value, title, warn = false) {

@@ -1,4 +1,4 @@
-// Puts the page together: what comes is stored at once, and drawn when the screen is.
+// Assembles the page: messages are stored on arrival, and drawn once per screen refresh.
 
 import { $, make } from "./dom.js";
 import { Body } from "./body.js";
@@ -70,7 +70,7 @@ function draw() {
   drawn = store.latest;
   $("empty").hidden = Boolean(store.shown());
   controls.scale();
-  // First, since it says how much room is left.
+  // First, because it decides how much room is left.
   player.draw();
   views[settings.view].draw(store, settings);
   scale.draw(store, settings);
@@ -85,7 +85,7 @@ function draw() {
 requestAnimationFrame(draw);
 
 window.addEventListener("resize", changed);
-// That nothing comes must be seen though nothing comes.
+// The absence of messages must show without a message.
 setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
@@ -97,5 +97,5 @@ window.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
-// For tests and the curious.
+// For tests and for the console.
 window.taxel = { store, settings: controls.settings, changed, ask };

@@ -1,11 +1,11 @@
-// What is drawn over a panel: ellipses of contacts with id, axis and slip arrow, and local maxima. White with a dark halo, so
-// that it is seen on every colour of the scale.
+// Marks over a panel: ellipses of contacts with id, axis and slip arrow, and local maxima. White with a dark
+// halo, visible on every colour of the scale.
 
 import { colour } from "./dom.js";
 
-/** Taxels a second below which a contact counts as still. */
+/** Speed below which a contact counts as still, taxels per second. */
 const STILL = 1.5;
-/** Seconds of way that an arrow shows. */
+/** Length of an arrow, seconds of movement. */
 const AHEAD = 0.25;
 
 /** Half axes, in taxels, of the ellipse with a contact's area and elongation. */
@@ -27,7 +27,7 @@ function stroke(context, width, path) {
   context.stroke();
 }
 
-/** A contact; `sx` and `sy` are the pixels of a taxel. */
+/** Draws a contact; `sx` and `sy` are the pixels per taxel. */
 export function contact(context, touch, sx, sy) {
   const [x, y] = [(touch.x + 0.5) * sx, (touch.y + 0.5) * sy];
   const [major, minor] = halfAxes(touch);
@@ -52,7 +52,7 @@ export function contact(context, touch, sx, sy) {
   label(context, String(touch.id), x, y);
 }
 
-/** Where it goes; wide where it slips. */
+/** Draws its direction; wide if it slips. */
 function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
   const [dx, dy] = [vx * AHEAD * sx, vy * AHEAD * sy];
   const length = Math.max(18, Math.hypot(dx, dy));
@@ -68,7 +68,7 @@ function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
   });
 }
 
-/** Text with a halo, centred. */
+/** Draws centred text with a halo. */
 export function label(context, text, x, y, size = 13) {
   context.font = `650 ${size}px system-ui, sans-serif`;
   context.textAlign = "center";
@@ -81,7 +81,7 @@ export function label(context, text, x, y, size = 13) {
   context.fillText(text, x, y);
 }
 
-/** A local maximum. */
+/** Draws a local maximum. */
 export function peak(context, { row, column }, sx, sy) {
   const [x, y] = [(column + 0.5) * sx, (row + 0.5) * sy];
   stroke(context, 1.2, () => {
@@ -92,7 +92,7 @@ export function peak(context, { row, column }, sx, sy) {
   });
 }
 
-/** The taxel under the pointer. */
+/** Draws the taxel under the pointer. */
 export function frame(context, row, column, sx, sy) {
   stroke(context, 1.5, () => context.rect(column * sx, row * sy, sx, sy));
 }

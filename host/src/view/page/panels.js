@@ -1,4 +1,4 @@
-// Panels in two dimensions.
+// The panels in two dimensions.
 
 import { fit, make, say } from "./dom.js";
 import { BANDS } from "./colours.js";
@@ -12,7 +12,7 @@ import { opacity } from "./afterglow.js";
 const GAP = 8;
 const CAPTION = 20;
 
-/** The view; `hover` is told which taxel is under the pointer. */
+/** The view; `hover` gets the taxel under the pointer. */
 export class Panels {
   constructor(root, hover) {
     this.root = root;
@@ -39,7 +39,7 @@ export class Panels {
     }
   }
 
-  /** A figure for each panel, as large as all of them fit. */
+  /** Creates a figure for each panel, as large as all of them fit. */
   build(garment) {
     const { clientWidth: width, clientHeight: height } = this.root;
     const key = `${garment.key} ${width} ${height}`;
@@ -84,7 +84,7 @@ export class Panels {
   }
 }
 
-/** The most pixels of a millimetre with which all panels fit, in as many rows as are best. */
+/** The most pixels per millimetre at which all panels fit, in the best number of rows. */
 function bestScale(panels, width, height) {
   let best = 0;
   for (let across = 1; across <= panels.length; across += 1) {
@@ -97,7 +97,7 @@ function bestScale(panels, width, height) {
   return best;
 }
 
-/** Between the bands of the scale. */
+/** Draws the contours between the bands of the scale. */
 function contours(context, image, panel, top, sx, sy) {
   context.save();
   context.scale(sx, sy);

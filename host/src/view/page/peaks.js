@@ -1,6 +1,9 @@
 // Local maxima of a panel.
 
-/** Every taxel at or above `low` with no greater neighbour, the first of a plateau: [{ row, column, value }], greatest first. */
+/**
+ * Taxels at or above `low` without a greater neighbour, the first of a plateau, greatest first: [{ row,
+ * column, value }].
+ */
 export function maxima(image, panel, low) {
   const { rows, columns, base } = panel;
   const found = [];

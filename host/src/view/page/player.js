@@ -1,4 +1,4 @@
-// Pause, and the way back: through the live half minute, or through a recording.
+// Pause, and steps back through the live half minute, or through a recording.
 
 import { $, say } from "./dom.js";
 import { Recorder } from "./recorder.js";
@@ -31,7 +31,7 @@ export class Player {
     this.changed();
   }
 
-  /** Whether a key was meant for this. */
+  /** True if the key was handled. */
   key(event) {
     const { key, shiftKey } = event;
     if (this.store.recorded) return this.recorder.key(event);
@@ -57,7 +57,7 @@ export class Player {
   live() {
     const { store } = this;
     const shown = store.shown();
-    say($("pause"), store.paused ? "Go on" : "Pause");
+    say($("pause"), store.paused ? "Resume" : "Pause");
     $("pause").setAttribute("aria-pressed", String(store.paused));
     if (!shown) return;
     const behind = store.behind();

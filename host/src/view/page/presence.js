@@ -1,20 +1,24 @@
-// Whether what is shown is live: a page whose program has gone must not look as if it had not.
+// Whether the picture is live: a page whose program has ended must not look live.
 
-/** Milliseconds without a word after which the program counts as gone though the connection stands. It speaks four times a second. */
+/**
+ * Silence after which the program counts as gone although the connection is open, milliseconds. It sends four
+ * messages a second.
+ */
 export const SILENCE_MS = 3000;
 
 /**
- * What is to be said: null while all is well. `connected` is the state of the connection, `heard` when the last message came
- * and `lost` when the connection went, both ms or null; a recording that stands still says nothing.
+ * The message to show; null while all is well. `connected` is the state of the connection, `heard` the time
+ * of the last message and `lost` that of the disconnection, both ms or null. A paused recording sends
+ * nothing.
  */
 export function absence({ connected, heard, lost, quiet = false }, now) {
   if (!connected) {
-    // A recording that stands still may have said nothing for long before.
+    // A paused recording may have been silent for long.
     const since = lost ?? heard;
     return { since, text: since === null ? "Connecting …" : "Disconnected", again: since !== null };
   }
   if (heard === null || quiet || now - heard < SILENCE_MS) return null;
-  return { since: heard, text: "Nothing comes from the program", again: false };
+  return { since: heard, text: "No messages from the program", again: false };
 }
 
 /** "5 s", "3 min", "2 h" */

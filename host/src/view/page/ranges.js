@@ -1,17 +1,17 @@
-// How many taxels are pressed how hard: the bands between the contours, each with its count.
+// Histogram of pressure: the number of taxels in each band between the contours.
 
 import { BANDS, bandOf, css } from "./colours.js";
 import { colour, fit } from "./dom.js";
 import { isPascal, pascalsOf } from "./units.js";
 
-/** Taxels at or above `low` in each band. */
+/** Number of taxels at or above `low` in each band. */
 export function histogram(image, low, top) {
   const counts = new Array(BANDS).fill(0);
   for (const value of image) if (value >= low) counts[bandOf(value, top)] += 1;
   return counts;
 }
 
-/** "1.3 – 2.7 kPa", the last without an end. */
+/** "1.3 – 2.7 kPa"; the last band has no upper end. */
 function name(garment, band, top) {
   const pascal = isPascal(garment);
   const unit = pascal ? pascalsOf(garment) : 1;

@@ -1,10 +1,10 @@
-// A panel as pixels, one for a taxel, or several with the pressure between taxels interpolated.
+// A panel as pixels: one per taxel, or several with the pressure interpolated.
 
 import { PIXELS, stepOf } from "./colours.js";
 
-/** Pixels between two taxels where it is interpolated. */
+/** Pixels per taxel if interpolated. */
 const FINE = 6;
-/** The colour of what was felt a moment ago, which is none of the scale (ABGR without A): #ff6f91. */
+/** Colour of the afterglow, which is not on the scale (ABGR without A): #ff6f91. */
 const GLOW = 0x916fff;
 
 /** Draws panels into a small canvas of its own, which is then enlarged. */
@@ -22,7 +22,7 @@ export class Raster {
     this.pixels = new Uint32Array(this.data.data.buffer);
   }
 
-  /** The canvas with a panel of an image; absent taxels are clear. */
+  /** Returns the canvas with a panel of an image; absent taxels are transparent. */
   paint(image, panel, { top, smooth, absent }) {
     const { rows, columns, base } = panel;
     const fine = smooth ? FINE : 1;
@@ -34,7 +34,7 @@ export class Raster {
     return this.canvas;
   }
 
-  /** The canvas with what glows above the pressure that is there; clear elsewhere. */
+  /** Returns the canvas with the glow above the present pressure; transparent elsewhere. */
   shine(glow, image, { rows, columns, base }, top, opacity) {
     this.size(columns, rows);
     for (let at = 0; at < rows * columns; at += 1) {
@@ -57,7 +57,7 @@ export class Raster {
   }
 }
 
-/** Bilinear between the centres of taxels; past the outermost, their own pressure. */
+/** Bilinear between the centres of taxels; beyond the outermost, their own pressure. */
 function interpolate(pixels, image, { rows, columns, base }, top) {
   const width = columns * FINE;
   const clampRow = (row) => Math.max(0, Math.min(rows - 1, row));

@@ -1,4 +1,4 @@
-// The player of a recording as buttons and keys. It lives in the program: all pages follow it, also this one.
+// Buttons and keys of the player of a recording. The player is in the program, and all pages follow it.
 
 import { $, make, say } from "./dom.js";
 import { KINDS, mark } from "./events.js";
@@ -7,7 +7,7 @@ import { neighbour, nextSpeed, SPEEDS, speedText, timeText } from "./timeline.js
 
 /** Keys of a recording, for the list of keys. */
 export const KEYS = [
-  ["space", "play, stand still"],
+  ["space", "play, pause"],
   ["← →", "one image back, forward; with shift one second"],
   ["n b", "next mark, mark before"],
   ["Home End", "beginning, end of the range"],
@@ -29,7 +29,7 @@ export class Recorder {
     this.theme = null;
   }
 
-  /** Whether a key was meant for this. */
+  /** True if the key was handled. */
   key({ key, shiftKey }) {
     const { recorded, states } = this.store;
     const said = states.overview?.said ?? [];
@@ -75,7 +75,7 @@ export class Recorder {
     this.timeline.draw();
   }
 
-  /** A speed that is none of those that are offered is offered, too. */
+  /** Offers the present speed if it is not one of the usual ones. */
   speeds(speed) {
     const list = $("speed");
     if (Number(list.value) === speed || document.activeElement === list) return;

@@ -1,11 +1,11 @@
-// What is seen, as a file: a picture, this moment's numbers, or a recording: of the live half minute, or of the range that is played.
+// Saves a picture, this moment's numbers, or a recording of the live half minute or of the range.
 
 import { $, colour, make } from "./dom.js";
 
-/** Space around a saved picture, pixels. */
+/** Margin of a saved picture, pixels. */
 const MARGIN = 12;
 
-/** The menu. `context` has store and the name of the view. */
+/** The menu. `context` has the store and the name of the view. */
 export class Save {
   constructor(context) {
     const menu = $("savings");
@@ -46,7 +46,7 @@ function moment(store) {
   return URL.createObjectURL(new Blob([JSON.stringify(momentOf(store))], { type: "application/json" }));
 }
 
-/** A view as PNG, in a URL. */
+/** A view as a PNG in a URL. */
 export async function picture(root) {
   const plot = root.querySelector(".js-plotly-plot");
   if (plot) {
@@ -78,7 +78,7 @@ function caption(context, text, [x, y]) {
   context.fillText(text, x, y + 2);
 }
 
-/** An SVG as an image: its colours are written out, since the style sheet stays behind. */
+/** An SVG as an image, with its colours written out, because the style sheet is not part of it. */
 async function drawing(svg) {
   const text = new XMLSerializer().serializeToString(svg).replace(/var\(--(\w+)\)/g, (_, name) => colour(name));
   const image = new Image();

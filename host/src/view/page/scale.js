@@ -8,7 +8,7 @@ import { isPascal, pressure } from "./units.js";
 const ROOM = 280;
 const HEIGHT = 28;
 
-/** Draws it. */
+/** Draws the scale. */
 export function draw(store, settings) {
   const { garment } = store;
   const context = garment && fit($("ramp"));

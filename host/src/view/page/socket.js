@@ -2,7 +2,7 @@
 
 const AGAIN_MS = 1000;
 
-/** A binary message as { frame, samples, replaced, missed, image, highest }. */
+/** Decodes a binary message to { frame, samples, replaced, missed, image, highest }. */
 export function decode(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
@@ -11,7 +11,7 @@ export function decode(buffer) {
   return { ...head, image: values.subarray(0, taxels), highest: values.subarray(taxels) };
 }
 
-/** Connects, and connects again. `on` has image(message), line(object), connected(boolean) and heard(). */
+/** Connects, and reconnects. `on` has image(message), line(object), connected(boolean) and heard(). */
 export function connect(on) {
   let socket = null;
   const open = () => {

@@ -1,19 +1,20 @@
-// What the page knows: the garment, the newest messages, and the last half minute of images in places that are made once.
+// State of the page: the garment, the latest messages, and the images of the last half minute in preallocated
+// slots.
 
 import { afterglow, FADE_S } from "./afterglow.js";
 import { garmentOf } from "./garment.js";
 import { logAt } from "./timeline.js";
 
-/** Seconds that can be stepped back: 30, or as the address says (`/?keep=5`). */
+/** Seconds that can be stepped back: 30, or by the address (`/?keep=5`). */
 export const KEPT_S = Math.max(1, Math.min(120, Number(new URLSearchParams(location.search).get("keep")) || 30));
-/** Images a second that come at most. */
+/** Highest image rate, per second. */
 const RATE = 62;
-/** Images of which the greatest pressure since the one before is kept: all that may still glow. */
+/** Images whose maxima since the previous image are kept: all that may still glow. */
 const GLOWING = 64;
-/** How much earlier than the newest an image may be that was sent twice, us. */
+/** Age relative to the newest up to which an image may be a repeat, us. */
 const TWICE = 500_000;
 
-/** All that is shown. `shown()` is the image at the cursor, or the newest. */
+/** Everything shown. `shown()` is the image at the cursor, or the newest. */
 export class Store {
   constructor() {
     this.garment = null;
@@ -33,13 +34,13 @@ export class Store {
     this.forgetImages();
   }
 
-  /** The connection is a new one: everything is told again. */
+  /** A new connection: the program sends everything again. */
   connected() {
     this.log = [];
     this.marks = [];
   }
 
-  /** Takes a text message. */
+  /** Handles a text message. */
   line(line) {
     if (line.type === "none") {
       delete this.states[line.of];
@@ -65,7 +66,7 @@ export class Store {
     this.garment = garment;
   }
 
-  /** Keeps a line of the live log for the timeline, as long as its time is on it. */
+  /** Keeps a line of the live log while its time is on the time line. */
   mark({ time_us: time, kind, said }) {
     if (time < this.marks.at(-1)?.[0]) this.marks = [];
     this.marks.push([time, kind, said]);
@@ -73,7 +74,7 @@ export class Store {
     while (this.marks[0][0] < oldest) this.marks.shift();
   }
 
-  /** Takes an image. Going on while the page stands still, so that it can be stepped through. */
+  /** Handles an image, also while paused, so that it can be stepped to. */
   image({ image, highest, ...head }) {
     const { garment, latest } = this;
     if (!garment || image.length !== garment.taxels || !this.follows(head.frame, latest?.head.frame.time_us)) return;
@@ -90,11 +91,11 @@ export class Store {
     this.latest = this.at(this.count - 1);
   }
 
-  /** Whether an image is taken; what does not lead to it is forgotten. */
+  /** True if an image is kept; discards images that do not lead to it. */
   follows({ time_us: time, seeks = null, past }, newest) {
     const sought = seeks !== this.seeks;
     if (sought) {
-      // Another moment of a recording: nothing of the one before is held.
+      // Another moment of a recording: held pressures are discarded.
       this.seeks = seeks;
       this.clearHeld();
     } else if (time <= newest && (past || newest - time < TWICE)) return false;
@@ -102,7 +103,7 @@ export class Store {
     return true;
   }
 
-  /** Forgets the images; what a paused page shows stays. */
+  /** Discards the images, except for the one shown while paused. */
   forgetImages() {
     this.count = 0;
     this.heads = new Array(this.size).fill(null);
@@ -110,7 +111,7 @@ export class Store {
     if (this.cursor !== null) this.cursor = 0;
   }
 
-  /** Numbers of the images that are kept: first, and one past the last. */
+  /** Numbers of the kept images: first, and one past the last. */
   span() {
     const { heads, latest } = this;
     let first = Math.max(0, this.count - this.size);
@@ -119,24 +120,24 @@ export class Store {
     return [first, this.count];
   }
 
-  /** Image of that number. */
+  /** The image with this number. */
   at(number) {
     const slot = number % this.size;
     const { taxels } = this.garment;
     return { number, head: this.heads[slot], image: this.images.subarray(slot * taxels, (slot + 1) * taxels) };
   }
 
-  /** The player of a recording; null: a board is watched. */
+  /** The player of a recording; null for a board. */
   get recorded() {
     return this.states.player ?? null;
   }
 
-  /** The image at which the page stands, or the newest; null before there is one. */
+  /** The image shown while paused, or the newest; null before the first. */
   shown() {
     return this.still ?? this.latest;
   }
 
-  /** Time of the right end of the live half minute, us: it stands while the page does. */
+  /** Time of the right end of the live half minute, us; it is fixed while paused. */
   end() {
     return this.still ? this.still.end : this.latest.head.frame.time_us;
   }
@@ -145,7 +146,7 @@ export class Store {
     return this.recorded ? !this.recorded.playing : this.still !== null;
   }
 
-  /** Stands still at an image, which stays though others come and take its place. */
+  /** Pauses at an image, which is kept although its slot is reused. */
   stand(number) {
     const { head, image } = this.at(number);
     const time = head.frame.time_us;
@@ -155,13 +156,13 @@ export class Store {
     if (time !== this.latest.head.frame.time_us) this.still.glow = this.glowAt(number).slice();
   }
 
-  /** Stands still at the newest image, or goes on. */
+  /** Pauses at the newest image, or resumes. */
   pause(still = !this.paused) {
     if (still && this.count) this.stand(this.count - 1);
     else if (!still) this.cursor = this.still = null;
   }
 
-  /** Goes so many images forward or back. */
+  /** Steps this many images forward or back. */
   step(images) {
     if (!this.count) return;
     const [first, end] = this.span();
@@ -169,7 +170,7 @@ export class Store {
     this.stand(Math.max(first, Math.min(end - 1, from + images)));
   }
 
-  /** Stands at the image nearest to `seconds` before the end of the half minute. */
+  /** Pauses at the image nearest to `seconds` before the end of the half minute. */
   seek(seconds) {
     if (!this.count) return;
     const [first, end] = this.span();
@@ -179,19 +180,21 @@ export class Store {
     this.stand(number);
   }
 
-  /** Seconds between the image that is shown and the end of the half minute. */
+  /** Seconds between the image shown and the end of the half minute. */
   behind() {
     const shown = this.shown();
     return shown ? (this.end() - shown.head.frame.time_us) / 1e6 : 0;
   }
 
-  /** What glows at the image that is shown. */
+  /** The afterglow at the image shown. */
   glowing() {
     if (this.still) return this.still.glow;
     return this.count ? this.glowAt(this.count - 1) : this.glow;
   }
 
-  /** What glows at an image: of what was felt in the last second. A recording that is played faster glows as long. */
+  /**
+   * The afterglow at an image, from the second before it; its duration does not depend on the playing speed.
+   */
   glowAt(number) {
     const { taxels } = this.garment;
     const { time_us: now } = this.at(number).head.frame;
@@ -206,27 +209,28 @@ export class Store {
     }
     const before = this.states.glow;
     if (before && before.seeks === this.seeks) {
-      // What was felt before the moment that was gone to: its images do not come.
+      // Pressure before the moment of a jump, whose images are not sent.
       before.values ??= spread(before.taxels, taxels);
       images.push([before.values, (now - before.time_us) / slow]);
     }
     return afterglow(images, this.glow);
   }
 
-  /** Lines of the log, the newest first; of a recording those up to the moment that is shown. */
+  /** Lines of the log, newest first; of a recording those up to the moment shown. */
   lines() {
     const { overview } = this.states;
     if (!this.recorded || !overview) return this.log;
     return logAt(overview.said, this.moment() * 1e6).map(([at, , text]) => `${(at / 1e6).toFixed(3)} s  ${text}`);
   }
 
-  /** Seconds from the beginning of a recording to what is shown. */
+  /** Seconds from the beginning of a recording to the moment shown. */
   moment() {
     const { playing, at, seeks } = this.recorded;
     const shown = this.latest?.head.frame.at_us;
     if (shown === undefined) return at;
     if (seeks !== this.seeks) return shown / 1e6;
-    // While it is played, images come more often than the player is told of; where none comes, only the player goes on.
+    // While playing, images are more frequent than messages of the player; without images, only the player
+    // advances.
     return playing ? Math.max(shown / 1e6, at) : at;
   }
 
@@ -235,13 +239,13 @@ export class Store {
     this.held?.fill(0);
   }
 
-  /** What is wrong with taxels, by number. */
+  /** Faults of taxels, by number. */
   ill() {
     return new Map((this.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
   }
 }
 
-/** An image of so many taxels, of which only those are told that are not 0. */
+/** An image of this many taxels, from the values that are not 0. */
 function spread(told, taxels) {
   const values = new Uint16Array(taxels);
   for (const [taxel, counts] of told) values[taxel] = counts;

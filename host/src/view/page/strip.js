@@ -1,17 +1,19 @@
-// Total force, leading intentions and marks over a stretch of time.
+// Total force, leading intentions and marks over a period.
 
 import { colour } from "./dom.js";
 import { marks } from "./events.js";
 
-/** Height of the ribbon of intentions, of the lane of marks, and of the line of times below them. */
+/** Heights of the ribbon of intentions, of the lane of marks, and of the times below. */
 export const RIBBON = 18;
 export const LANE = 13;
 export const TIMES = 15;
-/** Okabe and Ito's colours; the name stands in the ribbon besides. */
+/** Colours of Okabe and Ito; the ribbon also has the names. */
 const INTENTIONS = { kindness: "#0072b2", threat: "#e69f00", attack: "#d55e00" };
 const INK = { kindness: "#fff", threat: "#000", attack: "#fff" };
 
-/** The greatest total of each pixel as an area; columns below 0 are not known. `floor` is its lower edge. */
+/**
+ * Draws the greatest total of each pixel as an area; columns below 0 are unknown. `floor` is its lower edge.
+ */
 export function area(context, columns, highest, floor, head = 18) {
   context.beginPath();
   let last = null;
@@ -33,7 +35,7 @@ export function area(context, columns, highest, floor, head = 18) {
   context.stroke();
 }
 
-/** Stretches [from, to, leading], each with its name where there is room. */
+/** Draws periods [from, to, leading], with names where there is room. */
 export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
   context.textBaseline = "middle";
   context.textAlign = "left";
@@ -48,7 +50,7 @@ export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
   }
 }
 
-/** Lines at times, with their names below. `lines` are [x, name, align]. */
+/** Draws lines at times, with labels below. `lines` are [x, name, align]. */
 export function ruler(context, lines, height) {
   context.textBaseline = "bottom";
   for (const [at, name, align] of lines) {
@@ -60,7 +62,7 @@ export function ruler(context, lines, height) {
   }
 }
 
-/** The moment that is shown. */
+/** Draws the moment shown. */
 export function cursor(context, at, height) {
   context.fillStyle = colour("ink");
   context.fillRect(Math.round(at) - 1, 0, 2, height);

@@ -1,4 +1,4 @@
-// The live half minute: total force, intentions and marks. A click stands still at its time.
+// The live half minute: total force, intentions and marks. A click pauses at its time.
 
 import { colour, fit } from "./dom.js";
 import { KEPT_S } from "./store.js";
@@ -53,7 +53,7 @@ function totals(store, x, width) {
   return columns;
 }
 
-/** Stretches in which one intention leads. */
+/** Periods in which one intention leads. */
 function intentions(store) {
   const [found, [first, end]] = [[], store.span()];
   for (let number = first; number < end; number += 1) {

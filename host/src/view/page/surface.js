@@ -1,33 +1,35 @@
-// Pressure as a surface in three dimensions, drawn by plotly.js, which is loaded when it is first looked at.
+// Pressure as a surface in three dimensions, drawn by plotly.js, which is loaded on first use.
 
 import { make, colour } from "./dom.js";
 import { RAMP } from "./colours.js";
 import { maxima } from "./peaks.js";
 import { isPascal, pascalsOf } from "./units.js";
 
-/** Columns left free between two panels. */
+/** Free columns between two panels. */
 const GAP = 2;
 
 const COLOURS = RAMP.filter((_, step) => step % 15 === 0).map((rgb, at, all) => [at / (all.length - 1), `rgb(${rgb})`]);
 
-/** Legible on the colours of the scale and on both themes. */
+/** Readable on the colours of the scale and in both themes. */
 const MARK = "#dd5f00";
 
-/** No peaks. plotly.js shrinks the text of points that are there when a plot is made, so that it is made with these. */
+/**
+ * No peaks. plotly.js shrinks the text of points present when a plot is created, so it is created with these.
+ */
 const NOTHING = { x: [], y: [], z: [], text: [] };
 
-/** As many times the scale's end as all that was felt needs: the height jumps seldom. */
+/** Multiple of the scale's end that fits the highest pressure so far: the height changes seldom. */
 function heightOf(held, top) {
   const greatest = held.reduce((most, value) => Math.max(most, value), 1);
   return top * Math.ceil(greatest / top);
 }
 
-/** Milliseconds after a picture that are left to everything else, at most. */
+/** Most milliseconds after a redraw that are left to everything else. */
 const LONGEST_REST = 200;
 
 /**
- * All panels beside each other: the place of each taxel, and triangles between neighbours. A mesh, because plotly.js makes a
- * "surface" three times as fine before it draws it, which takes longer and looks the same.
+ * All panels side by side: the place of each taxel, and triangles between neighbours. It is a mesh, because
+ * plotly.js refines a "surface" three times before drawing, which takes longer and looks the same.
  */
 function meshOf({ panels, absent }) {
   const mesh = { x: [], y: [], i: [], j: [], k: [] };
@@ -86,14 +88,14 @@ export class Surface {
       this.key = key;
       const scale = { top: settings.top * unit, highest: highest * unit, unit: isPascal(garment) ? "kPa" : "counts" };
       this.build(garment, scale);
-      // The peaks come with the next picture.
+      // The peaks follow with the next redraw.
       this.changed();
       return;
     }
     this.show(Array.from(image, (value) => value * unit), peaks);
   }
 
-  /** What comes too fast is left out, so that half of the page's time is free; the last is drawn in any case. */
+  /** Skips updates so that half of the page's time stays free; the last one is always drawn. */
   show(heights, { z, x, y, text }) {
     this.behind = this.busy;
     if (this.busy) return;
@@ -109,7 +111,7 @@ export class Surface {
     window.Plotly.restyle(this.plot, data, [0, 1]).finally(rest);
   }
 
-  /** Every local maximum; those of contacts bear the id. */
+  /** Every local maximum; those of contacts have the id. */
   peaks({ panels, low }, image, shown, { held }, unit) {
     const all = { x: [], y: [], z: [], text: [] };
     let start = 0;
@@ -179,7 +181,7 @@ export class Surface {
         camera: { eye: { x: 0.25, y: -1.55, z: 1.05 }, center: { x: 0, y: 0, z: -0.12 } },
       },
     };
-    // As fine as the screen, not twice as fine: that is four times the work where a processor draws.
+    // Screen resolution, not twice that: it is four times the work without a graphics card.
     const plotGlPixelRatio = window.devicePixelRatio;
     const config = { plotGlPixelRatio, displayModeBar: false, responsive: false, doubleClick: "reset" };
     window.Plotly.react(this.plot, [surface, marks], layout, config);

@@ -1,12 +1,12 @@
-// The timeline of a recording: all of it below, the half minute about the moment above. Both are clicked and dragged; the ends
-// of the range are dragged on the lower one.
+// The timeline of a recording: all of it below, the half minute around the moment above. Both can be clicked
+// and dragged; the ends of the range are dragged on the lower one.
 
 import { $, colour, fit, make, say } from "./dom.js";
 import * as strip from "./strip.js";
 import { columns, moved, nearest, rulerStep, stretches, timeText, windowAbout } from "./timeline.js";
 import { force } from "./units.js";
 
-/** Pixels about a mark within which the pointer is on it. */
+/** Distance from a mark within which the pointer is on it, pixels. */
 const REACH = 5;
 
 /** Both lines. `ask` tells the program. */
@@ -25,7 +25,7 @@ export class Timeline {
     return Math.max(this.store.recorded?.duration ?? 0, 0.001);
   }
 
-  /** Seconds that the upper line shows: they stay while the pointer is down on them. */
+  /** Seconds shown by the upper line; fixed while the pointer is down on them. */
   get window() {
     if (this.held === this.near) return this.frozen;
     this.frozen = windowAbout(this.store.moment(), this.duration);
@@ -67,7 +67,7 @@ export class Timeline {
     return overview ? nearest(overview.said, this.at(canvas, event, [from, to]) * 1e6, reach) : null;
   }
 
-  /** The time under the pointer, and what was said there. */
+  /** Shows the time under the pointer, and the line marked there. */
   hint(canvas, event, span) {
     const on = this.under(canvas, event, span);
     const at = on ? on[0] / 1e6 : this.at(canvas, event, span);
@@ -150,7 +150,7 @@ export class Timeline {
     context.fillText(right, width - 4, 2);
   }
 
-  /** What has not been read yet. */
+  /** Draws the unread part. */
   unknown(context, { known_us: known }, x, shown, bottom) {
     const edge = Math.max(0, x(known));
     if (edge >= shown.length - 1) return;
@@ -163,7 +163,7 @@ export class Timeline {
     context.fillText("reading …", edge + 6, bottom / 2);
   }
 
-  /** Outside of the range; and on the whole the part that the other line shows. */
+  /** Draws what is outside of the range; on the lower line also the part shown by the upper one. */
   shade(context, x, whole, width, bottom) {
     const [from, to] = this.store.recorded.range.map((end) => x(end * 1e6));
     context.fillStyle = colour("shade");
@@ -195,7 +195,7 @@ const within = (said, from, to) => said.filter(([at]) => at >= from * 1e6 - 1e5 
 const visible = (overview, from, to) =>
   stretches(overview.intentions, overview.known_us).filter(([start, end]) => end >= from * 1e6 && start <= to * 1e6);
 
-/** Says what the marks are. */
+/** Draws the legend of the marks. */
 export function legend(element, names, draw) {
   element.replaceChildren(
     ...Object.entries(names).map(([kind, name]) => {

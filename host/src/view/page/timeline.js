@@ -1,11 +1,12 @@
-// A recording on a line: what lies where, without drawing. Times of the overview are microseconds, those of the player seconds.
+// Arithmetic of a recording's timeline, without drawing. Times of the overview are microseconds, those of the
+// player seconds.
 
-/** Speeds that are offered. */
+/** Speeds on offer. */
 export const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
-/** Seconds of the strip that follows the moment, of a recording so long; at most half a minute. */
+/** Seconds of the strip around the moment, for a recording of this length; at most half a minute. */
 export const nearOf = (duration) => Math.max(2, Math.min(30, duration / 6));
 
-/** The next speed up (+1) or down (-1) of those that are offered. */
+/** The next speed up (+1) or down (-1) of those on offer. */
 export function nextSpeed(speed, way) {
   const further = SPEEDS.filter((other) => (way > 0 ? other > speed * 1.001 : other < speed * 0.999));
   return (way > 0 ? further[0] : further.at(-1)) ?? speed;
@@ -14,7 +15,7 @@ export function nextSpeed(speed, way) {
 /** "0.05×", "1×" */
 export const speedText = (speed) => `${Number(speed.toPrecision(3))}×`;
 
-/** "7.25", "1:07.25", "1:02:07.25"; with as many decimals. */
+/** "7.25", "1:07.25", "1:02:07.25", with this many decimals. */
 export function timeText(seconds, decimals = 2) {
   const scale = 10 ** decimals;
   const ticks = Math.round(Math.max(0, seconds) * scale);
@@ -26,14 +27,17 @@ export function timeText(seconds, decimals = 2) {
   return m ? `${m}:${two(s)}${rest}` : `${s}${rest}`;
 }
 
-/** Seconds between two lines of a ruler, so that `width` pixels of `seconds` have one each 80 pixels at most. */
+/**
+ * Seconds between two lines of a ruler of `seconds` on `width` pixels, so that lines are at least 80 pixels
+ * apart.
+ */
 export function rulerStep(seconds, width) {
   const least = (seconds * 80) / Math.max(width, 1);
   const steps = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200];
   return steps.find((step) => step >= least) ?? Math.ceil(least / 3600) * 3600;
 }
 
-/** The window of `length` seconds about a moment, within the recording where that is longer. */
+/** The window of `length` seconds around a moment, within the recording if that is longer. */
 export function windowAbout(at, duration, length = nearOf(duration)) {
   if (duration <= length) return [0, Math.max(duration, 0.01)];
   const from = Math.max(0, Math.min(duration - length, at - length / 2));
@@ -52,7 +56,7 @@ export function columns({ totals, width_us: place }, [from, to], width) {
   return found;
 }
 
-/** How many of a list that is sorted by its first field lie at `at` or before it. */
+/** Number of items at `at` or before, in a list sorted by its first field. */
 export function countUntil(list, at) {
   let [low, high] = [0, list.length];
   while (low < high) {
@@ -63,26 +67,28 @@ export function countUntil(list, at) {
   return low;
 }
 
-/** The last lines that were said up to `at` us, the newest first. */
+/** The last log lines up to `at` us, newest first. */
 export const logAt = (said, at, lines = 60) => {
   const end = countUntil(said, at);
   return said.slice(Math.max(0, end - lines), end).reverse();
 };
 
-/** The intention that leads at `at` us. */
+/** The leading intention at `at` us. */
 export const leadingAt = (intentions, at) => intentions[countUntil(intentions, at) - 1]?.[1] ?? "none";
 
-/** Stretches [from, to, leading] in which some intention leads, us. */
+/** Periods [from, to, leading] with a leading intention, us. */
 export function stretches(intentions, end) {
   return intentions
     .map(([from, leading], index) => [from, intentions[index + 1]?.[0] ?? end, leading])
     .filter(([, , leading]) => leading !== "none");
 }
 
-/** Kinds that have a mark: their order is that in which they are drawn, the most important last. */
+/** Kinds with a mark, in drawing order: the most important last. */
 export const MARKED = ["note", "onset", "gesture", "intention", "reaction", "gap"];
 
-/** The marked line nearest to `at` within `reach` us, the most important of those that are as near; null: there is none. */
+/**
+ * The marked line nearest to `at` within `reach` us, the most important of equally near ones; null if none.
+ */
 export function nearest(said, at, reach) {
   let best = null;
   for (let index = countUntil(said, at - reach); index < said.length && said[index][0] <= at + reach; index += 1) {
@@ -95,7 +101,10 @@ export function nearest(said, at, reach) {
   return best?.line ?? null;
 }
 
-/** The next (+1) or last (-1) marked line that is not at `at` us, which is known to a millisecond; null: there is none. */
+/**
+ * The next (+1) or previous (-1) marked line away from `at` us, which is exact to a millisecond; null if
+ * none.
+ */
 export function neighbour(said, at, way) {
   const marked = (line) => MARKED.includes(line[1]) && line[1] !== "note";
   if (way > 0) return said.slice(countUntil(said, at + 1000)).find(marked) ?? null;

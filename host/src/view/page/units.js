@@ -1,18 +1,18 @@
-// Counts as people read them. Only where the program knows how many counts a newton gives are there newtons and pascals.
+// Formats counts for people. Newtons and pascals are used only if the counts per newton are known.
 
 const unit = { kpa: true };
 
-/** Pressures in kPa (where they can be) or in counts. */
+/** Pressures in kPa (if possible) or in counts. */
 export const toggleUnit = () => (unit.kpa = !unit.kpa);
 
-/** Whether pressures are shown in kPa: the scale must be the same on all panels. */
+/** True if pressures are in kPa: then the scale must be the same on all panels. */
 export function isPascal(garment) {
   const areas = new Set(garment.panels.map((panel) => panel.mm[0] * panel.mm[1]));
   const known = garment.panels.every((panel) => panel.known);
   return unit.kpa && known && areas.size === 1 && garment.counts_per_newton > 0;
 }
 
-/** kPa of one count, where isPascal. */
+/** kPa per count, if isPascal. */
 export function pascalsOf(garment) {
   const [x, y] = garment.panels[0].mm;
   return 1000 / garment.counts_per_newton / (x * y);
@@ -32,12 +32,12 @@ export function force(garment, counts) {
     : `${Math.round(counts)} counts`;
 }
 
-/** What the numbers are, and how sure they are. */
+/** The unit, and how reliable it is. */
 export function provenance(garment) {
   if (garment.calibration) return `calibrated: ${garment.calibration}`;
   if (garment.counts_per_newton > 0) return "simulated gain, not calibrated";
   return "counts: not calibrated";
 }
 
-/** Seconds of the board. */
+/** Seconds of board time. */
 export const seconds = (us) => (us / 1e6).toFixed(2);

@@ -1,4 +1,4 @@
-//! A part of a recording as a recording of its own, which begins with what held at its first image.
+//! A part of a recording as a recording of its own, which begins with the state at its first image.
 
 use super::reel::Reel;
 use super::survey::Survey;
@@ -11,10 +11,10 @@ use std::sync::Arc;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Frame, Report, encode, encode_image, frame_bound, image_bound, image_sum};
 
-/// Longest frame of the wire that is read.
+/// Longest frame of the wire.
 const LONGEST: usize = 8192;
 
-/// What parts are cut from.
+/// Source of the parts.
 #[derive(Debug)]
 pub struct Cut {
     clips: Clips,
@@ -23,12 +23,12 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// Of a recording.
+    /// Cuts from this recording.
     pub fn new(clips: Clips, survey: Arc<Survey>, origin: Origin) -> Cut {
         Cut { clips, survey, origin }
     }
 
-    /// Writes all from the last image at the time `from` on up to the time `to`, us.
+    /// Writes everything from the last image at the time `from` to the time `to`, us.
     pub fn write<S: Store>(&self, [from, to]: [u64; 2], store: S) -> Result<()> {
         let mut reel = Reel::new(self.clips.again()?, self.survey.clone());
         let mut copy = Copy::begin(store, self.origin.clone())?;
@@ -38,7 +38,7 @@ impl Cut {
         let frame = match alone(reel.client(), &event, sequence(&piece.data)?) {
             Some(frame) => frame,
             None => {
-                // Too long to stand alone: those before it are taken along.
+                // Too long as a key frame: begin at the key frame before it.
                 piece = reel.show_key().context(no_image)?;
                 piece.data.to_vec()
             }
@@ -57,13 +57,13 @@ impl Cut {
     }
 }
 
-/// Times of a message, as they were recorded.
+/// Recorded times of a message.
 fn stamp(piece: &Piece) -> Stamp {
     let header = &piece.header;
     Stamp { board_us: header.publish_time / NS, host_us: header.log_time / NS, uncertainty_us: None }
 }
 
-/// The client's image in a frame of the wire that stands alone; none: it is longer than any frame.
+/// The client's image as a key frame; none if it is longer than any frame.
 fn alone(client: &Client, event: &Event, seq: u32) -> Option<Vec<u8>> {
     let Event::Frame { time: Micros(time), .. } = event else { return None };
     let (frame, image) = client.image()?;

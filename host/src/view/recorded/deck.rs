@@ -1,15 +1,15 @@
-//! Where a recording is played, and how fast: the transport of a tape, without the tape.
+//! Transport of the player: position, speed, range, loop.
 
 use super::order::Order;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Slowest and fastest that is played.
+/// Slowest and fastest speed.
 pub const SPEEDS: [f64; 2] = [0.01, 64.0];
-/// Shortest range, us: less is a slip of the pointer.
+/// Shortest range, us; a shorter one is a slip of the pointer.
 const SHORTEST: u64 = 10_000;
 
-/// The state of the transport; times are microseconds since the recording began.
+/// State of the transport; times are microseconds since the recording began.
 #[derive(Debug, Clone)]
 pub struct Deck {
     duration: u64,
@@ -17,27 +17,27 @@ pub struct Deck {
     speed: f64,
     repeats: bool,
     playing: bool,
-    /// The time that is shown, and when it was.
+    /// The position, and when it was set.
     at: u64,
     since: Instant,
     seeks: u32,
 }
 
-/// What a reader of the recording is to do.
+/// What the reader of the recording is to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Go {
     /// Play up to this time.
     On(u64),
-    /// Show this time, which does not follow from what is shown.
+    /// Jump to this time.
     To(u64),
-    /// Show the image so many further.
+    /// Step by this many images.
     By(i32),
     /// Nothing.
     Stay,
 }
 
 impl Deck {
-    /// At the beginning of a recording, standing still.
+    /// Paused at the beginning of a recording.
     pub fn new(duration: u64, speed: f64, now: Instant) -> Deck {
         Deck {
             duration,
@@ -51,22 +51,22 @@ impl Deck {
         }
     }
 
-    /// From where to where it is played, us.
+    /// Beginning and end of the range, us.
     pub fn range(&self) -> [u64; 2] {
         self.range
     }
 
-    /// How often the time that is shown did not follow from what was shown before.
+    /// Number of jumps in time.
     pub fn seeks(&self) -> u32 {
         self.seeks
     }
 
-    /// It is being played.
+    /// True while playing.
     pub fn is_playing(&self) -> bool {
         self.playing
     }
 
-    /// Does what a page asks for.
+    /// Obeys an order of a page.
     pub fn obey(&mut self, order: &Order, now: Instant) -> Go {
         self.settle(now);
         match *order {
@@ -90,7 +90,7 @@ impl Deck {
         Go::Stay
     }
 
-    /// At the end of the range it begins again.
+    /// Starts or stops; at the end of the range it restarts.
     fn play(&mut self, playing: bool) -> Go {
         self.playing = playing;
         let [from, to] = self.range;
@@ -103,24 +103,24 @@ impl Deck {
         Go::To(at)
     }
 
-    /// Notes the time that is shown now.
+    /// Sets the position to the current time.
     fn settle(&mut self, now: Instant) {
         self.at = self.position(now);
         self.since = now;
     }
 
-    /// The time that is to be shown, us.
+    /// Current position, us.
     pub fn position(&self, now: Instant) -> u64 {
         if !self.playing {
             return self.at;
         }
         let passed = now.saturating_duration_since(self.since).mul_f64(self.speed).as_micros() as u64;
-        // Who went behind the range by hand plays to the end.
+        // Beyond the range, it plays to the end of the recording.
         let end = if self.at < self.range[1] { self.range[1] } else { self.duration };
         (self.at + passed).min(end)
     }
 
-    /// What is to be done by now.
+    /// Returns what is to be done now.
     pub fn tick(&mut self, now: Instant) -> Go {
         if !self.playing {
             return Go::Stay;
@@ -137,19 +137,19 @@ impl Deck {
         Go::On(position)
     }
 
-    /// The reader does not come along: it goes on from where the reader is.
+    /// The reader is late: continue from its position.
     pub fn hold_back(&mut self, at: u64, now: Instant) {
         self.settle(now);
         self.at = self.at.min(at);
     }
 
-    /// An image of that time is shown while nothing is played.
+    /// An image of this time is shown while paused.
     pub fn stand(&mut self, at: u64) {
         self.at = at.min(self.duration);
         self.seeks = self.seeks.wrapping_add(1);
     }
 
-    /// How long nothing is to be done, if the next image is of the time `due`; at most a moment.
+    /// Time until there is something to do, if the next image has the time `due`; at most a moment.
     pub fn rest(&self, due: Option<u64>, now: Instant) -> Duration {
         let longest = Duration::from_millis(if self.playing { 20 } else { 200 });
         let Some(due) = due.filter(|_| self.playing) else { return longest };
@@ -157,7 +157,7 @@ impl Deck {
         wait.div_f64(self.speed).clamp(Duration::from_millis(1), longest)
     }
 
-    /// The message `player`, times in seconds.
+    /// The message `player`, with times in seconds.
     pub fn message(&self, now: Instant) -> Value {
         let seconds = |us: u64| us as f64 / 1e6;
         json!({
@@ -173,7 +173,7 @@ impl Deck {
     }
 }
 
-/// Seconds that are not negative as microseconds.
+/// Converts seconds, not negative, to microseconds.
 fn micros(seconds: f64) -> u64 {
     (seconds.max(0.0) * 1e6).round() as u64
 }
@@ -215,7 +215,7 @@ mod tests {
         deck.obey(&Order::Loop(true), after(start, 2000));
         assert_eq!(deck.tick(after(start, 4000)), Go::To(3 * S));
         assert!(deck.is_playing());
-        // Behind the range, it is played to the end of the recording.
+        // Beyond the range, it plays to the end of the recording.
         deck.obey(&Order::Seek(9.0), after(start, 4000));
         assert_eq!(deck.tick(after(start, 4500)), Go::On(9_500_000));
     }

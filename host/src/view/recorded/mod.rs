@@ -1,20 +1,19 @@
-//! A recording in the page: played, gone through image by image, and cut.
+//! A recording in the page: playing, stepping, cutting.
 //!
-//! The player lives in the program, not in a page: all pages show the same moment, and one that comes late is
-//! told it whole. A page asks by [`Order`]s. Two threads read the file. The player decodes from the image
-//! that stands alone before the moment that is asked for. The survey goes once through everything but the
-//! images, for the timeline and for what held when each chunk began, so that the player need not read what
-//! came before.
+//! The player is in the program, not in a page: all pages show the same moment, and a new page gets the whole
+//! state. A page controls it by [`Order`]s. Two threads read the file. The player decodes from the key frame
+//! before the requested moment. The survey reads everything except images once, for the timeline and for the
+//! state at the beginning of each chunk, so that the player need not read what came before.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `order.rs` | what a page asks of the player |
+//! | `order.rs` | orders of a page to the player |
 //! | `deck.rs` | time: position, speed, range, loop |
 //! | `reel.rs` | the recording, read from any image on |
-//! | `standing.rs` | what was said and holds |
-//! | `survey.rs` | goes through the recording once |
-//! | `overview.rs` | the recording on one line |
-//! | `screen.rs` | what the pages are told of a moment |
+//! | `standing.rs` | state at a moment |
+//! | `survey.rs` | reads the recording once |
+//! | `overview.rs` | summary for the timeline |
+//! | `screen.rs` | messages to the pages about a moment |
 //! | `cut.rs` | a part of it as a recording of its own |
 
 mod cut;
@@ -45,14 +44,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use survey::{RecordedTime, Survey};
 
-/// Time between two messages about what is played.
+/// Time between two messages about the position.
 const TOLD: Duration = Duration::from_millis(250);
-/// How long messages are played before pages are asked what they want.
+/// Time of playing between two looks at the orders.
 const TURN: Duration = Duration::from_millis(40);
-/// How far the images may be behind the time at which they are due before time waits for them, us.
+/// Lag of the images beyond which the transport waits for them, us.
 const BEHIND: u64 = 300_000;
 
-/// A recording that is shown to the pages of a hub.
+/// Plays a recording to the pages of a hub.
 pub struct Player {
     hub: Arc<Hub>,
     deck: Deck,
@@ -62,15 +61,15 @@ pub struct Player {
 }
 
 impl Player {
-    /// Opens a recording and shows its first image. `calibration` replaces the one that is attached.
+    /// Opens a recording and shows its first image. `calibration` replaces the attached one.
     pub fn open(path: &Path, speed: f64, calibration: Option<Calibration>, hub: Arc<Hub>) -> Result<Player> {
         let mut clips = Clips::open(path, WIRE)?;
         if !clips.has_topic() && !clips.places().is_empty() {
-            // Channels may be told in the first chunk.
+            // Channels may be declared in the first chunk.
             clips.clip(0)?;
         }
         if !clips.has_topic() {
-            bail!("{} holds no {WIRE}: it is no recording of taxel", path.display());
+            bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
         }
         let origin = origin(&clips, path, calibration)?;
         let scale = origin.counts_per_newton;
@@ -92,7 +91,7 @@ impl Player {
         Ok(player)
     }
 
-    /// Plays, as soon as somebody looks, and does what pages ask for; returns never.
+    /// Plays once a page is open, and obeys orders; never returns.
     pub fn run(mut self) -> Result<()> {
         let mut orders = VecDeque::new();
         while self.hub.pages() == 0 {
@@ -105,7 +104,7 @@ impl Player {
         }
     }
 
-    /// Waits until something is to be done, and does it.
+    /// Waits until there is something to do, and does it.
     fn turn(&mut self) {
         let due = self.reel.peek().map(|(at, _)| at);
         for order in self.hub.orders(self.deck.rest(due, Instant::now())) {
@@ -172,11 +171,11 @@ impl Player {
     }
 }
 
-/// Where a recording comes from, and what a newton is in it.
+/// Origin of a recording, and its calibration.
 fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Result<Origin> {
     let name = format!("{CALIBRATION} of {}", path.display());
     let attached = clips.attached.get(CALIBRATION).map(|bytes| {
-        let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is no text"))?;
+        let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
         Calibration::parse(text, &name)
     });
     let calibration = calibration.or(attached.transpose()?);

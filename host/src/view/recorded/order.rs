@@ -1,30 +1,30 @@
-//! What a page asks of the player of a recording.
+//! Orders of a page to the player of a recording.
 
 use serde::Deserialize;
 
-/// Images that are stepped at a time, at most.
+/// Most images of a step.
 const STEPS: i32 = 1000;
 
 /// An order.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
-    /// Play, or stand still.
+    /// Play or pause.
     Play(bool),
-    /// Show this time, s.
+    /// Jump to this time, s.
     Seek(f64),
-    /// So many times as fast as it was.
+    /// Multiple of the recorded speed.
     Speed(f64),
-    /// Begin again at the end of the range.
+    /// Repeat the range.
     Loop(bool),
-    /// Play from here to there, s; none: all of it.
+    /// Play from the first to the second time, s; none for all.
     Range(Option<[f64; 2]>),
-    /// So many images further, or back; then stand still.
+    /// Step this many images, negative for back; then pause.
     Step(i32),
 }
 
 impl Order {
-    /// Whether it can be obeyed: times and speeds are numbers, no speed is 0 or less.
+    /// True if the order is valid: times and speeds are finite, speeds are above 0.
     pub fn is_sound(&self) -> bool {
         match self {
             Order::Seek(seconds) => seconds.is_finite(),
@@ -35,7 +35,7 @@ impl Order {
         }
     }
 
-    /// Whether this one, coming after another that still waits, makes that one needless.
+    /// True if this order makes an earlier, waiting one unnecessary.
     pub fn replaces(&self, waiting: &Order) -> bool {
         let places = |order: &Order| matches!(order, Order::Seek(_));
         let ends = |order: &Order| matches!(order, Order::Range(_));

@@ -1,35 +1,35 @@
-//! A whole recording on one line: total force, intentions, and what was said when.
+//! Summary of a whole recording: total force, intentions, and log lines with their times.
 
 use crate::view::said::{Kind, Said};
 use serde_json::{Value, json};
 use taxel_core::intent::Leading;
 
-/// Places of the line of totals at most, and the shortest time of one, us.
+/// Most bins of the totals, and the least width of one, us.
 const PLACES: u64 = 16_384;
 const SHORTEST: u64 = 10_000;
-/// Lines that are kept at most; then those of contacts are only counted.
+/// Most lines kept; beyond that, lines about contacts are only counted.
 const LINES: usize = 50_000;
-/// Changes of intention that are kept at most.
+/// Most changes of intention kept.
 const CHANGES: usize = 50_000;
 
-/// What is known so far. Times are microseconds since the recording began.
+/// The summary so far. Times are microseconds since the recording began.
 #[derive(Debug, Clone)]
 pub struct Overview {
     width: u64,
-    /// Greatest total of each place, counts.
+    /// Greatest total of each bin, counts.
     totals: Vec<u32>,
-    /// The total that holds, and since when.
+    /// Time of the current total, and the total, counts.
     total: (u64, u32),
     intentions: Vec<(u64, &'static str)>,
     said: Vec<(u64, Said)>,
     unlisted: u64,
-    /// Up to where everything is known.
+    /// Time up to which everything is known.
     known: u64,
     duration: u64,
 }
 
 impl Overview {
-    /// Of a recording of which nothing is known but how long it is.
+    /// An empty summary of a recording with this duration.
     pub fn new(duration: u64) -> Overview {
         let width = duration.div_ceil(PLACES).max(SHORTEST);
         Overview {
@@ -44,7 +44,7 @@ impl Overview {
         }
     }
 
-    /// The contacts press so much from now on; what they did before holds up to now.
+    /// Sets the total from this time on; the total before lasts until then.
     pub fn press(&mut self, at: u64, total: u32) {
         let (since, before) = std::mem::replace(&mut self.total, (at, total));
         self.raise(since, at, before);
@@ -59,7 +59,7 @@ impl Overview {
         }
     }
 
-    /// This intention leads from now on.
+    /// Sets the leading intention from this time on.
     pub fn lead(&mut self, at: u64, leading: Leading) {
         let name = leading.as_str();
         let before = self.intentions.last().map_or("none", |(_, name)| name);
@@ -68,7 +68,7 @@ impl Overview {
         }
     }
 
-    /// Something was said.
+    /// Adds a log line.
     pub fn say(&mut self, at: u64, said: Said) {
         let touches = matches!(said.kind, Kind::Onset | Kind::Release);
         if self.said.len() < LINES || (!touches && self.said.len() < 2 * LINES) {
@@ -78,7 +78,7 @@ impl Overview {
         }
     }
 
-    /// Everything up to there has been told.
+    /// Everything up to this time has been added.
     pub fn reach(&mut self, at: u64) {
         self.known = self.known.max(at.min(self.duration));
     }

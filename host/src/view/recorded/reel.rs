@@ -1,4 +1,4 @@
-//! A recording that is read from any image on.
+//! Reads a recording from any image on.
 
 use super::standing::Standing;
 use super::survey::{RecordedTime, Survey};
@@ -8,13 +8,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use taxel_core::wire::{self, Report};
 
-/// Chunks before an image in which the one that it is told by is looked for: a board sends one each second.
+/// Most chunks to search backwards for the key frame of an image; a board sends one each second.
 const REACH: usize = 64;
 
-/// Time in which the page lets a touch fade, us: `FADE_S` of `afterglow.js`.
+/// Fade time of a touch in the page, us: `FADE_S` of `afterglow.js`.
 const FADE_US: u64 = 800_000;
 
-/// Topics of what lasts, but for maps of health, which come in parts.
+/// Topics with lasting state, except for maps of health, which come in parts.
 const LASTING: [&str; 8] = [
     "/taxel/hello",
     "/taxel/contacts",
@@ -25,17 +25,17 @@ const LASTING: [&str; 8] = [
     "/taxel/temperature",
     "/taxel/self_test",
 ];
-/// Chunks with maps of health that are gone back through.
+/// Most chunks to search backwards for maps of health.
 const MAPS: usize = 16;
 
-/// A message: its chunk, and which one of it.
+/// A message, as its chunk and its index in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Cursor {
     chunk: usize,
     index: usize,
 }
 
-/// The recording, and what its client knows.
+/// The recording, and the state of its client.
 #[derive(Debug)]
 pub struct Reel {
     clips: Clips,
@@ -43,31 +43,30 @@ pub struct Reel {
     survey: Arc<Survey>,
     client: Client,
     next: Cursor,
-    /// The last image that was played.
+    /// The last image played.
     shown: Option<Cursor>,
-    /// What glowed when an image was gone to, counts by taxel: what was felt before it, less the longer ago
-    /// it was.
+    /// Afterglow at the last jump, counts by taxel: earlier pressure, fading with its age.
     glow: Vec<u16>,
 }
 
 impl Reel {
-    /// At its beginning.
+    /// Starts at the beginning.
     pub fn new(clips: Clips, survey: Arc<Survey>) -> Reel {
         let (clock, next) = (RecordedTime::of(&clips), Cursor { chunk: 0, index: 0 });
         Reel { clips, clock, survey, client: Client::new(), next, shown: None, glow: Vec::new() }
     }
 
-    /// What is known after the last message.
+    /// The client after the last message.
     pub fn client(&self) -> &Client {
         &self.client
     }
 
-    /// The messages of a chunk; none of one that is damaged, of which the survey tells.
+    /// Messages of a chunk; none if it is damaged, which the survey reports.
     fn clip(&mut self, chunk: usize) -> Arc<[Piece]> {
         self.clips.clip(chunk).unwrap_or_default()
     }
 
-    /// The next message with its time, us; none: there are no more.
+    /// Next message with its time, us; none at the end.
     pub fn peek(&mut self) -> Option<(u64, Piece)> {
         while self.next.chunk < self.clips.places().len() {
             if let Some(piece) = self.clip(self.next.chunk).get(self.next.index) {
@@ -78,7 +77,7 @@ impl Reel {
         None
     }
 
-    /// Plays the next message; none: it was no message of a board.
+    /// Plays the next message; none if it is not a message of a board.
     pub fn play(&mut self) -> Option<Event> {
         let (_, piece) = self.peek()?;
         let event = self.push(&piece.data);
@@ -92,19 +91,19 @@ impl Reel {
     fn push(&mut self, frame: &[u8]) -> Option<Event> {
         let client = &mut self.client;
         let event = frame.iter().find_map(|byte| client.push(*byte));
-        // Nobody answers.
+        // There is no board to answer.
         client.take_requests();
         event
     }
 
-    /// Shows the last image up to a time, else the first: its time and what it was told by. None: there is no
+    /// Shows the last image up to a time, else the first. Returns its time and its event; none if there is no
     /// image.
     pub fn seek(&mut self, to: u64) -> Option<(u64, Event)> {
         let image = self.image_at(to).or_else(|| self.image_after(Cursor { chunk: 0, index: 0 }))?;
         self.show(image)
     }
 
-    /// Shows the image so many further, or the last there is; back from an image, or the first there is.
+    /// Steps by this many images, at most to the first or last image.
     pub fn step(&mut self, images: i32) -> Option<(u64, Event)> {
         let mut image = self.shown?;
         for _ in 0..images.unsigned_abs() {
@@ -115,7 +114,7 @@ impl Reel {
         self.show(image)
     }
 
-    /// Puts the client in the state of an image.
+    /// Restores the client's state at an image.
     fn show(&mut self, image: Cursor) -> Option<(u64, Event)> {
         let shown_at =
             self.clip(image.chunk).get(image.index).map(|piece| self.clock.at(piece.header.log_time))?;
@@ -141,7 +140,7 @@ impl Reel {
         last
     }
 
-    /// Adds the client's image, which was felt so many microseconds before the one that is gone to.
+    /// Adds the client's image to the afterglow, `age` microseconds before the target image.
     fn shine(&mut self, age: u64) {
         let (Some(left), Some((_, image))) = (FADE_US.checked_sub(age), self.client.image()) else { return };
         self.glow.resize(image.len(), 0);
@@ -150,30 +149,30 @@ impl Reel {
         }
     }
 
-    /// What glowed when the last image was gone to, counts by taxel.
+    /// Afterglow at the last jump, counts by taxel.
     pub fn glow(&self) -> &[u16] {
         &self.glow
     }
 
-    /// The image that is shown, as it was sent.
+    /// Message of the current image.
     pub fn shown(&mut self) -> Option<Piece> {
         let Cursor { chunk, index } = self.shown?;
         self.clip(chunk).get(index).cloned()
     }
 
-    /// Shows the image that stands alone before the one that is shown, or this one, where it does.
+    /// Shows the key frame before the current image, or the image itself if it is one.
     pub fn show_key(&mut self) -> Option<Piece> {
         let key = self.key_of(self.shown?);
         self.show(key);
         self.shown()
     }
 
-    /// Leaves the next message out.
+    /// Skips the next message.
     pub fn pass(&mut self) {
         self.next.index += 1;
     }
 
-    /// What held just before the image that is shown.
+    /// State just before the current image.
     pub fn standing(&mut self) -> Standing {
         let Some(image) = self.shown else { return Standing::default() };
         let mut standing = self.survey.standing(image.chunk);
@@ -183,15 +182,15 @@ impl Reel {
         standing
     }
 
-    /// What held when a chunk began which the survey has not come to: what was told last of each topic, as
-    /// the file's index says.
+    /// State at the beginning of a chunk that the survey has not reached: the last message of each topic, by
+    /// the file's index.
     fn gathered(&mut self, end: usize) -> Standing {
         let last = |topic| self.clips.with_topic(topic, end).next();
         let mut chunks: BTreeSet<usize> = LASTING.into_iter().filter_map(last).collect();
         chunks.extend(self.clips.with_topic("/taxel/health_map", end).take(MAPS));
-        // The moment at which an intention led may lie in the one before.
+        // The moment at which an intention led may be in the chunk before.
         chunks.extend(self.clips.with_topic("/taxel/intent", end).take(2));
-        // What a board was taught it tells behind its hello.
+        // A board reports its base of shapes after its hello.
         chunks.extend(last("/taxel/hello").map(|hello| hello + 1).filter(|next| *next < end));
         let mut standing = self.survey.beginning();
         for chunk in chunks {
@@ -199,11 +198,11 @@ impl Reel {
                 with_report(piece, |seq, report| _ = standing.take(seq, report, &piece.data));
             }
         }
-        // Without an index, nothing is known before the survey comes.
+        // Without an index, nothing is known before the survey.
         if standing.is_empty() { self.survey.standing(end) } else { standing }
     }
 
-    /// Messages from the beginning of the chunk of `key` up to an image, without images that nothing needs.
+    /// Messages from the beginning of the chunk of `key` up to an image, without unneeded images.
     fn between(&mut self, key: Cursor, image: Cursor) -> Vec<(u64, Piece)> {
         let mut pieces = Vec::new();
         for chunk in key.chunk..=image.chunk {
@@ -217,7 +216,7 @@ impl Reel {
         pieces
     }
 
-    /// The image that stands alone from which an image can be decoded.
+    /// The key frame from which an image can be decoded.
     fn key_of(&mut self, image: Cursor) -> Cursor {
         for chunk in (image.chunk.saturating_sub(REACH)..=image.chunk).rev() {
             let clip = self.clip(chunk);
@@ -260,7 +259,7 @@ impl Reel {
     }
 }
 
-/// The last of those for which something holds.
+/// Position of the last item that meets a condition.
 trait LastPosition: Iterator {
     fn rposition_of(self, holds: impl Fn(Self::Item) -> bool) -> Option<usize>;
 }
@@ -271,14 +270,14 @@ impl<I: Iterator> LastPosition for I {
     }
 }
 
-/// Reads a message; none: it cannot be read.
+/// Decodes a message; none if it cannot be read.
 pub(super) fn with_report<T>(piece: &Piece, read: impl FnOnce(u32, &Report<'_>) -> T) -> Option<T> {
     let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
     let (seq, report) = wire::decode::<(u32, Report<'_>)>(wire::open(&mut bytes).ok()?).ok()?;
     Some(read(seq, &report))
 }
 
-/// Whether an image stands alone; none: it is no image.
+/// True for a key frame; none if the message is not an image.
 fn is_image(piece: &Piece) -> Option<bool> {
     let alone = |_, report: &Report<'_>| match report {
         Report::Frame(frame) => Some(frame.base.is_none()),

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Pins};
 
-/// What the pages are told.
+/// Messages to the pages.
 pub struct Screen {
     hub: Arc<Hub>,
     label: String,
@@ -20,12 +20,12 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Of a recording of that name.
+    /// Shows a recording with this label.
     pub fn new(hub: Arc<Hub>, label: String, scale: Option<f32>) -> Screen {
         Screen { hub, label, scale, rate: Rate::default() }
     }
 
-    /// Another moment, and what still glows in it: what was told of the one before holds no more.
+    /// Shows another moment and its afterglow; earlier messages are no longer valid.
     pub fn moment(&mut self, client: &Client, glow: &[u16], at: u64, event: &Event, seeks: u32) {
         self.hub.forget_images();
         self.rate = Rate::default();
@@ -50,7 +50,7 @@ impl Screen {
         self.link(client);
     }
 
-    /// The next event of what is played.
+    /// Shows the next event.
     pub fn event(&mut self, client: &Client, at: u64, event: &Event, seeks: u32) {
         match event {
             Event::Hello => self.hello(client),
@@ -87,7 +87,7 @@ impl Screen {
         }
     }
 
-    /// How fast the images come by the board's time.
+    /// Reports the rate of images, in board time.
     pub fn link(&self, client: &Client) {
         self.hub.state("link", &message::link(client, self.rate.hz(), None, self.hub.pages()));
     }

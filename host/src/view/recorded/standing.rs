@@ -1,5 +1,5 @@
-//! What a board said and what holds until it says otherwise: who starts in the middle of a recording is told
-//! this first.
+//! Lasting state of a board as frames of the wire: a client that starts in the middle of a recording gets
+//! them first.
 
 use crate::client::{Worn, leads};
 use std::collections::BTreeMap;
@@ -7,13 +7,14 @@ use std::sync::Arc;
 use taxel_core::format::Name;
 use taxel_core::wire::Report;
 
-/// A frame of the wire, and its place among those that hold.
+/// A frame of the wire, and its position in the order.
 type Part = (u64, Arc<[u8]>);
 
-/// The frames of the wire that hold, their 0x00 included.
+/// Frames of the wire with lasting state, including their 0x00.
 #[derive(Debug, Default, Clone)]
 pub struct Standing {
-    /// By the report's number and, of a map of health, its first taxel, of an intention, whether it led.
+    /// Frames by the report's number and, for a map of health, its first taxel; for an intention, whether it
+    /// led.
     parts: BTreeMap<(u32, u16), Part>,
     taken: u64,
     /// Number of the next message; none before the first.
@@ -23,13 +24,13 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Takes a message with its number; how many before it are missing.
+    /// Handles a message. Returns the number of messages missing before it.
     pub fn take(&mut self, seq: u32, report: &Report<'_>, frame: &[u8]) -> u64 {
         let gap = self.next.map_or(0, |next| seq.wrapping_sub(next));
         self.next = Some(seq.wrapping_add(1));
         let restarted = gap > u32::MAX / 2;
         if restarted {
-            // The board has started anew: what it said before holds no more.
+            // The board has restarted: discard its earlier state.
             self.parts.retain(|(number, _), _| *number == Report::HELLO);
         }
         if let Some(key) = self.key(report) {
@@ -39,7 +40,7 @@ impl Standing {
         if restarted { 0 } else { u64::from(gap) }
     }
 
-    /// Where a message is kept; none: it says nothing that lasts.
+    /// Key of a message; none if it has no lasting state.
     fn key(&mut self, report: &Report<'_>) -> Option<(u32, u16)> {
         let number = match report {
             Report::Hello(hello) => {
@@ -49,7 +50,8 @@ impl Standing {
             Report::Contacts(_) => Report::CONTACTS,
             Report::Symbols(_) => Report::SYMBOLS,
             Report::Intent(report) => {
-                // The last moment at which the announced intention led is told with it, unless they are one.
+                // The last moment at which the announced intention led is kept as well, unless it is this
+                // one.
                 let leads = leads(&self.concepts, report);
                 if leads {
                     self.parts.remove(&(Report::INTENT, 0));
@@ -72,12 +74,12 @@ impl Standing {
         Some((number, 0))
     }
 
-    /// Nothing has been said that lasts.
+    /// True if there is no lasting state.
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
-    /// The frames, in the order in which they came.
+    /// The frames in order.
     pub fn frames(&self) -> Vec<Arc<[u8]>> {
         let mut parts: Vec<_> = self.parts.values().collect();
         parts.sort_by_key(|(order, _)| *order);

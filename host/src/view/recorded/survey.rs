@@ -1,4 +1,4 @@
-//! Goes once through a recording, beside its player: for the overview, and so that any part of it can be shown.
+//! Reads a recording once, beside its player: for the overview, and so that any part of it can be shown.
 
 use super::overview::Overview;
 use super::reel::with_report;
@@ -14,10 +14,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::wire::{self, Report};
 
-/// Time between two messages about what is known so far.
+/// Time between two progress messages.
 const TOLD: Duration = Duration::from_millis(500);
 
-/// What held when each chunk began.
+/// State at the beginning of each chunk.
 #[derive(Debug, Default)]
 pub struct Survey {
     found: Shared<Found>,
@@ -31,7 +31,7 @@ struct Found {
 }
 
 impl Survey {
-    /// Begins, in a thread of its own.
+    /// Starts in a thread of its own.
     pub fn start(
         mut clips: Clips,
         clock: RecordedTime,
@@ -59,18 +59,18 @@ impl Survey {
         Ok(survey)
     }
 
-    /// What held before the first message.
+    /// State before the first message.
     pub fn beginning(&self) -> Standing {
         self.beginning.clone()
     }
 
-    /// What held when a chunk began; none: it is not known yet.
+    /// State at the beginning of a chunk; none if it is not known yet.
     pub fn known(&self, chunk: usize) -> Option<Standing> {
         let found = self.found.lock();
         found.standing.get(chunk).or(found.standing.last().filter(|_| found.done)).cloned()
     }
 
-    /// What held when a chunk began; waits until it is known.
+    /// State at the beginning of a chunk; waits until it is known.
     pub fn standing(&self, chunk: usize) -> Standing {
         loop {
             if let Some(standing) = self.known(chunk) {
@@ -85,7 +85,7 @@ impl Survey {
     }
 }
 
-/// What held before the first message: what the board is, where the chunk that told it is lost.
+/// State before the first message: the attached `Hello`, in case its chunk is lost.
 fn beginning(clips: &mut Clips) -> Standing {
     let first = (0..clips.places().len()).find_map(|chunk| clips.clip(chunk).ok()?.first().cloned());
     let mut standing = Standing::default();
@@ -98,7 +98,7 @@ fn beginning(clips: &mut Clips) -> Standing {
     standing
 }
 
-/// Log times as microseconds since the recording began.
+/// Converts log times to microseconds since the recording began.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordedTime {
     start: u64,
@@ -106,19 +106,19 @@ pub struct RecordedTime {
 }
 
 impl RecordedTime {
-    /// Of a recording.
+    /// Times of this recording.
     pub fn of(clips: &Clips) -> RecordedTime {
         let start = clips.places().first().map_or(0, |place| place.start);
         let end = clips.places().iter().map(|place| place.end).max().unwrap_or(start);
         RecordedTime { start, end }
     }
 
-    /// All of it, us.
+    /// Duration, us.
     pub fn duration(&self) -> u64 {
         self.at(self.end)
     }
 
-    /// A log time, ns.
+    /// Converts a log time, ns.
     pub fn at(&self, ns: u64) -> u64 {
         ns.clamp(self.start, self.end).saturating_sub(self.start) / 1000
     }
@@ -156,7 +156,7 @@ impl Surveyor {
         hub.state("overview", &self.overview.message());
     }
 
-    /// Images are only counted: to decode them would take most of the time.
+    /// Images are only counted; decoding them would take most of the time.
     fn take(&mut self, piece: &Piece) {
         let at = self.clock.at(piece.header.log_time);
         let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
@@ -173,7 +173,7 @@ impl Surveyor {
         }
     }
 
-    /// What a message says.
+    /// Handles a message.
     fn tell(&mut self, at: u64, frame: &[u8]) {
         let client = &mut self.client;
         let Some(event) = frame.iter().find_map(|byte| client.push(*byte)) else { return };

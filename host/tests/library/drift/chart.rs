@@ -1,4 +1,4 @@
-//! Drift against touch: what is kept and what is lost.
+//! Drift against touch: which touches are kept and which are lost.
 
 use super::rig::{Trial, feel};
 use taxel::sim::Course;
@@ -9,7 +9,7 @@ const RISES: [f64; 5] = [1.0, 5.0, 10.0, 20.0, 40.0];
 /// Common drift, counts/s.
 const RATES: [f64; 5] = [0.0, 1.0, 3.0, 5.0, 10.0];
 
-/// What becomes of a touch on a garment that drifts.
+/// Fate of a touch on a drifting garment.
 fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64) -> &'static str {
     let trial = Trial { common: Course { rate, way: 1_300.0 }, ..Trial::new(garment, 25.0) };
     let end = 12.0 + rise_s;
@@ -21,8 +21,8 @@ fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64)
     }
 }
 
-/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and what
-/// is unsure is told.
+/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and
+/// unsure contacts are reported.
 fn chart(garment: &Garment, force_n: f64) {
     println!("drift, counts/s  a palm of {force_n} N on {} rises in {RISES:?} s", garment.name);
     for rate in RATES {

@@ -1,4 +1,4 @@
-//! Touches that last while the garment drifts, and those that cover most of a small one.
+//! Touches held while the garment drifts, and touches that cover most of a small one.
 
 use super::rig::{Trial, feel, garments};
 use taxel::sim::Course;
@@ -7,8 +7,8 @@ use taxel_core::garment::Garment;
 /// The touch: 3 N of a fingertip, counts.
 const TOUCH: f64 = 3_000.0;
 
-/// Held from 30 s on for so long, at so many counts per second: the pressure at the end, as a part of that of
-/// the touch. 30 s of drift tell how much of it each taxel makes.
+/// Pressure at the end of a touch held for this long from 30 s on, at this drift, as a share of the touch's.
+/// 30 s of drift show each taxel's share of it.
 fn left(trial: &Trial, course: Course, seconds: f64) -> f64 {
     let end = 30.3 + seconds;
     let trial = Trial { common: course, ..trial.clone() }.touched("finger", 3.0, 30.0, 0.3, seconds + 5.0);
@@ -31,13 +31,13 @@ fn a_touch_is_held_for_a_minute_at_a_count_per_second() {
     }
 }
 
-/// Each taxel under it drifts by up to 600 counts more or less than its panel, and nothing measures that;
-/// what lies around it does not join it.
+/// Each taxel under it drifts by up to 600 counts more or less than its panel, which cannot be measured; its
+/// surroundings do not join it.
 #[test]
 fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
     for (garment, quickest) in garments() {
-        // In the second case the drift turns in the moment in which the touch begins: on one of the garments
-        // more joins it, before the drift is known again.
+        // In the second case the drift turns at the moment the touch begins: on one of the garments more
+        // joins it, before the drift is known again.
         for (hz, way, most) in [(quickest.min(400.0), 1_200.0, 1.2), (25.0, 600.0, 4.0)] {
             let part = left(&Trial::new(garment.clone(), hz), Course { rate: 20.0, way }, 60.0);
             assert!((0.8..most).contains(&part), "{part}");
@@ -56,7 +56,7 @@ fn a_touch_is_held_for_an_hour_at_half_a_count_per_second() {
     }
 }
 
-/// Four rows at 1,562 frames a second: what was lost there, or never noticed.
+/// Four rows at 1,562 frames per second: which touches are lost, or never noticed.
 #[test]
 fn a_block_at_full_speed_feels_what_covers_most_of_it() {
     for (shape, force_n, rise_s, hold_s) in [

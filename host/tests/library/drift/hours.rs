@@ -1,4 +1,4 @@
-//! Hours in which nothing happens: drift, breath and noise.
+//! Hours without a touch: drift, breath and noise.
 
 use super::is_campaign;
 use super::rig::{Trial, feel};
@@ -8,7 +8,7 @@ use taxel_core::garment::Garment;
 /// A chest that rises and falls by ten counts 18 times a minute.
 const BREATH: Course = Course { rate: 6.0, way: 10.0 };
 
-/// Ten parts of an hour each in the campaign, of 30 s else; from 0.5 to 5 counts/s, now and then 10.
+/// Ten parts, each an hour in the campaign, else 30 s; from 0.5 to 5 counts/s, at times 10.
 #[test]
 fn nothing_is_announced_in_hours_of_drift_breath_and_noise() {
     let (parts, seconds) = if is_campaign() { (10, 3_600.0) } else { (5, 30.0) };
@@ -30,7 +30,7 @@ fn nothing_is_announced_in_hours_of_drift_breath_and_noise() {
     assert_eq!((led, felt_s), (0, 0.0));
 }
 
-/// What a garment that was put on announced as a ghost, then as a threat, after 21 s.
+/// A garment just put on once announced a ghost, then a threat, after 21 s.
 #[test]
 fn two_and_three_counts_per_second_announce_nothing() {
     for (rate, hz) in [(2.0, 195.0), (3.0, 195.0), (-2.0, 25.0), (3.0, 25.0)] {

@@ -1,4 +1,4 @@
-//! What drift is followed, and what slow touch is kept.
+//! Limits of tracked drift and of slow touches.
 
 use super::rig::{Felt, Trial, feel, garments};
 use taxel::sim::{Course, Patch};
@@ -43,7 +43,7 @@ fn random_drift_on_random_garments_begins_no_contact() {
     }
 }
 
-/// What 90 s of a patch that drifts at so many counts per second are taken for, on two garments, one of them at two rates.
+/// Reaction to 90 s of a patch that drifts at this rate, on two garments, one of them at two frame rates.
 fn patched(rate: f64) -> Vec<(String, Felt)> {
     let drifts = |(garment, hz): (Garment, f64)| {
         let name = format!("{} at {hz} Hz", garment.name);
@@ -63,7 +63,7 @@ fn a_patch_is_followed_at_a_count_per_second() {
     }
 }
 
-/// A palm of 5 N that comes within ten seconds shows the same codes: nothing tells the two apart.
+/// A palm of 5 N that comes within ten seconds shows the same codes: the two cannot be told apart.
 #[test]
 fn a_patch_at_five_counts_per_second_is_unsure_and_means_nothing() {
     for (name, felt) in patched(5.0) {
@@ -75,8 +75,7 @@ fn a_patch_at_five_counts_per_second_is_unsure_and_means_nothing() {
     }
 }
 
-/// How much of the pressure of a quick touch a slow one shows when it is all there, on a garment that drifts
-/// by so much.
+/// Share of a quick touch's pressure that a slow one shows at its end, on a drifting garment.
 fn kept(garment: &Garment, hz: f64, (shape, force_n, rise_s): (&str, f64, f64), rate: f64) -> f64 {
     let at_rest = Trial::new(garment.clone(), hz);
     let quick = feel(&at_rest.clone().touched(shape, force_n, 2.0, 0.3, 6.0), 7.0).pressure(4.0, 7.0);
@@ -87,7 +86,7 @@ fn kept(garment: &Garment, hz: f64, (shape, force_n, rise_s): (&str, f64, f64), 
     slow.pressure(end, end + 10.0) / quick
 }
 
-/// Asserts that a touch keeps half of its pressure or more, at each of these frame rates and rates of drift.
+/// Asserts that a touch keeps at least half of its pressure at each of these frame rates and drift rates.
 fn assert_kept(garment: &Garment, touch: (&str, f64, f64), cases: [(f64, f64); 3]) {
     for (hz, rate) in cases {
         let part = kept(garment, hz, touch, rate);

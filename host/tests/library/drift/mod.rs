@@ -1,5 +1,4 @@
-//! Drift is followed and a touch is kept: the limits of docs/bounds.md, on garments of all kinds and at all
-//! rates.
+//! Drift is tracked and touches are kept: the limits of docs/bounds.md, on various garments and at all rates.
 
 mod chart;
 mod held;

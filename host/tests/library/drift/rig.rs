@@ -1,4 +1,4 @@
-//! A garment that drifts, and what the board makes of it.
+//! A drifting garment, and the board's perception of it.
 
 use taxel::sim::{Course, Drifting, Patch, Script, World};
 use taxel_core::format::{Code, Micros};
@@ -8,25 +8,25 @@ use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
 const TAXELS: usize = 2048;
-/// The code of a taxel at rest: with room on both sides.
+/// Code of a taxel at rest, with room on both sides.
 const BASE: u16 = 1_500;
 
-/// What is tried.
+/// A trial.
 #[derive(Clone)]
 pub struct Trial {
     pub garment: Garment,
     /// Frames per second.
     pub hz: f64,
-    /// Frames come up to half of that part of a period too early or too late.
+    /// Frames are up to half of this share of a period early or late.
     pub jitter: f64,
     pub common: Course,
     pub patches: Vec<Patch>,
-    /// The touches, as a script has them.
+    /// Touches, as in a script.
     pub touches: String,
     pub seed: u64,
 }
 
-/// Garments, with the frames per second of the quickest scan.
+/// Garments, with the frame rate of the fastest scan.
 pub fn garments() -> [(Garment, f64); 4] {
     [
         (Garment::reference(), 195.0),
@@ -37,18 +37,18 @@ pub fn garments() -> [(Garment, f64); 4] {
 }
 
 impl Trial {
-    /// A garment at so many frames per second, at rest.
+    /// A garment at rest, with this frame rate.
     pub fn new(garment: Garment, hz: f64) -> Trial {
         let common = Course { rate: 0.0, way: 400.0 };
         Trial { garment, hz, jitter: 0.8, common, patches: Vec::new(), touches: String::new(), seed: 1 }
     }
 
-    /// All of it drifts at so many counts per second, to and fro.
+    /// Drifts back and forth at this rate, counts per second.
     pub fn drifting(self, rate: f64) -> Trial {
         Trial { common: Course { rate, ..self.common }, ..self }
     }
 
-    /// Something touches the middle of the first panel.
+    /// Adds a touch in the middle of the first panel.
     pub fn touched(self, shape: &str, force_n: f64, start_s: f64, rise_s: f64, hold_s: f64) -> Trial {
         let panel = &self.garment.panels[0];
         let touches = format!(
@@ -61,14 +61,14 @@ impl Trial {
     }
 }
 
-/// What was felt.
+/// Perceptions.
 #[derive(Debug, Default, Clone)]
 pub struct Felt {
-    /// Time (s), pressure of all contacts (counts) and how many there are, frame by frame.
+    /// Time (s), total pressure (counts) and number of contacts, by frame.
     pub course: Vec<(f64, f64, usize)>,
     /// Time (s) of the frames in which a contact was unsure.
     pub unsure: Vec<f64>,
-    /// Everything that led.
+    /// All intentions that led.
     pub led: Vec<Leading>,
 }
 
@@ -77,13 +77,13 @@ impl Felt {
         self.course.iter().filter(move |(t, ..)| (from..to).contains(t))
     }
 
-    /// Part of the frames between two times in which something was felt.
+    /// Share of the frames between two times with a contact.
     pub fn felt(&self, from: f64, to: f64) -> f64 {
         let felt = self.inside(from, to).filter(|(.., contacts)| *contacts > 0).count();
         felt as f64 / self.inside(from, to).count() as f64
     }
 
-    /// Frames between two times in which a contact was unsure, as a part of those with contacts.
+    /// Share of the frames with contacts between two times in which one was unsure.
     pub fn unsure(&self, from: f64, to: f64) -> f64 {
         let unsure = self.unsure.iter().filter(|t| (from..to).contains(*t)).count();
         unsure as f64 / self.inside(from, to).filter(|(.., contacts)| *contacts > 0).count() as f64
@@ -95,7 +95,7 @@ impl Felt {
     }
 }
 
-/// Plays it for so many seconds.
+/// Plays it for this many seconds.
 pub fn feel(trial: &Trial, seconds: f64) -> Felt {
     let text = format!(
         "duration_s = {}\nseed = {}\n[idle]\nbase_code = {BASE}\nspread_counts = 10\nnoise_counts = 3\n{}",

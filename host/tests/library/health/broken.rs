@@ -1,5 +1,4 @@
-//! Lines and inputs that break while the board runs: it finds them by itself, and tells of them as it does at
-//! the start.
+//! Lines and inputs that break at run time: the board finds and reports them as at the start.
 
 use super::scripts::varied;
 use super::worn::{FRAME_S, TAXELS};
@@ -15,12 +14,12 @@ use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::wire::{HealthMap, Receiver, Report, Request, SelfTestReport, decode, encode};
 
-/// When something breaks, in frames.
+/// Frame in which something breaks.
 const BROKEN: u32 = 60;
-/// A fault is told so many frames later.
+/// Frames within which a fault is reported.
 const SOON: u32 = 100;
 
-/// The host's end: what it asks for, and what it was told.
+/// The host's end: its requests, and the reports received.
 struct Host {
     requests: Vec<u8>,
     receiver: Box<Receiver<8192>>,
@@ -62,7 +61,7 @@ impl Link for Host {
     }
 }
 
-/// Time until an end.
+/// Runs until a time.
 struct Until {
     clock: SimClock,
     end: Micros,
@@ -100,7 +99,7 @@ impl Platform for Until {
     }
 }
 
-/// Runs a board for so many frames of a script.
+/// Runs a board for this many frames of a script.
 fn told(garment: &Garment, script: &Script, frames: u32) -> Host {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<TAXELS, 1024>::new(info, garment.clone(), Scene::shipped()).unwrap());
@@ -113,12 +112,12 @@ fn told(garment: &Garment, script: &Script, frames: u32) -> Host {
     host
 }
 
-/// In which frame a time lies.
+/// Frame of a time.
 fn frame(time: Micros) -> u32 {
     (time.0 as f64 / 1e6 / FRAME_S) as u32
 }
 
-/// A stream of touches in which these break.
+/// Touches during which these faults occur.
 fn breaking(faults: &[PinFault], seed: u64) -> Script {
     let mut script = varied(f64::from(BROKEN + 2 * SOON) * FRAME_S, seed);
     script.faults.from_s = f64::from(BROKEN) * FRAME_S;
@@ -126,7 +125,8 @@ fn breaking(faults: &[PinFault], seed: u64) -> Script {
     script
 }
 
-/// Each is told as itself, once, and no taxel is accused before. At the start all was well.
+/// Each is identified and reported once, without an earlier report about a taxel. There was no fault at the
+/// start.
 #[test]
 fn every_line_and_input_that_breaks_in_use_is_told_as_itself_within_100_frames() {
     let garment = Garment::reference();
@@ -150,7 +150,7 @@ fn every_line_and_input_that_breaks_in_use_is_told_as_itself_within_100_frames()
     );
 }
 
-/// Nothing touches the garment; and what cannot be told then: an input at ground of a garment that rests there.
+/// Nothing touches the garment. Not detectable then: an input at ground of a garment that rests there.
 #[test]
 fn what_breaks_at_rest_is_told_where_codes_can_show_it() {
     let garment = Garment::reference();
@@ -168,7 +168,7 @@ fn what_breaks_at_rest_is_told_where_codes_can_show_it() {
     }
 }
 
-/// One breaks after the other: the second is told ten seconds after the first at the latest.
+/// Two faults in sequence: the second is reported ten seconds after the first at the latest.
 #[test]
 fn a_second_fault_is_told_beside_the_first() {
     let garment = Garment::reference();
@@ -178,8 +178,8 @@ fn a_second_fault_is_told_beside_the_first() {
     assert_eq!(host.self_tests.len(), 2);
 }
 
-/// What presses the whole garment to full scale looks like inputs at the supply: it costs a frame, and says
-/// nothing.
+/// Full-scale pressure on the whole garment looks like inputs at the supply: it costs a frame, and nothing is
+/// reported.
 #[test]
 fn pressure_everywhere_is_no_fault() {
     let garment = Garment::reference();
@@ -189,7 +189,7 @@ fn pressure_everywhere_is_no_fault() {
     assert_eq!(host.self_tests.len(), 1);
     assert!(host.maps.iter().all(|map| map.taxels.is_empty()));
     assert!(host.overruns <= 1, "{}", host.overruns);
-    // A stream of touches costs none.
+    // A stream of touches costs no frame.
     let host = told(&garment, &varied(1000.0 * FRAME_S, 4), 1000);
     assert_eq!((host.self_tests.len(), host.overruns), (1, 0));
 }

@@ -1,4 +1,4 @@
-//! Ill taxels are told as what they are, and soon.
+//! Faulty taxels are classified correctly and soon.
 
 use super::is_campaign;
 use super::scripts::all_pressed;
@@ -8,7 +8,7 @@ use taxel::sim::{self, Noisy, Script, Stuck};
 use taxel_core::acquire::Depth;
 use taxel_core::health::TaxelHealth;
 
-/// Breaks fifty taxels, each in one of these ways in turn.
+/// Breaks fifty taxels, in each of these ways in turn.
 fn fifty(script: &mut Script, ways: &[TaxelHealth], seed: u64) -> BTreeMap<usize, TaxelHealth> {
     let taxels = fastrand::Rng::with_seed(seed).choose_multiple(0..TAXELS, 50);
     let ill = taxels.into_iter().zip(ways.iter().cycle()).map(|(taxel, health)| (taxel, *health));
@@ -24,15 +24,15 @@ fn fifty(script: &mut Script, ways: &[TaxelHealth], seed: u64) -> BTreeMap<usize
     ill
 }
 
-/// Frames in which a fault is to be found, the first in which it shows included.
+/// Frames within which a fault is to be found, including the first in which it shows.
 const SOON: u32 = 100;
 
-/// Fifty taxels break, and 101 frames later all are pressed, which shows the dead ones. Each is found as what
-/// it is, and no other; how many of them not within 100 frames.
+/// Fifty taxels break, and 101 frames later all are pressed, which reveals dead ones. Each is found and
+/// classified, and no other. Returns the number that took more than 100 frames.
 fn found(depth: Depth, ways: &[TaxelHealth], seed: u64) -> usize {
     const BROKEN: u32 = TARE as u32 + 4;
     const PRESSED: u32 = BROKEN + 101;
-    // It takes three frames for a press to come to a tenth of a newton, which counts as one.
+    // A press takes three frames to reach a tenth of a newton, which counts as pressed.
     const SHOWN: u32 = PRESSED + 3;
     let seconds = |frame: u32| f64::from(frame) * FRAME_S;
     let mut script = all_pressed(seconds(PRESSED));
@@ -54,7 +54,7 @@ fn fifty_dead_stuck_and_noisy_taxels_are_found_within_100_frames() {
     let late: Vec<_> = (1..=sets).map(|seed| found(Depth::Twelve, &[Dead, Stuck, Noisy], seed)).collect();
     let late: usize = late.into_iter().sum();
     println!("{} taxels broken: each told as what it is, {late} of them not within 100 frames", 50 * sets);
-    // Noise may stay small while it is looked at; a dead taxel beside two others shows when those are known.
+    // Noise may be small while it is observed; a dead taxel beside two others shows when those are known.
     assert!(late * 200 <= 50 * sets as usize);
 }
 
@@ -71,7 +71,7 @@ fn lines_that_break_or_short_are_told_apart() {
     script.faults.from_s = 0.09;
     script.faults.open = vec![100, 1500];
     script.faults.shorted = vec![700, 2047];
-    // Nothing presses beside a short circuit that is not pressed by anything.
+    // Nothing presses beside a short circuit that is not pressed itself.
     script.touches.retain(|touch| touch.panel == "chest" || touch.panel == "left arm");
     let found = Worn::new().play(&script, 100);
     let classes: Vec<_> = found.into_iter().map(|(taxel, (_, health))| (taxel, health)).collect();
@@ -79,8 +79,8 @@ fn lines_that_break_or_short_are_told_apart() {
     assert_eq!(classes, [(100, Open), (700, Shorted), (1500, Open), (2047, Shorted)]);
 }
 
-/// A needle fills one taxel alone, as a short circuit does: its taxel counts as shorted while it presses, and
-/// is given back.
+/// A needle fills a single taxel like a short circuit: the taxel counts as shorted while it presses, and is
+/// restored afterwards.
 #[test]
 fn a_needle_costs_no_taxel() {
     let text = "duration_s = 3\n[[touch]]\npanel = \"chest\"\nshape = \"finger\"\nsize_mm = 4\nat = [8, 15]\nforce_n = 8\n\

@@ -1,4 +1,4 @@
-//! Nothing is said against a taxel that is well.
+//! Healthy taxels are never reported.
 
 use super::is_campaign;
 use super::scripts::varied;
@@ -15,7 +15,7 @@ fn a_varied_stream_of_touches_accuses_no_healthy_taxel() {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// What touches shakes, anew in every frame and for each taxel, by 2 % of the signal.
+/// Touches vary in every frame and for each taxel, by 2 % of the signal.
 #[test]
 fn noise_of_what_is_pressed_is_no_fault_of_the_taxels() {
     const FRAMES: u32 = 1_000;
@@ -24,7 +24,8 @@ fn noise_of_what_is_pressed_is_no_fault_of_the_taxels() {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// At rest, pressed a little, and on the way: where a code of the converter is nine codes wide, its noise may
+/// At rest, slightly pressed, and in between: in a code of the converter that is nine codes wide, noise may
+/// not show.
 /// not show.
 #[test]
 fn wide_codes_are_not_stuck() {

@@ -1,4 +1,4 @@
-//! Lines and inputs at fault, and what a self-test says of them.
+//! Faulty lines and inputs, and the results of a self-test.
 
 use super::scripts::all_pressed;
 use super::worn::Worn;
@@ -14,7 +14,7 @@ use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 #[test]
 fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
     let mut rng = fastrand::Rng::with_seed(7);
-    // Lines are inverted, inputs exchanged, blocks turned: the self-test does not mind.
+    // Inverted lines, exchanged inputs and turned blocks do not affect the self-test.
     for garment in [Garment::reference(), Garment::mat(), rewire(&Garment::reference(), &mut rng)] {
         let mut script = all_pressed(0.1);
         script.touches.retain(|touch| garment.panels.iter().any(|panel| panel.name.as_str() == touch.panel));
@@ -90,7 +90,7 @@ fn a_garment_that_is_put_on_is_examined_and_told_of() {
     assert_eq!(told(&mut worn), [Ok((Micros(9), findings))]);
 }
 
-/// What a board tells of self-tests, and whether it answers that one was done.
+/// Self-test reports of a board, and its answers.
 fn told(worn: &mut Worn) -> Vec<Result<(Micros, Findings), bool>> {
     let (mut told, mut receiver) = (Vec::new(), Box::new(Receiver::<8192>::new()));
     while let [byte, ..] = worn.board.pending(Micros(20_480), &mut ()) {

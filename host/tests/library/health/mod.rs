@@ -1,4 +1,5 @@
-//! Ill taxels, lines and inputs on the simulated board: each is found, and told as what it is; no other is.
+//! Faulty taxels, lines and inputs on the simulated board: each is found and classified, and no healthy one
+//! is.
 
 mod broken;
 mod classes;

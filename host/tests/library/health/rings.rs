@@ -1,4 +1,4 @@
-//! What presses around a taxel and not on it is no fault of that taxel; where it is the taxel's, it is told
+//! Pressure around a taxel but not on it is no fault of that taxel; if the taxel is dead, it is reported
 //! soon.
 
 use super::worn::{TARE, Worn};
@@ -6,12 +6,12 @@ use taxel_core::format::Code;
 use taxel_core::health::TaxelHealth;
 
 const COLUMNS: usize = 16;
-/// Row and column of the taxel in the middle, on the chest.
+/// Row and column of the central taxel, on the chest.
 const MIDDLE: (usize, usize) = (16, 8);
 const REST: u16 = 90;
 const FRAMES: u32 = 100;
 
-/// Codes of a frame: what rests has a noise of 3 counts rms, and so has what is pressed, with 900 counts more.
+/// Codes of a frame: noise of 3 counts rms at rest, and the same with 900 counts more under pressure.
 fn codes(rng: &mut fastrand::Rng, is_pressed: impl Fn(usize) -> bool) -> Vec<Code> {
     let mut noise = || ((0..4).map(|_| rng.f64() - 0.5).sum::<f64>() * 3f64.sqrt() * 3.0).round() as i16;
     (0..2048)
@@ -25,7 +25,7 @@ fn from_middle(taxel: usize) -> Option<(usize, usize)> {
     (taxel < 32 * COLUMNS).then(|| (row.abs_diff(MIDDLE.0), column.abs_diff(MIDDLE.1)))
 }
 
-/// What is found, and in which frame after the tare, where these taxels are pressed for a while.
+/// Faults found, with the frame after the tare, if these taxels are pressed for a while.
 fn found(worn: &mut Worn, frames: u32, is_pressed: impl Fn(usize) -> bool) -> Vec<(usize, u32, TaxelHealth)> {
     let mut rng = fastrand::Rng::with_seed(5);
     worn.tare();
@@ -53,7 +53,7 @@ fn a_ring_accuses_no_taxel() {
     }
 }
 
-/// Three rows and columns around it, then two: what presses it would press it, too.
+/// Three rows and columns around it, then two: an object that presses those would press it, too.
 #[test]
 fn a_dead_taxel_under_what_presses_all_around_is_told_within_100_frames() {
     for (height, width) in [(2, 2), (2, 3), (5, 5)] {
@@ -80,7 +80,7 @@ fn a_dead_taxel_at_the_edge_is_told_within_100_frames() {
     }
 }
 
-/// A thick ring is taken for a cover with a dead taxel under it, until that taxel is pressed itself.
+/// A thick ring looks like a cover over a dead taxel, until that taxel is pressed itself.
 #[test]
 fn a_dead_taxel_that_answers_is_taken_back() {
     let mut worn = Worn::new();

@@ -1,4 +1,4 @@
-//! What ill taxels say while they are not yet silenced.
+//! Intentions announced because of faulty taxels before they are silenced.
 
 use super::worn::{FRAME_S, TARE, TAXELS, Worn};
 use std::collections::BTreeSet;
@@ -7,7 +7,7 @@ use taxel::sim::{Noisy, Script, Stuck};
 /// Frames of the tare and those in which every taxel is judged.
 const FRAMES: u32 = TARE as u32 + 200;
 
-/// What is announced of a garment that nobody touches, where so many taxels break at a time.
+/// Intentions announced for an untouched garment in which this many taxels break at a time.
 fn said(count: u32, from_s: f64, seed: u64, fault: impl Fn(u16, &mut Script)) -> BTreeSet<&'static str> {
     let mut script = Script::parse("duration_s = 2", "faults.toml").unwrap();
     (script.seed, script.faults.from_s) = (seed, from_s);
@@ -31,7 +31,7 @@ fn taxels_that_were_stuck_or_shorted_at_power_up_say_nothing() {
     assert_eq!(said(5, 0.0, 6, |taxel, script| script.faults.shorted.push(taxel)), nothing());
 }
 
-/// The noisier they are, the fewer may break at once: what several of them show together is as much as a touch.
+/// The noisier they are, the fewer may break at once: together, several look like a touch.
 #[test]
 fn noisy_taxels_say_nothing() {
     let kinds = [(5, 20.0), (5, 60.0), (1, 200.0)];

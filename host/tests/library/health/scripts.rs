@@ -1,9 +1,9 @@
-//! What is done to the garment.
+//! Scripts of touches.
 
 use taxel::sim::Script;
 use taxel_core::garment::{Garment, Panel};
 
-/// Touches of any kind, anywhere, one after the other and several at a time.
+/// Various touches in various places, in sequence and at the same time.
 pub fn varied(seconds: f64, seed: u64) -> Script {
     let mut rng = fastrand::Rng::with_seed(seed);
     let mut text = format!("duration_s = {seconds}\nseed = {seed}\n");
@@ -35,7 +35,7 @@ pub fn varied(seconds: f64, seed: u64) -> Script {
     Script::parse(&text, "varied.toml").unwrap()
 }
 
-/// Something flat presses every panel from then on, with 1.2 N on each taxel.
+/// A flat object presses every panel from this time on, with 1.2 N on each taxel.
 pub fn all_pressed(start_s: f64) -> Script {
     let touch = |panel: &Panel| {
         let pitch = panel.pitch_um.map(|pitch| f64::from(pitch) / 1e3);

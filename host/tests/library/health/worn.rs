@@ -1,4 +1,4 @@
-//! A simulated board, watched for the taxels it takes for ill.
+//! A simulated board, observed for the taxels that it considers faulty.
 
 use std::collections::{BTreeMap, BTreeSet};
 use taxel::sim::{PINS, Script, SimBoard};
@@ -12,16 +12,16 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
 
 pub const TAXELS: usize = 2048;
-/// Frames of the baseline.
+/// Frames averaged by the tare.
 pub const TARE: u16 = 16;
-/// Time of a scan of the simulated board.
+/// Duration of a scan of the simulated board.
 pub const FRAME_S: f64 = 5.128e-3;
 
-/// A simulated board, and what it finds.
+/// A simulated board and its findings.
 pub struct Worn {
     pub garment: Garment,
     pub board: Box<Board<TAXELS, 1024>>,
-    /// What it announced so far.
+    /// Intentions announced so far.
     pub said: BTreeSet<&'static str>,
 }
 
@@ -30,7 +30,7 @@ impl Worn {
         Worn::at(Depth::Twelve)
     }
 
-    /// The codes have this depth.
+    /// A board with codes of this depth.
     pub fn at(depth: Depth) -> Worn {
         let mut scene = Scene::shipped();
         scene.plan.depth = depth;
@@ -40,13 +40,13 @@ impl Worn {
         Worn { garment, board, said: BTreeSet::new() }
     }
 
-    /// Plays so many frames of a script after a tare; the frame in which each ill taxel was found, and its
-    /// class.
+    /// Plays this many frames of a script after a tare. Returns the faulty taxels with the frame of the
+    /// finding and the class.
     pub fn play(&mut self, script: &Script, frames: u32) -> BTreeMap<usize, (u32, TaxelHealth)> {
         self.play_shaken(script, frames, 0.0)
     }
 
-    /// The same, where what a taxel shows beyond the first frame shakes by so much of it rms.
+    /// Plays with noise on every signal beyond the first frame, as a share of it, rms.
     pub fn play_shaken(
         &mut self,
         script: &Script,
@@ -81,15 +81,15 @@ impl Worn {
         found
     }
 
-    /// Asks for a tare, which begins with the next frame.
+    /// Requests a tare, which begins with the next frame.
     pub fn tare(&mut self) {
         let mut wire = [0; 64];
         let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
         self.board.step(Micros(0), Input::Received(frame), &mut ());
     }
 
-    /// Shows it so many frames of codes, some time after what it was shown before; the frame in which each
-    /// ill taxel was found.
+    /// Shows this many frames of codes, some time after the last ones. Returns the faulty taxels with the
+    /// frame of the finding.
     pub fn show(
         &mut self,
         frames: u32,

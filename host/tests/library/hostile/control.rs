@@ -1,4 +1,4 @@
-//! A board whose words hold what a terminal obeys.
+//! A board whose texts contain terminal control characters.
 
 use super::stage::{events, frame, hello};
 use crate::sink::Sink;
@@ -11,8 +11,8 @@ use taxel_core::react::Reaction;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Answer, GestureReport, Level, Log, ReactionReport, Report, ShapesReport};
 
-/// Clears a screen, sets a title, rings, goes back over the line, turns the text, and the same with a code of
-/// one sign.
+/// Clears a screen, sets a title, rings, returns to the start of the line, reverses the text, and clears with
+/// an 8-bit control code.
 const EVIL: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\r\u{202e}\u{9b}2J";
 
 fn evil(text: &str) -> Name {

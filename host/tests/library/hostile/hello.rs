@@ -1,4 +1,4 @@
-//! A `Hello` that says what no garment and no scene can be.
+//! A `Hello` with an impossible garment or scene.
 
 use super::stage::{events, hello, hello_of};
 use crate::sink::Sink;
@@ -29,7 +29,7 @@ fn a_map_with_an_edge_to_a_concept_that_is_not_there_is_refused() {
     Viewer::new(&idle(), Arc::new(Hub::default())).event(&client, &heard[0]).unwrap();
 }
 
-/// Every way to show a board.
+/// All ways to show a board.
 struct Shows {
     page: Viewer,
     lines: Lines<Sink>,

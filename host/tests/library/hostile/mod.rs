@@ -1,4 +1,4 @@
-//! What a board may say that no board of ours says: none of it may end a program, fill its memory, or reach a
+//! Messages that no board of ours sends: none of them may end a program, fill its memory, or control a
 //! terminal.
 
 mod control;

@@ -1,4 +1,4 @@
-//! A board that lets go and never shows an image.
+//! A board that releases contacts and never sends an image.
 
 use super::stage::{events, frame, hello};
 use taxel::client::Client;
@@ -9,7 +9,7 @@ use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{ContactList, Report};
 
-/// A contact of which nothing is told.
+/// A contact without any values.
 fn at_rest() -> Placed {
     postcard::take_from_bytes(&[0; 512]).unwrap().0
 }

@@ -1,4 +1,4 @@
-//! Messages of a board that says whatever a test wants.
+//! Arbitrary messages of a board.
 
 use taxel::client::{Client, Event};
 use taxel_core::format::Micros;
@@ -9,12 +9,12 @@ use taxel_core::wire::{Hello, MAGIC, PROTOCOL, Report, encode, frame_bound};
 /// Longest message of these boards.
 const LONGEST: usize = 8192;
 
-/// A message in its frame of the wire.
+/// A message as a frame of the wire.
 pub fn frame(seq: u32, report: &Report<'_>) -> Vec<u8> {
     encode(&(seq, report), &mut vec![0; frame_bound(LONGEST)]).unwrap().to_vec()
 }
 
-/// A `Hello` of these bytes.
+/// A `Hello` with these bytes.
 pub fn hello_of(seq: u32, garment: &[u8], scene: &[u8], firmware: &str, time: Micros) -> Vec<u8> {
     let clock = postcard::to_allocvec(&time).unwrap();
     let report = Report::Hello(Hello {
@@ -35,7 +35,7 @@ pub fn hello(seq: u32, garment: &Garment, scene: &Scene, firmware: &str) -> Vec<
     hello_of(seq, &bytes[0], &bytes[1], firmware, Micros(1_000_000))
 }
 
-/// What a client makes of bytes.
+/// Events of a client for these bytes.
 pub fn events(client: &mut Client, bytes: &[u8]) -> Vec<Event> {
     bytes.iter().filter_map(|byte| client.push(*byte)).collect()
 }

@@ -1,4 +1,4 @@
-//! A board whose clock leaps to any time of 64 bits and back.
+//! A board whose clock jumps to any 64-bit time and back.
 
 use super::stage::{frame, hello, hello_of};
 use crate::sink::Sink;
@@ -34,7 +34,7 @@ const TIMES: [u64; 12] = [
     21_000,
 ];
 
-/// An image that stands alone, and what else tells a time, for each of these times.
+/// A key frame, and all other messages with a time, for each of these times.
 fn said() -> Vec<u8> {
     let garment = Garment::block();
     let mut bytes = hello(0, &garment, &Scene::shipped(), "taxel");
@@ -78,7 +78,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Shows what this board says in every way, and records it; the recording.
+/// Shows this board's messages in every way, and records them. Returns the recording.
 fn shown(name: &str, ros2: bool) -> PathBuf {
     let path = folder(name).join("it.mcap");
     let source = source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap();
@@ -102,7 +102,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
     shows.push(Box::new(taxel::foxglove::Publisher::new(Arc::new(taxel::foxglove::Hub::default()))));
     let (mut client, mut view) = (Client::new(), View::new(&source));
     let mut seen = Seen::new("it".into(), Some(1000.0));
-    // A host that asks for the time, so that answers are taken for a round trip.
+    // A host that requests the time, so that answers count as round trips.
     client.start(0).unwrap();
     for (now, part) in (1_000_000u64..).step_by(50_000).zip(said().chunks(200)) {
         client.tell_time(now);

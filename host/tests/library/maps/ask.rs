@@ -32,7 +32,7 @@ fn a_bad_answer_is_refused_with_its_line_or_asked_for_again() {
     for (good, bad, message) in [
         ("shape\n", "press\n", "line 2: concept press is named twice"),
         ("press > kindness", "press - kindness", "line 5: expected CAUSE > EFFECT"),
-        ("press > kindness", "force > kindness", "line 5: force is no concept"),
+        ("press > kindness", "force > kindness", "line 5: force is not a concept"),
         ("strong -", "strongly", "line 8: \"strongly\" is neither a number in -1 ..= 1 nor a term"),
         ("0.9", "1.9", "line 9: \"1.9\" is neither a number in -1 ..= 1 nor a term"),
         ("tanh", "relu", "line 10: expected bivalent, trivalent, sigmoid, tanh or positive"),
@@ -42,14 +42,14 @@ fn a_bad_answer_is_refused_with_its_line_or_asked_for_again() {
             "rise 0",
             "line 13: expected rise A B, fall A B, triangle A B C or trapezoid A B C D",
         ),
-        ("press rise", "weight rise", "line 13: weight is no source"),
+        ("press rise", "weight rise", "line 13: weight is not a source"),
         ("0 100 200\n", "0 200 100\n", "line 14: input shape: the points [0, 200, 200, 100] do not rise"),
     ] {
         let (refused, _) = asked(&ANSWERS.replacen(good, bad, 1), false);
         let refused = refused.unwrap_err();
         assert!(refused.starts_with(message), "{refused}");
     }
-    // To a person, the sentence is said and the question asked again.
+    // In a dialogue, the error is shown and the question repeated.
     let (map, said) = asked(&ANSWERS.replacen("strong -", "strongly\nstrong -", 1), true);
     assert_eq!(map, asked(ANSWERS, false).0);
     assert!(

@@ -1,4 +1,4 @@
-//! What `taxel fcm check` finds.
+//! Results of `taxel fcm check`.
 
 use crate::maps::files::map;
 use taxel::fcm::check::check;
@@ -43,7 +43,7 @@ fn what_nothing_reaches_is_named() {
     assert_eq!(
         found.warnings,
         [
-            "concept lonely has neither an input nor a cause: it stays as it starts",
+            "concept lonely has neither an input nor a cause: it keeps its initial value",
             "no input reaches the intention attack"
         ]
     );
@@ -51,14 +51,14 @@ fn what_nothing_reaches_is_named() {
 
 #[test]
 fn a_map_that_cycles_or_never_settles_is_named_with_its_inputs() {
-    // Two that put each other out, one step apart: from 0 with a push they swap for ever.
+    // Two that inhibit each other, one step apart: from 0 with a push they alternate for ever.
     let mut map = numbered(3, [(0, 1, 1.0), (1, 2, -1.0), (2, 1, 1.0)]);
     map.transfer = taxel_core::intent::Transfer::Trivalent;
     let found = check(&map).unwrap();
     let cycles = found.warnings.iter().find(|w| w.starts_with("cycles from ")).unwrap();
     assert!(cycles.contains("of 9 inputs, with period 4 from c0="), "{cycles}");
     assert!(found.warnings.contains(&"causes go round: c1 -> c2 -> c1".to_string()), "{:?}", found.warnings);
-    // Just past the edge of rest, a feedback grows by a ten-thousandth a step.
+    // Just beyond the limit of rest, a feedback grows by a ten-thousandth per step.
     map = numbered(2, [(0, 1, 0.0001), (1, 1, 1.0)]);
     map.concept[1].threshold = Some(0.0);
     map.transfer = taxel_core::intent::Transfer::Tanh;

@@ -1,4 +1,4 @@
-//! The graph.
+//! Drawings of maps.
 
 use taxel::fcm::{draw, load};
 

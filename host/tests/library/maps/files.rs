@@ -6,7 +6,7 @@ use taxel::fcm::map::MapFile;
 use taxel::fcm::{engine, load};
 use taxel_core::intent::{CONCEPTS, EDGES, MapConfig, Source, Touch, tactile};
 
-/// A map of everything that the format has.
+/// A map with every element of the format.
 pub const WHOLE: &str = r#"
 version = 1
 name = "whole"
@@ -62,7 +62,7 @@ fn a_file_survives_being_read_and_written() {
     let whole = map(WHOLE);
     assert_eq!(map(&toml::to_string(&whole).unwrap()), whole);
     let config: MapConfig = *whole.to_config().unwrap();
-    // What the core does not hold: terms, notes; a falling ramp is written as a rising one that ends lower.
+    // Not stored by the core: terms, notes; a falling ramp becomes a rising one that ends lower.
     let back = MapFile::from_config(&config);
     assert_eq!(*back.to_config::<CONCEPTS, EDGES>().unwrap(), config);
     assert_eq!(back.input[1], whole.input[1]);
@@ -94,7 +94,7 @@ fn memberships_are_what_the_board_computes() {
     assert_eq!(map(WHOLE).input[1].source, Some(Source::Host(3)));
 }
 
-/// The file's settings, thresholds of single concepts and terms reach both engines.
+/// Settings of the file, thresholds of single concepts and terms reach both engines.
 #[test]
 fn both_engines_take_the_whole_file() {
     let start = [("press".to_string(), Decimal::parse("0.3").unwrap())];
@@ -139,12 +139,12 @@ fn a_bad_file_is_refused_in_one_sentence() {
         (
             "strong -",
             "strongish -",
-            "map.toml, line 31, `weight`: \"strongish -\" is no weight: expected none, or weak, medium, strong, very strong followed by + or -",
+            "map.toml, line 31, `weight`: \"strongish -\" is not a weight: expected none, or weak, medium, strong, very strong followed by + or -",
         ),
         (
             "lambda",
             "lamda",
-            "map.toml, line 7: `lamda` is no key that is known here, did you mean `lambda`? Known are `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
+            "map.toml, line 7: `lamda` is not a known key, did you mean `lambda`? Known are `version`, `name`, `note`, `rule`, `transfer`, `lambda`, `threshold`, `held`, `concept`, `input`, `edge`",
         ),
         (
             "lambda = 2.5",

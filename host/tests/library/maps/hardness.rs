@@ -1,4 +1,4 @@
-//! A hard and a soft thing are told apart by how force and area grow, through the whole pipeline.
+//! Hard and soft objects are distinguished by the growth of force and area, through the whole pipeline.
 
 use taxel::fcm::map::MapFile;
 use taxel::process::Replay;
@@ -10,14 +10,14 @@ use taxel_core::intent::{IntentConfig, MapConfig};
 use taxel_core::scene::Scene;
 
 const SIDE: u16 = 24;
-/// Of panels whose pitch is not told.
+/// Pitch of panels without one.
 const PITCH_MM: [f64; 2] = [10.0, 10.0];
 const COUNTS_PER_NEWTON: f64 = 1000.0;
-/// Greatest force, N, and the frames until it is there.
+/// Greatest force, N, and the frames until it is reached.
 const FORCE: f64 = 20.0;
 const FRAMES: u32 = 30;
 
-/// A map that knows one thing of a touch: soft is kind, hard is a threat.
+/// A map with one input: soft is kind, hard is a threat.
 fn scene() -> Scene {
     let text = "name = \"feel\"\ntransfer = \"tanh\"\nlambda = 3\n[[concept]]\nname = \"hard\"\n[[concept]]\nname = \"kindness\"\n\
                 [[concept]]\nname = \"threat\"\n\
@@ -31,13 +31,12 @@ fn scene() -> Scene {
     scene
 }
 
-/// What is said at the greatest force of something that is pressed on a panel; `patch` is its size in mm at a
-/// force in N.
+/// Results at the greatest force of an object pressed on a panel; `patch` is its size in mm at a force in N.
 fn pressed(shape: Shape, patch: impl Fn(f64) -> [f64; 2]) -> (u32, String, Vec<f64>) {
     let mut replay = Replay::new(&Garment::recorded(SIDE, SIDE), &scene(), 4095).unwrap();
     let mut last = serde_json::Value::Null;
     for frame in 0..FRAMES + 10 {
-        // Half a cosine, after two frames of nothing.
+        // Half a cosine, after two empty frames.
         let part = (f64::from(frame.saturating_sub(2)) / f64::from(FRAMES)).min(1.0);
         let newton = FORCE * (0.5 - 0.5 * (part * std::f64::consts::PI).cos());
         let footprint = Footprint::build(shape, patch(newton.max(1e-3)), 0.0, PITCH_MM);
@@ -56,7 +55,7 @@ fn pressed(shape: Shape, patch: impl Fn(f64) -> [f64; 2]) -> (u32, String, Vec<f
     (cue, last["intent"]["leading"].as_str().unwrap().into(), concepts.to_vec())
 }
 
-/// Diameter of the patch of Hertz, mm, of a ball with a radius of 60 mm and a common modulus in kPa.
+/// Diameter of the Hertz patch, mm, of a ball with a radius of 60 mm and a combined modulus in kPa.
 fn hertz(newton: f64, kpa: f64) -> [f64; 2] {
     let diameter = 2.0 * (3.0 * newton * 60.0 / (4.0 * kpa * 1e-3)).cbrt();
     [diameter.max(4.0); 2]
@@ -74,7 +73,7 @@ fn soft_is_kind_and_hard_is_a_threat() {
     );
     assert_eq!((soft.1.as_str(), hard.1.as_str()), ("kindness", "threat"));
     assert_eq!((soft.2[0], hard.2[0]), (-1.0, 1.0));
-    // The ramp between its ends.
+    // On the ramp between its ends.
     let wanted = (f64::from(rubber.0) - 1_000.0) / 1_500.0 - 1.0;
     assert!((rubber.2[0] - wanted).abs() < 1e-4, "{} for {wanted}", rubber.2[0]);
 }

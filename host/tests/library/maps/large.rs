@@ -1,4 +1,4 @@
-//! Maps of 64 concepts go to a board by request, and it infers as the host does.
+//! Boards receive maps of 64 concepts by request, and infer like the host.
 
 use taxel::fcm::board::BoardMap;
 use taxel::fcm::map::MapFile;
@@ -12,11 +12,11 @@ use taxel_core::wire::{IntentReport, LONGEST_REQUEST, Receiver, Report, Request,
 
 const TAXELS: usize = 64;
 
-/// A board of a single block, and what it says.
+/// A board of a single block, and its output.
 struct Bench {
     board: Box<Board<TAXELS, 32>>,
     receiver: Box<Receiver<8192>>,
-    /// Frames so far.
+    /// Number of frames.
     frame: u64,
 }
 
@@ -27,7 +27,7 @@ impl Bench {
         Bench { board: Box::new(board), receiver: Box::new(Receiver::new()), frame: 0 }
     }
 
-    /// Everything that waits to be told at `now`.
+    /// Passes on everything that the board sends at `now`.
     fn told(&mut self, now: Micros, mut take: impl FnMut(Report<'_>)) {
         while let [byte, ..] = self.board.pending(now, &mut ()) {
             if let Some(body) = self.receiver.push(*byte) {
@@ -37,7 +37,7 @@ impl Bench {
         }
     }
 
-    /// Asks for something; why it is refused.
+    /// Sends a request. Returns the refusal, if any.
     fn ask(&mut self, request: &Request<'_>) -> Option<String> {
         let mut wire = vec![0; 2 * LONGEST_REQUEST];
         let frame = encode(request, &mut wire).unwrap().to_vec();
@@ -51,7 +51,7 @@ impl Bench {
         refusal
     }
 
-    /// A frame with as much on each of twenty taxels.
+    /// Scans a frame with this pressure on each of twenty taxels.
     fn scan(&mut self, press: u16) {
         let pressed = |taxel: u16| if (4..9).contains(&(taxel % 16)) { press } else { 0 };
         let codes: Vec<Code> = (0..TAXELS as u16).map(|taxel| Code(90 + pressed(taxel))).collect();
@@ -64,7 +64,7 @@ impl Bench {
         Micros(5_000 * self.frame)
     }
 
-    /// What is said of intentions while a touch comes, grows and goes.
+    /// Intentions reported during a touch that comes, grows and goes.
     fn touch(&mut self) -> Vec<IntentReport> {
         let mut reports = Vec::new();
         for frame in 0..60u16 {
@@ -78,23 +78,23 @@ impl Bench {
         reports
     }
 
-    /// It streams, and is tared with its next frames.
+    /// Starts streaming, and tares with the next frames.
     fn start(&mut self) {
         assert_eq!(self.ask(&Request::Tare { frames: 4 }), None);
         assert_eq!(self.ask(&Request::Start), None);
     }
 }
 
-/// The inputs of the shipped map, which are causes of 57 others in many ways, three of them the intentions;
-/// 64 in all.
+/// A map of 64 concepts: the inputs of the shipped map, which cause 57 others in many ways, three of them the
+/// intentions.
 fn large(edges: usize, rule: Rule, transfer: Transfer) -> MapConfig {
     let mut map = MapConfig { rule, transfer, lambda: 700, ..tactile() };
     map.concepts.truncate(7);
     map.inputs.retain(|input| input.concept < 4);
     map.concepts.extend((7..CONCEPTS).map(|at| name(&format!("c{at}"))));
     let effects = CONCEPTS - 4;
-    // Each concept but the inputs has a cause among these before any has a second, which is any other: causes
-    // go round.
+    // Each concept except for the inputs gets a cause among these first, then a second one, which is any
+    // other, so that there are rings.
     let edge = |k: usize| {
         let (round, effect) = (k / effects, k % effects);
         let from = if round == 0 { k % 4 } else { 4 + (effect + 7 * round) % effects };
@@ -144,7 +144,7 @@ fn a_board_infers_maps_of_64_concepts_as_the_host_does() {
     assert!(told > 15, "{told} reports of a touch");
 }
 
-/// The scene of a map as bytes, with one place changed.
+/// Encoded scene with a map, after an edit.
 fn changed(edit: impl Fn(&mut IntentConfig)) -> Vec<u8> {
     let mut scene = scene(tactile());
     edit(scene.intent.as_mut().unwrap());
@@ -188,7 +188,7 @@ fn a_bad_map_is_refused_in_one_sentence_and_changes_nothing() {
         assert_eq!(bench.ask(&Request::SetScene(&bytes)).as_deref(), Some(why));
         assert_eq!(bench.board.setup().scene, Scene::shipped());
     }
-    // The map that was there is in force, whole.
+    // The previous map is still in use, as a whole.
     let mut fresh = Bench::new();
     fresh.start();
     assert_eq!(fresh.touch(), before);
@@ -205,7 +205,7 @@ fn what_the_old_map_meant_is_not_told_as_the_new_one_s() {
     let mut bench = Bench::new();
     bench.start();
     bench.touch();
-    // The link takes nothing while a touch is felt, and then the map changes.
+    // The link accepts nothing during a touch, and then the map changes.
     (0..40).for_each(|frame| bench.scan(90 * frame));
     let scene = scene(large(EDGES, Rule::Kosko, Transfer::Tanh));
     let mut wire = vec![0; 2 * LONGEST_REQUEST];

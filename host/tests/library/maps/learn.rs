@@ -6,7 +6,7 @@ use taxel::fcm::map::MapFile;
 use taxel::fcm::weight::Weight;
 use taxel::fcm::{load, touches};
 
-/// Touches that the shipped map tells apart by a clear lead, labelled by it.
+/// Touches that the shipped map classifies with a clear lead, labelled by it.
 fn labelled(map: &MapFile) -> String {
     let board = BoardMap::build(map).unwrap();
     let of = |name: &str| map.find(name).unwrap();
@@ -69,7 +69,7 @@ fn a_spoilt_map_learns_again_and_keeps_what_the_expert_fixed() {
     assert_eq!(learn(&spoilt, &touches, 3).unwrap().map, learned.map, "the same again");
 }
 
-/// A map that is right already stays nearly as it is, and what has no say in the labels stays wholly.
+/// A map that is right already hardly changes, and weights without effect on the labels do not change.
 #[test]
 fn what_helps_nothing_stays() {
     let good = load::map("tactile").unwrap();
@@ -86,7 +86,7 @@ fn a_bad_table_is_refused_by_line() {
     for (text, message) in [
         ("", "it is empty"),
         ("press,time\n", "line 1: there is no column label"),
-        ("force,label\n", "line 1: column force is no concept of the map"),
+        ("force,label\n", "line 1: column force is not a concept of the map"),
         ("anger,label\n", "line 1: column anger is a concept that has causes"),
         ("press,label\n0.5\n", "line 2: 1 values, and there are 2 columns"),
         ("press,label\n0.5,attack\nNaN,none\n", "line 3: press = \"NaN\" is not a number in -1 ..= 1"),

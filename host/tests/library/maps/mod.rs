@@ -1,5 +1,5 @@
-//! Cognitive maps as files: what they say, what is found wrong with them, how experts' maps combine, why a
-//! map decides as it does, what it learns, how it is drawn and asked for.
+//! Files of cognitive maps: contents, checks, combination of experts' maps, explanations, learning, drawing,
+//! and creation by questions.
 
 mod ask;
 mod check;

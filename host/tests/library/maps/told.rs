@@ -1,4 +1,4 @@
-//! What a board announces is explained from its own numbers, live and from a recording.
+//! Announcements of a board are explained from its own numbers, live and from a recording.
 
 use std::path::PathBuf;
 use taxel::client::{Client, Event};
@@ -26,7 +26,7 @@ fn an_announced_intention_is_explained_as_the_board_inferred_it() {
         let parts: i32 = explained.why.parts.iter().map(|part| part.value.0).sum();
         assert_eq!(parts - explained.why.threshold.0, explained.why.sum.0);
         assert_eq!(explained.shares.sum(), i64::from(explained.why.sum.0));
-        // The same inputs lead to the same state here, so it is the map and the touch that are explained.
+        // The same inputs lead to the same state here, so the explained map and touch are the right ones.
         let again = explain(&told.map, &told.inputs(), Some(leading.as_str())).unwrap();
         assert_eq!((again.run.state, again.why), (explained.run.state, explained.why.clone()));
         assert_eq!((again.run.steps, again.run.outcome), (told.report.steps, told.report.outcome));
@@ -48,7 +48,7 @@ fn a_time_may_be_asked_for() {
     let (before, after) = (before.unwrap(), after.unwrap());
     assert_eq!((before.report.leading, after.report.leading), (Leading::None, Leading::Attack));
     assert_eq!(after.report, first.report);
-    // Nothing leads yet: the strongest is explained.
+    // Nothing leads yet: the strongest concept is explained.
     assert!(explain_told(&before, None).is_ok());
     assert!(explain_told(&before, Some("anger")).is_ok());
 }
@@ -56,20 +56,17 @@ fn a_time_may_be_asked_for() {
 #[test]
 fn where_there_is_nothing_to_explain_it_is_said() {
     let quiet = told("sim:idle", None).unwrap_err();
-    assert!(
-        quiet.ends_with("no intention was announced; --at S explains what was told until then"),
-        "{quiet}"
-    );
+    assert!(quiet.ends_with("no intention was announced; --at S explains the state at that time"), "{quiet}");
     let early = told("sim:lash", Some(0.0)).unwrap();
     assert_eq!((early.report.leading, explain_told(&early, None).unwrap().why.sum.0), (Leading::None, 0));
     let scene = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("silent.toml");
     std::fs::write(&scene, "[stream]\nintent = false\n").unwrap();
     let board = BoardArgs { scene: Some(scene), ..BoardArgs::of(spec("sim:lash")) };
     let silent = listen(board, Some(0.1)).unwrap_err().to_string();
-    assert!(silent.ends_with("nothing was told of an intention in the first 0.1 s"), "{silent}");
+    assert!(silent.ends_with("no intention was reported in the first 0.1 s"), "{silent}");
 }
 
-/// A map that knows nothing but how warm it is, which only a host can tell.
+/// A map of a single concept, the temperature, which only a host can feed.
 const WARM: &str = "name = \"warm\"\nlambda = 1\n[[concept]]\nname = \"warmth\"\n[[concept]]\nname = \"kindness\"\n\
                     [[input]]\nconcept = \"warmth\"\nsource = { host = 3 }\nrise = [-32768, 32768]\nat = [-1, 1]\n\
                     [[edge]]\nfrom = \"warmth\"\nto = \"kindness\"\nweight = 1\n";
@@ -93,7 +90,7 @@ fn what_the_host_feeds_counts_until_it_is_too_old() {
     assert_eq!(fed("warmth=0.75,200,100"), (0, Leading::None, 0));
 }
 
-/// Shows nothing.
+/// A view that shows nothing.
 struct Silent;
 
 impl Show for Silent {

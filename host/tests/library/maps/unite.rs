@@ -1,4 +1,4 @@
-//! Several maps as one.
+//! Uniting several maps.
 
 use crate::maps::files::map;
 use taxel::fcm::aggregate::Aggregation;
@@ -7,8 +7,7 @@ use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
 use taxel::fcm::unite::{Shared, unite};
 
-/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept that is named in
-/// `inputs`.
+/// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept in `inputs`.
 fn of(name: &str, concepts: &[&str], edges: &[(&str, &str, &str)], inputs: &[&str]) -> MapFile {
     let mut text = format!("name = \"{name}\"\n");
     concepts.iter().for_each(|concept| text += &format!("[[concept]]\nname = \"{concept}\"\n"));
@@ -52,9 +51,9 @@ fn experts_are_combined_and_their_disagreement_is_named() {
     assert!(united.conflicts.is_empty() && united.map.input.len() == 1);
     let text = table(&united);
     assert!(text.contains("weak - (anna), strong + (ben), none (carla); SIGNS CONFLICT"), "{text}");
-    // Which comes first is said with the greatest disagreement first.
+    // Edges are sorted by disagreement.
     assert!(text.find("shape -> attack").unwrap() < text.find("press -> attack").unwrap());
-    // The greatest membership: a repeated statement counts once.
+    // Maximum of the memberships: a repeated statement counts once.
     let max = unite(&experts(), "ours", Shared::Vote(Aggregation::Max)).unwrap();
     assert_eq!(max.map.edge[0].weight.value(), 0.5);
     assert_eq!(
@@ -88,19 +87,22 @@ fn maps_that_share_concepts_merge() {
     let names: Vec<&str> = united.map.concept.iter().map(|concept| concept.name.as_str()).collect();
     assert_eq!((names, united.map.edge.len()), (vec!["press", "attack", "vision"], 3));
     assert_eq!(united.map.input.len(), 1, "press has a cause now");
-    assert_eq!(united.conflicts, ["press is an input of touch and has causes in another: the causes count"]);
+    assert_eq!(
+        united.conflicts,
+        ["press is an input of touch and has causes in another: the causes are used"]
+    );
     let mut other = touch.clone();
     (other.name, other.lambda, other.input[0].rise) = ("other".into(), 2.0, Some([0, 50]));
     other.edge[0].weight = taxel::fcm::weight::Weight::Number(0.25);
     let error = unite(&[touch.clone(), other.clone()], "both", Shared::Agree).unwrap_err().to_string();
-    assert_eq!(error, "edge press -> attack is 0.5 in touch, 0.25 in other: --combine makes one of them");
+    assert_eq!(error, "edge press -> attack is 0.5 in touch, 0.25 in other: --combine makes them one");
     let united = unite(&[touch, other], "both", Shared::Combine(Aggregation::Sum)).unwrap();
     assert_eq!(united.map.edge[0].weight.value(), 0.38);
     assert_eq!(
         united.conflicts,
         [
-            "lambda of other is not that of touch, which counts",
-            "the input of press in other is not that of the map before, which counts"
+            "lambda of other differs from that of touch, which is used",
+            "the input of press in other differs from that of the map before, which is used"
         ]
     );
 }

@@ -1,4 +1,4 @@
-//! Explanations add up, whatever the map.
+//! Explanations add up, for any map.
 
 use crate::maps::files::map;
 use taxel::fcm::decimal::Decimal;
@@ -10,7 +10,7 @@ fn inputs(pairs: &[(&str, &str)]) -> Vec<(String, Decimal)> {
     pairs.iter().map(|(name, value)| (name.to_string(), Decimal::parse(value).unwrap())).collect()
 }
 
-/// Parts less the threshold are the sum; so are the shares; and the sum gives the activation.
+/// The parts minus the threshold are the sum; the shares are, too; and the sum gives the activation.
 fn adds_up(file: &MapFile, explained: &Explained) {
     let Explained { map, run, why, shares } = explained;
     let parts: i32 = why.parts.iter().map(|part| part.value.0).sum();
@@ -50,7 +50,7 @@ fn a_lash_is_an_attack_because_it_is_sudden_and_narrow() {
         (json["concept"].as_str(), json["sum_units"].as_i64()),
         (Some("attack"), Some(explained.shares.sum()))
     );
-    // What is felt about it goes back to what was measured.
+    // Feelings are traced back to measured inputs.
     let anger = explain(&file, &inputs(&measured), Some("anger")).unwrap();
     adds_up(&file, &anger);
     let way = |wanted: &[&str]| {
@@ -117,7 +117,7 @@ fn what_cannot_be_explained_is_refused() {
         "--input: anger has causes, which would overwrite it; --set holds it"
     );
     assert_eq!(refused(&[], Some("joy")), "map tactile: --of names the unknown concept joy");
-    assert_eq!(refused(&[], Some("press")), "press has no cause: it is as it was set");
+    assert_eq!(refused(&[], Some("press")), "press has no cause: its value was set");
     let lonely = map("name = \"m\"\n[[concept]]\nname = \"a\"\n");
     assert_eq!(explain(&lonely, &[], None).err().unwrap().to_string(), "no concept of the map has a cause");
 }

@@ -1,58 +1,58 @@
-//! What people do to a robot, and what a person who looks on would say to it.
+//! Families of touches, and a person's judgement of them.
 
 use taxel_core::garment::Garment;
 use taxel_core::intent::Leading;
 
-/// What a person would say to a touch.
+/// Judgement of a touch by a person.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wish {
-    /// It is kind: kindness is told, and nothing worse.
+    /// Kind: kindness is announced, and nothing worse.
     Kind,
-    /// It is well meant, or means nothing: kindness or nothing is told.
+    /// Friendly or meaningless: kindness or nothing is announced.
     Friendly,
-    /// It means nothing: nothing is told.
+    /// Meaningless: nothing is announced.
     Nothing,
-    /// It may startle: something is told once at most, and from then on nothing.
+    /// Possibly startling: at most one announcement, and nothing afterwards.
     Once,
-    /// It is a threat or an attack.
+    /// A threat or an attack.
     Harmful,
-    /// It is an attack.
+    /// An attack.
     Attack,
 }
 
-/// A kind of touch.
+/// A family of touches.
 #[derive(Debug, Clone, Copy)]
 pub struct Family {
-    /// What people call it.
+    /// Name.
     pub name: &'static str,
-    /// What they would say.
+    /// Judgement of a person.
     pub wish: Wish,
 }
 
-/// Gives the codes of the scan that starts at a time (us).
+/// Fills in the codes of the scan that starts at a time (us).
 pub type Scans = Box<dyn FnMut(u64, &mut [u16])>;
 
-/// One touch: when its force begins and ends, on what garment, seen how often.
+/// One touch, its garment and its frame rate.
 pub struct Act {
-    /// What it is.
+    /// Family of the touch.
     pub family: Family,
     /// Begin and end of its force, us.
     pub span: (u64, u64),
-    /// Time from frame to frame, us.
+    /// Frame period, us.
     pub period_us: u64,
-    /// What wears the touch.
+    /// The garment.
     pub garment: Garment,
-    /// In numbers, for whoever looks for why it was misunderstood.
+    /// Parameters, to analyse a failure.
     pub note: String,
     /// The codes of the scan that starts at a time (us).
     pub codes: Scans,
 }
 
-/// What was announced, and how long after the begin of its force (ms).
+/// Announcements, with the time since the begin of the force (ms).
 pub type Told = Vec<(Leading, i64)>;
 
 impl Wish {
-    /// Whether a person would agree with what was announced, to a touch that lasts so long.
+    /// True if a person would agree with the announcements for a touch of this duration.
     pub fn agrees(self, told: &Told, lasts_ms: i64) -> bool {
         let any = |of: Leading| told.iter().any(|(leading, _)| *leading == of);
         let harm = any(Leading::Threat) || any(Leading::Attack);

@@ -1,11 +1,11 @@
-//! Names and words do not flicker: what a touch is called changes when it does, not with each frame.
+//! Names and words do not flicker: they change with the touch, not with each frame.
 
 use crate::meaning::family::{Act, Family};
 use crate::meaning::judge::play;
 use crate::meaning::{scripted, strangers};
 use taxel_core::contact::Phase;
 
-/// What was said of one touch.
+/// Changes during one touch.
 #[derive(Default)]
 struct Count {
     seconds: f64,
@@ -16,7 +16,7 @@ struct Count {
     events: usize,
 }
 
-/// Families, and how one of them touches.
+/// Families, and the function that makes their touches.
 type Author = (&'static [Family], fn(usize, u64) -> Act);
 
 fn count(mut act: Act) -> Count {
@@ -48,7 +48,7 @@ fn a_held_touch_keeps_its_name() {
                 let count = count(act(family, seed));
                 let Count { seconds, ids, classes, moves, events } = count;
                 println!("{name:<12} {author:<10} {seconds:8.1} {ids:5} {classes:8} {moves:6} {events:7}");
-                // Each contact may find its class, and one a second may change it.
+                // Each contact may change its class once at first, and once per second.
                 assert!(classes as f64 <= ids as f64 + seconds, "{name} of {author}");
                 assert!(moves as f64 <= 2.0 * ids as f64 + 2.0 * seconds, "{name} of {author}");
             }

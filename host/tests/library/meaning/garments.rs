@@ -1,4 +1,4 @@
-//! The same touch on random garments and at random rates: the same contacts, words and intentions as on the
+//! Touches on random garments and at random frame rates: the same contacts, words and intentions as on the
 //! reference garment at 195 frames/s. `TAXEL_CAMPAIGN=1`: 1,000 of them instead of 100.
 
 use crate::meaning::family::Act;
@@ -11,28 +11,28 @@ use taxel_core::contact::Phase;
 use taxel_core::garment::Garment;
 use taxel_core::symbol::{Symbol, SymbolConfig};
 
-/// From frame to frame of the reference, us.
+/// Frame period of the reference, us.
 const PERIOD_US: u64 = 5_128;
-/// A taxel with that pressure is full, or nearly.
+/// Pressure at which a taxel is nearly saturated.
 const FULL: u16 = 3_800;
-/// A signal that is clear of the threshold of contacts, which is 40: counts of a taxel.
+/// Signal of a taxel clearly above the threshold of contacts, which is 40, counts.
 const CLEAR: u16 = 240;
 /// Taxels from which on a touch covers 3 x 3.
 const LARGE: u16 = 9;
 
-/// What is perceived of one touch.
+/// Perception of one touch.
 #[derive(Default)]
 struct Heard {
-    /// Time (ms) and pressure of all contacts together (counts), while something touches.
+    /// Time (ms) and total pressure (counts) while there is a contact.
     course: Vec<(f64, u64)>,
     /// Greatest pressure of a taxel.
     peak: u16,
     /// Most taxels of a contact, and its greatest area.
     taxels: u16,
     area_cm2: f64,
-    /// What was said of the strongest contact when it was released.
+    /// Symbol of the strongest contact at its release.
     symbol: Option<Symbol>,
-    /// What was announced.
+    /// Announced intentions.
     led: BTreeSet<&'static str>,
 }
 
@@ -73,20 +73,20 @@ impl Heard {
         self.course.last().map_or(0.0, |(t, _)| t - self.onset())
     }
 
-    /// Until four fifths of the force are there, ms.
+    /// Time until four fifths of the force are reached, ms.
     fn rise(&self) -> f64 {
         let most = self.force();
         let risen = self.course.iter().find(|(_, force)| force * 5 >= most * 4);
         risen.map_or(0.0, |(t, _)| t - self.onset())
     }
 
-    /// Whether a word for what was measured may as well be the next one: the measure is within 15 % of the
+    /// True if the word for a measure may also be the neighbouring one: the measure is within 15 % of the
     /// limit between them.
     fn near(measure: f64, limits: &[f64]) -> bool {
         limits.iter().any(|limit| (measure / limit - 1.0).abs() < 0.15)
     }
 
-    /// Whether another was called the same, as far as its measures are clear of the limits between the words.
+    /// True if both have the same words, as far as the measures are not near a limit.
     fn is_called_as(&self, other: &Heard) -> bool {
         let (Some(a), Some(b)) = (self.symbol, other.symbol) else { return false };
         let SymbolConfig { strength, extent, span_ms } = SymbolConfig::default();
@@ -111,7 +111,7 @@ impl fmt::Display for Heard {
     }
 }
 
-/// A garment of one to four panels, each of which a hand fits on.
+/// A garment of one to four panels, each large enough for a hand.
 fn garment(random: &mut Rng) -> Garment {
     loop {
         let mut garment = Garment::reference();
@@ -135,23 +135,24 @@ fn garment(random: &mut Rng) -> Garment {
     }
 }
 
-/// Of how many touches something was compared, and in how many it agreed.
+/// Number of touches compared, and of those that agreed.
 #[derive(Default, Clone, Copy)]
 struct Tally {
     compared: usize,
     agreed: usize,
 }
 
-/// Touches that are no touch, or that lie elsewhere on another garment: arms and fingers as far apart as its
+/// Families that are not a touch, or whose place depends on the garment: arms, and fingers as far apart as
+/// its panels are wide.
 /// panels are wide.
 const ELSEWHERE: [&str; 5] = ["drift", "breath", "drops", "hug", "stroke by fingers"];
 
-/// What is compared, and of how many in a hundred it has to agree. A touch that comes slowly begins when a
-/// taxel has 40 counts, which smaller taxels have later.
+/// Compared properties, with the least percentage of agreement. A slow touch begins when a taxel has 40
+/// counts, which is later on smaller taxels.
 const COMPARED: [(&str, usize); 5] =
     [("onset", 80), ("duration", 92), ("force", 99), ("words", 95), ("intention", 90)];
 
-/// A touch on the reference garment and on another, and what was heard of it.
+/// A touch on the reference garment and on another, with both perceptions.
 struct Pair {
     title: String,
     period_us: u64,
@@ -160,7 +161,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Where it is clear on both garments, and both rates resolve it.
+    /// None unless the touch is clear on both garments, and resolved at both rates.
     fn of(seed: u64) -> Option<Pair> {
         let mut random = Rng::with_seed(seed);
         let known: Vec<usize> =
@@ -182,7 +183,7 @@ impl Pair {
         (have.peak >= CLEAR).then_some(Pair { title, period_us, want, have })
     }
 
-    /// Whether they agree in each of [`COMPARED`]; none where that is not to be compared.
+    /// Agreement in each of [`COMPARED`]; none where a comparison makes no sense.
     fn agrees(&self) -> [Option<bool>; 5] {
         let Pair { want, have, .. } = self;
         let frames = 2.0 * self.period_us.max(PERIOD_US) as f64 / 1e3;

@@ -1,5 +1,4 @@
-//! The judge: every touch through the pipeline with the shipped scene, and a table by family of what was said
-//! to it.
+//! Runs every touch through the pipeline with the shipped scene, and tabulates the announcements by family.
 
 use crate::meaning::family::{Act, Family, Told, Wish};
 use crate::meaning::{scripted, strangers};
@@ -12,22 +11,22 @@ use taxel_core::scene::Scene;
 const TAXELS: usize = 2048;
 /// Time of the tare at the start, us.
 const TARE_US: u64 = 200_000;
-/// How long after the end of its force what is announced still belongs to a touch, us.
+/// Time after the end of its force in which announcements still belong to a touch, us.
 const AFTER_US: u64 = 1_500_000;
-/// Each frame's time is irregular by up to this part of the period.
+/// Jitter of the frames, as a share of the period.
 const JITTER: f64 = 0.05;
 
-/// What was said to one touch.
+/// Result of one touch.
 pub struct Verdict {
     pub told: Told,
-    /// Whether a person would agree.
+    /// True if a person would agree.
     pub agreed: bool,
-    /// Pins for an attack that were driven.
+    /// Number of pins driven because of an attack.
     pub flinches: usize,
     pub note: String,
 }
 
-/// Plays one touch frame by frame, with a tare before it; calls `see` with the time and what was perceived.
+/// Plays one touch frame by frame, with a tare before it; calls `see` with the time and the percept.
 pub fn play(act: &mut Act, mut see: impl FnMut(u64, &Percept<'_>)) {
     let layout = Layout::build(&act.garment, TAXELS, 4095).expect("the garment is good");
     let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
@@ -45,7 +44,7 @@ pub fn play(act: &mut Act, mut see: impl FnMut(u64, &Percept<'_>)) {
     }
 }
 
-/// What is said to one touch.
+/// Result of one touch.
 pub fn hear(mut act: Act) -> Verdict {
     let (mut told, mut flinches, begin) = (Told::new(), 0, act.span.0);
     play(&mut act, |now, percept| {
@@ -59,7 +58,7 @@ pub fn hear(mut act: Act) -> Verdict {
     Verdict { agreed: act.family.wish.agrees(&told, lasts_ms), told, flinches, note: act.note }
 }
 
-/// One line of the table.
+/// A row of the table.
 pub struct Row {
     pub family: Family,
     pub count: usize,
@@ -68,7 +67,7 @@ pub struct Row {
     pub threat: usize,
     pub attack: usize,
     pub flinches: usize,
-    /// Until the first word, ms, ascending.
+    /// Delays of the first announcement, ms, ascending.
     pub delays: Vec<i64>,
     pub wrong: Vec<String>,
 }
@@ -95,7 +94,7 @@ impl Row {
         }
     }
 
-    /// Pins that were driven though a person would not have called it an attack.
+    /// Pins driven although a person would not have called it an attack.
     pub fn false_reflexes(&self) -> usize {
         let harmless = !matches!(self.family.wish, Wish::Harmful | Wish::Attack);
         if harmless { self.flinches } else { 0 }
@@ -118,14 +117,14 @@ impl Row {
     }
 }
 
-/// Parts of all touches of the rows that a choice takes.
+/// Share of right touches among the selected rows.
 fn share(rows: &[Row], of: impl Fn(&Row) -> bool, right: impl Fn(&Row) -> usize) -> f64 {
     let chosen = || rows.iter().filter(|row| of(row));
     let count: usize = chosen().map(|row| row.count).sum();
     chosen().map(right).sum::<usize>() as f64 / count as f64
 }
 
-/// Holds a table against the bars.
+/// Checks a table against the required figures.
 pub fn judge(rows: &[Row]) {
     let friendly = |row: &Row| matches!(row.family.wish, Wish::Kind | Wish::Friendly);
     let harmful = |row: &Row| matches!(row.family.wish, Wish::Harmful | Wish::Attack);
@@ -148,7 +147,7 @@ pub fn judge(rows: &[Row]) {
     shares.iter().for_each(|(what, bar, have)| assert!(have >= bar, "{what}: {have}"));
 }
 
-/// The rows of both authors, `each` touches of each family.
+/// Rows of both authors, with `each` touches of each family.
 pub fn table(each: u64) -> Vec<Row> {
     println!("family             wish      count agreed kindness threat attack first, ms false reflexes");
     let mut rows = Vec::new();

@@ -1,4 +1,4 @@
-//! The same touch in millimetres, newtons and seconds means the same on any garment, seen at any rate that
+//! A touch in millimetres, newtons and seconds has the same meaning on any garment, at any frame rate that
 //! resolves it.
 
 use crate::meaning::family::Act;
@@ -7,16 +7,16 @@ use crate::meaning::strangers::{self, FAMILIES, Make};
 use std::collections::BTreeSet;
 use taxel_core::garment::Garment;
 
-/// What is announced of a touch, in any order; "none" says nothing of its own.
+/// Intentions announced for a touch, in any order, except for "none".
 fn said(act: Act) -> BTreeSet<&'static str> {
     let told = hear(act).told;
     told.iter().map(|(leading, _)| leading.as_str()).filter(|word| *word != "none").collect()
 }
 
-/// Frames per second from 25 to 1,562, as periods in us.
+/// Frame periods in us, for 25 to 1,562 frames per second.
 const PERIODS_US: [u64; 6] = [40_000, 20_000, 10_000, 5_128, 2_000, 640];
 
-/// A blow that is over within a frame may have come slowly: it takes two frames in its time.
+/// A blow within one frame may have been slow: it takes two frames to be resolved.
 fn is_resolved(family: &str, period_us: u64) -> bool {
     let quick = ["slap of 80 N", "punch", "lash", "stab"].contains(&family);
     !quick || period_us <= 5_128

@@ -1,8 +1,8 @@
-//! Twenty families by the author of the map: the simulator's own scripts, with its footprints and half-cosines.
+//! Twenty families of touches by the author of the map: the simulator's scripts, with its footprints and
+//! half-cosines.
 //!
-//! Forces are newtons, lengths mm, times seconds. Places, sizes and tempo are by chance; every second touch
-//! is on the mat, and the spread of gains, the hysteresis and the noise of the taxels differ from touch to
-//! touch.
+//! Forces are newtons, lengths mm, times seconds. Places, sizes and tempo are random; every second touch is
+//! on the mat; the spread of gains, the hysteresis and the noise of the taxels differ between touches.
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;
@@ -33,10 +33,10 @@ pub const FAMILIES: [Family; 20] = [
     Family { name: "punch", wish: Wish::Attack },
 ];
 
-/// When the first touch begins: the garment is tared by then, s.
+/// Begin of the first touch, after the tare, s.
 const BEGIN_S: f64 = 0.8;
 
-/// The touch of that number of a family.
+/// Touch `number` of a family.
 pub fn act(family: usize, number: u64) -> Act {
     let mut rng = Rng::with_seed(0x70_75c4 + 1000 * family as u64 + number);
     let garment = if number.is_multiple_of(2) { Garment::reference() } else { Garment::mat() };
@@ -64,7 +64,7 @@ pub fn act(family: usize, number: u64) -> Act {
     }
 }
 
-/// A script with a garment that is not ideal.
+/// A script on an imperfect garment.
 fn script(duration_s: f64, touches: Vec<Touch>, rng: &mut Rng) -> Script {
     let mut script =
         Script::parse(&format!("duration_s = {duration_s}"), "families.toml").expect("it is short");
@@ -81,7 +81,7 @@ fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
     low + rng.f64() * (high - low)
 }
 
-/// Who touches.
+/// A simulated toucher.
 struct Hand<'a> {
     rng: Rng,
     garment: &'a Garment,
@@ -95,7 +95,7 @@ impl Hand<'_> {
         between(&mut self.rng, low, high)
     }
 
-    /// One touch: what, how large, where (parts of the panel), how.
+    /// A touch with this shape, size, place (shares of the panel) and course.
     fn touch(&mut self, panel: usize, shape: Shape, size: [f64; 2], at: [f64; 2], course: Course) -> Touch {
         let panel = &self.garment.panels[panel % self.garment.panels.len()];
         let mm =
@@ -115,14 +115,14 @@ impl Hand<'_> {
         }
     }
 
-    /// The same in the middle of a panel, more or less, in any direction.
+    /// A touch near the middle of a panel, in any direction.
     fn middle(&mut self, shape: Shape, size: [f64; 2], course: Course) -> Touch {
         let (panel, at) = (self.rng.usize(..4), [self.pick([0.4, 0.6]), self.pick([0.35, 0.65])]);
         let angle_deg = self.pick([0.0, 180.0]);
         Touch { angle_deg, ..self.touch(panel, shape, size, at, course) }
     }
 
-    /// A palm of somebody's.
+    /// A palm of random size.
     fn palm(&mut self, course: Course) -> Touch {
         let size = [self.pick([85.0, 115.0]), self.pick([70.0, 95.0])];
         self.middle(Shape::Palm, size, course)

@@ -1,9 +1,9 @@
-//! Twenty families in another hand: patches of pressure that fall off as powers, forces of logistic edges,
-//! gamma pulses and waves, on another garment. It shares no code with the simulator's scripts. It was written
-//! before the map was, whose weights were then chosen with it in sight.
+//! Twenty families of touches by an independent simulator: pressure that falls off with powers, logistic
+//! edges of force, gamma pulses and waves, on another garment. It shares no code with the simulator's
+//! scripts. It was written before the map, whose weights were then chosen with its results in view.
 //!
-//! A taxel here is one sample of the pressure at four points; it saturates, creeps and hums by its own laws.
-//! The garments are the reference garment and a sheet of 27 columns with a pitch of 9 x 11 mm.
+//! A taxel samples the pressure at four points; it saturates, creeps and hums by its own laws. The garments
+//! are the reference garment and a sheet of 27 columns with a pitch of 9 x 11 mm.
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;
@@ -33,7 +33,7 @@ pub const FAMILIES: [Family; 20] = [
     Family { name: "push", wish: Wish::Harmful },
 ];
 
-/// When the first force begins, s.
+/// Begin of the first force, s.
 const BEGIN_S: f64 = 0.9;
 
 /// A patch of pressure that falls as `(1 - r^4)` from its centre to its edge.
@@ -41,18 +41,18 @@ struct Patch {
     /// Half axes, mm, and direction, radians.
     half: [f64; 2],
     angle: f64,
-    /// Centre in parts of the panel, and how it moves, mm/s.
+    /// Centre as shares of the panel, and its velocity, mm/s.
     at: [f64; 2],
     speed: [f64; 2],
     panel: usize,
     force: Force,
 }
 
-/// Newtons over seconds since its begin.
+/// Force in newtons over seconds since its begin.
 enum Force {
-    /// Logistic edges: rises about a time, ends about another; widths (s), a wave on it (part, Hz).
+    /// Logistic edges: centre and width (s) of rise and fall, and a wave on top (share, Hz).
     Plateau { newtons: f64, up: [f64; 2], down: [f64; 2], wave: [f64; 2] },
-    /// Pulses `(t/p)^2 exp(2 - 2 t/p)` that begin at those times.
+    /// Pulses `(t/p)^2 exp(2 - 2 t/p)` at these begins.
     Pulses { newtons: f64, peak_s: f64, begins: Vec<f64> },
 }
 
@@ -74,7 +74,7 @@ impl Force {
         }
     }
 
-    /// Until when it lasts, s.
+    /// End, s.
     fn end_s(&self) -> f64 {
         match self {
             Force::Plateau { down: [middle, width], .. } => middle + 5.0 * width,
@@ -83,22 +83,22 @@ impl Force {
     }
 }
 
-/// What the taxels are like.
+/// Kind of taxels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Make {
-    /// Alike, and without a memory.
+    /// Equal, without memory.
     Even,
-    /// Of unequal gain; they creep under a load.
+    /// Of unequal gain, with creep under load.
     Worn,
 }
 
-/// The touch of that number of a family.
+/// Touch `number` of a family.
 pub fn act(family: usize, number: u64) -> Act {
     let garment = if number.is_multiple_of(2) { Garment::reference() } else { sheet() };
     worn(family, number, (garment, Make::Worn), None)
 }
 
-/// The same on any garment, seen once in a period (us).
+/// The touch on any garment, with this frame period (us).
 pub fn worn(family: usize, number: u64, (garment, make): (Garment, Make), period_us: Option<u64>) -> Act {
     let mut rng = Rng::with_seed(0x5742_0000 ^ (family as u64) << 8 ^ number);
     let Family { name, .. } = FAMILIES[family];
@@ -139,7 +139,7 @@ pub fn sheet() -> Garment {
     garment
 }
 
-/// Who touches.
+/// A simulated toucher.
 struct Stranger {
     rng: Rng,
 }
@@ -165,7 +165,7 @@ impl Stranger {
         self.patch(half, force)
     }
 
-    /// Edges that take about `rise` and `fall` seconds.
+    /// A plateau with edges of about `rise` and `fall` seconds.
     fn plateau(&mut self, newtons: [f64; 2], rise: [f64; 2], hold: [f64; 2]) -> Force {
         let (rise, hold) = (self.within(rise[0], rise[1]), self.within(hold[0], hold[1]));
         let fall = self.within(0.6, 1.2) * rise.max(0.06);
@@ -307,7 +307,7 @@ struct Cloth {
     rest: Vec<f64>,
     gain: Vec<f64>,
     creep: Vec<f64>,
-    /// Part of a force that a taxel creeps by.
+    /// Share of a force by which a taxel creeps.
     memory: f64,
     drift: f64,
     newtons: Vec<f64>,
@@ -344,7 +344,7 @@ impl Cloth {
         }
     }
 
-    /// The codes of a scan that starts so long after the first force began and takes 5 ms.
+    /// Codes of a scan that starts `start_s` after the first force began, and takes 5 ms.
     fn scan(&mut self, start_s: f64, patches: &[Patch], codes: &mut [u16]) {
         self.newtons.fill(0.0);
         for patch in patches {

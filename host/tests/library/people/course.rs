@@ -1,4 +1,4 @@
-//! How force runs over a touch: pulses of impact, minimum jerk, tremor. None is a half-cosine.
+//! Time courses of force: pulses of impact, minimum jerk, tremor. None is a half-cosine.
 
 use fastrand::Rng;
 
@@ -9,7 +9,7 @@ pub enum Course {
     Pulses {
         /// Time to the peak, s.
         peak_s: f64,
-        /// How sudden it is.
+        /// Steepness.
         n: f64,
         /// Begins and sizes of the pulses, s.
         each: Vec<(f64, f64)>,
@@ -18,29 +18,29 @@ pub enum Course {
     Grip {
         /// Time to full force, s.
         rise_s: f64,
-        /// By how much more it presses at first.
+        /// Overshoot at first.
         over: f64,
-        /// Part of the force and frequency (Hz) of the tremor.
+        /// Share of the force and frequency (Hz) of the tremor.
         tremor: (f64, f64),
-        /// When it lets go, and how long that takes, s.
+        /// Time and duration of the release, s.
         release_s: (f64, f64),
     },
-    /// Friction varies under a hand that moves on.
+    /// Varying friction under a moving hand.
     Glide {
         /// Length, s.
         length_s: f64,
-        /// Time constant of its coming and going, s.
+        /// Time constant of onset and release, s.
         edge_s: f64,
-        /// Part of the force and frequency (Hz) by which it varies.
+        /// Share of the force and frequency (Hz) of the variation.
         wave: (f64, f64),
     },
-    /// A blow whose weight follows: a sharp pulse, and a broader one on top.
+    /// A blow followed by weight: a sharp pulse, and a broader one on top.
     Blow {
         /// Time to the peak of the sharp one, s.
         sharp_s: f64,
         /// Time to the peak of the broad one, s.
         broad_s: f64,
-        /// Its part.
+        /// Share of the broad one.
         part: f64,
     },
 }
@@ -70,7 +70,7 @@ impl Course {
         Course::Pulses { peak_s, n, each: (0..count).map(|_| next(rng)).collect() }
     }
 
-    /// When a pulse has fallen to a hundredth, s.
+    /// Time until a pulse has fallen to a hundredth, s.
     fn lasts(peak_s: f64, n: f64) -> f64 {
         (1..)
             .map(|tenth| peak_s * f64::from(tenth) / 10.0)
@@ -92,7 +92,7 @@ impl Course {
         }
     }
 
-    /// The force `t` seconds after its begin.
+    /// Force `t` seconds after its begin.
     pub fn at(&self, t: f64) -> f64 {
         if !(0.0..=self.length_s()).contains(&t) {
             return 0.0;

@@ -1,5 +1,5 @@
-//! A second family of touches, of other courses and footprints. The shipped map's weights were chosen with
-//! both in sight.
+//! A second family of touches, with other time courses and footprints. The shipped map's weights were chosen
+//! with the results of both in view.
 //!
 //! | kind | where | newtons | how |
 //! |---|---|--:|---|
@@ -9,7 +9,7 @@
 //! | hold | hand | 24 to 70 | minimum jerk in 0.2 to 0.5 s, tremor, 1 to 2.5 s |
 //! | grab | hand | 24 to 60 | minimum jerk in 0.13 to 0.3 s, up to 30 % too far, 0.3 to 0.9 s |
 //! | slap | hand | 24 to 90 | a sharp pulse in 7 to 18 ms, weight after it |
-//! | punch | fist | 40 to 160 | the same in 8 to 22 ms |
+//! | punch | fist | 40 to 160 | a sharp pulse in 8 to 22 ms, weight after it |
 //! | lash | bent strap, landing end after end | 20 to 60 | a pulse, 5 to 15 ms to the peak |
 
 use crate::people::course::Course;
@@ -19,7 +19,7 @@ use crate::people::skin::Skin;
 use fastrand::Rng;
 use taxel_core::garment::Garment;
 
-/// Somebody who touches one of two garments with hands of their own size and a tempo of their own.
+/// A person who touches one of two garments, with hands of an individual size and an individual tempo.
 pub struct Person {
     garment: Garment,
     skin: Skin,
@@ -28,20 +28,20 @@ pub struct Person {
     newtons: Vec<f64>,
 }
 
-/// One thing that is done.
+/// One touch.
 struct Touch {
     panel: usize,
     print: Print,
     course: Course,
     newtons: f64,
     begin_s: f64,
-    /// Centre at the begin, mm; speed, mm/s; how fast the way turns, radians per second.
+    /// Initial centre, mm; speed, mm/s; turning rate of the path, radians per second.
     at: [f64; 2],
     speed: [f64; 2],
     turning: f64,
 }
 
-/// How somebody is.
+/// Habits of a person.
 struct Habit {
     size: f64,
     tempo: f64,
@@ -53,14 +53,14 @@ impl Habit {
         low + self.rng.f64() * (high - low)
     }
 
-    /// A duration, in this person's tempo.
+    /// A duration in this person's tempo.
     fn time(&mut self, low: f64, high: f64) -> f64 {
         self.pick(low, high) * self.tempo
     }
 }
 
 impl Person {
-    /// Somebody by number, who does everything so many times, in any order.
+    /// Person `number`, who does everything `of_each` times, in random order.
     pub fn new(number: u64, of_each: usize) -> Person {
         let mut rng = Rng::with_seed(0xface_0000 ^ number.wrapping_mul(0x9e37_79b9));
         let garment = if number.is_multiple_of(2) { Garment::reference() } else { Garment::mat() };
@@ -160,7 +160,7 @@ impl Habit {
             Kind::Lash => {
                 let (length, width) = (self.pick(140.0, 240.0), self.pick(14.0, 32.0));
                 let lands_s = self.pick(0.003, 0.012);
-                // Along the panel, more or less.
+                // Roughly along the panel.
                 let angle = std::f64::consts::FRAC_PI_2 + self.pick(-0.5, 0.5);
                 Print::strap(length, width, angle, lands_s, &mut self.rng)
             }
@@ -170,14 +170,14 @@ impl Habit {
 }
 
 impl Touch {
-    /// Centre so long after the begin, mm: the way is an arc.
+    /// Centre at a time after the begin, mm: the path is an arc.
     fn centre(&self, t: f64) -> [f64; 2] {
         let (sin, cos) = (self.turning * t).sin_cos();
         let turned = [self.speed[0] * cos - self.speed[1] * sin, self.speed[0] * sin + self.speed[1] * cos];
         [self.at[0] + turned[0] * t, self.at[1] + turned[1] * t]
     }
 
-    /// Adds what lies on each taxel of a scan that starts at a time and takes 5 ms, N.
+    /// Adds the force on each taxel of a scan that starts at a time and takes 5 ms, N.
     fn add(&self, start_s: f64, skin: &Skin, newtons: &mut [f64]) {
         let (first, columns, rows, pitch) = skin.panels[self.panel];
         let [x, y] = self.centre(start_s - self.begin_s);

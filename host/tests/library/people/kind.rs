@@ -1,4 +1,4 @@
-//! What people do to a garment, and what they mean by it.
+//! Kinds of touches, and the intentions behind them.
 
 use taxel_core::intent::Leading;
 
@@ -28,7 +28,7 @@ impl Kind {
     pub const ALL: [Kind; 8] =
         [Kind::Pat, Kind::Stroke, Kind::Tap, Kind::Hold, Kind::Grab, Kind::Slap, Kind::Punch, Kind::Lash];
 
-    /// What is meant by it.
+    /// The intention.
     pub fn meaning(self) -> Leading {
         match self {
             Kind::Pat | Kind::Stroke | Kind::Tap => Leading::Kindness,
@@ -38,23 +38,23 @@ impl Kind {
     }
 }
 
-/// Something that somebody did.
+/// One act of a person.
 #[derive(Debug, Clone)]
 pub struct Act {
-    /// What.
+    /// Kind.
     pub kind: Kind,
     /// Begin and end of its force, us.
     pub span: (u64, u64),
-    /// In numbers, for whoever looks for why it was misunderstood.
+    /// Parameters, to analyse a failure.
     pub note: String,
 }
 
-/// What one person does to a garment, one thing after the other.
+/// Acts of one person on a garment, one after the other.
 pub trait Session {
-    /// What the garment is.
+    /// The garment.
     fn garment(&self) -> taxel_core::garment::Garment;
-    /// What is done, in order of time, with pauses of at least 0.9 s.
+    /// Acts in order of time, with pauses of at least 0.9 s.
     fn acts(&self) -> &[Act];
-    /// The codes of the scan that starts at that time, us.
+    /// Fills in the codes of the scan that starts at this time, us.
     fn frame(&mut self, start_us: u64, codes: &mut [u16]);
 }

@@ -1,9 +1,9 @@
-//! What people mean: touches in newtons through the whole board, with the shipped map and every default.
+//! Intentions of people's touches in newtons, through the whole board, with the shipped map and all defaults.
 //!
-//! The map was tuned on the sessions of `scripted.rs` only; it is judged by those of `hands.rs`, which have
-//! other envelopes, footprints, ways, noise and garments, and share no code with them. The gravest intention
-//! announced during a touch counts. `TAXEL_CAMPAIGN=1`: 25 touches of each kind from each person instead of
-//! one.
+//! The map was tuned only on the sessions of `scripted.rs`; it is judged by those of `hands.rs`, which have
+//! other time courses, footprints, paths, noise and garments, and share no code with them. The gravest
+//! intention announced during a touch counts. `TAXEL_CAMPAIGN=1`: 25 touches of each kind by each person
+//! instead of one.
 
 mod course;
 mod hands;

@@ -1,5 +1,4 @@
-//! Where a touch presses: a hand's palm and fingers, a fist's knuckles, a strap that bends, as domes of
-//! pressure.
+//! Footprints as domes of pressure: palm and fingers of a hand, knuckles of a fist, a strap that bends.
 
 use fastrand::Rng;
 
@@ -11,19 +10,19 @@ struct Dome {
     /// Half axes, mm.
     half: [f64; 2],
     power: f64,
-    /// Part of the pressure.
+    /// Share of the pressure.
     weight: f64,
-    /// When it lands after the first, s.
+    /// Delay of its landing after the first, s.
     late_s: f64,
 }
 
-/// Domes, turned, whose shares are of the whole force.
+/// Turned domes whose shares add up to the whole force.
 #[derive(Debug, Clone)]
 pub struct Print {
     domes: Vec<Dome>,
     turn: (f64, f64),
     whole: f64,
-    /// No dome reaches farther from the centre, mm.
+    /// Reach of all domes from the centre, mm.
     pub reach: f64,
 }
 
@@ -39,7 +38,7 @@ impl Print {
         }
     }
 
-    /// A palm and four fingers of a hand of that size (1: 85 mm broad), more or less of it.
+    /// A palm and four fingers of a hand of this size (1: 85 mm broad), randomly varied.
     pub fn hand(size: f64, angle: f64, rng: &mut Rng) -> Print {
         let dome = |x: f64, y: f64, a: f64, b: f64, weight: f64| Dome {
             at: [x * size, y * size],
@@ -68,7 +67,7 @@ impl Print {
         Print::of((0..count).map(tip).collect(), angle)
     }
 
-    /// Four knuckles and what lies between them.
+    /// Four knuckles and the area between them.
     pub fn fist(size: f64, angle: f64) -> Print {
         let knuckle = |index: u32| Dome {
             at: [(f64::from(index) - 1.5) * 21.0 * size, 0.0],
@@ -100,7 +99,7 @@ impl Print {
         Print::of((0..pieces as u32).map(piece).collect(), angle)
     }
 
-    /// Pressure at `x`, `y` mm from the centre, of a force of `force` (N) at a delay (s), N / mm^2.
+    /// Pressure at `x`, `y` mm from the centre, if `force` is the force (N) at a delay (s), N / mm^2.
     pub fn pressure(&self, x: f64, y: f64, force: impl Fn(f64) -> f64) -> f64 {
         let (sin, cos) = self.turn;
         let (u, v) = (x * cos + y * sin, y * cos - x * sin);

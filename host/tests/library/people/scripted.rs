@@ -1,4 +1,4 @@
-//! The family of touches that the map was tuned on: the simulator's own scripts, half-cosines and plain
+//! The family of touches on which the map was tuned: the simulator's scripts, half-cosines and plain
 //! footprints.
 
 use crate::people::kind::{Act, Kind, Session};
@@ -6,14 +6,14 @@ use fastrand::Rng;
 use taxel::sim::{Player, Script, Shape, Touch};
 use taxel_core::garment::Garment;
 
-/// Somebody who touches the reference garment.
+/// A person who touches the reference garment.
 pub struct Person {
     acts: Vec<Act>,
     player: Player,
 }
 
 impl Person {
-    /// Somebody by number, who does everything so many times, in any order.
+    /// Person `number`, who does everything `of_each` times, in random order.
     pub fn new(number: u64, of_each: usize) -> Person {
         let mut rng = Rng::with_seed(0x5c41 + number);
         let mut kinds = Kind::ALL.repeat(of_each);
@@ -62,7 +62,7 @@ fn empty(duration_s: f64) -> Script {
     Script::parse(&format!("duration_s = {duration_s}"), "people.toml").expect("it is short")
 }
 
-/// What a kind of touch is made of: shape, newtons, size in mm, seconds of rise, hold and fall.
+/// Parameters of a kind of touch: shape, newtons, size in mm, seconds of rise, hold and fall.
 type Form = (Shape, [f64; 2], [[f64; 2]; 2], [f64; 2], [f64; 2], [f64; 2]);
 
 fn form(kind: Kind) -> Form {

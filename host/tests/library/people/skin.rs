@@ -1,5 +1,5 @@
-//! A garment with a mind of its own: taxels of unequal gain and rest, noise with memory, slow drift,
-//! crosstalk of neighbours.
+//! An imperfect garment: taxels of unequal gain and rest, noise with memory, slow drift, crosstalk between
+//! neighbours.
 
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
@@ -19,7 +19,7 @@ pub struct Skin {
 }
 
 impl Skin {
-    /// A garment, worn by chance.
+    /// A garment with random imperfections.
     pub fn new(garment: &Garment, mut rng: Rng) -> Skin {
         let layout = Layout::build(garment, 2048, 4095).expect("a preset is good");
         let mut first = 0;
@@ -41,10 +41,10 @@ impl Skin {
         }
     }
 
-    /// The codes of taxels on which so many newtons lie.
+    /// Codes of taxels under these forces in newtons.
     pub fn codes(&mut self, newtons: &[f64], codes: &mut [u16]) {
         for (taxel, code) in codes.iter_mut().enumerate().take(self.rest.len()) {
-            // Uniform numbers of a standard deviation of 1, half of which stays from scan to scan.
+            // Uniform numbers with a standard deviation of 1, half of which persists from scan to scan.
             self.hum[taxel] = 0.5 * self.hum[taxel] + 0.87 * 3.46 * (self.rng.f64() - 0.5);
             let beside = newtons[taxel.saturating_sub(1)] + newtons.get(taxel + 1).copied().unwrap_or(0.0);
             let force = 0.98 * newtons[taxel] + 0.01 * beside;

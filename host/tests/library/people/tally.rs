@@ -1,4 +1,4 @@
-//! How people were understood.
+//! Statistics of the intentions announced for people's touches.
 
 use crate::people::kind::Kind;
 use crate::people::worn::Heard;
@@ -8,7 +8,7 @@ use taxel_core::intent::Leading;
 /// Counts of all acts.
 #[derive(Default)]
 pub struct Tally {
-    /// For each kind: how often it was taken for each meaning, and the delays, frames.
+    /// For each kind: number of acts by announced intention, and the delays, frames.
     kinds: BTreeMap<Kind, ([usize; 4], Vec<u64>)>,
     last: usize,
     untouched: usize,
@@ -16,7 +16,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Adds what was said to a session, and how often an attack was called while nobody touched.
+    /// Adds the results of a session, and the number of attacks announced without a touch.
     pub fn add(&mut self, (heard, untouched): (Vec<Heard>, usize)) {
         self.untouched += untouched;
         for heard in heard {
@@ -38,17 +38,17 @@ impl Tally {
         right as f64 / all as f64
     }
 
-    /// Share of the acts of which the gravest announcement was what was meant.
+    /// Share of the acts whose gravest announcement was the intended one.
     fn accuracy(&self) -> f64 {
         self.share(|_| true)
     }
 
-    /// The same of attacks alone.
+    /// This share for attacks alone.
     fn recall(&self) -> f64 {
         self.share(|kind| kind.meaning() == Leading::Attack)
     }
 
-    /// Holds it against the bars.
+    /// Checks the required figures.
     pub fn judge(&self) {
         assert!(self.accuracy() >= 0.98, "{} are right", self.accuracy());
         assert!(self.recall() >= 0.99, "{} of the attacks are found", self.recall());

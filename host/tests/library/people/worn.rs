@@ -1,4 +1,4 @@
-//! A board under a garment that somebody touches, and what it says to that.
+//! A board under a garment that a person touches, and its announcements.
 
 use crate::people::kind::{Act, Session};
 use taxel::sim::FRAME_PERIOD_US;
@@ -11,40 +11,40 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{self, Receiver, Report, Request};
 
 const TAXELS: usize = 2048;
-/// Frames of the baseline, and of rest before the first touch.
+/// Frames averaged by the tare, and of rest before the first touch.
 const TARE: u16 = 16;
-/// How long after the end of an act what is announced still belongs to it, us.
+/// Time after the end of an act in which announcements still belong to it, us.
 const AFTER_US: u64 = 300_000;
 
-/// What was said to an act.
+/// Result of an act.
 #[derive(Debug, Clone)]
 pub struct Heard {
-    /// What was done.
+    /// The act.
     pub act: Act,
-    /// What was announced meanwhile, with the number of frames since its force began.
+    /// Announcements during the act, with the number of frames since its force began.
     pub announced: Vec<(Leading, u64)>,
 }
 
 impl Heard {
-    /// What the robot acts upon: the gravest that was announced.
+    /// The gravest announcement, on which the robot acts.
     pub fn gravest(&self) -> Leading {
         self.announced.iter().map(|(leading, _)| *leading).max_by_key(|l| *l as u8).unwrap_or_default()
     }
 
-    /// What it took the touch for in the end.
+    /// The last announcement.
     pub fn last(&self) -> Leading {
         let said = self.announced.iter().rev().map(|(leading, _)| *leading);
         said.into_iter().find(|leading| *leading != Leading::None).unwrap_or_default()
     }
 
-    /// Frames until what was meant was announced.
+    /// Frames until the intended announcement.
     pub fn delay(&self) -> Option<u64> {
         let meant = self.act.kind.meaning();
         self.announced.iter().find(|(leading, _)| *leading == meant).map(|(_, frames)| *frames)
     }
 }
 
-/// What is said to each act of a session, and how often an attack was called while nobody touched.
+/// Results of all acts of a session, and the number of attacks announced without a touch.
 pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let board = Board::<TAXELS, { TAXELS / 2 }>::new(info, session.garment(), Scene::shipped());
@@ -82,7 +82,7 @@ pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
     (heard, untouched)
 }
 
-/// Takes what the board has to send; the newest intention among it.
+/// Reads the board's messages. Returns the latest intention among them.
 fn read(
     board: &mut Board<TAXELS, { TAXELS / 2 }>,
     receiver: &mut Receiver<8192>,

@@ -1,4 +1,4 @@
-//! A recording of a calibrated garment: where its newtons come from is in it, and tables are in its unit.
+//! A recording of a calibrated garment contains the calibration, and exported tables are in its unit.
 
 use super::stage::{file, plan};
 use crate::mat::{box_for, knee};
@@ -11,7 +11,7 @@ use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::recording::Overview;
 use taxel::source::{self, SourceOptions};
 
-/// Records the scene with what the calibration says, and raw codes.
+/// Records the scene with the calibration and raw codes.
 fn recorded(name: &str, calibration: &Calibration) {
     let (scene, certificate) = (file(&format!("{name}.scene.toml")), file(&format!("{name}.toml")));
     std::fs::write(&scene, box_for(1)).unwrap();

@@ -1,4 +1,4 @@
-//! What recording costs beside perceiving, and how fast a recording is played: printed, never judged.
+//! Cost of recording compared with perception, and speed of replay: printed, never judged.
 
 use super::stage::file;
 use taxel::bench::record::measure;

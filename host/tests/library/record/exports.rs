@@ -1,4 +1,4 @@
-//! What other programs get is what was recorded.
+//! Exports contain what was recorded.
 
 use super::stage::{Seen, file, plan, record};
 use std::num::NonZeroU64;

@@ -1,5 +1,4 @@
-//! A data set for LeRobot, as far as it can be told without Parquet's readers: those are Python's, see
-//! `tests/python`.
+//! A LeRobot data set, as far as it can be tested without a Parquet reader; `tests/python` has one.
 
 use super::stage::{file, plan, record};
 use serde_json::Value;

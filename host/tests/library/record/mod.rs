@@ -1,5 +1,5 @@
-//! `taxel record`, `replay`, `export` and `report` through the library: nothing of what a board told is lost
-//! or changed.
+//! `taxel record`, `replay`, `export` and `report` through the library: nothing that a board sends is lost or
+//! changed.
 
 mod calibrated;
 mod cost;

@@ -1,4 +1,4 @@
-//! Raw codes that a board refuses.
+//! A board that refuses raw codes.
 
 use super::stage::{file, plan, record};
 use taxel::client::{Client, Event};
@@ -6,7 +6,7 @@ use taxel::fault::status;
 use taxel::live::Show;
 use taxel::record::{Plan, Play, Recorder};
 
-/// What a board says of itself that sends no raw codes.
+/// A client after the `Hello` of a board that sends no raw codes.
 fn acquainted() -> Client {
     record("sim:idle", plan("raw-idle.mcap", "sim", None, false));
     let mut play = Play::open(&file("raw-idle.mcap")).unwrap();
@@ -22,14 +22,14 @@ fn a_refusal_of_raw_codes_ends_the_recording() {
     let begin = |name: &str| Recorder::create(Plan { raw: true, ..plan(name, "sim", None, false) }).unwrap();
     let answer = |refusal: Option<&str>| Event::Answer { request: 21, refusal: refusal.map(String::from) };
     let mut refused = begin("raw-refused.mcap");
-    // Nothing has been asked yet: the answer is to somebody else.
+    // No request was made yet: the answer is for another program.
     refused.event(&client, &answer(Some("no"))).unwrap();
     assert!(refused.idle(&mut client).unwrap());
     let error = refused.event(&client, &answer(Some("the link is too slow"))).unwrap_err();
     let told = "--raw: the board refuses raw codes: the link is too slow";
     assert_eq!((error.to_string().as_str(), status(&error)), (told, 3));
     refused.finish().unwrap();
-    // A board that does not know the request says that it cannot read it.
+    // A board without the request answers that it cannot read it.
     let mut older = begin("raw-older.mcap");
     older.idle(&mut client).unwrap();
     let unread = Event::Answer { request: 255, refusal: Some("no message".into()) };
@@ -42,7 +42,7 @@ fn a_refusal_of_raw_codes_ends_the_recording() {
     let mut done = begin("raw-done.mcap");
     assert!(done.idle(&mut client).unwrap());
     done.event(&client, &answer(None)).unwrap();
-    // What is refused later was asked by somebody else.
+    // A later refusal is for another program.
     done.event(&client, &answer(Some("no"))).unwrap();
     done.finish().unwrap();
 }

@@ -1,9 +1,9 @@
-//! A recording that is played.
+//! Plays a recording.
 
 use super::stage::{Seen, play};
 use std::path::Path;
 
-/// What a recording shows.
+/// Contents of a recording.
 pub fn replayed(path: &Path) -> Seen {
     let mut seen = Seen::default();
     play(&format!("replay:{}@max", path.display()), &mut seen);

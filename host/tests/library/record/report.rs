@@ -1,4 +1,4 @@
-//! The page that is sent: the figures of the source.
+//! The report page has the figures of the source.
 
 use super::stage::play;
 use taxel::report::{Seen, page};
@@ -12,12 +12,11 @@ fn the_figures_of_the_source_are_drawn() {
     for panel in ["chest", "back", "left arm", "right arm"] {
         assert_eq!(count(&format!("class=\"title\">{panel}</text>")), 2, "2-D and 3-D of {panel}");
     }
-    // Ten things lie there: each has a centre and a peak in 2-D, a peak with its value in 3-D, a row of the
-    // table.
+    // Ten objects: each has a centre and a peak in 2-D, a peak with its value in 3-D, and a row of the table.
     for mark in ["class=\"centre\"", "class=\"peak\"", "class=\"value\"", "<tr><td>#"] {
         assert_eq!(count(mark), 10, "{mark}");
     }
-    // 31 x 15 faces a panel, under four lines of equal pressure.
+    // 31 x 15 faces per panel, under four contours.
     assert_eq!(count("<path fill=\"#"), 4 * 31 * 15);
     assert_eq!(count("class=\"level\""), 4 * 4);
     for title in ["Ranges of pressure", "Force over time", "Intention over time", "Events", "Health"] {
@@ -45,5 +44,5 @@ fn a_page_is_in_one_unit() {
 #[test]
 fn without_an_image_there_is_no_page() {
     let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
-    assert_eq!(error, "file:x: no image came, there is nothing to report");
+    assert_eq!(error, "file:x: no image was received, so there is nothing to report");
 }

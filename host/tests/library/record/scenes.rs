@@ -40,7 +40,7 @@ fn messages_are_as_their_schemas_say() {
     }
 }
 
-/// Every JSON message of a file; their topics are added to `checked`.
+/// Checks every JSON message of a file; adds their topics to `checked`.
 fn check(path: &Path, checked: &mut BTreeSet<String>) {
     let summary = mcap::Summary::read(&std::fs::read(path).unwrap()).unwrap().unwrap();
     let mut messages = Messages::open(path).unwrap();
@@ -56,7 +56,7 @@ fn check(path: &Path, checked: &mut BTreeSet<String>) {
     }
 }
 
-/// A value has the type that a schema names, and no field that it does not name.
+/// Checks that a value has the type of a schema, and no other fields.
 fn conforms(value: &Value, schema: &Value, place: &str) {
     let fits = match schema["type"].as_str().unwrap() {
         "integer" => value.is_i64() || value.is_u64(),

@@ -1,4 +1,4 @@
-//! A scene that is recorded, and what was seen of it meanwhile.
+//! Records a scene and the events seen meanwhile.
 
 use std::path::{Path, PathBuf};
 use taxel::client::{Client, Event, ImageNews};
@@ -6,12 +6,12 @@ use taxel::live::{LiveArgs, Show, watch};
 use taxel::record::{Origin, Plan, Recorder, Rotate};
 use taxel::source::{self, SourceOptions};
 
-/// What came of a board.
+/// Events of a board.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Seen {
     /// Number, time (us) and image of each frame.
     pub frames: Vec<(u32, u64, Vec<u16>)>,
-    /// All other events, in words.
+    /// All other events, as text.
     pub others: Vec<String>,
     /// Bytes of the wire.
     pub wire: Vec<u8>,
@@ -30,7 +30,7 @@ impl Show for Seen {
     }
 }
 
-/// Both at once.
+/// Shows and records at once.
 struct Both<'a>(&'a mut Seen, &'a mut Recorder);
 
 impl Show for Both<'_> {
@@ -52,14 +52,14 @@ impl Show for Both<'_> {
     }
 }
 
-/// A file of a test in the build folder.
+/// Path of a test's file in the build folder.
 pub fn file(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("record");
     std::fs::create_dir_all(&folder).unwrap();
     folder.join(name)
 }
 
-/// Where a recording goes.
+/// Plan of a recording.
 pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan {
     Plan {
         path: file(name),
@@ -72,14 +72,14 @@ pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan
     }
 }
 
-/// Records a source; what was seen of it.
+/// Records a source. Returns its events.
 pub fn record(spec: &str, plan: Plan) -> Seen {
     let (mut seen, mut recorder) = (Seen::default(), Recorder::create(plan).unwrap());
     play(spec, &mut Both(&mut seen, &mut recorder));
     seen
 }
 
-/// Shows all of a source.
+/// Shows a source to its end.
 pub fn play(spec: &str, show: &mut dyn Show) {
     let spec = spec.parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();

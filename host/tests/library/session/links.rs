@@ -1,5 +1,5 @@
-//! Links of the system: a TCP connection that is closed, a serial port that is unplugged and comes back under
-//! the name that leads to it.
+//! Real links: a closed TCP connection, and a serial port that is unplugged and comes back under the name
+//! that leads to it.
 
 use super::restored::{scene, until};
 use super::rig::Rig;
@@ -12,13 +12,12 @@ use taxel::session::{Returns, Session};
 use taxel::source::{self, SourceOptions};
 use taxel_core::wire::Request;
 
-/// How often each link breaks: in a test, and where a campaign runs.
+/// Number of breaks of each link, in a test and in a campaign.
 fn rounds() -> usize {
     if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 1000 } else { 50 }
 }
 
-/// Passes bytes between a stream and the board until its link is cut; then it goes. Nobody may have the other
-/// end open at first.
+/// Passes bytes between a stream and the board until its link is cut. The other end may be closed at first.
 fn pass(mut stream: impl Read + Write, rig: &Mutex<Rig>, link: u64) {
     let (mut buffer, mut met) = ([0; 1024], false);
     while rig.lock().unwrap().link == link {
@@ -42,7 +41,7 @@ fn pass(mut stream: impl Read + Write, rig: &Mutex<Rig>, link: u64) {
     }
 }
 
-/// Sets a scene, and breaks the link again and again, every other time with the power of the board.
+/// Sets a scene, and breaks the link repeatedly, every other time with the power of the board.
 fn breaks(spec: &str, rig: &Mutex<Rig>) {
     let source = source::open(&spec.parse().unwrap(), &SourceOptions::default()).unwrap();
     let mut session = Session::new(source, Returns::Always);
@@ -90,7 +89,7 @@ fn a_connection_that_is_closed_is_opened_again() {
     breaks(&spec, &rig);
 }
 
-/// A board on a terminal, which goes with it; a name leads to it, as those of `/dev/serial/by-id` do.
+/// A board on a terminal that disappears with it; a name leads to it like those in `/dev/serial/by-id`.
 #[test]
 #[cfg(unix)]
 fn a_serial_port_that_is_unplugged_comes_back_under_another_name() {
@@ -105,7 +104,7 @@ fn a_serial_port_that_is_unplugged_comes_back_under_another_name() {
             master.set_timeout(Duration::from_millis(1)).unwrap();
             let _ = std::fs::remove_file(&name);
             symlink(slave.name().unwrap(), &name).unwrap();
-            // The host alone has it open.
+            // Only the host has it open.
             drop(slave);
             master
         }

@@ -1,5 +1,4 @@
-//! What cannot be set again, and sources that do not come back: a loud error, and the status of a board at
-//! fault.
+//! Settings that cannot be restored, and sources that do not come back: an error that blames the board.
 
 use super::restored::{garment, told, until};
 use super::rig::{Rig, source};
@@ -15,7 +14,7 @@ use taxel_core::wire::Request;
 
 const TARE: Request<'_> = Request::Tare { frames: 8 };
 
-/// The error with which a session ends.
+/// The error at the end of a session.
 fn ends(session: &mut Session) -> anyhow::Error {
     let begun = Instant::now();
     loop {
@@ -32,7 +31,7 @@ fn a_board_that_refuses_what_it_had_taken_is_an_error() {
     let mut session = Session::new(source(&rig), Returns::Always);
     let (client, _) = session.parts();
     let mut other = garment();
-    // Another pin than that of the garment that ships, which this board has.
+    // A pin that differs from the board's shipped garment.
     other.wiring.row.lines[0].pin = 22;
     client.request(&Request::SetGarment(&postcard::to_allocvec(&other).unwrap())).unwrap();
     client.start(0).unwrap();
@@ -131,7 +130,7 @@ fn a_tare_that_a_touched_board_refuses_when_it_is_back_ends_nothing() {
     while session.client().contacts().is_empty() {
         session.poll().unwrap();
     }
-    // The link breaks before it is read.
+    // The link breaks before the request is read.
     session.parts().0.request(&TARE).unwrap();
     rig.lock().unwrap().cut();
     let text = told(&mut session, "is back after");
@@ -156,9 +155,9 @@ fn a_limited_watch_goes_on_over_a_restart_and_prints_the_gap() {
     let begun = Instant::now();
     watch(&args, source(&rig), &mut Messages::new(false, &mut out)).unwrap();
     restarts.join().unwrap();
-    // Three seconds of the board's time, though its clock began anew twice.
+    // Three seconds of board time, although its clock restarted twice.
     assert!((3.0..6.0).contains(&begun.elapsed().as_secs_f64()), "{:?}", begun.elapsed());
     let text = String::from_utf8(out).unwrap();
     let gaps = |words: &str| text.lines().filter(|line| line.contains(words)).count();
-    assert_eq!((gaps("rig is gone: broken pipe; it is waited for"), gaps("rig is back after")), (2, 2));
+    assert_eq!((gaps("rig is gone: broken pipe; waiting for it"), gaps("rig is back after")), (2, 2));
 }

@@ -1,5 +1,5 @@
-//! A board that restarts, is unplugged, or whose connection breaks: everything is set again, the gap is told,
-//! and what cannot be is an error.
+//! A board that restarts, is unplugged, or loses its connection: all settings are restored, the gap is
+//! reported, and what cannot be restored is an error.
 
 mod links;
 mod lost;

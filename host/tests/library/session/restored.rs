@@ -1,4 +1,4 @@
-//! Everything that a session has set is set again, whatever breaks.
+//! All settings of a session are restored, whatever breaks.
 
 use super::rig::{Rig, source};
 use std::path::Path;
@@ -15,7 +15,7 @@ use taxel_core::intent::{Feed, Input, Source as From};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
-/// How often the link breaks: in a test, and where a campaign runs.
+/// Number of breaks, in a test and in a campaign.
 fn rounds() -> usize {
     if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 1000 } else { 50 }
 }
@@ -36,13 +36,13 @@ pub fn scene() -> Scene {
     scene
 }
 
-/// Numbers of the requests by which everything is set, in the order in which it is set again.
+/// Request numbers of all settings, in the order of restoring.
 fn order(parts: usize) -> Vec<u8> {
     let added = vec![17; parts];
     [&[0, 1, 11, 15, 16][..], &added, &[18, 14, 7, 13, 3, 2, 12]].concat()
 }
 
-/// Asks for everything that there is, in another order; how many parts the base of shapes has.
+/// Sends all settings in another order. Returns the number of parts of the base of shapes.
 fn set(session: &mut Session) -> usize {
     let (client, _) = session.parts();
     client.request(&Request::SetGarment(&postcard::to_allocvec(&garment()).unwrap())).unwrap();
@@ -63,7 +63,7 @@ fn set(session: &mut Session) -> usize {
     base.gallery.prototypes.len().div_ceil(64)
 }
 
-/// Goes on until something has come that is it.
+/// Continues until an event meets the condition.
 #[track_caller]
 pub fn until(session: &mut Session, mut is_it: impl FnMut(&Event) -> bool) -> Event {
     let begun = Instant::now();
@@ -77,7 +77,7 @@ pub fn until(session: &mut Session, mut is_it: impl FnMut(&Event) -> bool) -> Ev
     }
 }
 
-/// What the host says when a gap is over.
+/// The host's message at the end of a gap.
 #[track_caller]
 pub fn told(session: &mut Session, words: &str) -> String {
     let event = until(
@@ -117,13 +117,13 @@ fn everything_is_set_again_whatever_breaks() {
             rig.asked.clear();
         }
         if breaks {
-            assert!(told(&mut session, "is gone").ends_with("it is waited for"));
+            assert!(told(&mut session, "is gone").ends_with("waiting for it"));
         }
-        let text = told(&mut session, if restarts { "started anew" } else { "has lived on" });
+        let text = told(&mut session, if restarts { "restarted" } else { "kept running" });
         assert_eq!(text.contains("is back after"), breaks, "{text}");
         until(&mut session, |event| matches!(event, Event::Frame { .. }));
         let rig = rig.lock().unwrap();
-        // A link that was opened anew asks for the start at once; what a `Hello` proves is not set again.
+        // A reopened link sends the start at once; settings proved by a `Hello` are not repeated.
         let asked: Vec<u8> = rig.asked.iter().copied().skip(usize::from(breaks)).collect();
         let unproven = |number: &u8| restarts || ![0, 1, 11, 15, 2].contains(number);
         let expected: Vec<u8> = order(parts).into_iter().filter(unproven).collect();
@@ -145,7 +145,7 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
     client.request(&Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))).unwrap();
     client.request(&Request::SetGestures(None)).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
-    // It has room for no such scene: what is refused is not remembered, and what was before stays.
+    // The scene is too large: a refused setting is not remembered, and the one before stays.
     client.request(&Request::SetScene(&[255; 9])).unwrap();
     // A garment undoes the tare.
     client.request(&Request::SetGarment(&postcard::to_allocvec(&garment()).unwrap())).unwrap();
@@ -165,7 +165,7 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
 fn a_board_that_restarts_before_it_has_answered_is_asked_again() {
     let rig = Arc::new(Mutex::new(Rig::new()));
     let mut session = Session::new(source(&rig), Returns::Always);
-    // Opening the port restarts it: what is sent at once is lost.
+    // Opening the port restarts the board: requests sent at once are lost.
     let (client, _) = session.parts();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
     client.start(0).unwrap();

@@ -1,4 +1,4 @@
-//! A board behind a link that a test cuts, and whose power it takes.
+//! A board whose link and power a test can cut.
 
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind};
@@ -17,33 +17,33 @@ const INFO: BoardInfo =
     BoardInfo { firmware: "test", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
 /// Time between two scans.
 const SCAN: Duration = Duration::from_millis(2);
-/// Bytes that wait for the host at most.
+/// Most bytes queued for the host.
 const ROOM: usize = 1 << 16;
 
 /// The board.
 pub struct Rig {
     board: Box<Board<64, 32>>,
-    /// When it was powered.
+    /// Time of the last power-up.
     booted: Instant,
     scanned: Instant,
     to_host: VecDeque<u8>,
     receiver: Receiver<{ frame_bound(LONGEST_REQUEST) }>,
-    /// Numbers of the requests that it has read since it was powered, but for `Sync`.
+    /// Numbers of the requests read since power-up, except for `Sync`.
     pub asked: Vec<u8>,
-    /// The link of which number is plugged in; other links are broken.
+    /// Number of the plugged link; other links are broken.
     pub link: u64,
-    /// Whether the link can be opened.
+    /// True if the link can be opened.
     pub plugged: bool,
-    /// What the board refuses from the next restart on: it wears another garment's pins, say.
+    /// Pins from the next restart on; with other pins, the board refuses garments.
     pub pins: Pins,
-    /// It reads nothing.
+    /// True if it reads nothing.
     pub deaf: bool,
-    /// What its converter sees.
+    /// Codes of its converter.
     pub codes: [Code; 64],
 }
 
 impl Rig {
-    /// A board that has just been powered.
+    /// A board just after power-up.
     pub fn new() -> Rig {
         let now = Instant::now();
         Rig {
@@ -61,7 +61,7 @@ impl Rig {
         }
     }
 
-    /// Power is taken and given.
+    /// Cycles the power.
     pub fn restart(&mut self) {
         self.board = board(self.pins);
         self.booted = Instant::now();
@@ -70,23 +70,23 @@ impl Rig {
         self.asked.clear();
     }
 
-    /// The link breaks.
+    /// Breaks the link.
     pub fn cut(&mut self) {
         self.link += 1;
         self.to_host.clear();
     }
 
-    /// What it wears.
+    /// Its garment.
     pub fn garment(&self) -> &Garment {
         &self.board.setup().garment
     }
 
-    /// What it plays.
+    /// Its scene.
     pub fn scene(&self) -> &Scene {
         &self.board.setup().scene
     }
 
-    /// The gain of its first taxel, and the number of its calibration.
+    /// Gain of its first taxel, and number of its calibration.
     pub fn calibration(&self) -> (u16, Option<u32>) {
         let settings = self.board.settings();
         (settings.gain[0], settings.calibration.map(|certificate| certificate.id))
@@ -96,7 +96,7 @@ impl Rig {
         Micros(self.booted.elapsed().as_micros() as u64)
     }
 
-    /// Bytes of the host.
+    /// Takes bytes of the host.
     pub fn receive(&mut self, bytes: &[u8]) {
         for byte in bytes {
             if let Some(Ok(message)) = self.receiver.push(*byte)
@@ -110,7 +110,7 @@ impl Rig {
         self.board.step(now, Input::Received(bytes), &mut ());
     }
 
-    /// Does what is to be done, and gives what it says.
+    /// Works, and returns the bytes that it sends.
     pub fn speak(&mut self, buffer: &mut [u8]) -> usize {
         for _ in 0..8 {
             if self.scanned.elapsed() < SCAN {
@@ -189,7 +189,7 @@ impl Port for Wire {
     }
 }
 
-/// A source that is the board's link, and comes back as long as it can be plugged in.
+/// A source on the board's link, which comes back as long as it is plugged in.
 pub fn source(rig: &Arc<Mutex<Rig>>) -> Source {
     open(rig).unwrap()
 }

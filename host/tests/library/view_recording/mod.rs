@@ -1,5 +1,4 @@
-//! A recording in the page of `taxel view`: every moment of it is that of the board, from wherever it is gone
-//! to.
+//! A recording in the page of `taxel view`: every moment equals that of the board, after any jump.
 
 mod moments;
 mod pages;

@@ -1,16 +1,16 @@
-//! A moment is the same from wherever it is gone to.
+//! A moment of a recording is the same after any jump.
 
 use super::stage::{Moment, PROGRAM, View, file, moments, recorded};
 use serde_json::{Value, json};
 use taxel::record::WIRE;
 use taxel::recording::{chunk_indexes, repair, scan};
 
-/// The frame that is shown at a time.
+/// The frame shown at a time.
 fn at(all: &[Moment], seconds: f64) -> &Moment {
     all.iter().rfind(|moment| moment.at as f64 <= (seconds * 1e6).round()).unwrap_or(&all[0])
 }
 
-/// What a frame says of the touch; counters of the line begin where it was gone to.
+/// Touch data of a frame; counters of the line restart at a jump, so they are left out.
 fn touch(line: &Value) -> [Value; 4] {
     ["frame", "time_us", "contacts", "intent"].map(|part| line[part].clone())
 }
@@ -21,7 +21,7 @@ fn any_moment_is_that_of_a_recording_played_from_its_beginning() {
     let (all, view) = (moments(&path), View::start(&[path.to_str().unwrap()]));
     let mut page = view.page();
     let mut seeks = page.stand();
-    // Far ahead at once, when the file has not been gone through, and again when it has.
+    // Far ahead at once, before the survey of the file, and again after it.
     for round in 0..2 {
         for seconds in [11.9, 0.3, 6.0, 0.55, 0.62, 0.931, 1.2, 0.0, 0.64, 3.217, 5000.0] {
             let (line, image, health) = page.seek(seconds, &mut seeks);
@@ -134,7 +134,7 @@ fn what_was_felt_just_before_a_moment_glows_in_it() {
     let lash = all.iter().max_by_key(total).unwrap().at;
     let mut page = view.page();
     let stood = page.stand();
-    // Amid the lash, 200 ms after it, and when it has faded.
+    // During the lash, 200 ms after it, and after the glow has faded.
     for (seeks, (later, glows)) in (stood + 1..).zip([(0, true), (200_000, true), (1_900_000, false)]) {
         let shown = all.iter().rfind(|moment| moment.at <= lash + later).unwrap();
         page.ask(json!({ "seek": (lash + later) as f64 / 1e6 }));

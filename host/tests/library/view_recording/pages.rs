@@ -1,4 +1,4 @@
-//! All pages see one player; one that comes late is told everything, and nonsense is told nobody.
+//! All pages share one player; a later page gets the whole state, and nonsense is ignored.
 
 use super::stage::{Told, View, moments, recorded};
 use serde_json::{Value, json};
@@ -26,7 +26,7 @@ fn a_page_that_comes_late_sees_the_whole_recording_and_the_moment() {
     assert_eq!(told["hello"]["counts_per_newton"], 1000.0);
     let overview = &told["overview"];
     assert_eq!(overview["known_us"], overview["duration_us"]);
-    // Each touch of the contacts that were told has its mark, at its time, and its force on the line.
+    // Each touch has its mark at its time, and its force on the line.
     let onsets = |all: &Value| all.as_array().unwrap().iter().filter(|line| line[1] == "onset").count();
     let mut ids: Vec<u64> = moments(&path)
         .iter()
@@ -40,7 +40,7 @@ fn a_page_that_comes_late_sees_the_whole_recording_and_the_moment() {
     let most = moments(&path).iter().map(|moment| total(&moment.line)).max().unwrap();
     let drawn = overview["totals"].as_array().unwrap().iter().filter_map(Value::as_u64).max().unwrap();
     assert_eq!(drawn, most);
-    // What one page asks for, the other sees.
+    // Requests of one page affect the others.
     late.ask(json!({ "seek": 1.5 }));
     early.line("player", |line| line["at"] == 1.5);
 }
@@ -87,7 +87,7 @@ fn nonsense_moves_nothing() {
     page.line("player", |line| line["speed"] == 64.0);
 }
 
-/// Where the contents of the chunks of an MCAP file lie.
+/// Ranges of the contents of an MCAP file's chunks.
 fn chunks(bytes: &[u8]) -> Vec<Range<usize>> {
     const CHUNK: u8 = 6;
     let (mut at, mut found) = (8, Vec::new());
@@ -105,7 +105,7 @@ fn chunks(bytes: &[u8]) -> Vec<Range<usize>> {
 fn a_damaged_part_is_a_gap_and_what_is_no_recording_is_named() {
     let path = recorded("damaged.mcap", "sim:pat", 8, &[]);
     let mut bytes = std::fs::read(&path).unwrap();
-    // In the middle of its middle chunk: elsewhere lie indexes and attachments, of which nothing is missed.
+    // In the middle of its middle chunk: indexes and attachments elsewhere are not missed.
     let chunks = chunks(&bytes);
     let chunk = chunks[chunks.len() / 2].clone();
     let middle = (chunk.start + chunk.end) / 2;
@@ -145,6 +145,6 @@ fn a_page_that_is_loaded_again_has_the_live_half_minute() {
     };
     let known = line["time_us"].as_u64().unwrap();
     assert!(last + 500_000 > known && newest + 500_000 > last, "{last}, {newest} of {known}");
-    // Sixty a second, the pats among them.
+    // Sixty per second, including the pats.
     assert!(past > 100 && touched > 20, "{past} images, {touched} of touches");
 }

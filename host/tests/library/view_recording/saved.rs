@@ -1,4 +1,4 @@
-//! What the page saves is a recording for every other command, newtons and all.
+//! Recordings saved from the page work with every other command, including newtons.
 
 use super::stage::{PROGRAM, View, file, moments, recorded};
 use crate::mat::{box_for, knee};
@@ -18,7 +18,7 @@ fn a_range_is_saved_to_the_image_and_every_command_reads_it() {
     let (all, view) = (moments(&path), View::start(&[path.to_str().unwrap()]));
     let mut page = view.page();
     page.stand();
-    // Amid the second pat.
+    // During the second pat.
     page.ask(json!({ "range": [0.55, 6.25] }));
     page.line("player", |line| line["range"] == json!([0.55, 6.25]));
     let saved = view.save("saved.mcap");
@@ -56,7 +56,7 @@ fn the_calibration_stays_with_what_is_saved() {
     let calibration = ["--calibration", certificate.to_str().unwrap()];
     let source = format!("sim:{}", scene.display());
     let path = recorded("calibrated.mcap", &source, 4, &calibration);
-    // Cut from a recording, and of a live board.
+    // Cut from a recording, and from a live board.
     let view = View::start(&[path.to_str().unwrap()]);
     let mut page = view.page();
     page.stand();

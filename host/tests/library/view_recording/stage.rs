@@ -16,14 +16,14 @@ use tungstenite::{Message, WebSocket};
 
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_taxel");
 
-/// A file of this run of the tests.
+/// Path of a file of this test run.
 pub fn file(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("taxel-view-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     folder.join(name)
 }
 
-/// Records a scene for so many seconds.
+/// Records a scene for this many seconds.
 pub fn recorded(name: &str, scene: &str, seconds: u32, more: &[&str]) -> PathBuf {
     let path = file(name);
     let mut record = Command::new(PROGRAM);
@@ -33,14 +33,14 @@ pub fn recorded(name: &str, scene: &str, seconds: u32, more: &[&str]) -> PathBuf
     path
 }
 
-/// A frame of a recording as it was told, and its image.
+/// A frame of a recording, and its image.
 #[derive(Debug, Clone)]
 pub struct Moment {
     /// Microseconds since the recording began.
     pub at: u64,
     pub line: Value,
     pub image: Vec<u16>,
-    /// How the board was then.
+    /// Latest health of the board.
     pub health: Option<Value>,
 }
 
@@ -61,7 +61,7 @@ pub fn moments(path: &Path) -> Vec<Moment> {
     found
 }
 
-/// An event as a page reads it: numbers go through text on their way.
+/// An event as a page reads it, with numbers converted to text and back.
 fn told(client: &Client, event: &Event) -> Value {
     let line = match event {
         Event::Frame { .. } => message::frame(client, event),
@@ -77,7 +77,7 @@ pub struct View {
 }
 
 impl View {
-    /// Of a source or a file.
+    /// Starts it with a source or a file.
     pub fn start(arguments: &[&str]) -> View {
         let mut view = Command::new(PROGRAM);
         view.args(["view", "--port", "0"]).args(arguments);
@@ -88,7 +88,7 @@ impl View {
         View { port: port.parse().unwrap(), child }
     }
 
-    /// What is answered to a request for a path: head and body.
+    /// Head and body of the response to a request for a path.
     pub fn get(&self, path: &str, headers: &str) -> (String, Vec<u8>) {
         let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, self.port)).unwrap();
         let host = format!("Host: 127.0.0.1:{}", self.port);
@@ -99,7 +99,7 @@ impl View {
         (String::from_utf8(answer[..end].into()).unwrap(), answer[end..].into())
     }
 
-    /// A recording that is saved from the page; its chunks are put together.
+    /// Saves a recording from the page, and joins its chunks.
     pub fn save(&self, name: &str) -> PathBuf {
         let (head, mut body) = self.get("/recording.mcap", "");
         assert!(head.starts_with("HTTP/1.1 200") && head.contains("Transfer-Encoding: chunked"), "{head}");
@@ -132,13 +132,13 @@ impl Drop for View {
     }
 }
 
-/// What a page is told: a line, or an image with its frame.
+/// A message to a page: a line, or an image with its frame.
 pub enum Told {
     Line(Value),
     Image(Value, Vec<u16>),
 }
 
-/// A page; the newest overview is kept, since it may come before it is asked for.
+/// A page. The newest overview is kept, because it may arrive before it is requested.
 pub struct Page {
     socket: WebSocket<TcpStream>,
     overview: Option<Value>,
@@ -173,7 +173,7 @@ impl Page {
         }
     }
 
-    /// Reads until a line is of that type and as wanted.
+    /// Reads until a line of this type meets the condition.
     pub fn line(&mut self, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
         loop {
             if let Told::Line(line) = self.next()
@@ -185,7 +185,7 @@ impl Page {
         }
     }
 
-    /// The overview of all of the recording.
+    /// The complete overview.
     pub fn overview(&mut self) -> Value {
         let whole = |line: &&Value| line["known_us"] == line["duration_us"];
         match self.overview.as_ref().filter(whole) {
@@ -194,7 +194,7 @@ impl Page {
         }
     }
 
-    /// Reads until an image is as wanted.
+    /// Reads until an image meets the condition.
     pub fn image(&mut self, wanted: impl Fn(&Value) -> bool) -> (Value, Vec<u16>) {
         loop {
             if let Told::Image(line, image) = self.next()
@@ -205,17 +205,17 @@ impl Page {
         }
     }
 
-    /// Stands still; how often the moment was another so far.
+    /// Pauses. Returns the number of jumps so far.
     pub fn stand(&mut self) -> u64 {
         self.ask(json!({ "play": false }));
-        // Whoever looks first sets it going: only what is told after this order counts.
+        // The first page starts the player: only messages after this order count.
         self.ask(json!({ "speed": 1.5 }));
         self.line("player", |line| line["speed"] == 1.5 && line["playing"] == false);
         self.ask(json!({ "speed": 1 }));
         self.line("player", |line| line["speed"] == 1.0)["seeks"].as_u64().unwrap()
     }
 
-    /// Goes to a time: the image that is shown there, and how the board was.
+    /// Jumps to a time: the image shown there, and the board's health.
     pub fn seek(&mut self, seconds: f64, seeks: &mut u64) -> (Value, Vec<u16>, Option<Value>) {
         self.ask(json!({ "seek": seconds }));
         *seeks += 1;
@@ -224,7 +224,7 @@ impl Page {
             match self.next() {
                 Told::Line(line) if line["type"] == "health" => health = Some(line),
                 Told::Line(line) if line["of"] == "health" => health = None,
-                // The state that goes with an image is told before it.
+                // The state that belongs to an image is sent before it.
                 Told::Image(line, image) if line["seeks"] == *seeks => return (line, image, health),
                 _ => {}
             }

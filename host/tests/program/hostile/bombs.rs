@@ -1,4 +1,5 @@
-//! Files that claim, or become, far more than they are. The program's memory is limited from outside.
+//! Files that claim to be, or expand to, far more than they are. The program's memory is limited from
+//! outside.
 
 use mcap::MAGIC;
 use mcap::records::op;
@@ -9,10 +10,10 @@ use std::process::{Command, Output, Stdio};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-/// Address space of the program: what it takes for an empty file, 256 MiB, and some room.
+/// Address space of the program: that for an empty file, 256 MiB, and some room.
 const LIMIT_KIB: u64 = 600 << 10;
 
-/// Runs the program in that much memory, which its input is added to.
+/// Runs the program with this limit, to which the size of its input is added.
 fn limited(args: &[&str], input: &Path) -> Output {
     let limit = LIMIT_KIB + fs::metadata(input).unwrap().len() / 1024;
     let mut shell = Command::new("sh");
@@ -20,7 +21,7 @@ fn limited(args: &[&str], input: &Path) -> Output {
     shell.args(args).stdin(Stdio::null()).output().unwrap()
 }
 
-/// It ends by itself, with at most one sentence.
+/// It must end by itself, with at most one sentence.
 #[track_caller]
 fn ends(args: &[&str], input: &Path) -> Output {
     let output = limited(args, input);
@@ -42,7 +43,7 @@ fn record(number: u8, body: &[u8]) -> Vec<u8> {
     [&[number][..], &(body.len() as u64).to_le_bytes(), body].concat()
 }
 
-/// A text that says it is that long, and is not.
+/// A text that claims to be this long.
 fn claim(length: u32) -> Vec<u8> {
     [&length.to_le_bytes()[..], b"short"].concat()
 }
@@ -73,7 +74,7 @@ fn claims() -> Vec<(u8, Vec<u8>)> {
     ]
 }
 
-/// A whole file with these records in its data, and those in its summary.
+/// A complete file with these records in its data and in its summary.
 fn mcap(data: &[u8], summary: &[u8]) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
     bytes.extend(record(op::HEADER, &[0; 8]));
@@ -108,7 +109,7 @@ fn texts_of_four_gigabytes_are_claims() {
     }
 }
 
-/// A chunk of so many zeros, compressed.
+/// A compressed chunk of this many zeros.
 fn zeros(bytes: u64) -> Vec<u8> {
     let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
     for _ in 0..bytes >> 20 {
@@ -138,7 +139,7 @@ fn a_chunk_that_would_fill_the_memory_is_passed_over() {
     fs::remove_file(path).unwrap();
 }
 
-/// An archive with arrays of zeros, so many bytes each, as counts of one byte.
+/// An archive with arrays of zeros of these sizes, as counts of one byte.
 fn archive(name: &str, arrays: &[(&str, u64)]) -> PathBuf {
     let path = file(name, &[]);
     let mut archive = ZipWriter::new(fs::File::create(&path).unwrap());
@@ -175,7 +176,7 @@ fn an_archive_that_would_fill_the_memory_is_refused_by_its_array() {
         }
         fs::remove_file(path).unwrap();
     }
-    // What a recording of some minutes becomes is read.
+    // The expanded size of a recording of some minutes is accepted.
     let good = archive("good.npz", &[("back", 8 << 20)]);
     let output = ends(&["process", good.to_str().unwrap()], &good);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -1,5 +1,4 @@
-//! Files and clients that nobody means well: they end in a sentence, within a bounded memory, and shut nobody
-//! out.
+//! Malicious files and clients: they end in a sentence, within bounded memory, and shut nobody out.
 
 #[cfg(target_os = "linux")]
 mod bombs;

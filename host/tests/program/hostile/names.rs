@@ -1,4 +1,4 @@
-//! Names that a garment gives become neither paths nor formulas.
+//! Names in a garment become neither paths nor formulas.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ fn taxel(args: &[&str]) {
     assert!(done.status.success(), "{args:?}: {}", String::from_utf8_lossy(&done.stderr));
 }
 
-/// A text as TOML has it.
+/// A text in TOML's quotes.
 fn quoted(text: &str) -> String {
     let sign = |sign: char| match sign {
         '"' | '\\' => format!("\\{sign}"),
@@ -26,7 +26,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.chars().map(sign).collect::<String>())
 }
 
-/// A pat on a garment whose one panel and link are called so, recorded and exported.
+/// A pat on a garment with one panel and link of these names, recorded and exported.
 fn exported(number: usize, panel: &str, link: &str, form: &str, more: &[&str]) -> PathBuf {
     let [garment, recording, output] =
         ["toml", "mcap", form].map(|end| file(&format!("{number}-{}.{end}", more.len())));
@@ -94,7 +94,7 @@ fn a_cell_is_never_a_formula() {
     }
 }
 
-/// The cells of a line, without their quotes.
+/// Cells of a line, without quotes.
 fn cells(line: &str) -> Vec<String> {
     let (mut cells, mut quoted) = (vec![String::new()], false);
     for sign in line.chars() {

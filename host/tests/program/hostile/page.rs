@@ -1,4 +1,4 @@
-//! Clients that take all connections, read slowly, or come from another site: nobody else is shut out by them.
+//! Clients that take all connections, read slowly, or come from another site do not shut others out.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -40,7 +40,7 @@ fn ask(port: u16, path: &str) -> TcpStream {
     stream
 }
 
-/// How long the page takes to answer with its first file.
+/// Time until the page sends its first file.
 #[track_caller]
 fn is_served(port: u16) -> Duration {
     let begun = Instant::now();
@@ -59,12 +59,12 @@ fn who_takes_large_files_and_does_not_read_them_shuts_nobody_out() {
         assert!(waited < Duration::from_secs(4), "{path}: {waited:?}");
         drop(held);
     }
-    // Some that say nothing.
+    // Some silent clients.
     let held: Vec<_> = (0..150).map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap()).collect();
     let waited = is_served(port);
     assert!(waited < Duration::from_secs(4), "{waited:?}");
     drop(held);
-    // And a recording is still there for who reads.
+    // A recording can still be downloaded.
     let begun = Instant::now();
     loop {
         let mut answer = Vec::new();

@@ -89,7 +89,7 @@ columns = 1
 
 const MISTAKES: &[Mistake] = &[
     ("/name", "\"mine\"", "\"\"", "`name`: name: the garment has none"),
-    ("/wiring", "[wiring]\n", "[wiring]\nspeed = 3\n", ": `speed` is no key that is known here"),
+    ("/wiring", "[wiring]\n", "[wiring]\nspeed = 3\n", ": `speed` is not a known key"),
     ("/wiring/settle_ns", "= 3000", "= 4000000", "`wiring.settle_ns`: a frame takes 514 ms, at most 500"),
     ("/wiring/settle_ns", "= 3000", "= -1", "`settle_ns`: must be a whole number"),
     ("/wiring/falling", "falling = false", "falling = 0", "`falling`: must be"),
@@ -101,12 +101,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.enable[0].pin`: wiring: pin 13 is no free output of this board: the heartbeat LED is there",
     ),
     ("/wiring/enable/inverted", "18, inverted = true", "18, inverted = 1", "`inverted`: must be"),
-    (
-        "/wiring/block",
-        "[wiring.block]\n",
-        "[wiring.block]\nline = 1\n",
-        ": `line` is no key that is known here",
-    ),
+    ("/wiring/block", "[wiring.block]\n", "[wiring.block]\nline = 1\n", ": `line` is not a known key"),
     ("/wiring/block/coding", "block]\ncoding = \"binary\"", "block]\ncoding = \"gray\"", "`coding`: "),
     (
         "/wiring/block/lines",
@@ -121,7 +116,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.block.lines[0].pin`: wiring: pin 0 is no free output of this board: the UART transmits there",
     ),
     ("/wiring/block/lines/inverted", "2, inverted = false", "2, inverted = \"no\"", "`inverted`: must be"),
-    ("/wiring/row", "[wiring.row]\n", "[wiring.row]\ncodes = 4\n", ": `codes` is no key that is known here"),
+    ("/wiring/row", "[wiring.row]\n", "[wiring.row]\ncodes = 4\n", ": `codes` is not a known key"),
     ("/wiring/row/coding", "\"one-hot\"", "\"one-cold\"", "`coding`: "),
     ("/wiring/row/lines", "  { pin = 6 }, { pin = 7 }, { pin = 8 },\n", "  6,\n", "`lines`: must be"),
     (
@@ -131,18 +126,13 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.row.lines[0].pin`: wiring: pin 40 is no free output of this board: the chip ends at GP29",
     ),
     ("/wiring/row/lines/inverted", "3, inverted = true", "3, inverted = [true]", "`inverted`: must be"),
-    (
-        "/wiring/column",
-        "[wiring.column]\n",
-        "[wiring.column]\nwidth = 16\n",
-        ": `width` is no key that is known here",
-    ),
+    ("/wiring/column", "[wiring.column]\n", "[wiring.column]\nwidth = 16\n", ": `width` is not a known key"),
     ("/wiring/column/coding", "column]\ncoding = \"binary\"", "column]\ncoding = 2", "`coding`: "),
     (
         "/wiring/column/lines",
         "{ pin = 9, inverted = true },\n",
         "{ pin = 9, pins = 2 },\n",
-        "`lines`: `pins` is no key that is known here",
+        "`lines`: `pins` is not a known key",
     ),
     (
         "/wiring/column/lines/pin",
@@ -157,12 +147,7 @@ const MISTAKES: &[Mistake] = &[
         "`wiring.column.lines[0].pin`: wiring: pin 26 is no free output of this board: it is a converter input",
     ),
     ("/wiring/column/lines/inverted", "9, inverted = true", "9, inverted = 0.5", "`inverted`: must be"),
-    (
-        "/panels",
-        "name = \"front\"\n",
-        "name = \"front\"\ncolour = 3\n",
-        ": `colour` is no key that is known here",
-    ),
+    ("/panels", "name = \"front\"\n", "name = \"front\"\ncolour = 3\n", ": `colour` is not a known key"),
     ("/panels/name", "\"rear\"", "\"front\"", "`panels[1].name`: panel front: the name is used twice"),
     ("/panels/name", "\"rear\"", "\"\"", "`panels[1].name`: panel 1: its name is empty"),
     ("/panels/name", "\"rear\"", "\"the rear of the torso\"", "`name`: "),
@@ -194,7 +179,7 @@ const MISTAKES: &[Mistake] = &[
         "/blocks",
         "[[blocks]]\npanel = 0\n",
         "[[blocks]]\npanel = 0\npitch = 3\n",
-        ": `pitch` is no key that is known here",
+        ": `pitch` is not a known key",
     ),
     (
         "/blocks/panel",
@@ -248,12 +233,12 @@ const MISTAKES: &[Mistake] = &[
         "/blocks/orientation",
         "[blocks.orientation]\n",
         "[blocks.orientation]\nturned = 3\n",
-        ": `turned` is no key that is known here",
+        ": `turned` is not a known key",
     ),
     ("/blocks/orientation/transposed", "transposed = false", "transposed = 1", "`transposed`: must be"),
     ("/blocks/orientation/mirror_x", "mirror_x = false", "mirror_x = \"x\"", "`mirror_x`: must be"),
     ("/blocks/orientation/mirror_y", "mirror_y = false", "mirror_y = 0", "`mirror_y`: must be"),
-    ("/seams", "[[seams]]\n", "[[seams]]\nwidth = 3\n", ": `width` is no key that is known here"),
+    ("/seams", "[[seams]]\n", "[[seams]]\nwidth = 3\n", ": `width` is not a known key"),
     (
         "/seams/length",
         "length = 4",
@@ -284,7 +269,7 @@ const MISTAKES: &[Mistake] = &[
     ),
     ("/seams/b/side", "side = \"left\"", "side = 3", "`side`: "),
     ("/seams/b/start", "\"left\", start = 0", "\"left\", start = 70000", "`start`: must be"),
-    ("/absent", "[[absent]]\n", "[[absent]]\nwhy = 3\n", ": `why` is no key that is known here"),
+    ("/absent", "[[absent]]\n", "[[absent]]\nwhy = 3\n", ": `why` is not a known key"),
     (
         "/absent/panel",
         "[[absent]]\npanel = 1",

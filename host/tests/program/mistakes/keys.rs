@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-/// The keys that a schema allows, as `/blocks/orientation/mirror_x`, sorted.
+/// Keys that a schema allows, such as `/blocks/orientation/mirror_x`, sorted.
 pub fn of(schema: &str) -> Vec<String> {
     let schema: Value = serde_json::from_str(schema).expect("a schema is JSON");
     let mut found = Vec::new();
@@ -28,7 +28,7 @@ fn allowed(schema: &Value, root: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Asserts that a value of a file in which every key stands has the keys that a schema allows, and no others.
+/// Asserts that a value of a file with every key has exactly the keys that a schema allows.
 #[track_caller]
 pub fn assert_all(value: &impl serde::Serialize, schema: &str) {
     let mut found = Vec::new();
@@ -38,7 +38,7 @@ pub fn assert_all(value: &impl serde::Serialize, schema: &str) {
     assert_eq!(found, of(schema));
 }
 
-/// The keys of a value, as those of a schema.
+/// Keys of a value, in the form of those of a schema.
 fn in_value(value: &Value, path: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(table) => {
@@ -53,7 +53,7 @@ fn in_value(value: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// The keys of a table of mistakes, sorted.
+/// Keys of a table of mistakes, sorted.
 pub fn of_mistakes(mistakes: &[super::Mistake]) -> Vec<String> {
     let mut keys: Vec<String> = mistakes.iter().map(|(key, ..)| key.to_string()).collect();
     keys.sort();

@@ -1,5 +1,5 @@
-//! One mistake under each key of the files of garments and scenes: each is refused with file, line and key.
-//! The keys are those of the schemas, so that a key without a mistake fails the test.
+//! One mistake for each key of garment and scene files: each is refused with file, line and key. The keys are
+//! those of the schemas, so that a key without a mistake fails the test.
 
 mod garment;
 mod keys;
@@ -9,11 +9,11 @@ mod touches;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A mistake: the key of the schema, what stands in the file, what stands there instead, and what the error
-/// says behind the file's name and the line of the mistake.
+/// A mistake: key of the schema, text in the file, its replacement, and the error behind the file's name and
+/// the line of the mistake.
 type Mistake = (&'static str, &'static str, &'static str, &'static str);
 
-/// A file with that text, in a folder of its own below the build folder: tests run side by side.
+/// A file with this text, in a folder of its own below the build folder, because tests run concurrently.
 fn file(name: &str, text: &str) -> PathBuf {
     static FOLDERS: AtomicUsize = AtomicUsize::new(0);
     let folder = FOLDERS.fetch_add(1, Ordering::Relaxed).to_string();
@@ -24,7 +24,7 @@ fn file(name: &str, text: &str) -> PathBuf {
     path
 }
 
-/// Makes each mistake and compares what is said; at the end all that differ at once.
+/// Makes each mistake and compares the errors; reports all differences at the end.
 fn each(base: &str, mistakes: &[Mistake], said: impl Fn(&str) -> String) {
     let mut wrong = Vec::new();
     for (key, from, to, expected) in mistakes {
@@ -33,7 +33,7 @@ fn each(base: &str, mistakes: &[Mistake], said: impl Fn(&str) -> String) {
         let before = from.bytes().zip(to.bytes()).take_while(|(a, b)| a == b).count();
         let line = text[..at + before].matches('\n').count() + 1;
         let said = said(&text);
-        // Of a key that is not known the message names the key.
+        // The message about an unknown key names the key.
         let comma = if expected.starts_with(':') { "" } else { ", " };
         let expected = format!(", line {line}{comma}{expected}");
         if !said.contains(&expected) {

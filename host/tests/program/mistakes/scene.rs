@@ -3,7 +3,7 @@
 use super::{Mistake, each, file, keys};
 use taxel::config::{Kind, check};
 
-/// A scene with every key but a map in place, which `taxel fcm check` checks.
+/// A scene with every key except for an inline map, which `taxel fcm check` checks.
 const BASE: &str = r#"name = "calm"
 rate_hz = 50
 joints = ["left_elbow", "right_elbow"]
@@ -224,7 +224,7 @@ fn each_key_of_a_scene_has_a_mistake_that_is_told_with_its_line() {
     let said = checked("reference", BASE).unwrap();
     assert!(said.ends_with("fits; scene calm can be played on it."), "{said}");
     each(BASE, MISTAKES, |text| format!("{:#}", checked("reference", text).expect_err("it is refused")));
-    // Maps in place are checked by `taxel fcm check`, whose files they are.
+    // Inline maps are checked by `taxel fcm check`.
     let schema: Vec<String> = keys::of(Kind::Scene.schema());
     assert_eq!(schema, keys::of_mistakes(MISTAKES));
 }

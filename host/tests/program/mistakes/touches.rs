@@ -85,7 +85,7 @@ fn the_schema_has_the_keys_of_a_script_and_no_others() {
     keys::assert_all(&Script::parse(BASE, "all.toml").unwrap(), Kind::Touches.schema());
 }
 
-/// Each key of the schema is explained in the document.
+/// The document explains each key of the schema.
 #[test]
 fn the_document_names_every_key() {
     let document = include_str!("../../../../docs/touches.md");

@@ -1,10 +1,10 @@
-//! One bit that flips anywhere, and files that end anywhere.
+//! A flipped bit anywhere, and files that end anywhere.
 
 use super::made::{Told, found, read, recording, records, repaired};
 use mcap::records::op;
 use std::ops::Range;
 
-/// The messages that are not there any more. Others than there were must not be there.
+/// The messages that were lost. There must be no new ones.
 fn lost(before: &[Told], after: &[Told]) -> Vec<Told> {
     for message in after {
         assert!(before.contains(message), "{message:?} was not recorded");
@@ -12,7 +12,7 @@ fn lost(before: &[Told], after: &[Told]) -> Vec<Told> {
     before.iter().filter(|message| !after.contains(message)).cloned().collect()
 }
 
-/// Where the chunks lie.
+/// Ranges of the chunks.
 fn chunks(bytes: &[u8]) -> Vec<Range<usize>> {
     let chunk = |(number, start, end): (u8, usize, usize)| (number == op::CHUNK).then_some(start..end);
     records(bytes).into_iter().filter_map(chunk).collect()
@@ -50,7 +50,7 @@ fn a_file_that_is_called_whole_needs_nothing_put_right() {
         damaged[at] ^= 1 << bit;
         if found(&damaged).whole {
             assert!(!fields.contains(&at), "bit {bit} of byte {at}");
-            // Not all numbers are needed: what is told of channels is told twice.
+            // Not all numbers are needed: channels are declared twice.
             assert_eq!(read(&damaged), before, "bit {bit} of byte {at}");
         }
     }
@@ -63,7 +63,7 @@ fn a_bit_of_a_file_without_its_end_costs_one_chunk_at_most() {
     let before = read(&whole);
     let chunks = chunks(&whole);
     let end = chunks[2].end;
-    // What is told of channels once, before the chunks, has no checksum and no copy: times and data are
+    // Channels declared only once, before the chunks, have no checksum and no copy: only times and data are
     // compared.
     let bare =
         |told: &[Told]| told.iter().map(|(_, time, data)| (String::new(), *time, data.clone())).collect();
@@ -101,7 +101,7 @@ fn stretches_of_other_bytes_cost_what_they_cover() {
         let mut damaged = whole.clone();
         damaged[chunks[0].start + 30..chunks[1].start + 30].fill(fill);
         damaged.truncate(if has_end { whole.len() } else { chunks[2].end });
-        // Where the summary tells where the second chunk begins, what is left of it is enough to read it.
+        // If the summary has the offset of the second chunk, its remainder is readable.
         let kept = if has_end { 4 } else { 8 };
         assert_eq!(read(&repaired(&damaged)), before[kept..], "{fill}, {has_end}");
     }
@@ -130,7 +130,7 @@ fn a_file_without_chunks_loses_one_message_at_most() {
         let mut damaged = whole.clone();
         damaged[at] ^= 1 << (at % 8);
         let after = read(&repaired(&damaged));
-        // A bit of a message's own bytes cannot be told from what was recorded.
+        // A flipped bit of a message's own bytes cannot be detected.
         let kept = before.iter().filter(|message| after.contains(message)).count();
         assert!(kept >= 7, "byte {at}: {kept} of 8 messages");
     }

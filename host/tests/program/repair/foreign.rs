@@ -1,18 +1,18 @@
-//! What this program does not know is copied as it is: other compressions, records of later versions.
+//! Unknown parts are copied unchanged: other compressions, records of later versions.
 
 use super::made::{Scratch, record, records, repaired};
 use mcap::MAGIC;
 use mcap::records::op;
 use taxel::recording::scan;
 
-/// A number of a record that others have given it.
+/// Number of a record of another program.
 const PRIVATE: u8 = 0x9A;
 
 fn text(text: &str) -> Vec<u8> {
     [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat()
 }
 
-/// A chunk whose bytes only another program could read.
+/// A chunk that only another program can read.
 fn zstd(time: u64) -> Vec<u8> {
     let mut random = fastrand::Rng::with_seed(time);
     let data: Vec<u8> = std::iter::repeat_with(|| random.u8(..)).take(300).collect();
@@ -28,7 +28,7 @@ fn message_index(time: u64) -> Vec<u8> {
     record(op::MESSAGE_INDEX, &body)
 }
 
-/// The records of another program's recording, without its end.
+/// Records of another program's recording, without its end.
 fn data() -> Vec<Vec<u8>> {
     let header = record(op::HEADER, &[text("ros2"), text("another program 1.2")].concat());
     let channel = [&1u16.to_le_bytes()[..], &[0; 2], &text("/camera"), &text("cdr"), &[0; 4]].concat();
@@ -52,7 +52,7 @@ fn end(data: &[Vec<u8>]) -> Vec<u8> {
     [&data_end[..], &data[1], &footer, MAGIC].concat()
 }
 
-/// The records of a repaired file before its end.
+/// Records of a repaired file before its end.
 fn kept(bytes: &[u8]) -> Vec<Vec<u8>> {
     let data = records(bytes).into_iter().take_while(|(number, ..)| *number != op::DATA_END);
     data.map(|(_, start, end)| bytes[start..end].to_vec()).collect()
@@ -87,7 +87,7 @@ fn a_bit_costs_one_record_of_another_program_at_most() {
         damaged[at] ^= 1 << (at % 8);
         let kept = kept(&repaired(&damaged));
         let lost = data.iter().filter(|record| !kept.contains(record)).count();
-        // What the bit lies in; and where that is a chunk, its index, which leads nowhere then.
+        // The record with the bit; for a chunk also its index, which is useless then.
         assert!(lost <= 2, "byte {at}: {lost} of {} records", data.len());
     }
 }

@@ -1,4 +1,4 @@
-//! Small recordings, and what other programs read of them.
+//! Small recordings, and what other programs read from them.
 
 use mcap::records::op;
 use std::fs::{self, File};
@@ -10,7 +10,7 @@ use taxel::recording::{Format, Messages, Scan, Writer, repair, scan};
 /// A message: topic, log time, data.
 pub type Told = (String, u64, Vec<u8>);
 
-/// A file of a test, removed at its end.
+/// A test's file, deleted at its end.
 pub struct Scratch(pub PathBuf);
 
 impl Scratch {
@@ -29,7 +29,7 @@ impl Drop for Scratch {
     }
 }
 
-/// Three chunks of four messages on two topics, an attached file and words.
+/// Three chunks of four messages on two topics, an attachment and metadata.
 pub fn recording() -> Vec<u8> {
     let scratch = Scratch::new(b"");
     let mut writer = Writer::create(File::create(&scratch.0).unwrap(), "").unwrap();
@@ -48,12 +48,12 @@ pub fn recording() -> Vec<u8> {
     fs::read(&scratch.0).unwrap()
 }
 
-/// What is found in a file.
+/// Scan of a file.
 pub fn found(bytes: &[u8]) -> Scan {
     scan(&Scratch::new(bytes).0).unwrap()
 }
 
-/// What can be read of a file, with an end; the file itself must be as it was.
+/// Repairs a file, which must stay unchanged itself.
 pub fn repaired(bytes: &[u8]) -> Vec<u8> {
     let scratch = Scratch::new(bytes);
     let mut out = Vec::new();
@@ -63,8 +63,8 @@ pub fn repaired(bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The messages that are read, and by whose summary they are found: nothing may be wrong, for the crate
-/// `mcap` (which is built without LZ4 here and does not look into chunks) as for us.
+/// Messages of a file, found by its summary. There may be no error, neither for the crate `mcap` (which is
+/// built without LZ4 here and does not look into chunks) nor for us.
 pub fn read(bytes: &[u8]) -> Vec<Told> {
     let summary = mcap::Summary::read(bytes).unwrap().expect("a summary");
     for record in mcap::read::LinearReader::new(bytes).unwrap() {
@@ -81,7 +81,7 @@ pub fn read(bytes: &[u8]) -> Vec<Told> {
     }
     assert!(messages.skipped().is_none());
     for index in &summary.chunk_indexes {
-        // As readers see them that check LZ4's own sums, too.
+        // Read like readers that also check LZ4's own checksums.
         let end = (index.chunk_start_offset + index.chunk_length) as usize;
         let frame = &bytes[end - index.compressed_size as usize..end];
         let mut plain = Vec::new();
@@ -100,7 +100,7 @@ pub fn record(number: u8, body: &[u8]) -> Vec<u8> {
     [&[number], &(body.len() as u64).to_le_bytes()[..], body].concat()
 }
 
-/// Where each record lies: its number, its first byte, the byte behind it.
+/// Place of each record: number, first byte, end.
 pub fn records(bytes: &[u8]) -> Vec<(u8, usize, usize)> {
     let mut found = Vec::new();
     let mut at = mcap::MAGIC.len();

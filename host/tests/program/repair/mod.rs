@@ -1,4 +1,4 @@
-//! Damaged recordings: what can be read is never lost, and no input is changed.
+//! Damaged recordings: readable data is never lost, and no input is changed.
 
 mod damaged;
 mod foreign;

@@ -1,10 +1,10 @@
-//! The command.
+//! The command `taxel info --repair`.
 
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// A folder of a test, removed at its end.
+/// A test's folder, deleted at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -34,11 +34,11 @@ impl Folder {
         String::from_utf8(done.stderr).unwrap()
     }
 
-    /// A recording in which one bit of a chunk has flipped.
+    /// A recording with a flipped bit in a chunk.
     fn damaged(&self, name: &str) -> Vec<u8> {
         self.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", name]);
         let mut bytes = fs::read(self.at(name)).unwrap();
-        // Behind the first chunk, in which the board says what it is.
+        // Behind the first chunk, which has the `Hello`.
         let at = bytes.len() * 7 / 10;
         bytes[at] ^= 1;
         fs::write(self.at(name), &bytes).unwrap();
@@ -95,7 +95,7 @@ fn a_repair_takes_no_name_that_it_was_not_given() {
 
     folder.good(&["info", "touch.mcap", "--repair", "--in-place"]);
     assert_eq!(info(&folder, "touch.mcap")["whole"], true);
-    // A whole one stays as it is, and its copy is the same.
+    // An intact recording stays unchanged, and its copy is equal.
     let whole = fs::read(folder.at("touch.mcap")).unwrap();
     folder.good(&["info", "touch.mcap", "--repair", "--in-place"]);
     folder.good(&["info", "touch.mcap", "--repair", "-o", "copy.mcap"]);

@@ -1,26 +1,26 @@
-//! What a recording lacks of what a board has sent, and why.
+//! Messages that a recording lacks, and why.
 
 use super::served::{Happened, Sent};
 use std::fmt;
 use std::time::Duration;
 use taxel_core::wire::{self, Report};
 
-/// What was under way when a link broke, or a board restarted: the last of a connection that is reset is not
-/// read.
+/// Time of messages in transit when a link broke or a board restarted: the last bytes of a reset connection
+/// are not read.
 const UNDER_WAY: Duration = Duration::from_millis(500);
 
-/// What is missing of the frames and contacts that were sent.
+/// Missing frames and contact lists.
 #[derive(Debug, Default)]
 pub struct Loss {
     sent: usize,
     damaged: usize,
     under_way: usize,
-    /// Before the first that came over a new link: the host waits for what the board is.
+    /// Missing before the first one on a new link: the host waits for a `Hello`.
     before: usize,
     pub unexplained: usize,
 }
 
-/// Compares what was sent with what was kept, both in their order.
+/// Compares sent and recorded messages, both in order.
 pub fn judge(happened: &[Happened], kept: &[Vec<u8>]) -> Loss {
     let mut loss = Loss::default();
     let mut kept = kept.iter().filter(|bytes| counts(bytes)).peekable();
@@ -47,19 +47,19 @@ pub fn judge(happened: &[Happened], kept: &[Vec<u8>]) -> Loss {
             loss.unexplained += 1;
         }
     }
-    // What was kept and never sent would be worse.
+    // Recorded but never sent messages would be worse.
     loss.unexplained += kept.count();
     loss
 }
 
-/// Whether it is a frame or a list of contacts: other messages may be for the host alone.
+/// True for a frame or a list of contacts; other messages may be for the host alone.
 fn counts(frame: &[u8]) -> bool {
     let mut bytes = frame.strip_suffix(&[0]).unwrap_or(frame).to_vec();
     let report = wire::open(&mut bytes).and_then(wire::decode::<(u32, Report<'_>)>);
     matches!(report, Ok((_, Report::Frame(_) | Report::Contacts(_))))
 }
 
-/// Whether the link breaks soon after, or nothing is sent any more.
+/// True if the link breaks soon after, or nothing more is sent.
 fn breaks_soon(sent: &Sent, after: &[Happened]) -> bool {
     for event in after {
         match event {

@@ -1,8 +1,8 @@
-//! The memory of a program while it works.
+//! Memory of a running program.
 
 use std::fmt;
 
-/// What a program takes, second by second.
+/// Memory of a program over time.
 pub struct Watched {
     name: &'static str,
     id: u32,
@@ -14,20 +14,20 @@ impl Watched {
         Watched { name, id, bytes: Vec::new() }
     }
 
-    /// Looks once more.
+    /// Takes a sample.
     pub fn look(&mut self) {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.id)).unwrap();
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
         self.bytes.push(line.trim().trim_end_matches(" kB").parse::<u64>().unwrap() << 10);
     }
 
-    /// The most of a part of the time.
+    /// Maximum in a share of the time.
     fn most(&self, from: f64, until: f64) -> u64 {
         let at = |part: f64| (part * self.bytes.len() as f64) as usize;
         self.bytes[at(from)..at(until)].iter().copied().max().unwrap()
     }
 
-    /// How much more the most of the second half is than that of the half before it, the first fifth left out.
+    /// Growth of the maximum from the first to the second half, without the first fifth.
     pub fn grown(&self) -> u64 {
         self.most(0.6, 1.0).saturating_sub(self.most(0.2, 0.6))
     }

@@ -1,8 +1,8 @@
-//! A long run: boards that are touched, break and come back, while they are recorded, watched and set anew.
-//! No program's memory grows, and nothing is lost that no fault explains.
+//! A soak test: boards are touched, break and come back while they are recorded, watched and reconfigured. No
+//! program's memory may grow, and only faults may explain losses.
 //!
-//! `cargo xtask soak --minutes N` runs it long; `TAXEL_SOAK_MINUTES` says how long, a quarter where nobody
-//! says.
+//! `cargo xtask soak --minutes N` runs it for long; `TAXEL_SOAK_MINUTES` sets its duration, by default a
+//! quarter of a minute.
 
 mod loss;
 mod memory;
@@ -17,16 +17,16 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use taxel::record::WireReader;
 
-/// A run of this length tells whether memory grows.
+/// Least duration that shows growth of memory.
 const LONG: Duration = Duration::from_secs(300);
 
-/// How long it lasts.
+/// Duration.
 fn length() -> Duration {
     let minutes = std::env::var("TAXEL_SOAK_MINUTES").ok().and_then(|minutes| minutes.parse::<f64>().ok());
     Duration::from_secs_f64(60.0 * minutes.unwrap_or(0.25))
 }
 
-/// The program at work on a board, and what it says of gaps and losses.
+/// Starts the program on a board, with its standard error in a file.
 fn program(args: &[&str], words: &Path) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_taxel"));
     command.args(args).stdout(Stdio::piped()).stderr(File::create(words).unwrap()).spawn().unwrap()
@@ -93,11 +93,11 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
     }
     let seconds = told_seconds(&std::fs::read_to_string(&words[0]).unwrap());
     std::fs::remove_dir_all(&folder).unwrap();
-    // While it starts and while it waits for a link, no time is recorded.
+    // No time is recorded during the start and while waiting for a link.
     assert!(seconds > 0.8 * length().as_secs_f64() - 2.0, "{seconds} s are said to be recorded");
     assert_eq!(loss.unexplained, 0, "{loss}");
     assert!(messages > 100 && lines > 100 && sets > 10);
-    // What is kept on purpose, the last half minute, has to be there before anything is compared.
+    // The last half minute is kept on purpose, so it must be there before memory is compared.
     for watched in watched.iter().filter(|_| length() >= LONG) {
         assert!(watched.grown() <= 1 << 20, "{watched}");
     }

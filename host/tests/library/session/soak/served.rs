@@ -1,4 +1,4 @@
-//! A board that is served over TCP, touched at random, and now and then cut off, restarted or misheard.
+//! A board served over TCP, touched at random, with occasional disconnections, restarts and bit errors.
 
 use crate::session::rig::Rig;
 use std::io::{ErrorKind, Read, Write};
@@ -8,41 +8,41 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use taxel_core::format::Code;
 
-/// Times that something broke.
+/// Number of breaks.
 static BREAKS: AtomicUsize = AtomicUsize::new(0);
 
-/// Times that something broke, of all boards.
+/// Number of breaks over all boards.
 pub fn breaks() -> usize {
     BREAKS.load(Ordering::Relaxed)
 }
 
-/// A frame of the wire, its 0x00 included, as a board has sent it.
+/// A frame of the wire as sent by a board, including its 0x00.
 #[derive(Debug, Clone)]
 pub struct Sent {
     pub bytes: Vec<u8>,
     pub at: Instant,
-    /// A bit of it was flipped on the way.
+    /// A bit was flipped on the way.
     pub is_damaged: bool,
 }
 
-/// What has happened on a link.
+/// An event on a link.
 #[derive(Debug, Clone)]
 pub enum Happened {
-    /// It was opened.
+    /// The link was opened.
     Opened,
     Sent(Sent),
-    /// It was cut, or the board restarted.
+    /// The link was cut, or the board restarted.
     Broken(Instant),
 }
 
-/// A board under way.
+/// A board being served.
 pub struct Served {
     history: Arc<Mutex<Vec<Happened>>>,
     address: String,
 }
 
 impl Served {
-    /// Serves a board, and breaks it now and then.
+    /// Serves a board, and breaks it at times.
     pub fn begin(seed: u64) -> Served {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap().to_string();
@@ -60,18 +60,18 @@ impl Served {
         Served { history, address }
     }
 
-    /// As a source.
+    /// The board as a source.
     pub fn spec(&self) -> String {
         format!("tcp:{}", self.address)
     }
 
-    /// What has happened so far.
+    /// Events so far.
     pub fn sent(&self) -> Vec<Happened> {
         self.history.lock().unwrap().clone()
     }
 }
 
-/// Touches it ten times a second, and breaks something every few seconds.
+/// Touches the board ten times per second, and breaks something every few seconds.
 fn trouble(rig: &Mutex<Rig>, history: &Mutex<Vec<Happened>>, mut random: fastrand::Rng) {
     let mut next = Instant::now() + Duration::from_secs(5);
     loop {
@@ -128,7 +128,7 @@ fn pass(mut stream: TcpStream, rig: &Mutex<Rig>, history: &Mutex<Vec<Happened>>,
             }
         }
         if let Some(at) = flipped {
-            // No delimiter comes of it.
+            // The change creates no delimiter.
             buffer[at] ^= if buffer[at] == 1 { 2 } else { 1 };
         }
         if stream.write_all(&buffer[..count]).is_err() {

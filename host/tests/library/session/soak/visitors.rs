@@ -1,4 +1,4 @@
-//! Those who look at a board and who set it anew all the time.
+//! Programs that watch and reconfigure a board all the time.
 
 use super::served::Served;
 use std::io::{BufRead, BufReader};
@@ -18,7 +18,7 @@ use taxel_core::wire::Request;
 use tungstenite::Message;
 use tungstenite::client::IntoClientRequest;
 
-/// Somebody whom a flag sends home, and what they have counted.
+/// A visitor that a flag ends, and its count.
 struct Visitor {
     ends: Arc<AtomicBool>,
     thread: JoinHandle<usize>,
@@ -37,7 +37,7 @@ impl Visitor {
     }
 }
 
-/// Someone who opens the page, looks, rests the mouse on taxels, tares, goes, and comes again.
+/// A user who opens the page, moves the mouse over taxels, tares, leaves, and comes back.
 pub struct Page(Visitor);
 
 impl Page {
@@ -46,7 +46,7 @@ impl Page {
         let line = lines.find_map(|line| line.ok().filter(|line| line.contains("http://"))).unwrap();
         let host = line.split("http://").nth(1).unwrap().split('/').next().unwrap().to_string();
         Page(Visitor::begin(move |ends| {
-            // Its output is read to the end, whatever it says.
+            // Its output is read to the end.
             std::thread::spawn(move || lines.for_each(drop));
             let mut random = fastrand::Rng::with_seed(7);
             let mut count = 0;
@@ -57,13 +57,13 @@ impl Page {
         }))
     }
 
-    /// How many messages came.
+    /// Number of messages received.
     pub fn leave(self) -> usize {
         self.0.end()
     }
 }
 
-/// Reads all lines of a program: how many there were.
+/// Reads all lines of a program. Returns their number.
 pub fn listen(program: &mut Child) -> JoinHandle<usize> {
     let lines = BufReader::new(program.stdout.take().unwrap()).lines();
     std::thread::spawn(move || lines.map_while(Result::ok).count())
@@ -122,7 +122,7 @@ impl Setter {
         }))
     }
 
-    /// How many changes the board has answered with yes.
+    /// Number of changes that the board accepted.
     pub fn end(self) -> usize {
         self.0.end()
     }
