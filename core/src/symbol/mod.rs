@@ -17,5 +17,5 @@ mod stage;
 mod words;
 
 pub use config::SymbolConfig;
-pub use stage::{EVENTS, RegionState, Symbol, SymbolState, Symbols};
+pub use stage::{RegionState, Symbol, SymbolState, Symbols};
 pub use words::{Extent, SHARP, Span, Strength, Words};
