@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::board::{BoardInfo, Input, Shipped};
+use taxel_core::capacity::TAXELS;
 use taxel_core::condition::Filter;
 use taxel_core::contact::Phase;
 use taxel_core::format::{Code, Micros};
@@ -11,11 +12,9 @@ use taxel_core::pipeline::CONTACTS;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{self, Receiver, Report, Request};
 
-const TAXELS: usize = 2048;
-
 /// A mat, whose taxels show what is drawn at once.
 struct Bench {
-    board: Box<Board<TAXELS, 1024>>,
+    board: Box<Shipped>,
     receiver: Box<Receiver<8192>>,
     now: u64,
 }
@@ -30,7 +29,7 @@ impl Bench {
         // cm: a touch two taxels away is another one.
         scene.contact.gate = 1;
         scene.react.clear();
-        let board = Board::new(BoardInfo::feather("test 1.0"), Garment::mat(), scene).unwrap();
+        let board = Shipped::new(BoardInfo::feather("test 1.0"), Garment::mat(), scene).unwrap();
         let mut bench = Bench { board: Box::new(board), receiver: Box::default(), now: 0 };
         for request in [Request::Start, Request::Tare { frames: 1 }] {
             let mut frame = [0; 64];

@@ -6,12 +6,11 @@ use anyhow::{Result, anyhow};
 use std::path::Path;
 use taxel_core::acquire::Depth;
 use taxel_core::board::{BoardInfo, Setup, SetupError};
+use taxel_core::capacity::TAXELS;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::SceneError;
 use taxel_core::scene::Scene;
 
-/// Taxels that the board that ships holds.
-const TAXELS: usize = 2048;
 /// The board that ships.
 const BOARD: BoardInfo = BoardInfo::feather("");
 

@@ -9,13 +9,11 @@ use taxel_core::acquire::{
     Acquire, Adc, Clock, Depth, Fields, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan,
     ScanError, ScanReport, Sweep,
 };
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::Code;
 use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflex, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
-
-/// Taxels of the largest garment.
-const TAXELS: usize = 2048;
 
 /// Reads the simulated garment. A frame takes as long as [`taxel_core::acquire::frame_us`] says where a chain
 /// can read it.

@@ -2,12 +2,12 @@
 //! soon they are felt.
 
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 /// Frames of the baseline, and the one in which the thing begins to press.
 const TARE: u16 = 16;
 const BEGIN: u64 = 40;
