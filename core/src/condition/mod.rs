@@ -63,7 +63,6 @@ mod turn;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
-pub use edge::{Gradient, sobel};
 pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
 pub use feedback::{CARRIED, Feedback, Pressed};
 pub(crate) use held::Held;
