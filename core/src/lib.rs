@@ -62,3 +62,6 @@ pub mod wire;
 pub mod board;
 
 pub mod run;
+
+#[cfg(any(test, target_arch = "arm"))]
+mod memory;
