@@ -7,7 +7,8 @@
 //! [`unsure`] (contacts that may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`]
 //! (reactions), [`scene`] (settings of all stages), [`pipeline`] (composition of the stages), [`boot`]
 //! (causes of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
-//! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
+//! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
+//! [`capacity`] the sizes of the board that ships.
 //!
 //! `// M0+: out of line` explains an `#[inline(never)]`: on the Cortex-M0+ only eight registers are cheap to
 //! reach. A hot loop is therefore a function of its own, out of line, so that it gets all of them. The choice
@@ -17,6 +18,8 @@
 #![deny(missing_docs)]
 
 pub mod format;
+
+pub mod capacity;
 
 pub mod garment;
 
@@ -59,3 +62,6 @@ pub mod wire;
 pub mod board;
 
 pub mod run;
+
+#[cfg(any(test, target_arch = "arm"))]
+mod memory;

@@ -5,7 +5,7 @@
 //! | input | contacts of a frame, drift of each panel, time |
 //! | output | the contacts that are unsure |
 //! | latency | none |
-//! | RAM | 16 bytes a contact, 16 a panel |
+//! | RAM | [`UnsureState`] of 32 contacts: 648 bytes |
 //! | M0+ cycles | about 60 a contact |
 //!
 //! A patch of a garment that warms up shows the same codes as an object that presses equally slowly; no

@@ -1,4 +1,4 @@
-//! Links only if no panic is reachable from [`Board`]: the panic handler calls an undefined function. Never
+//! Links only if no panic is reachable from the board that ships: the panic handler calls an undefined function. Never
 //! run.
 //!
 //! All arguments of the calls come from outside, so the compiler knows nothing about them: any state, any
@@ -14,8 +14,9 @@
 use core::hint::black_box;
 use core::panic::PanicInfo;
 use taxel_core::acquire::{Fields, Scan, ScanError, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
+use taxel_core::board::{BoardInfo, Input, Part, Saved, Setup, Shipped};
 use taxel_core::boot::{Boots, Remains, Reset, panicked};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{Model, TouchState, Touches};
@@ -33,9 +34,6 @@ fn panic(_: &PanicInfo) -> ! {
     // SAFETY: no image that links calls it.
     unsafe { a_panic_is_reachable() }
 }
-
-/// Taxels and runs as in the firmware; with the default number of parts.
-type Reference = Board<2048, 1024>;
 
 /// State that a reset leaves.
 #[derive(Clone, Copy)]
@@ -58,7 +56,7 @@ impl Remains for Left {
 /// Arguments of the calls.
 pub struct Given {
     call: u8,
-    board: Reference,
+    board: Shipped,
     now: Micros,
     bytes: &'static [u8],
     codes: &'static [Code],
@@ -75,7 +73,7 @@ pub struct Given {
     touch: TouchState,
     image: &'static [u16],
     early: Early,
-    reflex: Reflex<2048>,
+    reflex: Reflex<TAXELS>,
     frame: &'static mut [Code],
     left: Left,
 }
@@ -96,8 +94,8 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep((Reference::bare(*info), board.dress(garment.clone()), board.employ(scene.clone()))),
-        11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
+        10 => keep((Shipped::bare(*info), board.dress(garment.clone()), board.employ(scene.clone()))),
+        11 => keep(Shipped::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),
         14 => keep(board.settings().write(given.part, given.buffer)),

@@ -23,14 +23,9 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, MuxScan};
-use taxel_core::board::{Board, SetupError};
+use taxel_core::board::{SetupError, Shipped};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
-
-/// Capacities for taxels, for runs of touched taxels in a row, and for parts of contacts.
-const TAXELS: usize = 2048;
-const RUNS: usize = TAXELS / 2;
-const PARTS: usize = TAXELS / 4;
 
 /// Number of bits per byte on the line: one start bit, eight data bits, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
@@ -42,19 +37,19 @@ static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
 #[inline(never)]
-fn dress(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
+fn dress(board: &mut Shipped) -> Result<(), SetupError> {
     board.dress(Garment::reference())
 }
 
 #[inline(never)]
-fn employ(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
+fn employ(board: &mut Shipped) -> Result<(), SetupError> {
     board.employ(Scene::shipped())
 }
 
 /// Sets the shipped garment and scene. Functions of their own: otherwise the main task would keep their stack
 /// for ever.
 #[inline(never)]
-fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
+fn ship(board: &mut Shipped) {
     if let Err(error) = dress(board).and_then(|()| employ(board)) {
         defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
         // From here on nothing feeds the watchdog, so the board restarts and reports it again.
@@ -87,7 +82,7 @@ async fn main(_spawner: Spawner) {
     let mut platform = platform::Board::start(watchdog, led, flash);
     const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
-    let mut board = Board::bare(board::INFO);
+    let mut board = Shipped::bare(board::INFO);
     ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

@@ -4,14 +4,13 @@ use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
 use crate::store::{Fed, Flash};
-use crate::{PARTS, RUNS, TAXELS};
 use embassy_rp::{clocks, watchdog::Watchdog};
 use embassy_time::{Duration, Instant};
 use embedded_hal::delay::DelayNs;
 use rp_pac::watchdog::regs::Load;
 use taxel_core::{
     acquire::{Clock, WATCHDOG_MS},
-    board::{self, Saved, Settings},
+    board::{Saved, Settings, Shipped},
     boot::{Aside, Boots},
     format::Micros,
     pipeline::{Probe, Stage},
@@ -124,7 +123,7 @@ impl Board {
     /// Restores the stored settings, unless they are set aside; then the flash is not even read. Call before
     /// the board has begun. Out of line: its stack is needed only here.
     #[inline(never)]
-    pub fn recall(&mut self, board: &mut board::Board<TAXELS, RUNS, PARTS>) {
+    pub fn recall(&mut self, board: &mut Shipped) {
         let uses_stored = self.boots.boot().aside == Aside::No;
         if let Some(saves) = self.boots.saves().or((!uses_stored).then_some(UNKNOWN_SAVES)) {
             board.resume_saving(saves);

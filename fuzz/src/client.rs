@@ -10,13 +10,14 @@ use taxel::client::{Client, Event};
 use taxel::live::{Lines, Messages, Show, View};
 use taxel::source::{Port, Source};
 use taxel::view::{Hub, Viewer};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Frame, Hello, MAGIC, PROTOCOL, Raw, Report, encode_image, image_bound, image_sum};
 
 /// Most values of an image of an input.
-const VALUES: usize = 2048;
+const VALUES: usize = TAXELS;
 
 /// Tells a client what the bytes say, and shows what it makes of it.
 pub fn run(data: &[u8]) {

@@ -2,18 +2,12 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input, SetupError};
+use taxel_core::board::{BoardInfo, Input, SetupError, Shipped};
+pub use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::scene::Scene;
-
-/// Capacity for taxels.
-pub const TAXELS: usize = 2048;
-/// Capacity for runs of touched taxels in a row.
-const RUNS: usize = TAXELS / 2;
-/// Capacity for parts of contacts.
-const PARTS: usize = TAXELS / 4;
 
 /// Time from scan to scan, us: 195 frames a second.
 pub const PERIOD_US: u64 = 5_128;
@@ -26,7 +20,7 @@ static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// A board without pins, whose link takes everything at once.
 pub struct Chain {
-    board: Board<TAXELS, RUNS, PARTS>,
+    board: Shipped,
     scans: u64,
 }
 
@@ -49,7 +43,7 @@ impl Chain {
             full_scale: FULL_SCALE,
             link_bytes_per_s: u32::MAX,
         };
-        Chain { board: Board::bare(info), scans: 0 }
+        Chain { board: Shipped::bare(info), scans: 0 }
     }
 
     /// Sets the reference garment and the shipped scene.

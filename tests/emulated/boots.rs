@@ -5,12 +5,12 @@
 use crate::board::Emulated;
 use std::path::{Path, PathBuf};
 use taxel_core::boot::{Aside, Boot, BootCause};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, Report, Request};
 
-const TAXELS: usize = 2048;
 /// The pin of the LED, which somebody may ground.
 const LED: &str = "13";
 

@@ -6,7 +6,7 @@ use crate::faults::{examine, pin_faults};
 use std::collections::BTreeMap;
 use taxel::sim::{FRAME_PERIOD_US, Script, frame_codes};
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::board::{BoardInfo, Input, Shipped};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::health::TaxelHealth;
@@ -131,7 +131,7 @@ fn breaking(healthy: u64) -> (Script, u64, u64) {
 /// What a board on this machine finds in these codes.
 fn on_this_machine(codes: &[u16]) -> BTreeMap<u16, TaxelHealth> {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
-    let mut board = Box::new(Board::<2048, 1024>::new(info, Garment::reference(), Scene::shipped()).unwrap());
+    let mut board = Box::new(Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap());
     let mut wire = [0; 64];
     let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();
     board.step(Micros(0), Input::Received(frame), &mut ());

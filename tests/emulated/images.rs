@@ -1,10 +1,8 @@
 //! Images as a host keeps them. A part of the targets that receive some.
 
 use crate::board::Message;
+pub use taxel_core::capacity::TAXELS;
 use taxel_core::wire::{Report, decode_image, image_sum};
-
-/// Taxels of the garment.
-pub const TAXELS: usize = 2048;
 
 /// The last image, to which the next one is a difference.
 #[derive(Default)]

@@ -4,6 +4,7 @@
 
 use crate::board::Emulated;
 use taxel::sim::{frame_codes, load};
+use taxel_core::capacity::TAXELS;
 use taxel_core::contact::Phase;
 use taxel_core::format::Code;
 use taxel_core::garment::Garment;
@@ -13,7 +14,6 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
 use taxel_suite::pattern::Pattern;
 
-const TAXELS: usize = 2048;
 /// Columns of a panel, and taxels.
 const COLUMNS: usize = 16;
 const PANEL: usize = 32 * COLUMNS;

@@ -4,10 +4,10 @@
 use crate::board::Emulated;
 use std::time::Instant;
 use taxel_core::boot::BootCause;
+use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Garment;
 use taxel_core::wire::{Frame, Report, Request};
 
-const TAXELS: usize = 2048;
 /// A frame, us.
 const FRAME_US: u64 = 5_120;
 /// The brown-out detector's register: 0.946 V, switched on.

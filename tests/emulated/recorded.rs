@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use taxel::arrays::read_all;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::board::{BoardInfo, Input, Shipped};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::gesture::GestureConfig;
@@ -24,7 +25,6 @@ const RATE_HZ: u16 = 20;
 /// frame to the next, so that each is perceived.
 const SCAN_US: u64 = 5_120;
 const DWELL: u64 = 10;
-const TAXELS: usize = 2048;
 
 /// Reports that depend on the codes and their times alone, without `seq`, by the number of their scan.
 type Reports = Vec<(u32, &'static str, Vec<u8>)>;
@@ -103,7 +103,7 @@ fn from_board(board: &mut Emulated, from: Micros, to: Micros) -> (Reports, BTree
 
 /// A board on this machine, fed with the same requests and scans.
 struct Twin {
-    board: Box<Board<TAXELS, 1024>>,
+    board: Box<Shipped>,
     receiver: Receiver<8192>,
     reports: Reports,
 }
@@ -112,7 +112,7 @@ impl Twin {
     fn new() -> Twin {
         let info =
             BoardInfo { firmware: "", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: 92_160 };
-        let board = Board::new(info, Garment::reference(), Scene::shipped()).unwrap();
+        let board = Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap();
         Twin { board: Box::new(board), receiver: Receiver::new(), reports: Reports::new() }
     }
 

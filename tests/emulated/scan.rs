@@ -4,13 +4,13 @@
 use crate::board::Emulated;
 use serde_json::Value;
 use taxel_core::acquire::{Depth, Plan, frame_us};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::name;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::reflex::Agree;
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::{Report, Request, decode_image};
 
-const TAXELS: usize = 2048;
 /// Frames that are shown in turn, no two of them alike.
 const FRAMES: usize = 61;
 /// Cycles of the processor in a second.

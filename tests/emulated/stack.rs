@@ -2,6 +2,7 @@
 //! `cargo xtask test --only emulator-stack`.
 
 use crate::board::Emulated;
+use taxel_core::capacity::TAXELS;
 use taxel_core::condition::Filter;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Absent, Block, Edge, Garment, Line, Panel, Seam, Side};
@@ -12,7 +13,6 @@ use taxel_core::wire::{Hello, IntentReport, LONGEST_REQUEST, Report, Request};
 
 /// What must stay free of the 48 KiB that memory.x sets aside: bytes.
 const MARGIN: u64 = 30 * 1024;
-const TAXELS: usize = 2048;
 /// Columns of a panel of the reference garment.
 const COLUMNS: usize = 16;
 /// Different frames, and how often they are shown, each time with other random numbers.

@@ -3,12 +3,11 @@
 
 use crate::board::Emulated;
 use std::path::Path;
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::name;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, Report, Request};
-
-const TAXELS: usize = 2048;
 
 /// Garment and scene of a board that has just started.
 fn worn(board: &mut Emulated) -> (Garment, Scene) {

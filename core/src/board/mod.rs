@@ -30,6 +30,7 @@ pub use setup::{Setup, SetupError};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::boot::Boot;
+use crate::capacity;
 use crate::condition::{Certificate, Tare};
 use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment};
@@ -142,6 +143,9 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     certificate: Option<Certificate>,
 }
 
+/// The board that ships, of the capacities that [`capacity`] states.
+pub type Shipped = Board<{ capacity::TAXELS }, { capacity::RUNS }, { capacity::PARTS }>;
+
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// A board with a garment and a scene.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
@@ -155,6 +159,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// whole. Its stages are reset on the first [`Board::step`].
     #[inline(never)]
     pub fn bare(info: BoardInfo) -> Self {
+        const { assert!(TAXELS <= capacity::TAXELS, "messages and stored settings have room for no more") };
         Board {
             info,
             boot: None,

@@ -12,7 +12,7 @@ use crate::wire::Level;
 type Allowance = Quota<12, 300_000_000>;
 /// Time between the announcement and the save, in which the link sends what is pending.
 const NOTICE_US: u64 = 50_000;
-/// Longest time that a save waits for a touch to end.
+/// Longest time that a save waits for a touch to end; one that is back within [`NOTICE_US`] has not ended.
 const PATIENCE_US: u64 = 2_000_000;
 /// Time to erase and rewrite a sector of the flash, ms: the maker's typical value; the maximum is ten times
 /// as long.
@@ -77,7 +77,11 @@ impl Saving {
     /// Next step of a requested save; `busy`: something touches the garment.
     pub fn next(&mut self, now: Micros, busy: bool) -> Next {
         if busy {
-            self.announced = None;
+            // A pause in which the save could have been made ends a touch. A shorter one does not, so that a
+            // save is answered under a touch that trembles, too.
+            if self.announced.take().is_some_and(|at| now.since(at) >= NOTICE_US) {
+                self.waits = None;
+            }
             let since = *self.waits.get_or_insert(now);
             return if now.since(since) < PATIENCE_US { Next::Wait } else { Next::Refuse };
         }
@@ -271,5 +275,19 @@ mod tests {
         saving.taken();
         let steps = [0, 1_999_999, 2_000_000].map(|us| saving.next(Micros(us), true));
         assert_eq!(steps, [Next::Wait, Next::Wait, Next::Refuse]);
+    }
+
+    /// Frames may be so long that a touch ends and another begins between the steps of a save.
+    #[test]
+    fn a_touch_that_has_ended_does_not_count_for_the_next_one() {
+        let of = |steps: [(u64, bool); 5]| {
+            let mut saving = Saving::new();
+            steps.map(|(ms, busy)| saving.next(Micros(ms * 1000), busy))
+        };
+        let short = of([(0, true), (100, false), (2_100, true), (4_099, true), (4_100, true)]);
+        assert_eq!(short, [Next::Wait, Next::Announce, Next::Wait, Next::Wait, Next::Refuse]);
+        // A shorter pause than a save needs ends no touch, so that every save is answered.
+        let trembling = of([(0, true), (1_000, false), (1_049, true), (1_990, false), (2_010, true)]);
+        assert_eq!(trembling, [Next::Wait, Next::Announce, Next::Wait, Next::Announce, Next::Refuse]);
     }
 }

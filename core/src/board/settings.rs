@@ -3,6 +3,7 @@
 use super::refusal::Refusal;
 use super::setup::Setup;
 use super::{Board, request};
+use crate::capacity::TAXELS;
 use crate::condition::Certificate;
 use crate::format::{Code, Micros};
 use crate::garment::Garment;
@@ -12,8 +13,8 @@ use crate::wire::{decode, write};
 use core::fmt;
 use serde::Serialize;
 
-/// Longest part of the settings, bytes: two for each of 2,048 taxels.
-pub const PART_BYTES: usize = 4096;
+/// Longest part of the settings, bytes: two for each of [`TAXELS`] taxels.
+pub const PART_BYTES: usize = 2 * TAXELS;
 
 /// A part of the settings, in the order in which they are restored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,11 +1,12 @@
 //! The message in transmission to the host.
 
+use crate::capacity::TAXELS;
 use crate::wire::*;
 use core::ops::Range;
 use serde::Serialize;
 
-/// Most data of a message: an image of any 2,048 taxels.
-const DATA: usize = image_bound(2048, 16);
+/// Most data of a message: an image of any [`TAXELS`] taxels.
+const DATA: usize = image_bound(TAXELS, 16);
 /// Longest head of a message with data: numbers, time, sum, length of the data.
 const HEAD: usize = 41;
 /// Longest message. A full list of contacts is shorter.

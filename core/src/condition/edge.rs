@@ -5,11 +5,11 @@ use crate::garment::Area;
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-pub struct Gradient {
+pub(crate) struct Gradient {
     /// along x (columns)
-    pub x: i32,
+    x: i32,
     /// along y (rows)
-    pub y: i32,
+    y: i32,
 }
 
 impl Gradient {
@@ -17,12 +17,6 @@ impl Gradient {
     pub const fn magnitude(self) -> u32 {
         self.x.unsigned_abs() + self.y.unsigned_abs()
     }
-}
-
-/// 3x3 Sobel gradient at a taxel of a panel, border replicated; 0 if the slice is too short for it.
-pub fn sobel(values: &[u16], area: &Area, row: u16, column: u16) -> Gradient {
-    let (row, column) = (row.min(area.rows.saturating_sub(1)), column.min(area.columns.saturating_sub(1)));
-    Neighbourhood::of(values, area, row).gradient(column)
 }
 
 /// A row of a panel with the rows above and below it; at the border the row itself replaces them.
@@ -47,7 +41,7 @@ impl<'a> Neighbourhood<'a> {
         if usize::from(self.columns) == SIXTEEN { self.pieces(0) } else { None }
     }
 
-    /// Gradient at a column of the panel.
+    /// 3x3 Sobel gradient at a column of the panel, border replicated; 0 if the slice is too short for it.
     pub fn gradient(&self, column: u16) -> Gradient {
         let gradient = if column == 0 || column + 1 == self.columns {
             self.gradient_beside(column)
@@ -163,14 +157,14 @@ mod tests {
         for (i, value) in values.iter_mut().enumerate() {
             *value = 1000 + 3 * (i % 7) as u16 + 20 * (i / 7) as u16;
         }
-        let at = |row, column| sobel(&values, &layout.areas()[0], row, column);
+        let area = &layout.areas()[0];
+        let at = |row, column| Neighbourhood::of(&values, area, row).gradient(column);
         assert_eq!(at(2, 3), Gradient { x: 24, y: 160 });
         assert_eq!(at(2, 3).magnitude(), 184);
         // Replicated border: half the difference shows.
         assert_eq!(at(0, 0), Gradient { x: 12, y: 80 });
         assert_eq!(at(4, 6), Gradient { x: 12, y: 80 });
-        // Any input is accepted: outside the panel, and without values.
-        assert_eq!(at(99, 99), at(4, 6));
-        assert_eq!(sobel(&[], &layout.areas()[0], 1, 1), Gradient::default());
+        // Without values there is no slope.
+        assert_eq!(Neighbourhood::of(&[], area, 1).gradient(1), Gradient::default());
     }
 }

@@ -6,7 +6,7 @@
 //! | output | counts per cm2, rounded down; and a word for it |
 //! | saturation | at 2^32 - 1 |
 //! | latency | none; the cue is unknown until the force is twice that of the first frame |
-//! | RAM | [`Growth`]: 16 bytes a contact |
+//! | RAM | [`Growth`]: 20 bytes a contact |
 //! | M0+ cycles | 30 a frame, and a 32-bit division when the cue is read |
 //!
 //! A soft object wraps around what it touches, so that force and area grow together; a hard one keeps its

@@ -6,7 +6,7 @@ use super::piece::Piece;
 use super::strip::strips;
 use super::touched::sixteens;
 use crate::condition::{Image, panel_of, row_of};
-use crate::garment::{Area, Layout, Side};
+use crate::garment::{Area, Layout, PANELS, Side};
 use heapless::Vec;
 
 /// The parts and pieces of a frame.
@@ -24,6 +24,7 @@ pub(super) struct Labels<const RUNS: usize, const PARTS: usize> {
 
 /// Returns the bit of a side among the four of its panel.
 const fn bit(panel: u8, side: Side) -> u32 {
+    const { assert!(PANELS <= 8, "four bits for each panel") };
     1 << (panel as u32 % 8 * 4 + side as u32)
 }
 

@@ -201,12 +201,12 @@ struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    /// Returns the columns of a row, as zeros if the row is inactive; empty if the row is too short.
+    /// Returns the columns of a row, as zeros if the row is inactive.
     #[inline(never)] // M0+: out of line
     fn row(&self, row: u16) -> &'a [u16] {
-        // The image has no values of an inactive row.
-        let row = self.image.row(self.area, row).get(self.left..).unwrap_or(&NOTHING);
-        row.get(..self.columns).unwrap_or(&[])
+        // The image has no values of an inactive row: even those from column 0 on are missing.
+        let values = self.image.row(self.area, row).get(self.left..self.left + self.columns);
+        values.or(NOTHING.get(..self.columns)).unwrap_or(&[])
     }
 }
 

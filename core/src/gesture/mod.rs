@@ -13,7 +13,7 @@
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
 //! | latency | none: a decision is available after every frame; the sums start again after [`LONGEST`] frames |
 //! | on a garment | [`Gestures`]: the touched panel is mapped to the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, and a decision is announced once it has lasted |
-//! | RAM | [`TouchState`], at most 4 KiB |
+//! | RAM | [`TouchState`]: 3,712 bytes |
 //! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.6 KB |
 
 mod announce;

@@ -28,7 +28,7 @@
 //! |---|---|
 //! | input | [`Code`](crate::format::Code) by taxel number, codes at rest |
 //! | output | at most [`ILL`] faulty taxels |
-//! | RAM | 2.9 KB |
+//! | RAM | [`Monitor`]: 2,812 bytes |
 
 mod inputs;
 mod judge;

@@ -6,7 +6,7 @@
 //! | output | the measures of [`Evidence`] |
 //! | saturation | at the ends of their types |
 //! | latency | none |
-//! | RAM | about 220 bytes |
+//! | RAM | [`Evidence`]: 224 bytes |
 //!
 //! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) since
 //! the latest earlier frame that is at least [`WINDOW_US`] older; if frames are further apart, since the

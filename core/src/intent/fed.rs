@@ -7,7 +7,7 @@
 //! | output | a value for each slot of [`Source::Host`](super::input::Source::Host) |
 //! | saturation | none: values outside -1 ..= 1 are refused |
 //! | latency | none |
-//! | RAM | 24 bytes a slot |
+//! | RAM | [`Fed`]: 192 bytes |
 
 use super::map::Map;
 use crate::format::{Invalid, Micros, Name, Q15};

@@ -7,7 +7,7 @@ use crate::format::Name;
 use crate::gesture::Gesture;
 use crate::intent::Meaning;
 use crate::react::ReactState;
-use crate::symbol::SymbolState;
+use crate::symbol::{Symbol, SymbolState};
 use crate::unsure::UnsureState;
 
 /// Everything perceived in one frame.
@@ -35,4 +35,11 @@ pub struct Percept<'a> {
     pub reactions: &'a ReactState,
     /// Progress of a tare.
     pub tare: Tare,
+}
+
+impl Percept<'_> {
+    /// Events of the frame: onsets and changes of words of the present contacts, then releases.
+    pub fn events(&self) -> impl Iterator<Item = Symbol> {
+        self.symbols.events(self.present, self.released)
+    }
 }

@@ -5,7 +5,7 @@
 //! | input | region states, meaning of the touch, state of the board itself |
 //! | output | changes of named reactions, in the frame that shows their cause |
 //! | latency | none |
-//! | RAM | [`ReactState`]: about 620 bytes: 44 for each of 8 reactions, 260 for the activations of the map |
+//! | RAM | [`ReactState`]: 624 bytes |
 //!
 //! | file | what |
 //! |---|---|

@@ -5,7 +5,7 @@
 //! | input | codes of a sub-field in the order of the scan, a limit for each taxel |
 //! | output | codes by taxel number; rows of the scene's reactions that begin |
 //! | latency | the rest of the sub-field: 640 us at most on the reference garment |
-//! | RAM | [`Reflex`]: 4 bytes a taxel and 700 |
+//! | RAM | [`Reflex`] of 2,048 taxels: 8,968 bytes |
 //! | Cortex-M0+ | `docs/reflex.md` |
 //!
 //! Contacts, shapes and meanings need whole frames. A pin that has to move within a millisecond cannot wait

@@ -4,12 +4,10 @@ use super::lines::PULLED_NS;
 use super::{Fault, Findings};
 use crate::acquire::{Clock, Lines, Pad, Pull, PulledAdc, ScanError};
 use crate::format::Extremes;
-use crate::garment::{Circuit, Site};
+use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
 
-/// Most inputs that are examined.
-const INPUTS: usize = 8;
 /// Largest code of a converter.
 const FULL: u16 = 4095;
 /// Largest distance from an end of the range at which an input counts as shorted to that end: offset and
@@ -34,9 +32,10 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     circuit: &Circuit,
     findings: &mut Findings,
 ) -> Result<(), ScanError> {
-    let mut inputs = Vec::<Input, INPUTS>::new();
+    let mut inputs = Vec::<Input, BLOCKS>::new();
     for site in circuit.sites() {
         if !inputs.iter().any(|input| input.pin == site.input) {
+            // Always room: a circuit has at most BLOCKS blocks, and each has one input.
             let _ = inputs.push(Input { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
         }
     }

@@ -2,15 +2,14 @@
 
 use super::descriptor::{Descriptor, descriptor};
 use super::patch::Patch;
+use crate::capacity::TAXELS;
 use crate::condition::Image;
 use crate::contact::{Contact, ContactState};
 use crate::garment::{Layout, Place};
 
-/// Capacity for the taxels of a contact's box; of a larger one, the last rows are left out.
-const PATCH: usize = 2048;
-
 /// Returns the descriptor of a contact, number `index` of those in `contacts`, from its own taxels. Of one
-/// that crosses a seam, only the part on its home panel counts. None if there is no such panel.
+/// that crosses a seam, only the part on its home panel counts; of a box of more than [`TAXELS`] taxels, the
+/// last rows are left out. None if there is no such panel.
 #[inline(never)] // its buffer of 4 KB is on the stack only during the call
 pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
     contacts: &ContactState<CONTACTS, RUNS, PARTS>,
@@ -21,7 +20,7 @@ pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
     let bounds = &contact.bounds;
     let area = layout.areas().get(usize::from(bounds.panel))?;
     let width = usize::from(bounds.right.saturating_sub(bounds.left)) + 1;
-    let (mut values, mut length) = ([0; PATCH], 0);
+    let (mut values, mut length) = ([0; TAXELS], 0);
     for (row, to) in (bounds.top..=bounds.bottom).zip(values.chunks_exact_mut(width)) {
         let from = image.row(area, row).iter().skip(bounds.left.into());
         for ((column, value), to) in (bounds.left..).zip(from).zip(to) {

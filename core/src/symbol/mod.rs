@@ -6,7 +6,7 @@
 //! | input | placed contacts of a frame, present and released |
 //! | output | an event for each onset, change of a word, and release; a state per region |
 //! | latency | none |
-//! | RAM | [`SymbolState`]: 12 bytes a contact, 24 a region, and 640 for events |
+//! | RAM | [`SymbolState`] of 32 contacts: 760 bytes |
 //!
 //! Words do not flicker. A measure must pass its limit by an eighth; another shape must outweigh the evidence
 //! for the present one; and the word for moving holds for a while after a slide.
@@ -17,5 +17,5 @@ mod stage;
 mod words;
 
 pub use config::SymbolConfig;
-pub use stage::{EVENTS, RegionState, Symbol, SymbolState, Symbols};
+pub use stage::{RegionState, Symbol, SymbolState, Symbols};
 pub use words::{Extent, SHARP, Span, Strength, Words};

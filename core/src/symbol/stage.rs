@@ -44,24 +44,30 @@ pub struct RegionState {
     pub since: Micros,
 }
 
-/// State of the stage.
+/// State of the stage, for at most CONTACTS contacts (32 or fewer).
 #[derive(Debug, Clone)]
 pub struct SymbolState<const CONTACTS: usize> {
+    /// Words of the present contacts.
     said: Vec<Said, CONTACTS>,
-    events: Vec<Symbol, EVENTS>,
+    /// Last words of the contacts released in the last frame, in their order.
+    last_words: Vec<Words, CONTACTS>,
+    /// Contacts of the last frame whose onset is an event, one bit each, in their order.
+    onsets: u32,
+    /// Contacts of the last frame whose change of words is an event.
+    changes: u32,
     /// Time of the last frame.
     last: Micros,
     regions: [RegionState; PANELS],
 }
 
-/// Greatest number of events of one frame, and of one message; further ones are dropped.
-pub const EVENTS: usize = 32;
-
 impl<const CONTACTS: usize> Default for SymbolState<CONTACTS> {
     fn default() -> Self {
+        const { assert!(CONTACTS <= 32, "one bit each") };
         SymbolState {
             said: Vec::new(),
-            events: Vec::new(),
+            last_words: Vec::new(),
+            onsets: 0,
+            changes: 0,
             last: Micros(0),
             regions: [RegionState::default(); PANELS],
         }
@@ -69,9 +75,27 @@ impl<const CONTACTS: usize> Default for SymbolState<CONTACTS> {
 }
 
 impl<const CONTACTS: usize> SymbolState<CONTACTS> {
-    /// Events of the last frame.
-    pub fn events(&self) -> &[Symbol] {
-        &self.events
+    /// True if the last frame has events.
+    pub fn has_events(&self) -> bool {
+        self.onsets | self.changes != 0 || !self.last_words.is_empty()
+    }
+
+    /// Events of the last frame, in which contacts were `present` and `released`: at most one for each. They
+    /// are made when they are read, since a frame in which all contacts end and as many begin has 64.
+    pub fn events<'a>(
+        &'a self,
+        present: &'a [Placed],
+        released: &'a [Placed],
+    ) -> impl Iterator<Item = Symbol> + 'a {
+        let news = present.iter().enumerate().filter_map(|(index, placed)| {
+            let is_in = |set: u32| set >> (index & 31) & 1 == 1;
+            let phase = if is_in(self.onsets) { Phase::Onset } else { Phase::Held };
+            let id = Some(placed.contact.id).filter(|_| is_in(self.onsets | self.changes))?;
+            let said = self.said.iter().find(|said| said.contact == id)?;
+            Some(symbol(placed, phase, said.words))
+        });
+        let ends = released.iter().zip(&self.last_words);
+        news.chain(ends.map(|(placed, words)| symbol(placed, Phase::Released, *words)))
     }
 
     /// Resets the classes of all contacts, because another base of shapes is in force that does not have
@@ -122,26 +146,43 @@ impl Symbols {
         released: &[Placed],
         now: Micros,
     ) {
-        state.events.clear();
         let ms = now.millis_since(state.last);
         // The rest of a millisecond counts with the next frame.
         state.last = if ms > MOST_MS { now } else { Micros(state.last.0 + u64::from(ms) * 1000) };
         let ms = ms.min(MOST_MS) as u8;
-        let mut at = 0;
+        // First, which makes room for those that begin.
+        self.release(state, layout, released);
+        (state.onsets, state.changes) = (0, 0);
+        let (mut at, mut bit) = (0, 1);
         for placed in present {
-            let (phase, words) = match said_of(&mut state.said, &mut at, placed.contact.id) {
-                Some(said) => match said.follow(&self.config, placed, area_mm2(layout, placed), ms) {
-                    true => (Phase::Held, said.words),
-                    false => continue,
-                },
-                None => {
-                    let said = Said::new(&self.config, placed, area_mm2(layout, placed));
-                    let words = said.words;
-                    let _ = state.said.push(said);
-                    (Phase::Onset, words)
+            let area = area_mm2(layout, placed);
+            match said_of(&mut state.said, &mut at, placed.contact.id) {
+                Some(said) => {
+                    if said.follow(&self.config, placed, area, ms) {
+                        state.changes |= bit;
+                    }
                 }
-            };
-            let _ = state.events.push(symbol(placed, phase, words));
+                None => {
+                    // Always room: as many places as contacts.
+                    let _ = state.said.push(Said::new(&self.config, placed, area));
+                    state.onsets |= bit;
+                }
+            }
+            bit <<= 1;
+        }
+        regions(&mut state.regions, present, now);
+    }
+
+    /// Keeps the last words of the contacts that are `released`, and forgets the rest of them.
+    fn release<const CONTACTS: usize>(
+        &self,
+        state: &mut SymbolState<CONTACTS>,
+        layout: &Layout,
+        released: &[Placed],
+    ) {
+        state.last_words.clear();
+        if released.is_empty() {
+            return;
         }
         for placed in released {
             let last = state.said.iter().find(|said| said.contact == placed.contact.id);
@@ -149,13 +190,10 @@ impl Symbols {
                 || Said::new(&self.config, placed, area_mm2(layout, placed)).words,
                 |said| said.words,
             );
-            let _ = state.events.push(symbol(placed, Phase::Released, words));
+            // Always room: as many places as contacts.
+            let _ = state.last_words.push(words);
         }
-        // A contact is reported as released before it disappears.
-        if !released.is_empty() {
-            state.said.retain(|said| released.iter().all(|gone| gone.contact.id != said.contact));
-        }
-        regions(&mut state.regions, present, now);
+        state.said.retain(|said| released.iter().all(|gone| gone.contact.id != said.contact));
     }
 }
 

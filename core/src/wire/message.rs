@@ -13,7 +13,7 @@ use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::selftest::Findings;
 use crate::shape::GALLERY_CLASSES;
-use crate::symbol::{EVENTS, RegionState, Symbol};
+use crate::symbol::{RegionState, Symbol};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -189,7 +189,7 @@ pub struct ContactList {
     pub contacts: Vec<Placed, LISTED>,
 }
 
-/// Greatest number of contacts of a list: all that can be present, and as many that have ended.
+/// Greatest number of contacts, or events, of a list: all that can be present, and as many that have ended.
 pub const LISTED: usize = 2 * CONTACTS;
 
 /// Events and regions of a frame.
@@ -200,7 +200,7 @@ pub struct SymbolList {
     /// Start of the scan.
     pub time: Micros,
     /// Onsets, changes of words, releases.
-    pub events: Vec<Symbol, EVENTS>,
+    pub events: Vec<Symbol, LISTED>,
     /// Touched regions.
     pub regions: Vec<RegionState, PANELS>,
 }

@@ -7,6 +7,7 @@ mod bounds;
 mod certainty;
 mod condition;
 mod dense;
+mod events;
 mod exchange;
 mod garment;
 mod golden;

@@ -2,13 +2,13 @@
 
 use taxel_core::acquire::{Depth, Fields, Plan};
 use taxel_core::board::{BoardInfo, Setup};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Circuit, Garment, Layout};
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::reflex::{Agree, Early, Reflex};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 const COLUMNS: usize = 16;
 /// Taxels of a panel of the reference garment.
 const PANEL: usize = 512;

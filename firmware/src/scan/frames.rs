@@ -16,10 +16,11 @@ use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
 use embassy_sync::waitqueue::AtomicWaker;
 use static_cell::ConstStaticCell;
 use taxel_core::acquire::{Clock, Lent, PLACES, Ring, ScanError, TURN_PLACES};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 
 /// Codes of one frame, by taxel number.
-type Frame = [Code; crate::TAXELS];
+type Frame = [Code; TAXELS];
 
 /// State of the interrupt: ring, and whether the DMA left its sequence.
 struct Beat {
@@ -104,8 +105,7 @@ pub struct Frames(*mut [Frame; PLACES]);
 impl Frames {
     /// Takes the static memory. Must be called once.
     pub fn take() -> Frames {
-        static FRAMES: ConstStaticCell<[Frame; PLACES]> =
-            ConstStaticCell::new([[Code(0); crate::TAXELS]; PLACES]);
+        static FRAMES: ConstStaticCell<[Frame; PLACES]> = ConstStaticCell::new([[Code(0); TAXELS]; PLACES]);
         let frames = FRAMES.take();
         FRAMES_AT.store(frames, Ordering::Relaxed);
         Frames(frames)
@@ -130,8 +130,8 @@ impl Frames {
         // SAFETY: the memory is that of a static, taken once, and the chain stands still.
         let codes = unsafe { &mut *self.0 }.as_flattened_mut();
         let Some(last) = last else { return codes.fill(Code(0)) };
-        let from = usize::from(last).min(PLACES - 1) * crate::TAXELS;
-        (0..PLACES).for_each(|place| codes.copy_within(from..from + crate::TAXELS, place * crate::TAXELS));
+        let from = usize::from(last).min(PLACES - 1) * TAXELS;
+        (0..PLACES).for_each(|place| codes.copy_within(from..from + TAXELS, place * TAXELS));
     }
 
     /// Waits until the triggered chain has begun its first frame, some 100 cycles. `fields` is the number of

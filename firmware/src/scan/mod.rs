@@ -38,6 +38,7 @@ use embassy_futures::select::{Either, select};
 use embassy_time::Timer;
 use frames::Frames;
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport, longest_frame_us};
+use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
@@ -50,7 +51,7 @@ pub type Processor = MuxScan<
     adc::Converter<{ board::INPUTS }>,
     platform::Timer,
     { board::LINES },
-    { crate::TAXELS },
+    TAXELS,
 >;
 
 /// Margin on the longest duration of a frame, us.

@@ -5,14 +5,15 @@ use core::cell::RefCell;
 use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
 use rp_pac::SIO;
 use taxel_core::acquire::{Fields, Read};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::reflex::{Early, Reflex, Reflexes};
 
-static REFLEX: Mutex<CriticalSectionRawMutex, RefCell<Reflex<{ crate::TAXELS }>>> =
+static REFLEX: Mutex<CriticalSectionRawMutex, RefCell<Reflex<TAXELS>>> =
     Mutex::new(RefCell::new(Reflex::new()));
 
 /// Runs `act` with interrupts off: for some 100 cycles, or 3,000 to check a sub-field.
-fn with<T>(act: impl FnOnce(&mut Reflex<{ crate::TAXELS }>) -> T) -> T {
+fn with<T>(act: impl FnOnce(&mut Reflex<TAXELS>) -> T) -> T {
     REFLEX.lock(|reflex| act(&mut reflex.borrow_mut()))
 }
 

@@ -9,6 +9,7 @@ use crate::plain::framed;
 use bench::Bench;
 use taxel_core::acquire::ScanError;
 use taxel_core::board::{Input, Part, Saved};
+use taxel_core::capacity::{PARTS, RUNS, TAXELS};
 use taxel_core::format::{Code, Micros};
 use taxel_core::reflex::Early;
 use taxel_core::selftest::Findings;
@@ -24,7 +25,7 @@ pub fn run(data: &[u8]) {
     if wears & 1 == 0 {
         through(&mut Bench::<64, 32, 32>::new(garments::small(wears >> 1)), bytes);
     } else {
-        through(&mut Bench::<2048, 1024, 512>::new(garments::large(wears >> 1)), bytes);
+        through(&mut Bench::<TAXELS, RUNS, PARTS>::new(garments::large(wears >> 1)), bytes);
     }
 }
 

@@ -11,6 +11,7 @@ use super::touch::{Shape, Touch, VARIED};
 use anyhow::{Context, Result};
 use serde_json::json;
 use std::fmt::Write;
+use taxel_core::capacity::TAXELS;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{ContactConfig, ContactState};
 use taxel_core::format::Micros;
@@ -21,8 +22,6 @@ use taxel_core::shape::{Nmi, nmi};
 pub const FORMS: [&str; 5] = ["published", "peak", "s2", "peak, Sheppard", "s2, Sheppard"];
 /// Rows, columns, and the radius of the disc at scale 1, in taxels: at scale 2 every shape still fits.
 pub const GRIDS: [(u16, u16, f64); 3] = [(4, 16, 0.9), (16, 16, 3.0), (32, 64, 6.0)];
-/// Taxels of the largest grid.
-const TAXELS: usize = 2048;
 const FULL_SCALE: f64 = 4095.0;
 
 /// A grid for drawing and measuring touches.

@@ -10,6 +10,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use taxel_core::capacity::{PARTS, RUNS, TAXELS};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
@@ -170,9 +171,9 @@ impl Show for Images {
 /// Runs the images through the pipeline as if they were codes: the same taxels are pressed.
 fn perceive(images: &Images) -> Result<()> {
     let garment = Garment::reference();
-    let layout = Layout::build(&garment, 2048, sim::FULL_SCALE)?;
+    let layout = Layout::build(&garment, TAXELS, sim::FULL_SCALE)?;
     let pipeline = Pipeline::build(&Scene::shipped(), &layout)?;
-    let mut state = Box::new(PipelineState::<2048, 1024>::default());
+    let mut state = Box::new(PipelineState::<TAXELS, RUNS, PARTS>::default());
     state.reset(&layout, garment.wiring.falling, sim::FULL_SCALE);
     let mut codes = Vec::new();
     for (time, image) in &images.0 {

@@ -6,13 +6,12 @@ use anyhow::{Result, anyhow};
 use std::path::Path;
 use taxel_core::acquire::Depth;
 use taxel_core::board::{BoardInfo, Setup, SetupError};
+use taxel_core::capacity::TAXELS;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::SceneError;
 use taxel_core::scene::Scene;
 
-/// Taxels that the standard board holds.
-const TAXELS: usize = 2048;
-/// The standard board.
+/// The board that ships.
 const BOARD: BoardInfo = BoardInfo::feather("");
 
 /// Checks a preset or a garment's file, and a scene's file. Returns a sentence about them. Errors name file,

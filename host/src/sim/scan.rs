@@ -8,13 +8,11 @@ use taxel_core::acquire::{
     Acquire, Adc, Clock, Depth, Fields, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan,
     ScanError, ScanReport, Sweep,
 };
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::Code;
 use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflex, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
-
-/// Taxels of the largest garment.
-const TAXELS: usize = 2048;
 
 /// Reads the simulated garment. If a chain can read it, a frame takes [`taxel_core::acquire::frame_us`].
 pub struct SimScan<'l, C> {

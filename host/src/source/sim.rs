@@ -9,8 +9,9 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
-use taxel_core::board::{Board, BoardInfo, Saved, Settings};
+use taxel_core::board::{BoardInfo, Saved, Settings, Shipped};
 use taxel_core::boot::{Aside, Boot, BootCause};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
@@ -18,9 +19,6 @@ use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
 use taxel_store::{Found, Store, StoreError};
 
-const TAXELS: usize = 2048;
-const RUNS: usize = TAXELS / 2;
-const PARTS: usize = TAXELS / 4;
 /// Boards are boxed, but built on the stack.
 const STACK: usize = 8 << 20;
 /// Capacity of a USB link, bytes per second.
@@ -142,14 +140,14 @@ fn info(garment: &Garment) -> BoardInfo {
 
 impl Play {
     /// A board as after power-up.
-    fn board(&self) -> Result<Board<TAXELS, RUNS, PARTS>> {
-        let mut board = Board::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
+    fn board(&self) -> Result<Shipped> {
+        let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
         board.booted(Boot::default());
         Ok(board)
     }
 
     /// Restarts the board from its stored settings.
-    fn restart(&self, board: &mut Board<TAXELS, RUNS, PARTS>, flash: &mut SimFlash) -> Result<()> {
+    fn restart(&self, board: &mut Shipped, flash: &mut SimFlash) -> Result<()> {
         *board = self.board()?;
         let found = Store::new(flash, 0..SimFlash::BYTES)?.load(board)?;
         let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
@@ -158,7 +156,7 @@ impl Play {
     }
 
     /// Plays the script once, or round after round with the board's time running on.
-    fn all(&self, board: &mut Board<TAXELS, RUNS, PARTS>, link: BoardEnd) {
+    fn all(&self, board: &mut Shipped, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
         let mut flash = SimFlash::default();

@@ -11,6 +11,7 @@ mod strangers;
 
 use std::collections::BTreeSet;
 use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
+use taxel_core::capacity::TAXELS;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Layout;
@@ -20,7 +21,6 @@ use taxel_core::intent::{
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 const VARIANTS: u64 = 500;
 /// Least number of right answers.
 const RIGHT: usize = 490;

@@ -2,12 +2,12 @@
 //! the delay.
 
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 /// Frames averaged by the tare, and the frame in which the object begins to press.
 const TARE: u16 = 16;
 const BEGIN: u64 = 40;

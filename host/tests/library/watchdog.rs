@@ -3,12 +3,12 @@
 use std::cell::Cell;
 use taxel::sim::{PINS, Script, SimBoard, SimClock};
 use taxel_core::acquire::{Acquire, Clock, Depth, LONGEST_MS, MuxScan, Plan, check_duration};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::run::block_on;
 use taxel_core::selftest::Examine;
 
-const TAXELS: usize = 2048;
 /// Longest time without progress, us: a twentieth of a frame's limit.
 const LONGEST_STEP_US: u64 = 50 * LONGEST_MS as u64;
 

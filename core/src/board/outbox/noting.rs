@@ -145,16 +145,15 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     fn note_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
-        let events = percept.symbols.events();
-        if !self.rates.symbols || (events.is_empty() && !self.symbols_wait) {
+        if !self.rates.symbols || !(percept.symbols.has_events() || self.symbols_wait) {
             return;
         }
         let list = &mut self.symbols;
         if !self.symbols_wait {
             list.events.clear();
         }
-        for event in events {
-            health.lost += u32::from(list.events.push(*event).is_err());
+        for event in percept.events() {
+            health.lost += u32::from(list.events.push(event).is_err());
         }
         list.regions.clear();
         for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {

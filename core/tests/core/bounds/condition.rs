@@ -2,11 +2,10 @@
 
 use crate::bounds::images::Noise;
 use crate::bounds::table::bound;
+use taxel_core::capacity::TAXELS;
 use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Feedback, Filter, Sampled, UNITY};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
-
-const TAXELS: usize = 2048;
 
 struct Rig {
     stage: Condition,

@@ -16,7 +16,7 @@ fn said(peak_total: u32, area: u16, duration_ms: u32) -> (Strength, Extent, Span
     let placed = [Placed::new(&rig.layout, contact, Shape::default())];
     let mut state: SymbolState<4> = SymbolState::default();
     SymbolConfig::default().build().unwrap().process(&mut state, &rig.layout, &placed, &[], Micros(0));
-    let Words { strength, extent, span, .. } = state.events()[0].words;
+    let Words { strength, extent, span, .. } = state.events(&placed, &[]).next().unwrap().words;
     (strength, extent, span)
 }
 
@@ -30,7 +30,7 @@ fn sharp(peaks: &[u16]) -> Vec<Extent> {
         let contact = rig.set(0, 3, 3, *peak).only();
         let placed = [Placed::new(&rig.layout, contact, Shape::default())];
         stage.process(&mut state, &rig.layout, &placed, &[], Micros(1_000 * ms));
-        said.extend(state.events().iter().map(|event| event.words.extent));
+        said.extend(state.events(&placed, &[]).map(|event| event.words.extent));
     }
     said.dedup();
     said

@@ -2,13 +2,13 @@
 //! long and alone, and how many where nothing keeps them apart.
 
 use crate::tracking::rig::{FRAME_US, Noise};
+use taxel_core::capacity::TAXELS;
 use taxel_core::condition::{Condition, ConditionState, Sampled};
 use taxel_core::contact::{ContactState, Contacts};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 const REST: u16 = 100;
 const FULL: u16 = 4095;
 

@@ -193,6 +193,36 @@ fn pressing_and_lifting_is_no_slip() {
     }
 }
 
+/// Slip and displacement along y, frame by frame, of a textured square whose first column is `left` and that
+/// slides along y by `speed` taxels a frame.
+fn slide(left: f64, speed: f64) -> Vec<(bool, f64)> {
+    let texture = Texture::new(4);
+    let mut rig = Rig::mat();
+    let frames = (30.0 / speed.abs()).min(120.0) as usize;
+    let course = (0..frames).map(|frame| {
+        let way = speed * (frame as f64 - frames as f64 / 2.0);
+        rig.draw(|x, y| {
+            let (x, y) = (x - left, y - 31.5 - way);
+            // How much of a taxel's cell lies within the square.
+            let covered = (6.0 - y.abs()).clamp(0.0, 1.0);
+            if (0.0..11.5).contains(&x) { covered * texture.at(x, y) } else { 0.0 }
+        });
+        let contact = rig.only();
+        (contact.slip, contact.dy.to_f64())
+    });
+    course.collect()
+}
+
+/// The expected picture may reach a row in which nothing touches.
+#[test]
+fn a_touch_at_the_first_column_is_followed_as_any_other() {
+    for speed in [0.05, 0.3, 0.5, 0.8, 1.3] {
+        for speed in [speed, -speed] {
+            assert_eq!(slide(0.0, speed), slide(3.0, speed), "{speed} taxels a frame");
+        }
+    }
+}
+
 #[test]
 fn a_scene_that_does_not_ask_for_slip_is_not_told() {
     let config = ContactConfig { slip_speed: NO_SLIP, ..ContactConfig::default() };

@@ -1,13 +1,13 @@
 //! A drifting garment, and the board's perception of it.
 
 use taxel::sim::{Course, Drifting, Patch, Script, World};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::intent::Leading;
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 /// Code of a taxel at rest, with room on both sides.
 const BASE: u16 = 1_500;
 

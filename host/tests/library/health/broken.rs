@@ -5,7 +5,7 @@ use super::worn::{FRAME_S, TAXELS};
 use crate::faults::pin_faults;
 use taxel::sim::{PINS, Script, SimBoard, SimClock};
 use taxel_core::acquire::{Clock, MuxScan};
-use taxel_core::board::{Board, BoardInfo, Saved, Settings};
+use taxel_core::board::{BoardInfo, Saved, Settings, Shipped};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
@@ -102,7 +102,7 @@ impl Platform for Until {
 /// Runs a board for this many frames of a script.
 fn told(garment: &Garment, script: &Script, frames: u32) -> Host {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
-    let mut board = Box::new(Board::<TAXELS, 1024>::new(info, garment.clone(), Scene::shipped()).unwrap());
+    let mut board = Box::new(Shipped::new(info, garment.clone(), Scene::shipped()).unwrap());
     let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
     let end = Micros((f64::from(frames) * FRAME_S * 1e6) as u64);
     let mut until = Until { clock: clock.clone(), end };

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use taxel::sim::{PINS, Script, SimBoard};
 use taxel_core::acquire::{Acquire, Depth, MuxScan, Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::board::{BoardInfo, Input, Shipped};
+pub use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::health::TaxelHealth;
@@ -11,7 +12,6 @@ use taxel_core::run::block_on;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
 
-pub const TAXELS: usize = 2048;
 /// Frames averaged by the tare.
 pub const TARE: u16 = 16;
 /// Duration of a scan of the simulated board.
@@ -20,7 +20,7 @@ pub const FRAME_S: f64 = 5.128e-3;
 /// A simulated board and its findings.
 pub struct Worn {
     pub garment: Garment,
-    pub board: Box<Board<TAXELS, 1024>>,
+    pub board: Box<Shipped>,
     /// Intentions announced so far.
     pub said: BTreeSet<&'static str>,
 }
@@ -36,7 +36,7 @@ impl Worn {
         scene.plan.depth = depth;
         let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
         let garment = Garment::reference();
-        let board = Box::new(Board::new(info, garment.clone(), scene).unwrap());
+        let board = Box::new(Shipped::new(info, garment.clone(), scene).unwrap());
         Worn { garment, board, said: BTreeSet::new() }
     }
 
@@ -54,7 +54,7 @@ impl Worn {
         part: f64,
     ) -> BTreeMap<usize, (u32, TaxelHealth)> {
         let SimBoard { mut lines, delay, adc, clock } =
-            SimBoard::new(&self.garment, script, script.seed).unwrap();
+            SimShipped::new(&self.garment, script, script.seed).unwrap();
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
         self.tare();
         let mut found = BTreeMap::new();

@@ -2,13 +2,13 @@
 
 use crate::meaning::family::{Act, Family, Told, Wish};
 use crate::meaning::{scripted, strangers};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
 use taxel_core::pipeline::{Percept, Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const TAXELS: usize = 2048;
 /// Time of the tare at the start, us.
 const TARE_US: u64 = 200_000;
 /// Time after the end of its force in which announcements still belong to a touch, us.

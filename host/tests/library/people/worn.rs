@@ -3,14 +3,14 @@
 use crate::people::kind::{Act, Session};
 use taxel::sim::FRAME_PERIOD_US;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::board::{BoardInfo, Input, Shipped};
+use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Pins;
 use taxel_core::intent::Leading;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{self, Receiver, Report, Request};
 
-const TAXELS: usize = 2048;
 /// Frames averaged by the tare, and of rest before the first touch.
 const TARE: u16 = 16;
 /// Time after the end of an act in which announcements still belong to it, us.
@@ -47,7 +47,7 @@ impl Heard {
 /// Results of all acts of a session, and the number of attacks announced without a touch.
 pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
-    let board = Board::<TAXELS, { TAXELS / 2 }>::new(info, session.garment(), Scene::shipped());
+    let board = Shipped::new(info, session.garment(), Scene::shipped());
     let mut board = Box::new(board.expect("garment and scene fit"));
     let mut receiver = Box::new(Receiver::<8192>::new());
     for request in [Request::Start, Request::Tare { frames: TARE }] {
@@ -83,11 +83,7 @@ pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
 }
 
 /// Reads the board's messages. Returns the latest intention among them.
-fn read(
-    board: &mut Board<TAXELS, { TAXELS / 2 }>,
-    receiver: &mut Receiver<8192>,
-    now: u64,
-) -> Option<Leading> {
+fn read(board: &mut Shipped, receiver: &mut Receiver<8192>, now: u64) -> Option<Leading> {
     let mut said = None;
     loop {
         let bytes = board.pending(Micros(now + 5_000), &mut ());

@@ -1,0 +1,63 @@
+//! RAM of the states, as the docs of their modules tell it: for the board that ships. Asserted wherever the
+//! core is built for an RP2040, and on a 64-bit host, where the lengths of lists are longer.
+
+use crate::capacity::{PARTS, RUNS, TAXELS};
+use crate::condition::ConditionState;
+use crate::contact::{ContactState, Growth};
+use crate::fold::FoldState;
+use crate::gesture::TouchState;
+use crate::health::Monitor;
+use crate::intent::{Evidence, Fed, IntentState};
+use crate::pipeline::CONTACTS;
+use crate::react::ReactState;
+use crate::reflex::Reflex;
+use crate::shape::{BUILT_IN, Shapes};
+use crate::symbol::SymbolState;
+use crate::unsure::UnsureState;
+
+/// Of each type: the file that tells its RAM, bytes on the board, bytes on a host.
+macro_rules! states {
+    ($($state:ty, $file:literal, $board:literal, $host:literal;)*) => {
+        #[cfg(target_arch = "arm")]
+        const _: () = { $(assert!(size_of::<$state>() == $board, "{}", stringify!($state));)* };
+
+        #[cfg(all(test, target_pointer_width = "64"))]
+        #[test]
+        fn memory_is_as_documented() {
+            $(
+                assert_eq!(size_of::<$state>(), $host, "{}", stringify!($state));
+                assert!(tests::tells(include_str!($file), $board), "{}: {} bytes", $file, $board);
+            )*
+        }
+    };
+}
+
+states! {
+    ConditionState<TAXELS>, "condition/mod.rs", 21584, 21584;
+    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76400, 76456;
+    Growth, "contact/hardness.rs", 20, 20;
+    FoldState, "fold.rs", 96, 96;
+    TouchState, "gesture/mod.rs", 3712, 3720;
+    Monitor, "health/mod.rs", 2812, 2816;
+    Evidence, "intent/evidence.rs", 224, 224;
+    Fed, "intent/fed.rs", 192, 192;
+    IntentState, "intent/stage.rs", 1144, 1152;
+    ReactState, "react/mod.rs", 624, 664;
+    Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
+    Shapes<BUILT_IN>, "shape/mod.rs", 652, 696;
+    SymbolState<CONTACTS>, "symbol/mod.rs", 760, 768;
+    UnsureState<CONTACTS>, "unsure.rs", 648, 656;
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use std::format;
+
+    /// True if the row of a module's table that is about RAM tells so many bytes.
+    pub fn tells(file: &str, bytes: usize) -> bool {
+        let digits =
+            if bytes < 1000 { format!("{bytes}") } else { format!("{},{:03}", bytes / 1000, bytes % 1000) };
+        file.lines().any(|line| line.starts_with("//! | RAM |") && line.contains(&format!(" {digits} bytes")))
+    }
+}
