@@ -44,7 +44,13 @@ const PARTS: [Part; 3] = [
         target: "core",
         tests: &["wire", "golden", "board", "exchange"],
     },
-    Part { name: "store", folder: "store/src", package: "taxel-store", target: "settings", tests: &[""] },
+    Part {
+        name: "store",
+        folder: "firmware/store/src",
+        package: "taxel-store",
+        target: "settings",
+        tests: &[""],
+    },
 ];
 
 /// How changes ended, as cargo-mutants names the files that list them.
