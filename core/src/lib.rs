@@ -32,6 +32,12 @@ pub mod condition;
 
 pub mod fold;
 
+mod segment;
+
+mod measure;
+
+mod track;
+
 pub mod contact;
 
 pub mod gesture;

@@ -21,7 +21,7 @@ const UNEXPLAINED: &str = "not explained";
 /// A part that is changed, and the tests that should notice.
 struct Part {
     name: &'static str,
-    folder: &'static str,
+    folders: &'static [&'static str],
     package: &'static str,
     /// The test target beside those of the modules.
     target: &'static str,
@@ -32,21 +32,32 @@ struct Part {
 const PARTS: [Part; 3] = [
     Part {
         name: "contact",
-        folder: "core/src/contact",
+        folders: &["core/src/segment", "core/src/measure", "core/src/track", "core/src/contact"],
         package: "taxel-core",
         target: "core",
-        tests: &["contact", "hard::", "moments", "dense", "bounds::", "tracking::", "board"],
+        tests: &[
+            "segment::",
+            "measure::",
+            "track::",
+            "contact",
+            "hard::",
+            "moments",
+            "dense",
+            "bounds::",
+            "tracking::",
+            "board",
+        ],
     },
     Part {
         name: "wire",
-        folder: "core/src/wire",
+        folders: &["core/src/wire"],
         package: "taxel-core",
         target: "core",
         tests: &["wire", "golden", "board", "exchange"],
     },
     Part {
         name: "store",
-        folder: "firmware/store/src",
+        folders: &["firmware/store/src"],
         package: "taxel-store",
         target: "settings",
         tests: &[""],
@@ -125,7 +136,8 @@ fn written() -> PathBuf {
 fn mutants(tool: &Path, part: &Part) -> Command {
     let mut command = Command::new(tool);
     command.args(["mutants", "--no-config", "--colors", "never", "--dir"]).arg(paths::root());
-    command.args(["--package", part.package, "--file", &format!("{}/**", part.folder)]);
+    command.args(["--package", part.package]);
+    part.folders.iter().for_each(|folder| _ = command.arg("--file").arg(format!("{folder}/**")));
     // What one change has built serves the next, and the next run: only what has changed is compiled, and
     // quickly.
     command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "1");

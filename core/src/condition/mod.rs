@@ -34,7 +34,6 @@ mod config;
 mod consensus;
 mod conservative;
 mod drift;
-mod edge;
 #[cfg(target_pointer_width = "64")]
 mod eights;
 mod feedback;
@@ -63,8 +62,6 @@ mod turn;
 
 pub use certificate::Certificate;
 pub use config::{ConditionConfig, Filter};
-pub use edge::{Gradient, sobel};
-pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
 pub use feedback::{CARRIED, Feedback, Pressed};
 pub(crate) use held::Held;
 pub use image::Image;
@@ -72,6 +69,7 @@ pub use points::{MARGIN, POINTS};
 pub use progress::Tare;
 pub use rows::Rows;
 pub use sampled::Sampled;
+pub(crate) use sixteen::{SIXTEEN, Sixteen};
 pub(crate) use slices::{panel_of, row_of};
 pub use stage::Condition;
 pub use state::{ConditionState, UNITY};

@@ -6,7 +6,7 @@
 use super::points::stands_out;
 
 /// Taxels of a row.
-pub(super) const SIXTEEN: usize = 16;
+pub(crate) const SIXTEEN: usize = 16;
 /// A row and the one before it, adjacent: besides the compared values, a Cortex-M0+'s registers hold two
 /// addresses more, that of the row below and that of the result.
 pub(super) type Two = [Sixteen; 2];

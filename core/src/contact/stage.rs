@@ -1,17 +1,18 @@
 //! The stage: segmentation and tracking of a frame.
 
-use super::component::{Component, Components};
-use super::config::ContactConfig;
-use super::forms::Forms;
-use super::join::Joins;
-use super::label::Labels;
-use super::matching::Matching;
-use super::moments::Moments;
-use super::record::Contact;
-use super::track::Tracks;
 use crate::condition::{Feedback, Image};
 use crate::format::{Invalid, Micros};
 use crate::garment::Layout;
+use crate::measure::carried::CarriedParts;
+use crate::measure::component::{Component, Components};
+use crate::measure::contact::Contact;
+use crate::measure::forms::Forms;
+use crate::measure::moments::Moments;
+use crate::segment::config::ContactConfig;
+use crate::segment::labels::Labels;
+use crate::segment::seams::Joins;
+use crate::track::assign::Matching;
+use crate::track::tracks::Tracks;
 
 /// Finds and follows contacts; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -28,6 +29,7 @@ pub struct Contacts {
 pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     labels: Labels<RUNS, PARTS>,
     joins: Joins,
+    carried: CarriedParts,
     components: Components<CONTACTS>,
     matching: Matching<CONTACTS>,
     tracks: Tracks<CONTACTS>,
@@ -61,6 +63,7 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<
         ContactState {
             labels: Labels::new(),
             joins: Joins::new(),
+            carried: CarriedParts::new(),
             components: Components::new(),
             matching: Matching::new(),
             tracks: Tracks::new(),
@@ -147,13 +150,13 @@ impl Contacts {
         layout: &Layout,
         image: &Image,
     ) -> &'a [Component] {
-        let ContactState { labels, joins, components, feedback, .. } = state;
+        let ContactState { labels, joins, carried, components, feedback, .. } = state;
         labels.scan(layout, image, self.config.low);
         labels.mark_held(layout, feedback, self.config.high);
         joins.find(labels, layout);
         components.select(&self.config, labels);
         components.number(labels);
-        components.measure(labels, joins, layout, image);
+        components.measure(labels, (joins, carried), layout, image);
         components.feed_back(feedback);
         &components.list
     }

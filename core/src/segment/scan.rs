@@ -1,0 +1,50 @@
+//! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
+
+use super::labels::{Labels, Line};
+use super::threshold::sixteens;
+use super::union_find::NONE;
+use crate::condition::{Image, panel_of, row_of};
+use crate::garment::{Area, Layout};
+
+impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
+    /// Labels the connected taxels of an image.
+    pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
+        self.clear();
+        if image.rows.is_empty() {
+            return;
+        }
+        for (panel, area) in (0u8..).zip(layout.areas()) {
+            self.scan_panel(panel, area, image, low);
+        }
+        self.flatten();
+    }
+
+    #[inline(never)] // own frame: locals stay within short SP offsets
+    fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
+        let start = self.pieces.len();
+        let last = area.first_row.saturating_add(area.rows);
+        let sixteens = sixteens(panel_of(image.values, area), area.columns, low);
+        let are_sixteens = sixteens.len() == usize::from(area.rows);
+        let mut line = Line { panel, row: 0, above: start, reach: 0, part: NONE, ends: [0; 2] };
+        let mut from = area.first_row;
+        // A gap between active rows separates parts.
+        while let Some(rows) = image.rows.held().run(from..last) {
+            from = rows.end;
+            line = Line { row: rows.start, above: self.pieces.len(), reach: 0, part: NONE, ..line };
+            if are_sixteens {
+                let here = |row: u16| usize::from(row - area.first_row);
+                let sixteens = sixteens.get(here(rows.start)..here(rows.end));
+                self.scan_sixteens(sixteens.unwrap_or(&[]), low, &mut line);
+                continue;
+            }
+            for row in rows {
+                line.row = row;
+                self.scan_row(row_of(image.values, area, row - area.first_row), low, &mut line);
+            }
+        }
+        if are_sixteens {
+            self.weigh(start);
+        }
+        self.mark_sides(start, area, &line);
+    }
+}
