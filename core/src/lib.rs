@@ -28,6 +28,14 @@ pub mod selftest;
 
 pub mod health;
 
+mod image;
+
+mod calibrate;
+
+mod baseline;
+
+mod filter;
+
 pub mod condition;
 
 pub mod fold;

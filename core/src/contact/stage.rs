@@ -1,8 +1,9 @@
 //! The stage: segmentation and tracking of a frame.
 
-use crate::condition::{Feedback, Image};
+use crate::baseline::feedback::Feedback;
 use crate::format::{Invalid, Micros};
 use crate::garment::Layout;
+use crate::image::view::Image;
 use crate::measure::carried::CarriedParts;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;

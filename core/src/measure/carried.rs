@@ -7,7 +7,7 @@
 //! carried like all others.
 
 use super::moments::Moments;
-use crate::condition::CARRIED;
+use crate::baseline::feedback::CARRIED;
 use crate::garment::{Layout, PANELS, Transform};
 use crate::segment::labels::Labels;
 use crate::segment::seams::Joins;

@@ -2,9 +2,10 @@
 
 use super::carried::CarriedParts;
 use super::moments::{FEW, Moments, is_small};
-use crate::condition::{CARRIED, Feedback, Image, Pressed};
+use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Area, Layout, Place, Rect};
+use crate::image::view::Image;
 use crate::segment::config::ContactConfig;
 use crate::segment::labels::Labels;
 use crate::segment::run::Piece;
@@ -381,8 +382,8 @@ impl Component {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::condition::Rows;
     use crate::garment::{Edge, Garment, Seam, Side};
+    use crate::image::rows::Rows;
     use std::vec;
     use std::vec::Vec;
 

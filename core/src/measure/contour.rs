@@ -2,8 +2,8 @@
 
 use super::component::Component;
 use super::sobel::{Neighbourhood, steepness_of_sixteens};
-use crate::condition::Image;
 use crate::garment::Layout;
+use crate::image::view::Image;
 use crate::segment::labels::Labels;
 
 /// Contour of a contact: its taxels with at least one of the four neighbours below the threshold or outside

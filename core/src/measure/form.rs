@@ -4,8 +4,8 @@ use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::contact::Contact;
 use super::contour::Contour;
-use crate::condition::Image;
 use crate::garment::Layout;
+use crate::image::view::Image;
 use crate::segment::labels::Labels;
 
 /// The frame in which forms are measured.

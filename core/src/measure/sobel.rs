@@ -1,7 +1,7 @@
 //! The Sobel operator at single taxels.
 
-use crate::condition::{SIXTEEN, Sixteen};
 use crate::garment::Area;
+use crate::image::row16::{SIXTEEN, Sixteen};
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]

@@ -147,9 +147,10 @@ impl Spot {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::condition::{Image, Rows};
     use crate::format::Name;
     use crate::garment::{Edge, Garment, Layout, Seam, Side as Of};
+    use crate::image::rows::Rows;
+    use crate::image::view::Image;
     use std::vec;
 
     /// Two panels of two words a row, sewn in all ways. Asks for taxels in order, and then at random.

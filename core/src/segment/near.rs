@@ -1,7 +1,7 @@
 //! Faint parts near contacts of the previous frame, which continue those contacts.
 
 use super::labels::Labels;
-use crate::condition::{Feedback, Pressed};
+use crate::baseline::feedback::{Feedback, Pressed};
 use crate::garment::{Area, Layout, Rect};
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {

@@ -3,8 +3,9 @@
 use super::labels::{Labels, Line};
 use super::threshold::sixteens;
 use super::union_find::NONE;
-use crate::condition::{Image, panel_of, row_of};
 use crate::garment::{Area, Layout};
+use crate::image::slices::{panel_of, row_of};
+use crate::image::view::Image;
 
 impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
     /// Labels the connected taxels of an image.

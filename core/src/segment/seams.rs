@@ -6,7 +6,7 @@ use super::bits::{lowest_run, run_of};
 use super::borders::Side;
 use super::labels::Labels;
 use super::union_find::{NONE, Part};
-use crate::condition::CARRIED;
+use crate::baseline::feedback::CARRIED;
 use crate::garment::{Joint, Layout};
 use core::ops::Range;
 use heapless::Vec;

@@ -2,8 +2,8 @@
 
 use super::run::Piece;
 use super::union_find::Part;
-use crate::condition::row_of;
 use crate::garment::{Area, Rect};
+use crate::image::slices::row_of;
 
 /// Consecutive pieces of one part, from row to row.
 pub(crate) struct Strip<'a> {

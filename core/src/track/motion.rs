@@ -3,9 +3,9 @@
 use super::pattern::{Pattern, Way};
 use super::point::{Point, nearest_way};
 use super::slip::{SLIP_STEPS, Slip};
-use crate::condition::Image;
 use crate::format::{Fixed16, Inverse, Micros, signed_wide};
 use crate::garment::{Area, Layout, Transform};
+use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::Contact;
 use crate::segment::config::{ContactConfig, NO_SLIP};

@@ -6,8 +6,8 @@
 
 use super::flow::{Flow, Pictures};
 use super::gradient::SIDE;
-use crate::condition::Image;
 use crate::garment::{Area, Rect};
+use crate::image::view::Image;
 use crate::measure::component::Component;
 
 /// Displacement along x and y, in 2^-16 taxel.

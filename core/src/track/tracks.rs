@@ -1,9 +1,9 @@
 //! Track management: update, merge, split, release.
 
 use super::motion::{Clock, Scenery, Trail};
-use crate::condition::Image;
 use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
+use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
 use crate::measure::form::Sight;

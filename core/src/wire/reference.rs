@@ -1,8 +1,9 @@
 //! The reference: the image that was sent last.
 
 use super::encoder::Encoder;
-use crate::condition::{Held, Image};
 use crate::garment::Layout;
+use crate::image::held::Held;
+use crate::image::view::Image;
 use bytemuck::{try_cast_slice, try_cast_slice_mut};
 use core::ops::Range;
 

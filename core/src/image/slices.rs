@@ -1,6 +1,6 @@
 //! Rows and panels of a slice by taxel number.
 
-use crate::garment::Area;
+use crate::garment::{Area, Layout};
 
 /// First taxel number and length of a row.
 fn place(area: &Area, row: u16) -> (usize, usize) {
@@ -30,8 +30,13 @@ pub(crate) fn panel_of<'a, T>(values: &'a [T], area: &Area) -> &'a [T] {
 }
 
 /// Mutable [`panel_of`].
-pub(super) fn panel_mut<'a, T>(values: &'a mut [T], area: &Area) -> &'a mut [T] {
+pub(crate) fn panel_mut<'a, T>(values: &'a mut [T], area: &Area) -> &'a mut [T] {
     let rest = values.get_mut(usize::from(area.base)..).unwrap_or(&mut []);
     let length = rest.len().min(usize::from(area.rows) * usize::from(area.columns));
     rest.get_mut(..length).unwrap_or(&mut [])
+}
+
+/// The panels of a mask, with their index.
+pub(crate) fn areas_of(layout: &Layout, panels: u8) -> impl Iterator<Item = (u8, &Area)> {
+    (0u8..).zip(layout.areas()).filter(move |(panel, _)| panels >> panel & 1 == 1)
 }

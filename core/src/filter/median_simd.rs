@@ -1,8 +1,8 @@
 //! The median of nine by SIMD: eight taxels of a row at once, down the rows of a panel.
 
 use super::median::{mark, median_of_columns, sorted};
-use super::rows::{Rows, columns_as_groups};
 use crate::garment::Area;
+use crate::image::rows::{Rows, columns_as_groups};
 use bytemuck::must_cast;
 use core::ops::Range;
 use wide::{i16x8, u16x16};
@@ -10,7 +10,7 @@ use wide::{i16x8, u16x16};
 /// Taxels filtered at once.
 const EIGHT: usize = 8;
 /// Least columns of a panel for it: eight taxels and a neighbour on each side.
-pub(super) const FEWEST: usize = EIGHT + 2;
+pub(crate) const FEWEST: usize = EIGHT + 2;
 /// Rows searched at once.
 const BLOCK: usize = u32::BITS as usize;
 
@@ -20,7 +20,7 @@ type Eight = i16x8;
 const NOTHING: Eight = Eight::splat(i16::MIN);
 
 /// Filters a panel where it may be non-zero, border replicated; `out` is zero elsewhere.
-pub(super) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
+pub(crate) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     let panel = area.first_row..area.first_row.saturating_add(area.rows);
     for column in (1..columns - 1).step_by(EIGHT) {
@@ -136,9 +136,9 @@ fn filter_ends(values: &[u16], out: &mut [u16], columns: usize, row: usize) {
 mod tests {
     extern crate std;
     use super::super::median::median;
-    use super::super::rows::grain;
     use super::*;
     use crate::garment::{Garment, Layout};
+    use crate::image::rows::grain;
     use std::vec;
     use std::vec::Vec;
 

@@ -1,9 +1,9 @@
 //! Drift of the panels as a whole.
 
 use super::rates::COMMON;
-use super::slices::panel_of;
 use crate::format::Code;
 use crate::garment::{Area, PANELS};
+use crate::image::slices::panel_of;
 
 /// Witnesses of a panel: taxels sampled for its drift.
 const WITNESSES: usize = 16;
@@ -37,7 +37,7 @@ const LASTS: u8 = 4;
 /// others beyond noise is forgotten by one count per turn, and at once if the panel moves fast, so that it
 /// does not hide common drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Consensus {
+pub(crate) struct Consensus {
     panels: [Panel; PANELS],
     /// True if one of the panels drifts fast.
     fast: bool,

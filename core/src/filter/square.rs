@@ -1,11 +1,11 @@
 //! Clamps a taxel to the best 2x2 square that holds it.
 
-use super::rows::Rows;
 use crate::garment::Area;
+use crate::image::rows::Rows;
 
 /// Clamps each taxel of a panel to the greatest mean of the four 2x2 squares that it belongs to; beyond the
 /// border there is 0. `out` is zero outside the marks.
-pub(super) fn square(values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
+pub(crate) fn square(values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
     let columns = usize::from(area.columns);
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
     let mut next = first;

@@ -1,13 +1,65 @@
-//! The limit of each taxel, kept beside its calibration: an inactive taxel is only compared with it.
+//! Baseline, gain and limit of each taxel: an inactive taxel is only compared with its limit.
 
-use super::calibrate::scale;
-use super::state::{ConditionState, UNITY};
+use super::scale::scale;
 use super::terms::Terms;
 use crate::format::Code;
+use crate::garment::Layout;
+use crate::image::slices::row_mut;
 
-impl<const TAXELS: usize> ConditionState<TAXELS> {
+/// A gain of 1.0 in Q4.12.
+pub const UNITY: u16 = 4096;
+
+/// Baseline, gain and limit of every taxel.
+///
+/// Aligned to words, the arrays first: the limits are compared two at a time.
+#[derive(Debug, Clone)]
+#[repr(C, align(4))]
+pub(crate) struct TaxelCalibration<const TAXELS: usize> {
+    /// Baseline codes. During a tare: the low halves of the sums.
+    pub baseline: [u16; TAXELS],
+    /// Q4.12; 0 for absent taxels.
+    pub gain: [u16; TAXELS],
+    /// Last inactive code of each taxel.
+    pub limit: [u16; TAXELS],
+    /// Terms of the limits; none if the limits are not valid.
+    pub limits_for: Option<Terms>,
+    /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
+    plain: bool,
+}
+
+impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
+    /// No garment: every gain is 0.
+    pub const fn new() -> Self {
+        TaxelCalibration {
+            baseline: [0; TAXELS],
+            gain: [0; TAXELS],
+            limit: [0; TAXELS],
+            limits_for: None,
+            plain: false,
+        }
+    }
+
+    /// Every baseline becomes `rest`, every gain 1.0, or 0 for absent taxels.
+    pub fn reset(&mut self, layout: &Layout, rest: Code) {
+        self.baseline.fill(rest.0);
+        self.gain.fill(0);
+        for (panel, area) in layout.areas().iter().enumerate() {
+            for row in 0..area.rows {
+                for (column, gain) in (0..area.columns).zip(row_mut(&mut self.gain, area, row)) {
+                    *gain = if layout.is_absent(panel as u8, row, column) { 0 } else { UNITY };
+                }
+            }
+        }
+        self.limits_for = None;
+    }
+
+    /// Largest inactive difference of a code from its baseline, if every gain is 1.
+    pub fn margin_of_unity(&self) -> Option<u16> {
+        self.limits_for.filter(|_| self.plain).map(|terms| terms.margin_of_unity())
+    }
+
     /// Recomputes the limits if they are for other terms, or for another calibration.
-    pub(super) fn set_limits(&mut self, terms: Terms) {
+    pub fn set_limits(&mut self, terms: Terms) {
         if self.limits_for == Some(terms) {
             return;
         }
@@ -24,7 +76,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     }
 
     /// Recomputes the limit of one taxel, whose calibration has changed.
-    pub(super) fn set_limit(&mut self, taxel: usize) {
+    pub fn set_limit(&mut self, taxel: usize) {
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
         if let (Some(terms), Some((rest, gain)), Some(limit)) =
             (self.limits_for, calibration, self.limit.get_mut(taxel))

@@ -2,7 +2,7 @@
 
 /// Terms of the limits: the floor, and whether pressure lowers the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Terms {
+pub(crate) struct Terms {
     pub floor: u16,
     pub falling: bool,
 }

@@ -1,8 +1,8 @@
 //! Points: taxels that stand out from their neighbours, in this frame and in the previous one.
 
 use super::clamp::VECTORS;
-use super::rows::Rows;
 use crate::garment::Area;
+use crate::image::rows::Rows;
 use heapless::Vec;
 
 /// Most points stored per frame, over all panels. Further ones, in the order of taxel numbers, are smoothed
@@ -17,7 +17,7 @@ pub const MARGIN: u16 = 64;
 
 /// True if a taxel is a point, given its smoothed value.
 #[inline(always)]
-pub(super) const fn stands_out(value: u16, smooth: u16) -> bool {
+pub(crate) const fn stands_out(value: u16, smooth: u16) -> bool {
     value.saturating_sub(smooth) > (smooth >> 4) + MARGIN
 }
 
@@ -29,7 +29,7 @@ struct Point {
 
 /// Points of two frames, ascending by taxel number.
 #[derive(Debug, Clone)]
-pub(super) struct Points {
+pub(crate) struct Points {
     lists: [Vec<Point, POINTS, u8>; 2],
     /// True if the second list holds the points of this frame.
     second: bool,

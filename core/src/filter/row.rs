@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 /// A row with the rows above and below it.
-pub(super) struct Row {
+pub(crate) struct Row {
     /// Offsets in a panel of the row above, the row, and the row below.
     pub starts: [usize; 3],
     /// Number of columns: at least a run with its two neighbours.

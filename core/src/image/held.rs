@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 /// Entries of the set; the last one stands for all further rows.
-pub(super) const ENTRIES: usize = 256;
+pub(crate) const ENTRIES: usize = 256;
 
 /// A bit for each row by its number over all panels ([`Area::first_row`](crate::garment::Area)` + row`). Rows
 /// from 255 on share one bit.
@@ -24,7 +24,7 @@ impl Held {
     }
 
     /// Rows that are not in `other`.
-    pub(super) fn without(&self, other: &Held) -> Held {
+    pub(crate) fn without(&self, other: &Held) -> Held {
         let mut rest = *self;
         rest.0.iter_mut().zip(other.0).for_each(|(rest, other)| *rest &= !other);
         rest
@@ -77,12 +77,12 @@ impl Held {
     }
 
     /// Adds an entry.
-    pub(super) const fn add(&mut self, entry: usize) {
+    pub(crate) const fn add(&mut self, entry: usize) {
         self.0[entry / 32] |= 1 << (entry % 32);
     }
 
     /// Adds consecutive entries.
-    pub(super) fn add_run(&mut self, entries: Range<usize>) {
+    pub(crate) fn add_run(&mut self, entries: Range<usize>) {
         let mut from = entries.start;
         while from < entries.end {
             let end = ((from | 31) + 1).min(entries.end);
@@ -94,16 +94,16 @@ impl Held {
     }
 
     /// Removes an entry.
-    pub(super) const fn remove(&mut self, entry: usize) {
+    pub(crate) const fn remove(&mut self, entry: usize) {
         self.0[entry / 32] &= !(1 << (entry % 32));
     }
 }
 
 /// Index of the last entry, which many rows share.
-pub(super) const SHARED: usize = ENTRIES - 1;
+pub(crate) const SHARED: usize = ENTRIES - 1;
 
 /// Index of a row's entry.
-pub(super) const fn entry(row: u16) -> usize {
+pub(crate) const fn entry(row: u16) -> usize {
     if row as usize >= SHARED { SHARED } else { row as usize }
 }
 

@@ -1,11 +1,10 @@
-//! Codes to pressure, for the taxels beyond their limits only.
+//! Codes to pressure in chunks of sixteen taxels, for those beyond their limits only.
 
 use super::marks::Marks;
-use super::sixteen::SIXTEEN;
-use super::slices::{panel_mut, panel_of};
-use super::state::ConditionState;
+use super::panel::Panel;
+use super::scale::scale;
 use crate::format::Code;
-use crate::garment::Area;
+use crate::image::row16::SIXTEEN;
 use bytemuck::{Pod, try_cast_slice};
 
 /// Taxels that are compared together.
@@ -15,45 +14,7 @@ const PART: usize = 8;
 /// Chunks whose masks are kept until they are marked.
 const KEPT: usize = 8;
 
-impl<const TAXELS: usize> ConditionState<TAXELS> {
-    /// Calibrates a panel whose calibrated image is empty, or whose chunks are rows. Returns true if any
-    /// taxel is active. Writes only where something is or was marked.
-    pub(super) fn calibrate(&mut self, area: &Area, codes: &[Code], falling: bool) -> bool {
-        let limit = panel_of(&self.limit, area);
-        let codes = panel_of(codes, area);
-        let there = limit.len().min(codes.len());
-        let panel = Panel {
-            codes: codes.get(..there).unwrap_or(codes),
-            limit: limit.get(..there).unwrap_or(limit),
-            rest: panel_of(&self.baseline, area),
-            gain: panel_of(&self.gain, area),
-            out: panel_mut(&mut self.calibrated, area),
-        };
-        let marks = Marks::of(&mut self.rows, area);
-        let plain = self.limits_for.filter(|_| self.plain).map(|terms| terms.margin_of_unity());
-        if falling { panel.calibrate::<true>(marks, plain) } else { panel.calibrate::<false>(marks, plain) }
-    }
-}
-
-/// Values of the taxels of a panel.
-pub(super) struct Panel<'a> {
-    pub codes: &'a [Code],
-    pub limit: &'a [u16],
-    pub rest: &'a [u16],
-    pub gain: &'a [u16],
-    pub out: &'a mut [u16],
-}
-
 impl Panel<'_> {
-    /// `plain`: the largest inactive difference of a code from its baseline, if every gain is 1.
-    fn calibrate<const FALLING: bool>(mut self, mut marks: Marks<'_>, plain: Option<u16>) -> bool {
-        #[cfg(target_pointer_width = "64")]
-        if let Some(margin) = plain.filter(|_| marks.are_sixteens() && self.codes.len() == self.out.len()) {
-            return self.calibrate_rows::<FALLING>(&mut marks, margin);
-        }
-        self.calibrate_chunks::<FALLING>(&mut marks, plain)
-    }
-
     /// Calibrates with any number of columns and codes.
     pub fn calibrate_chunks<const FALLING: bool>(
         &mut self,
@@ -259,33 +220,6 @@ fn silence_several<const N: usize, const PART: usize>(out: &mut [u16; N], gone: 
         }
         gone >>= PART;
     }
-}
-
-/// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit. Returns their mask.
-///
-/// The product of two 16-bit numbers leaves room for rounding, whose two steps need no constant in a
-/// register. `PART` is as long as the compiler unrolls; the registers hold no more than these five addresses.
-#[inline(never)] // M0+: out of line
-pub(super) fn scale<const PART: usize, const FALLING: bool>(
-    codes: &[Code; PART],
-    limit: &[u16; PART],
-    rest: &[u16; PART],
-    gain: &[u16; PART],
-    out: &mut [u16; PART],
-) -> u32 {
-    let taxels = codes.iter().zip(limit).zip(rest.iter().zip(gain)).zip(out);
-    let mut bits = 0;
-    for (at, (((code, limit), (rest, gain)), out)) in taxels.enumerate() {
-        let (code, limit) = (u32::from(code.0), u32::from(*limit));
-        if if FALLING { code < limit } else { code > limit } {
-            let rest = u32::from(*rest);
-            let difference = if FALLING { rest.wrapping_sub(code) } else { code.wrapping_sub(rest) };
-            let value = ((difference.wrapping_mul(u32::from(*gain)) >> 11) + 1) >> 1;
-            *out = value.min(0xffff) as u16;
-            bits |= 1 << at;
-        }
-    }
-    bits
 }
 
 /// Values of all active taxels of a chunk with unity gain, for which a code is `margin` further from its

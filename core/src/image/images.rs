@@ -1,28 +1,58 @@
-//! Clears the images where they may be non-zero.
+//! The images of a frame, cleared where they may be non-zero.
 //!
 //! Rows that are calibrated and filtered as a whole are not cleared first, but overwritten. Those that are no
 //! longer active are cleared once that is known, before the filter reads them.
 
-use super::config::Filter;
 use super::held::Held;
-use super::sixteen::SIXTEEN;
-use super::slices::row_mut;
-use super::state::ConditionState;
-use super::tare::areas_of;
+use super::row16::SIXTEEN;
+use super::rows::Rows;
+use super::slices::{areas_of, row_mut};
+use super::view::Image;
 use crate::garment::{Area, Layout};
 use core::ops::Range;
 
-impl<const TAXELS: usize> ConditionState<TAXELS> {
+/// The image of a frame before and after the filter.
+#[derive(Debug, Clone)]
+pub(crate) struct Images<const TAXELS: usize> {
+    /// Image before the filter. During a tare: the high halves of the sums.
+    pub calibrated: [u16; TAXELS],
+    /// Image after the filter. During a tare: zeros.
+    pub filtered: [u16; TAXELS],
+    /// Where one of the images may be non-zero.
+    pub rows: Rows,
+    /// Panels that may be non-zero.
+    pub active: u8,
+}
+
+impl<const TAXELS: usize> Images<TAXELS> {
+    /// Empty images.
+    pub const fn new() -> Self {
+        Images { calibrated: [0; TAXELS], filtered: [0; TAXELS], rows: Rows::NONE, active: 0 }
+    }
+
+    /// Clears both images as a whole.
+    pub fn reset(&mut self) {
+        self.calibrated.fill(0);
+        self.filtered.fill(0);
+        (self.rows, self.active) = (Rows::NONE, 0);
+    }
+
+    /// The image of the garment's taxels, before the filter if there is none.
+    pub fn image(&self, layout: &Layout, unfiltered: bool) -> Image<'_> {
+        let values = if unfiltered && self.active != 0 { &self.calibrated } else { &self.filtered };
+        Image { values: values.get(..layout.taxels()).unwrap_or(values), rows: &self.rows }
+    }
+
     /// Clears both images; returns the rows left for overwriting, none if no panel was active. These are no
-    /// longer [held](super::Rows), and may still be non-zero.
-    pub(super) fn clear(&mut self, layout: &Layout, codes: usize, filter: Filter) -> Option<Held> {
+    /// longer [held](Rows), and may still be non-zero. `overwritten`: the filter writes whole rows of sixteen.
+    pub fn clear(&mut self, layout: &Layout, codes: usize, overwritten: bool) -> Option<Held> {
         if self.active == 0 {
             return None;
         }
         // Consecutive rows are cleared together, which is faster than finding their columns.
         let mut held = 0..0;
         for (_, area) in areas_of(layout, self.active) {
-            if self.overwrites(area, codes, filter) {
+            if overwritten && self.are_overwritten(area, codes) {
                 continue;
             }
             let columns = usize::from(area.columns);
@@ -45,18 +75,15 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         Some(self.rows.release())
     }
 
-    /// True if the rows of an active panel are overwritten as a whole, given the number of codes.
-    fn overwrites(&mut self, area: &Area, codes: usize, filter: Filter) -> bool {
+    /// True if the rows of an active panel can be overwritten as a whole, given the number of codes.
+    fn are_overwritten(&mut self, area: &Area, codes: usize) -> bool {
         let rows = area.first_row..area.first_row.saturating_add(area.rows);
         let end = usize::from(area.base) + usize::from(area.rows) * SIXTEEN;
-        usize::from(area.columns) == SIXTEEN
-            && matches!(filter, Filter::Conservative | Filter::Persistent)
-            && end <= codes.min(TAXELS)
-            && self.rows.places(rows).is_some()
+        usize::from(area.columns) == SIXTEEN && end <= codes.min(TAXELS) && self.rows.places(rows).is_some()
     }
 
     /// Clears the rows of `before` that are no longer active.
-    pub(super) fn clear_left(&mut self, layout: &Layout, before: &Held) {
+    pub fn clear_left(&mut self, layout: &Layout, before: &Held) {
         let left = before.without(self.rows.held());
         if left.is_empty() {
             return;

@@ -4,19 +4,16 @@
 //! greater settle a taxel. A few comparisons settle most: the neighbours on both sides come first.
 
 use super::points::stands_out;
+use crate::image::row16::Sixteen;
 
-/// Taxels of a row.
-pub(crate) const SIXTEEN: usize = 16;
 /// A row and the one before it, adjacent: besides the compared values, a Cortex-M0+'s registers hold two
 /// addresses more, that of the row below and that of the result.
-pub(super) type Two = [Sixteen; 2];
-/// A row.
-pub(crate) type Sixteen = [u16; SIXTEEN];
+pub(crate) type Two = [Sixteen; 2];
 
 /// Clamps the second of two rows, given the one below. Four columns without any of `groups` become 0. Sets
 /// `points` if a taxel [stands out](stands_out).
 #[inline(always)]
-pub(super) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
+pub(crate) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
     if groups == u16::MAX {
         clamp_groups::<true>(two, below, groups, out, points);
     } else {
@@ -146,6 +143,7 @@ fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::row16::SIXTEEN;
 
     /// Few distinct values, so that many are equal, at both ends of the scale.
     #[test]

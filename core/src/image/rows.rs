@@ -61,11 +61,11 @@ impl Rows {
     }
 
     /// Groups of columns of a row that may be non-zero.
-    pub(super) const fn groups(&self, row: u16) -> u16 {
+    pub(crate) const fn groups(&self, row: u16) -> u16 {
         self.groups[entry(row)]
     }
 
-    pub(super) const fn add(&mut self, row: u16, groups: u16) {
+    pub(crate) const fn add(&mut self, row: u16, groups: u16) {
         let entry = entry(row);
         self.groups[entry] |= groups;
         if groups != 0 {
@@ -75,27 +75,27 @@ impl Rows {
 
     /// Groups of some rows, if none of them shares an entry. Rows whose groups are set must be
     /// [held](Rows::hold).
-    pub(super) fn places(&mut self, rows: Range<u16>) -> Option<&mut [u16]> {
+    pub(crate) fn places(&mut self, rows: Range<u16>) -> Option<&mut [u16]> {
         self.groups.get_mut(..SHARED)?.get_mut(usize::from(rows.start)..usize::from(rows.end))
     }
 
     /// Holds some rows, none of which shares an entry.
-    pub(super) fn hold(&mut self, rows: Range<usize>) {
+    pub(crate) fn hold(&mut self, rows: Range<usize>) {
         self.held.add_run(rows);
     }
 
     /// Releases and returns all rows; their groups stay.
-    pub(super) fn release(&mut self) -> Held {
+    pub(crate) fn release(&mut self) -> Held {
         core::mem::replace(&mut self.held, Held::NONE)
     }
 
     /// Adds groups to a row that has some.
-    pub(super) const fn widen(&mut self, row: u16, groups: u16) {
+    pub(crate) const fn widen(&mut self, row: u16, groups: u16) {
         self.groups[entry(row)] |= groups;
     }
 
     /// Replaces the groups of a row, or adds to them if others share its entry.
-    pub(super) const fn set(&mut self, row: u16, groups: u16) {
+    pub(crate) const fn set(&mut self, row: u16, groups: u16) {
         if entry(row) != SHARED {
             self.forget(entry(row));
         }
@@ -103,7 +103,7 @@ impl Rows {
     }
 
     /// Clears the entry that many rows share.
-    pub(super) const fn forget_shared(&mut self) {
+    pub(crate) const fn forget_shared(&mut self) {
         self.forget(SHARED);
     }
 
@@ -114,7 +114,7 @@ impl Rows {
 }
 
 /// Columns per group, log2.
-pub(super) fn grain(area: &Area) -> u32 {
+pub(crate) fn grain(area: &Area) -> u32 {
     let mut grain = 0;
     while area.columns.saturating_sub(1) >> grain >= GROUPS as u16 {
         grain += 1;
@@ -123,13 +123,13 @@ pub(super) fn grain(area: &Area) -> u32 {
 }
 
 /// Groups of a non-empty range of columns.
-pub(super) const fn columns_as_groups(columns: Range<usize>, grain: u32) -> u16 {
+pub(crate) const fn columns_as_groups(columns: Range<usize>, grain: u32) -> u16 {
     let (first, last) = (columns.start >> grain, (columns.end - 1) >> grain);
     u16::MAX << first & u16::MAX >> (GROUPS as usize - 1 - last)
 }
 
 /// Range of columns from the first to the last of some groups.
-pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
+pub(crate) fn span(area: &Area, groups: u16) -> Range<u16> {
     if groups == 0 {
         return 0..0;
     }
@@ -140,7 +140,7 @@ pub(super) fn span(area: &Area, groups: u16) -> Range<u16> {
 }
 
 /// Iterator over runs of consecutive groups: as groups, and as columns of a row.
-pub(super) struct Pieces {
+pub(crate) struct Pieces {
     groups: u32,
     at: u32,
     grain: u32,
@@ -174,7 +174,7 @@ impl Iterator for Pieces {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::Image;
+    use super::super::view::Image;
     use super::*;
     use crate::garment::Garment;
     use std::vec;

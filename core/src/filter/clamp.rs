@@ -1,14 +1,14 @@
 //! Clamps a taxel to the range of its eight neighbours: by single comparisons, or many taxels at once.
 
 /// True if the machine has SIMD. Without it, a few comparisons settle most taxels.
-pub(super) const VECTORS: bool = cfg!(target_pointer_width = "64");
+pub(crate) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
 /// Taxels of a run, with one neighbour at each end: as many as fill a vector, or a few without SIMD.
-pub(super) const SHORT: usize = if VECTORS { 10 } else { 9 };
+pub(crate) const SHORT: usize = if VECTORS { 10 } else { 9 };
 
 /// Clamps all taxels of `here` except its ends, each to the range of its eight neighbours.
 #[inline(always)]
-pub(super) fn clamp_run<const N: usize>(
+pub(crate) fn clamp_run<const N: usize>(
     above: &[u16; N],
     here: &[u16; N],
     below: &[u16; N],
@@ -26,7 +26,7 @@ fn by_range<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N],
 
 /// Clamps `here[1]` to the range of its neighbours.
 #[inline(always)]
-pub(super) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 {
+pub(crate) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 {
     let [left, value, right] = *here;
     let others = above.iter().chain(below);
     let (least, greatest) = others.fold((left.min(right), left.max(right)), |(least, greatest), other| {

@@ -5,7 +5,7 @@ use crate::format::Micros;
 
 /// The rotation of rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     /// Next row, over all panels.
     row: u16,
     /// Time at which it is due.

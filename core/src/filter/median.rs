@@ -1,7 +1,7 @@
 //! The exact median of nine.
 
-use super::rows::{Pieces, Rows, columns_as_groups};
 use crate::garment::Area;
+use crate::image::rows::{Pieces, Rows, columns_as_groups};
 use core::ops::Range;
 
 /// Filters a panel where it may be non-zero, border replicated; `out` is zero elsewhere.
@@ -9,7 +9,7 @@ use core::ops::Range;
 /// Each column of three is sorted once and used three times. The median of nine is the median of the largest
 /// low, the median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ if all
 /// are pressed, see `docs/bench/cycles.txt`.
-pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
+pub(crate) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     mark(area, grain, marks, |row, groups| {
         let rows = [row.saturating_sub(1), row, (row + 1).min(usize::from(area.rows) - 1)];
@@ -24,7 +24,7 @@ pub(super) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, m
 /// Marks the groups of a panel that may be non-zero after the filter, and calls `each` with every such row:
 /// five of nine taxels lie in at least two rows. The border is replicated.
 #[inline(always)]
-pub(super) fn mark(area: &Area, grain: u32, marks: &mut Rows, mut each: impl FnMut(usize, u16)) {
+pub(crate) fn mark(area: &Area, grain: u32, marks: &mut Rows, mut each: impl FnMut(usize, u16)) {
     let there = columns_as_groups(0..area.columns.into(), grain);
     let widened = |groups: u16| (groups | groups << 1 | groups >> 1) & there;
     let end = area.first_row.saturating_add(area.rows);
@@ -74,14 +74,14 @@ fn row(above: &[u16], here: &[u16], below: &[u16], led: bool, out: &mut [u16]) {
 
 type Sorted<T> = (T, T, T);
 
-pub(super) fn median_of_columns<T: Ord + Copy>(a: Sorted<T>, b: Sorted<T>, c: Sorted<T>) -> T {
+pub(crate) fn median_of_columns<T: Ord + Copy>(a: Sorted<T>, b: Sorted<T>, c: Sorted<T>) -> T {
     let low = a.0.max(b.0).max(c.0);
     let middle = sorted(a.1, b.1, c.1).1;
     let high = a.2.min(b.2).min(c.2);
     sorted(low, middle, high).1
 }
 
-pub(super) fn sorted<T: Ord + Copy>(a: T, b: T, c: T) -> Sorted<T> {
+pub(crate) fn sorted<T: Ord + Copy>(a: T, b: T, c: T) -> Sorted<T> {
     let (a, b) = (a.min(b), a.max(b));
     let (b, c) = (b.min(c), b.max(c));
     (a.min(b), a.max(b), c)

@@ -4,15 +4,16 @@
 //! and an impulse would survive.
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
+use super::clamp_row16::clamp_sixteen;
 use super::row::Row;
-use super::rows::{Pieces, Rows};
-use super::sixteen::{SIXTEEN, clamp_sixteen};
 use crate::garment::Area;
+use crate::image::row16::SIXTEEN;
+use crate::image::rows::{Pieces, Rows};
 use core::ops::Range;
 
 /// Smooths a panel where it may be non-zero; `out` is zero elsewhere. Returns true if it may have
 /// [points](super::points::stands_out).
-pub(super) fn conservative(
+pub(crate) fn conservative(
     values: &[u16],
     out: &mut [u16],
     area: &Area,

@@ -1,12 +1,12 @@
 //! Marks of taxels beyond their limits.
 
-use super::rows::{Rows, grain};
-use super::sixteen::SIXTEEN;
 use crate::garment::Area;
+use crate::image::row16::SIXTEEN;
+use crate::image::rows::{Rows, grain};
 use core::ops::Range;
 
 /// Marks the active taxels of a panel in one pass, row by row.
-pub(super) struct Marks<'a> {
+pub(crate) struct Marks<'a> {
     rows: &'a mut Rows,
     /// Rows of the panel, numbered over all panels.
     panel: Range<u16>,

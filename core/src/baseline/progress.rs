@@ -17,29 +17,29 @@ pub enum Tare {
 
 /// State of a tare.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Progress {
-    pub(super) tare: Tare,
+pub(crate) struct Progress {
+    pub(crate) tare: Tare,
     /// Number of frames of the tare.
-    pub(super) frames: u16,
+    pub(crate) frames: u16,
     /// Panels being tared; set by its first frame.
-    pub(super) panels: Option<u8>,
-    pub(super) tared: bool,
+    pub(crate) panels: Option<u8>,
+    pub(crate) tared: bool,
 }
 
 impl Progress {
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Progress { tare: Tare::Idle, frames: 0, panels: None, tared: false }
     }
 
-    pub(super) const fn tare(&self) -> Tare {
+    pub(crate) const fn tare(&self) -> Tare {
         self.tare
     }
 
-    pub(super) const fn mark_tared(&mut self) {
+    pub(crate) const fn mark_tared(&mut self) {
         self.tared = true;
     }
 
-    pub(super) const fn request(&mut self, frames: u16) {
+    pub(crate) const fn request(&mut self, frames: u16) {
         self.tare = Tare::Running { left: frames };
         self.frames = frames;
         self.panels = None;

@@ -1,9 +1,9 @@
 //! Codes to pressure with unity gains by SIMD: sixteen taxels at once.
 
-use super::calibrate::Panel;
 use super::marks::Marks;
-use super::sixteen::{SIXTEEN, Sixteen};
+use super::panel::Panel;
 use crate::format::Code;
+use crate::image::row16::{SIXTEEN, Sixteen};
 use bytemuck::must_cast;
 use wide::u16x16;
 
@@ -55,9 +55,9 @@ fn exceed<const FALLING: bool>(
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::rows::Rows;
     use super::*;
     use crate::garment::{Garment, Layout};
+    use crate::image::rows::Rows;
     use std::vec;
     use std::vec::Vec;
 
