@@ -9,6 +9,7 @@ mod copy;
 mod guard;
 mod led;
 mod levels;
+mod limits;
 mod link;
 mod mark;
 mod panic;
@@ -18,6 +19,7 @@ mod remains;
 mod scan;
 mod store;
 mod supply;
+mod watchdog;
 
 use defmt_rtt as _;
 use embassy_executor::Spawner;
@@ -35,7 +37,7 @@ const PARTS: usize = TAXELS / 4;
 /// Number of bits per byte on the line: one start bit, eight data bits, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
 
-type Pool = Lines<pins::Line, { board::LINES }>;
+type Pool = Lines<pins::Line, { limits::LINES }>;
 
 // Large objects are static, not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
@@ -68,8 +70,8 @@ fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
 /// first.
 #[inline(never)]
 fn scanner(
-    lines: [(u8, pins::Line); board::LINES],
-    converter: adc::Converter<{ board::INPUTS }>,
+    lines: [(u8, pins::Line); limits::LINES],
+    converter: adc::Converter<{ limits::INPUTS }>,
     chain: scan::Chain,
 ) -> &'static mut scan::Scanner {
     let lines = LINES.init_with(|| Lines::new(lines));
@@ -85,9 +87,9 @@ async fn main(_spawner: Spawner) {
     supply::watch();
     let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
     let mut platform = platform::Board::start(watchdog, led, flash);
-    const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
+    const { assert!(limits::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
-    let mut board = Board::bare(board::INFO);
+    let mut board = Board::bare(limits::INFO);
     ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

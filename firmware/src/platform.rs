@@ -4,9 +4,10 @@ use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
 use crate::store::{Fed, Flash};
+use crate::watchdog::WATCHDOG;
 use crate::{PARTS, RUNS, TAXELS};
 use embassy_rp::{clocks, watchdog::Watchdog};
-use embassy_time::{Duration, Instant};
+use embassy_time::Instant;
 use embedded_hal::delay::DelayNs;
 use rp_pac::watchdog::regs::Load;
 use taxel_core::{
@@ -19,10 +20,6 @@ use taxel_core::{
     run::Platform,
 };
 use taxel_store::{Found, StoreError};
-
-/// Time without a round of the loop after which the board restarts. The core refuses garments and scenes
-/// whose frames take nearly as long.
-pub const WATCHDOG: Duration = Duration::from_millis(WATCHDOG_MS as u64);
 
 /// Time between two toggles of the LED, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;

@@ -1,6 +1,6 @@
 //! The sectors of the flash with the settings, and those with the levels of outputs.
 
-use crate::platform::WATCHDOG;
+use crate::watchdog::WATCHDOG;
 use core::ops::Range;
 use embassy_rp::flash::{self, Blocking, ERASE_SIZE, Error, READ_SIZE, WRITE_SIZE};
 use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};

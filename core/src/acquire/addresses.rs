@@ -1,7 +1,7 @@
 //! The addresses of a plan, which every scan reads, whatever its order.
 
 use super::Plan;
-use super::sweep::{SWEEP_INPUTS, Unfit};
+use super::unfit::{SWEEP_INPUTS, Unfit};
 use crate::garment::{Circuit, Site};
 use heapless::Vec;
 

@@ -21,7 +21,8 @@
 
 use super::addresses::{self, Address, Inputs, Read};
 use super::rounds::Rounds;
-use super::sweep::{SWEEP_ADDRESSES, Unfit};
+use super::sweep::SWEEP_ADDRESSES;
+use super::unfit::Unfit;
 use super::{Depth, Plan};
 use crate::garment::Circuit;
 use core::ops::Range;

@@ -12,6 +12,7 @@ mod plan;
 mod ring;
 mod rounds;
 mod sweep;
+mod unfit;
 
 pub use addresses::Read;
 pub use duration::{
@@ -23,7 +24,8 @@ pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring, TURN_PLACES};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
-pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, SWEEP_STRETCHES, Stretch, Sweep, Unfit};
+pub use sweep::{SWEEP_ADDRESSES, SWEEP_STRETCHES, Stretch, Sweep};
+pub use unfit::{SWEEP_INPUTS, Unfit};
 
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;

@@ -10,6 +10,8 @@ pub const PANELS: usize = 8;
 pub const BLOCKS: usize = 64;
 /// Most lines of one select group (16 one-hot rows).
 pub const LINES: usize = 16;
+/// Most lines of a circuit, all groups and enables together.
+pub const CIRCUIT_LINES: usize = 32;
 /// Most seams between panels.
 pub const SEAMS: usize = 8;
 /// Most rectangles of absent taxels.

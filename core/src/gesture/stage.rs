@@ -2,7 +2,9 @@
 
 use super::cells::Sheet;
 use super::expert::Expert;
-use super::model::{CLASSES, Model, Scores};
+use super::expert::Scores;
+use super::model::Model;
+use super::model_error::CLASSES;
 use super::state::TouchState;
 use crate::format::Q15;
 

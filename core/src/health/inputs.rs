@@ -6,7 +6,7 @@
 //! at rest, which no touch causes. A line that is connected to the supply shows the same code everywhere. If
 //! an input shows this at rest already, the fault is not found.
 
-use super::monitor::Codes;
+use super::codes::Codes;
 use crate::acquire::Plan;
 use crate::format::{Code, Extremes};
 use crate::garment::{Circuit, Site};

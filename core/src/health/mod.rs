@@ -30,6 +30,7 @@
 //! | output | at most [`ILL`] faulty taxels |
 //! | RAM | 2.9 KB |
 
+mod codes;
 mod inputs;
 mod judge;
 mod monitor;
@@ -38,5 +39,6 @@ mod taxel;
 mod walk;
 mod watch;
 
-pub use monitor::{Codes, Found, ILL, IllTaxel, Monitor};
+pub use codes::Codes;
+pub use monitor::{Found, ILL, IllTaxel, Monitor};
 pub use taxel::TaxelHealth;

@@ -1,5 +1,6 @@
 //! The monitor: watches the taxels group by group, and keeps the faulty ones.
 
+use super::codes::Codes;
 use super::inputs::Inputs;
 use super::judge::{Doubtful, Limits, Shown, is_pressed};
 use super::seen::Seen;
@@ -7,7 +8,6 @@ use super::taxel::TaxelHealth;
 use super::walk::{Spot, Walk};
 use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
-use crate::format::Code;
 use crate::garment::{Circuit, Layout};
 use heapless::Vec;
 
@@ -29,19 +29,6 @@ pub struct IllTaxel {
     pub health: TaxelHealth,
     /// Gain from before it was found, Q4.12.
     pub gain: u16,
-}
-
-/// Codes of a frame, with their context.
-#[derive(Debug, Clone, Copy)]
-pub struct Codes<'a> {
-    /// The codes of a frame.
-    pub now: &'a [Code],
-    /// Codes at rest; none if unknown.
-    pub rest: Option<&'a [u16]>,
-    /// Largest possible code.
-    pub full: u16,
-    /// True if something touches the garment.
-    pub touched: bool,
 }
 
 /// Taxels that were found to be faulty in a frame.

@@ -1,6 +1,6 @@
 //! How many taxels must agree before a reflex begins.
 
-use super::watched::Spot;
+use super::spot::Spot;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 

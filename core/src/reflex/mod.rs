@@ -18,6 +18,7 @@
 
 mod agree;
 mod check;
+mod spot;
 mod watched;
 
 pub use agree::Agree;

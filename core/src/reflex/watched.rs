@@ -1,6 +1,7 @@
 //! The reactions that are reflexes: what they watch and which pins they drive.
 
 use super::agree::Agree;
+use super::spot::Spot;
 use crate::garment::{Layout, Line, PANELS};
 use heapless::Vec;
 
@@ -37,23 +38,6 @@ struct Panel {
     columns: u16,
     /// Index among the rows.
     row: Option<u8>,
-}
-
-/// Position of a taxel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Spot {
-    pub panel: u8,
-    pub row: u16,
-    pub column: u16,
-}
-
-impl Spot {
-    /// True if another taxel of the panel is at most `reach` rows and columns away.
-    pub fn is_near(self, other: Spot, reach: u16) -> bool {
-        self.panel == other.panel
-            && self.row.abs_diff(other.row) <= reach
-            && self.column.abs_diff(other.column) <= reach
-    }
 }
 
 /// All reflexes of a scene on a garment. At most one of them watches a panel.

@@ -3,7 +3,7 @@
 //!
 //! The remaining slice is passed by value from number to number, so that it stays in registers.
 
-use super::codec::WireError;
+use super::error::WireError;
 use core::fmt;
 use core::mem::take;
 use serde::{Serialize, ser};

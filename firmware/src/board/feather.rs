@@ -9,11 +9,12 @@
 //! | GP13 | heartbeat LED; grounded at power-up: the board starts with the shipped settings |
 //! | GP26 - GP29 | converter inputs |
 
-use super::Parts;
+use super::parts::Parts;
 use crate::{
     adc::Converter,
     led::Led,
     levels,
+    limits::INFO,
     link::{Uart, Usb, Wire, uart},
     pins::Line,
     scan::{Begun, Chain},
@@ -27,16 +28,6 @@ use embassy_rp::{
     watchdog::Watchdog,
 };
 use static_cell::ConstStaticCell;
-use taxel_core::board::BoardInfo;
-
-/// Limits for garments and scenes, equal on the board and on a host.
-pub const INFO: BoardInfo = BoardInfo::feather(concat!("taxel ", env!("CARGO_PKG_VERSION")));
-
-/// Number of converter inputs, from GP26 on.
-pub const INPUTS: usize = INFO.pins.inputs.count_ones() as usize;
-
-/// Number of pins for select lines and reactions.
-pub const LINES: usize = INFO.pins.outputs.count_ones() as usize;
 
 /// Takes pins as lines. Fails to compile unless they are the pins of [`INFO`].
 macro_rules! lines {

@@ -1,7 +1,7 @@
 //! The board as a USB device: a serial port (CDC-ACM). Its tasks run in an interrupt of the lowest priority,
 //! so that they interrupt only perception.
 
-use super::usb::{OPENED, PACKETS, RECEIVED, SENT};
+use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
 use core::sync::atomic::Ordering;
 use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
 use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};

@@ -32,7 +32,8 @@ mod tables;
 pub use chain::Chain;
 pub use frames::Begun;
 
-use crate::{adc, board, pins, platform};
+use crate::limits::{INPUTS, LINES};
+use crate::{adc, pins, platform};
 use core::pin::pin;
 use embassy_futures::select::{Either, select};
 use embassy_time::Timer;
@@ -47,9 +48,9 @@ pub type Processor = MuxScan<
     'static,
     pins::Line,
     platform::Settle,
-    adc::Converter<{ board::INPUTS }>,
+    adc::Converter<INPUTS>,
     platform::Timer,
-    { board::LINES },
+    LINES,
     { crate::TAXELS },
 >;
 
