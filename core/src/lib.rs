@@ -9,6 +9,9 @@
 //! (causes of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
 //! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats.
 //!
+//! Two stages are folders of their own, which the stage composes: `image`, `calibrate`, `baseline` and
+//! `filter` make up [`condition`]; `segment`, `measure` and `track` make up [`contact`].
+//!
 //! `// M0+: out of line` explains an `#[inline(never)]`: on the Cortex-M0+ only eight registers are cheap to
 //! reach. A hot loop is therefore a function of its own, out of line, so that it gets all of them. The choice
 //! follows the cycles of the emulated image.

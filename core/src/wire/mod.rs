@@ -44,21 +44,19 @@
 mod cobs;
 mod codec;
 mod crc32;
-mod encoder;
 mod error;
-mod image;
+mod image_decode;
+mod image_encode;
 mod message;
 mod receiver;
-mod reference;
-mod stretch;
 mod writer;
 
 pub(crate) use codec::{close, frame, lead};
 pub use codec::{decode, encode, frame_bound, open};
-pub use encoder::encode_image;
 pub use error::WireError;
-pub use image::{ImageError, ImageFault, decode_image, image_bound, image_sum};
+pub use image_decode::{ImageError, ImageFault, decode_image, image_bound, image_sum};
+pub(crate) use image_encode::Reference;
+pub use image_encode::encode_image;
 pub use message::*;
 pub use receiver::Receiver;
-pub(crate) use reference::Reference;
 pub(crate) use writer::write;

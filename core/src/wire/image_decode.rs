@@ -15,8 +15,11 @@
 //!
 //! The table is asserted by `core/tests/core/wire.rs`.
 
-use super::encoder::RUN;
 use core::{fmt, slice};
+
+/// Greatest number of taxels of a run: its length takes one byte, which is reserved and filled in at the end
+/// of the run.
+pub(super) const RUN: usize = 127;
 
 /// Greatest length of the code of an image of `taxels` taxels of `bits` bits: the numbers and the heads of
 /// the runs.

@@ -1,4 +1,4 @@
-//! Encodes images; the [decoder's module](super::image) describes the code.
+//! Encodes images; the [decoder's module](crate::wire::image_decode) describes the code.
 //!
 //! Runs with one unchanged taxel between them are joined: a new run costs at least 2 bytes, an unchanged
 //! taxel within one costs 1 (alone: 2 for the first after a value above 63). Joining over 2 taxels would cost
@@ -9,13 +9,10 @@
 //! about 80 cycles for each stretch.
 
 use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
+use crate::wire::image_decode::RUN;
 use bytemuck::pod_align_to;
 use core::mem::take;
 use core::ops::Range;
-
-/// Greatest number of taxels of a run: its length takes one byte, which is reserved and filled in at the end
-/// of the run.
-pub(super) const RUN: usize = 127;
 
 /// Greatest varint of an image, plus one: 3 bytes hold 21 bits.
 const LIMIT: usize = 1 << 21;
@@ -264,8 +261,8 @@ fn varint(mut out: &mut [u8], mut value: u32) -> Option<&mut [u8]> {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::decode_image;
     use super::*;
+    use crate::wire::decode_image;
     use std::vec;
     use std::vec::Vec;
 

@@ -13,7 +13,7 @@ pub(crate) struct Reference<const TAXELS: usize> {
     values: [u16; TAXELS],
     /// Rows of `values` that may not be 0.
     rows: Held,
-    /// [`image_sum`](super::image_sum) of `values`.
+    /// [`image_sum`](crate::wire::image_sum) of `values`.
     sum: u32,
 }
 
@@ -138,7 +138,7 @@ fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS])
     *kept = *block;
 }
 
-/// Returns the contribution of the taxels from number `start` on to [`image_sum`](super::image_sum).
+/// Returns the contribution of the taxels from number `start` on to [`image_sum`](crate::wire::image_sum).
 ///
 /// The sum of the sums of all values up to each of `count` taxels is `sum (count - i) value`, and needs no
 /// multiplication.
@@ -157,8 +157,8 @@ fn sum_of(start: usize, values: &[u16]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::image_sum;
     use super::*;
+    use crate::wire::image_sum;
 
     #[test]
     fn taxels_are_kept_and_summed_up_wherever_they_stand() {
