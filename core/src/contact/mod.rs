@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | 800 bytes per contact, 36 per run, 20 per part, and 3.6 KB |
+//! | RAM | 800 bytes per contact, 36 per run, 20 per label, and 3.6 KB |
 //! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 59 k with five, 233 k with forty of 4 to 9; 179 k if all 2,048 taxels are touched, 223 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
@@ -24,16 +24,16 @@
 //! displacement nor as velocity.
 //!
 //! Motion is that of the centroid or, where the pressure inside a contact has a pattern, that of the pattern
-//! (`track::pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36 taxels
-//! that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five taxels, and a
-//! step of less than half a structure (in an outline just as large, less than one taxel). A slip begins when
-//! three steps in a row go the same way, and together are at least as fast as the slip speed and three times
-//! the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the slip speed. A scene
-//! without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each contact with a
-//! pattern, 400 for any other.
+//! (`track::pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36
+//! taxels that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five
+//! taxels, and a step of less than half a structure (in an outline just as large, less than one taxel). A
+//! slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
+//! and three times the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the
+//! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each
+//! contact with a pattern, 400 for any other.
 //!
 //! The stage makes four passes: each active row as bits (`segment::threshold`), its runs summed up and joined
-//! to the parts above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
+//! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
 //! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
 //! `track::tracks`), and the form of one contact is measured (`measure::form`): it costs as much as the rest

@@ -1,37 +1,37 @@
 //! Moments of contacts that cross seams.
 //!
-//! A contact has the frame of its heaviest part on its home panel, the panel with most of its mass. Every
-//! other part is carried into that frame along the joins that connect the two: the shortest path first, then
+//! A contact has the frame of its heaviest label on its home panel, the panel with most of its mass. Every
+//! other label is carried into that frame along the joins that connect the two: the shortest path first, then
 //! in the order of the joins. So a grip around a flank stays in one piece, and a ring that closes over two
-//! seams is cut at the later one. Parts of the home panel that are connected only over another panel are
+//! seams is cut at the later one. Labels of the home panel that are connected only over another panel are
 //! carried like all others.
 
 use super::moments::Moments;
 use crate::baseline::feedback::CARRIED;
 use crate::garment::{Layout, PANELS, Transform};
-use crate::segment::labels::Labels;
+use crate::segment::labeller::Labeller;
 use crate::segment::seams::Joins;
 use heapless::Vec;
 
-/// A joined part, and its transform to the frame of its contact.
+/// A joined label, and its transform to the frame of its contact.
 #[derive(Debug, Clone, Copy)]
 struct Carried {
-    part: u16,
+    label: u16,
     contact: u16,
     map: Transform,
-    /// Moments so far, in the part's own coordinates.
+    /// Moments so far, in the label's own coordinates.
     moments: Moments,
 }
 
-/// The joined parts of a frame; the heaviest of each contact's home panel has the identity.
+/// The joined labels of a frame; the heaviest of each contact's home panel has the identity.
 #[derive(Debug, Clone)]
-pub(crate) struct CarriedParts {
+pub(crate) struct CarriedLabels {
     list: Vec<Carried, { 2 * CARRIED }>,
 }
 
-impl CarriedParts {
+impl CarriedLabels {
     pub const fn new() -> Self {
-        CarriedParts { list: Vec::new() }
+        CarriedLabels { list: Vec::new() }
     }
 
     /// Empties the list.
@@ -39,21 +39,21 @@ impl CarriedParts {
         self.list.clear();
     }
 
-    /// Returns the home panel of a joined contact, the one with most of its mass, and places all its parts.
-    pub fn settle<const RUNS: usize, const PARTS: usize>(
+    /// Returns the home panel of a joined contact, the one with most of its mass, and places all its labels.
+    pub fn settle<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
         joins: &Joins,
         layout: &Layout,
         contact: u16,
     ) -> u8 {
-        // Of each panel: mass, heaviest part, and mass of that part.
+        // Of each panel: mass, heaviest label, and mass of that label.
         let mut sums = [(0u64, 0, 0); PANELS];
-        for (index, part) in labels.whole_parts().filter(|(_, part)| part.contact == contact) {
-            if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(part.panel)) {
-                *sum = sum.wrapping_add(part.mass.into());
-                if part.mass > *most {
-                    (*heaviest, *most) = (index, part.mass);
+        for (index, label) in labeller.roots().filter(|(_, label)| label.contact == contact) {
+            if let Some((sum, heaviest, most)) = sums.get_mut(usize::from(label.panel)) {
+                *sum = sum.wrapping_add(label.mass.into());
+                if label.mass > *most {
+                    (*heaviest, *most) = (index, label.mass);
                 }
             }
         }
@@ -68,15 +68,15 @@ impl CarriedParts {
         home
     }
 
-    /// Places the parts at the other side of joins with one placed side, until none is left.
+    /// Places the labels at the other side of joins with one placed side, until none is left.
     fn carry(&mut self, joins: &Joins, layout: &Layout, contact: u16) {
         for _ in 0..=joins.list.len() {
-            // Joins go only from parts that earlier rounds placed, so that the shortest path wins.
+            // Joins go only from labels that earlier rounds placed, so that the shortest path wins.
             let placed = self.list.len();
             for index in 0..joins.list.len() {
                 let Some(join) = joins.list.get(index).copied() else { continue };
                 let Some(joint) = layout.joints().get(usize::from(join.joint)) else { continue };
-                let known = |part| self.list.iter().take(placed).find(|c| c.part == part).map(|c| c.map);
+                let known = |label| self.list.iter().take(placed).find(|c| c.label == label).map(|c| c.map);
                 match (known(join.a), known(join.b)) {
                     (Some(a), None) => self.place(join.b, contact, a.after(&joint.b_to_a)),
                     (None, Some(b)) => self.place(join.a, contact, b.after(&joint.b_to_a.inverse())),
@@ -89,20 +89,20 @@ impl CarriedParts {
         }
     }
 
-    fn place(&mut self, part: u16, contact: u16, map: Transform) {
-        if !self.list.iter().any(|c| c.part == part) {
-            // Always room: each join brings at most two parts, and the list has twice the capacity of the
+    fn place(&mut self, label: u16, contact: u16, map: Transform) {
+        if !self.list.iter().any(|c| c.label == label) {
+            // Always room: each join brings at most two labels, and the list has twice the capacity of the
             // joins.
-            let _ = self.list.push(Carried { part, contact, map, moments: Moments::default() });
+            let _ = self.list.push(Carried { label, contact, map, moments: Moments::default() });
         }
     }
 
-    /// Moments of a part, if it is joined to another.
-    pub fn moments_of(&mut self, part: u16) -> Option<&mut Moments> {
-        self.list.iter_mut().find(|c| c.part == part).map(|c| &mut c.moments)
+    /// Moments of a label, if it is joined to another.
+    pub fn moments_of(&mut self, label: u16) -> Option<&mut Moments> {
+        self.list.iter_mut().find(|c| c.label == label).map(|c| &mut c.moments)
     }
 
-    /// Contacts and the moments of their parts, in the frames of the contacts' home panels.
+    /// Contacts and the moments of their labels, in the frames of the contacts' home panels.
     pub fn moments(&self) -> impl Iterator<Item = (u16, Moments)> {
         self.list.iter().map(|c| (c.contact, c.moments.transform(&c.map)))
     }

@@ -1,26 +1,26 @@
 //! The choice of contacts among the components, and their moments.
 
-use super::carried::CarriedParts;
+use super::carried::CarriedLabels;
 use super::moments::{FEW, Moments, is_small};
 use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
 use crate::format::{Fixed16, Inverse};
 use crate::garment::{Area, Layout, Place, Rect};
 use crate::image::view::Image;
 use crate::segment::config::ContactConfig;
-use crate::segment::labels::Labels;
-use crate::segment::run::Piece;
+use crate::segment::labeller::Labeller;
+use crate::segment::run::Run;
 use crate::segment::seams::{Joins, weigh};
 use crate::segment::strip::{Strip, strips, values_of};
 use crate::segment::sums::{NARROW, squares};
-use crate::segment::union_find::{NONE, Part};
+use crate::segment::union_find::{Label, NONE};
 use core::slice::from_ref;
 use heapless::Vec;
 
 /// A connected touch of one frame, not yet tracked.
 #[derive(Debug, Clone)]
 pub struct Component {
-    /// Root of its parts.
-    pub(crate) part: u16,
+    /// Root of its labels.
+    pub(crate) label: u16,
     joined: bool,
     /// Sum of the pressure, counts.
     pub total: u32,
@@ -46,7 +46,7 @@ const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX,
 
 /// Sums of a component before its moments are measured.
 struct Found {
-    part: u16,
+    label: u16,
     joined: bool,
     total: u32,
     peak: u16,
@@ -73,28 +73,28 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Picks the components that are contacts; if they do not fit, those with the greatest totals.
-    pub fn select<const RUNS: usize, const PARTS: usize>(
+    pub fn select<const RUNS: usize, const LABELS: usize>(
         &mut self,
         config: &ContactConfig,
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
     ) {
         self.list.clear();
         self.beyond.clear();
         (self.dropped, self.faint) = (0, 0);
         let mut least = None;
-        for (index, part) in labels.whole_parts().filter(|(index, part)| part.group == *index) {
-            let (total, peak, area, held) = if part.joined {
-                weigh(labels, index)
+        for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
+            let (total, peak, area, held) = if label.joined {
+                weigh(labeller, index)
             } else {
-                (part.mass, part.peak as u16, part.area, part.held)
+                (label.mass, label.peak as u16, label.area, label.held)
             };
             if area < config.min_area || (peak < config.high && !held) {
                 if peak >= config.high - config.high / 4 {
-                    self.faint |= 1u8.checked_shl(part.panel.into()).unwrap_or(0);
+                    self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);
                 }
                 continue;
             }
-            let found = Found { part: index, joined: part.joined, total, peak, area, panel: part.panel };
+            let found = Found { label: index, joined: label.joined, total, peak, area, panel: label.panel };
             if self.list.is_full() {
                 self.dropped = self.dropped.saturating_add(1);
                 self.replace_least(&mut least, &found);
@@ -122,43 +122,43 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Gives each part the index of its contact.
-    pub fn number<const RUNS: usize, const PARTS: usize>(&self, labels: &mut Labels<RUNS, PARTS>) {
+    /// Gives each label the index of its contact.
+    pub fn number<const RUNS: usize, const LABELS: usize>(&self, labeller: &mut Labeller<RUNS, LABELS>) {
         for (index, component) in (0u16..).zip(&self.list) {
-            if let Some(part) = labels.parts.get_mut(usize::from(component.part)) {
-                part.contact = index;
+            if let Some(label) = labeller.labels.get_mut(usize::from(component.label)) {
+                label.contact = index;
             }
         }
-        // The root of a part has a smaller index, so it has its number already.
-        for index in 0..labels.parts.len() {
-            let Some(part) = labels.parts.get(index) else { return };
-            let first = if usize::from(part.parent) == index { part.group } else { part.parent };
+        // The root of a label has a smaller index, so it has its number already.
+        for index in 0..labeller.labels.len() {
+            let Some(label) = labeller.labels.get(index) else { return };
+            let first = if usize::from(label.parent) == index { label.group } else { label.parent };
             if usize::from(first) == index {
                 continue;
             }
-            let contact = labels.parts.get(usize::from(first)).map_or(NONE, |part| part.contact);
-            if let Some(part) = labels.parts.get_mut(index) {
-                part.contact = contact;
+            let contact = labeller.labels.get(usize::from(first)).map_or(NONE, |label| label.contact);
+            if let Some(label) = labeller.labels.get_mut(index) {
+                label.contact = contact;
             }
         }
     }
 
     /// Measures the moments, bounds and centroids of all components.
-    pub fn measure<const RUNS: usize, const PARTS: usize>(
+    pub fn measure<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &Labels<RUNS, PARTS>,
-        (joins, carried): (&Joins, &mut CarriedParts),
+        labeller: &Labeller<RUNS, LABELS>,
+        (joins, carried): (&Joins, &mut CarriedLabels),
         layout: &Layout,
         image: &Image,
     ) {
         carried.clear();
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
-            component.bounds.panel = carried.settle(labels, joins, layout, index);
+            component.bounds.panel = carried.settle(labeller, joins, layout, index);
         }
         if usize::BITS >= 64 {
-            self.take_pieces(labels, carried, layout, image);
+            self.take_runs(labeller, carried, layout, image);
         } else {
-            self.take_strips(labels, carried, layout, image);
+            self.take_strips(labeller, carried, layout, image);
         }
         for (contact, moments) in carried.moments() {
             if let Some(component) = self.list.get_mut(usize::from(contact)) {
@@ -170,57 +170,56 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         }
     }
 
-    /// Adds the pieces to their components, strip by strip, so that the sums of a strip stay in registers.
+    /// Adds the runs to their components, strip by strip, so that the sums of a strip stay in registers.
     #[inline(never)] // M0+: out of line
-    fn take_strips<const RUNS: usize, const PARTS: usize>(
+    fn take_strips<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &Labels<RUNS, PARTS>,
-        carried: &mut CarriedParts,
+        labeller: &Labeller<RUNS, LABELS>,
+        carried: &mut CarriedLabels,
         layout: &Layout,
         image: &Image,
     ) {
-        for pieces in strips(&labels.pieces) {
-            let Some(part) = pieces.first().and_then(|piece| labels.parts.get(usize::from(piece.part)))
-            else {
+        for runs in strips(&labeller.runs) {
+            let Some(label) = runs.first().and_then(|run| labeller.labels.get(usize::from(run.label))) else {
                 continue;
             };
-            let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
-            let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
-            let strip = Strip { pieces, part, area, values: image.values };
+            let Some(component) = self.list.get_mut(usize::from(label.contact)) else { continue };
+            let Some(area) = layout.areas().get(usize::from(label.panel)) else { continue };
+            let strip = Strip { runs, label, area, values: image.values };
             if component.take(&strip, carried) {
                 self.widen_beyond(&strip);
             }
         }
     }
 
-    /// Adds the pieces to their components one by one. For a machine with many registers: most strips of wide
-    /// rows are of one piece.
-    fn take_pieces<const RUNS: usize, const PARTS: usize>(
+    /// Adds the runs to their components one by one. For a machine with many registers: most strips of wide
+    /// rows are of one run.
+    fn take_runs<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &Labels<RUNS, PARTS>,
-        carried: &mut CarriedParts,
+        labeller: &Labeller<RUNS, LABELS>,
+        carried: &mut CarriedLabels,
         layout: &Layout,
         image: &Image,
     ) {
         let areas = layout.areas();
-        for piece in &labels.pieces {
-            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
-            let Some(component) = self.list.get_mut(usize::from(part.contact)) else { continue };
-            let Some(area) = areas.get(usize::from(part.panel)) else { continue };
+        for run in &labeller.runs {
+            let Some(label) = labeller.labels.get(usize::from(run.label)) else { continue };
+            let Some(component) = self.list.get_mut(usize::from(label.contact)) else { continue };
+            let Some(area) = areas.get(usize::from(label.panel)) else { continue };
             if component.joined {
-                let strip = Strip { pieces: from_ref(piece), part, area, values: image.values };
+                let strip = Strip { runs: from_ref(run), label, area, values: image.values };
                 if component.take(&strip, carried) {
                     self.widen_beyond(&strip);
                 }
             } else {
-                component.add_piece(piece, area, image.values);
+                component.add_run(run, area, image.values);
             }
         }
     }
 
     #[inline(never)] // only across seams
     fn widen_beyond(&mut self, strip: &Strip) {
-        let Part { contact, panel, .. } = *strip.part;
+        let Label { contact, panel, .. } = *strip.label;
         match self.beyond.iter_mut().find(|(i, rect)| *i == contact && rect.panel == panel) {
             Some((_, rect)) => strip.widen(rect),
             None => {
@@ -250,7 +249,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 impl Component {
     /// A component without taxels.
     const BLANK: Component = Component {
-        part: NONE,
+        label: NONE,
         joined: false,
         total: 0,
         peak: 0,
@@ -265,23 +264,23 @@ impl Component {
 
     /// Starts over with what was found; neither component has been measured yet.
     fn begin(&mut self, found: &Found) {
-        let Found { part, joined, total, peak, area, panel } = *found;
-        (self.part, self.joined) = (part, joined);
+        let Found { label, joined, total, peak, area, panel } = *found;
+        (self.label, self.joined) = (label, joined);
         (self.total, self.peak, self.area) = (total, peak, area);
         self.bounds.panel = panel;
     }
 
-    /// Pieces in the rows of its box, with their indices; all pieces if it lies on several panels.
-    pub(crate) fn pieces<'l, const RUNS: usize, const PARTS: usize>(
+    /// Runs in the rows of its box, with their indices; all runs if it lies on several panels.
+    pub(crate) fn runs<'l, const RUNS: usize, const LABELS: usize>(
         &self,
-        labels: &'l Labels<RUNS, PARTS>,
+        labeller: &'l Labeller<RUNS, LABELS>,
         layout: &Layout,
-    ) -> impl Iterator<Item = (usize, &'l Piece)> {
+    ) -> impl Iterator<Item = (usize, &'l Run)> {
         let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !self.joined);
         let rows = area.map_or((0, u16::MAX), |area| {
             (area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
         });
-        labels.in_rows(rows.0, rows.1)
+        labeller.in_rows(rows.0, rows.1)
     }
 
     /// Adds another component of the same home panel.
@@ -312,62 +311,62 @@ impl Component {
 
     /// Adds a strip; returns true if it lies on a panel other than the home.
     #[inline(always)]
-    fn take(&mut self, strip: &Strip, carried: &mut CarriedParts) -> bool {
+    fn take(&mut self, strip: &Strip, carried: &mut CarriedLabels) -> bool {
         self.add(strip, carried);
-        let beyond = strip.part.panel != self.bounds.panel;
+        let beyond = strip.label.panel != self.bounds.panel;
         if !beyond {
             strip.widen(&mut self.bounds);
         }
         beyond
     }
 
-    /// Adds a piece of a component that lies on one panel.
+    /// Adds a run of a component that lies on one panel.
     #[inline(always)]
-    fn add_piece(&mut self, piece: &Piece, area: &Area, values: &[u16]) {
-        let row = piece.row - area.first_row;
-        let squares = match piece.peak {
-            0..=NARROW => piece.sums.squares.into(),
-            _ => squares(values_of(piece, area, values), piece.rebased()),
+    fn add_run(&mut self, run: &Run, area: &Area, values: &[u16]) {
+        let row = run.row - area.first_row;
+        let squares = match run.peak {
+            0..=NARROW => run.sums.squares.into(),
+            _ => squares(values_of(run, area, values), run.rebased()),
         };
-        self.moments.add(&Moments::of_sums(piece.left.into(), row.into(), &piece.sums, squares));
+        self.moments.add(&Moments::of_sums(run.left.into(), row.into(), &run.sums, squares));
         let Rect { top, bottom, left, right, .. } = &mut self.bounds;
         (*top, *bottom) = (row.min(*top), row);
-        (*left, *right) = (piece.left.min(*left), piece.right.max(*right));
-        if piece.peak == self.peak && self.peak_at.is_none_or(|at| at.row == row) {
-            self.look_for_peak(piece, self.bounds.panel, area, values);
+        (*left, *right) = (run.left.min(*left), run.right.max(*right));
+        if run.peak == self.peak && self.peak_at.is_none_or(|at| at.row == row) {
+            self.look_for_peak(run, self.bounds.panel, area, values);
         }
     }
 
-    /// Adds the pieces of a strip to the moments.
+    /// Adds the runs of a strip to the moments.
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
-    fn add(&mut self, strip: &Strip, carried: &mut CarriedParts) {
-        // Moments of a carried part stay in its own coordinates until all its pieces are added.
-        let carried = if self.joined { carried.moments_of(strip.part.parent) } else { None };
+    fn add(&mut self, strip: &Strip, carried: &mut CarriedLabels) {
+        // Moments of a carried label stay in its own coordinates until all its runs are added.
+        let carried = if self.joined { carried.moments_of(strip.label.parent) } else { None };
         let moments = carried.unwrap_or(&mut self.moments);
-        let &Strip { pieces, area, .. } = strip;
-        if pieces.len() > 2 && is_small(area.columns, area.rows, self.peak) {
-            // One piece per row, so that a chunk has at most FEW rows.
-            pieces.chunks(FEW).for_each(|pieces| moments.add_few(pieces, area.first_row));
+        let &Strip { runs, area, .. } = strip;
+        if runs.len() > 2 && is_small(area.columns, area.rows, self.peak) {
+            // One run per row, so that a chunk has at most FEW rows.
+            runs.chunks(FEW).for_each(|runs| moments.add_few(runs, area.first_row));
         } else {
-            for piece in pieces {
-                let row = piece.row - area.first_row;
-                let squares = || squares(values_of(piece, area, strip.values), piece.rebased());
-                moments.add_piece(piece.left.into(), row.into(), &piece.sums, piece.peak, squares);
+            for run in runs {
+                let row = run.row - area.first_row;
+                let squares = || squares(values_of(run, area, strip.values), run.rebased());
+                moments.add_run(run.left.into(), row.into(), &run.sums, run.peak, squares);
             }
         }
         let peak = self.peak;
-        if let Some(piece) = strip.pieces.iter().find(|piece| piece.peak == peak) {
-            self.look_for_peak(piece, strip.part.panel, area, strip.values);
+        if let Some(run) = strip.runs.iter().find(|run| run.peak == peak) {
+            self.look_for_peak(run, strip.label.panel, area, strip.values);
         }
     }
 
-    /// Updates `peak_at` from a piece that has the peak, to the first such taxel of the row. The pieces of a
+    /// Updates `peak_at` from a run that has the peak, to the first such taxel of the row. The runs of a
     /// row may come in any order.
     #[inline(never)] // rarely called
-    fn look_for_peak(&mut self, piece: &Piece, panel: u8, area: &Area, values: &[u16]) {
-        let row = piece.row - area.first_row;
-        let mut columns = (piece.left..).zip(values_of(piece, area, values));
-        let mine = |column| piece.holds(column);
+    fn look_for_peak(&mut self, run: &Run, panel: u8, area: &Area, values: &[u16]) {
+        let row = run.row - area.first_row;
+        let mut columns = (run.left..).zip(values_of(run, area, values));
+        let mine = |column| run.holds(column);
         let Some((column, _)) = columns.find(|(column, value)| **value == self.peak && mine(*column)) else {
             return;
         };
@@ -389,7 +388,7 @@ mod tests {
 
     /// Panels of one or several words a row, with and without a seam.
     #[test]
-    fn strips_add_up_to_what_their_pieces_do() {
+    fn strips_add_up_to_what_their_runs_do() {
         let mut noise = 1u32;
         let mut next = |end: u32| {
             noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
@@ -411,22 +410,22 @@ mod tests {
             values.fill_with(|| if next(100) < share { 1 + next(peak.into()) as u16 } else { 0 });
             let rows = Rows::of(&layout, &values);
             let image = Image { values: &values, rows: &rows };
-            let (mut labels, mut joins) = (Labels::<2048, 2048>::new(), Joins::new());
-            labels.scan(&layout, &image, 1);
-            joins.find(&mut labels, &layout);
+            let (mut labeller, mut joins) = (Labeller::<2048, 2048>::new(), Joins::new());
+            labeller.scan(&layout, &image, 1);
+            joins.find(&mut labeller, &layout);
             let mut components = Components::<40>::new();
-            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labels);
-            components.number(&mut labels);
+            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labeller);
+            components.number(&mut labeller);
             let mut found = [false, true].map(|strips| {
-                let mut carried = CarriedParts::new();
+                let mut carried = CarriedLabels::new();
                 let mut components = components.clone();
                 for (index, component) in (0u16..).zip(&mut components.list).filter(|(_, c)| c.joined) {
-                    component.bounds.panel = carried.settle(&labels, &joins, &layout, index);
+                    component.bounds.panel = carried.settle(&labeller, &joins, &layout, index);
                 }
                 if strips {
-                    components.take_strips(&labels, &mut carried, &layout, &image);
+                    components.take_strips(&labeller, &mut carried, &layout, &image);
                 } else {
-                    components.take_pieces(&labels, &mut carried, &layout, &image);
+                    components.take_runs(&labeller, &mut carried, &layout, &image);
                 }
                 let each = components.list.iter().map(|c| (c.moments, c.bounds, c.peak_at));
                 let carried: Vec<_> = carried.moments().collect();

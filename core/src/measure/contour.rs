@@ -4,7 +4,7 @@ use super::component::Component;
 use super::sobel::{Neighbourhood, steepness_of_sixteens};
 use crate::garment::Layout;
 use crate::image::view::Image;
-use crate::segment::labels::Labels;
+use crate::segment::labeller::Labeller;
 
 /// Contour of a contact: its taxels with at least one of the four neighbours below the threshold or outside
 /// the panel.
@@ -18,21 +18,21 @@ pub(crate) struct Contour {
 
 impl Contour {
     /// Returns the contour of component `index`.
-    pub fn of<const RUNS: usize, const PARTS: usize>(
+    pub fn of<const RUNS: usize, const LABELS: usize>(
         index: u16,
         component: &Component,
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
         layout: &Layout,
         image: &Image,
     ) -> Contour {
         let mut contour = Contour { length: 0, slope: 0 };
-        for (number, piece) in component.pieces(labels, layout) {
-            let Some(part) = labels.parts.get(usize::from(piece.part)) else { continue };
-            let Some(area) = layout.areas().get(usize::from(part.panel)) else { continue };
-            if part.contact == index {
-                let outline = piece.taxels & !labels.enclosed(number, piece, area);
-                let around = Neighbourhood::of(image.values, area, piece.row - area.first_row);
-                contour.add(outline, piece.column(), &around);
+        for (number, run) in component.runs(labeller, layout) {
+            let Some(label) = labeller.labels.get(usize::from(run.label)) else { continue };
+            let Some(area) = layout.areas().get(usize::from(label.panel)) else { continue };
+            if label.contact == index {
+                let outline = run.taxels & !labeller.enclosed(number, run, area);
+                let around = Neighbourhood::of(image.values, area, run.row - area.first_row);
+                contour.add(outline, run.column(), &around);
             }
         }
         contour

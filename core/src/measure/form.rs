@@ -6,20 +6,20 @@ use super::contact::Contact;
 use super::contour::Contour;
 use crate::garment::Layout;
 use crate::image::view::Image;
-use crate::segment::labels::Labels;
+use crate::segment::labeller::Labeller;
 
 /// The frame in which forms are measured.
-pub(crate) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
-    pub labels: &'a Labels<RUNS, PARTS>,
+pub(crate) struct Sight<'a, const RUNS: usize, const LABELS: usize> {
+    pub labeller: &'a Labeller<RUNS, LABELS>,
     pub layout: &'a Layout,
     pub image: &'a Image<'a>,
 }
 
-impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
+impl<const RUNS: usize, const LABELS: usize> Sight<'_, RUNS, LABELS> {
     /// Measures the contour, axis and breadth of a contact from its component, number `index`.
     #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
-        let Contour { length, slope } = Contour::of(index, component, self.labels, self.layout, self.image);
+        let Contour { length, slope } = Contour::of(index, component, self.labeller, self.layout, self.image);
         contact.perimeter = length as u16;
         contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
         let area = self.layout.areas().get(usize::from(component.bounds.panel));

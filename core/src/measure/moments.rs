@@ -3,7 +3,7 @@
 use crate::format::product;
 use crate::garment::{Transform, signed};
 use crate::segment::bits::WORD;
-use crate::segment::run::Piece;
+use crate::segment::run::Run;
 use crate::segment::sums::{NARROW, Sums, squares};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
@@ -50,7 +50,7 @@ pub(crate) const fn is_small(columns: u16, rows: u16, peak: u16) -> bool {
     columns <= 16 && rows <= 32 && peak < 1 << 12
 }
 
-/// Moments in 32 bits, where a multiplication takes one cycle instead of 55. For a piece near the first
+/// Moments in 32 bits, where a multiplication takes one cycle instead of 55. For a run near the first
 /// column and row, all of them are below 128^2 * 2^17 = 2^31.
 #[derive(Default)]
 struct Near {
@@ -114,22 +114,15 @@ impl Moments {
         for values in values.chunks(WORD.into()) {
             let mut sums = Sums::NONE;
             let peak = sums.take(values);
-            sum.add_piece(x, y, &sums, peak, || squares(values, u32::MAX));
+            sum.add_run(x, y, &sums, peak, || squares(values, u32::MAX));
             x = x.wrapping_add(WORD.into());
         }
         sum
     }
 
-    /// Adds a piece of a row whose first taxel is (x, y), from the sums of its taxels. Calls `squares` if the
+    /// Adds a run of a row whose first taxel is (x, y), from the sums of its taxels. Calls `squares` if the
     /// sum of squares may not fit in 32 bits.
-    pub(crate) fn add_piece(
-        &mut self,
-        x: u32,
-        y: u32,
-        sums: &Sums,
-        peak: u16,
-        squares: impl FnOnce() -> u64,
-    ) {
+    pub(crate) fn add_run(&mut self, x: u32, y: u32, sums: &Sums, peak: u16, squares: impl FnOnce() -> u64) {
         if x < 64 && y < 128 && sums.s0 < 1 << 17 && peak <= NARROW {
             self.add_near(x, y, sums);
         } else {
@@ -137,30 +130,30 @@ impl Moments {
         }
     }
 
-    /// Adds small sums at small coordinates: nearly every piece.
+    /// Adds small sums at small coordinates: nearly every run.
     #[inline(never)] // M0+: out of line
     fn add_near(&mut self, x: u32, y: u32, sums: &Sums) {
         self.add(&Near::of(x, y, sums).wide());
     }
 
-    /// Adds pieces of [`FEW`] rows at most. Rows count from `first_row`, the first of the panel; all columns,
+    /// Adds runs of [`FEW`] rows at most. Rows count from `first_row`, the first of the panel; all columns,
     /// rows and values are [`is_small`].
     #[inline(never)] // M0+: out of line
-    pub(crate) fn add_few(&mut self, pieces: &[Piece], first_row: u16) {
+    pub(crate) fn add_few(&mut self, runs: &[Run], first_row: u16) {
         // Three loops, because one would need twice as many registers as there are.
         let mut sum = Near::default();
-        for piece in pieces {
-            sum.m = sum.m.wrapping_add(piece.sums.s0);
-            sum.s2 = sum.s2.wrapping_add(piece.sums.squares);
+        for run in runs {
+            sum.m = sum.m.wrapping_add(run.sums.s0);
+            sum.s2 = sum.s2.wrapping_add(run.sums.squares);
         }
-        for piece in pieces {
-            let (sx, sxx) = Near::across(piece.left.into(), &piece.sums);
+        for run in runs {
+            let (sx, sxx) = Near::across(run.left.into(), &run.sums);
             sum.sx = sum.sx.wrapping_add(sx);
             sum.sxx = sum.sxx.wrapping_add(sxx);
         }
-        for piece in pieces {
-            let (y, s0) = (u32::from(piece.row - first_row), piece.sums.s0);
-            let (sx, sy) = (Near::first(piece.left.into(), &piece.sums), y * s0);
+        for run in runs {
+            let (y, s0) = (u32::from(run.row - first_row), run.sums.s0);
+            let (sx, sy) = (Near::first(run.left.into(), &run.sums), y * s0);
             sum.sy = sum.sy.wrapping_add(sy);
             sum.syy = sum.syy.wrapping_add(y * sy);
             sum.sxy = sum.sxy.wrapping_add(y * sx);
@@ -175,7 +168,7 @@ impl Moments {
         self.add(&Moments::of_sums(x, y, sums, squares));
     }
 
-    /// Moments of a piece of a row whose first taxel is (x, y), from the sums of its taxels.
+    /// Moments of a run of a row whose first taxel is (x, y), from the sums of its taxels.
     #[inline(always)]
     pub(crate) fn of_sums(x: u32, y: u32, sums: &Sums, squares: u64) -> Moments {
         let (x, y) = (u64::from(x), u64::from(y));
@@ -298,23 +291,23 @@ mod tests {
             let values: [u16; 16] = core::array::from_fn(|i| least.max(i as u16 * 250));
             let mut sums = Sums::NONE;
             let peak = sums.take(&values);
-            let piece = |row| Piece {
+            let run = |row| Run {
                 taxels: 0xffff,
                 all: 0xffff,
                 row: 100 + row,
-                part: 0,
+                label: 0,
                 left: 0,
                 right: 15,
                 area: 16,
                 peak,
                 sums,
             };
-            let pieces: Vec<_> = (first..first + FEW as u16).map(piece).collect();
-            assert!(is_small(16, 32, peak) && pieces.iter().all(|piece| piece.row < 132));
+            let runs: Vec<_> = (first..first + FEW as u16).map(run).collect();
+            assert!(is_small(16, 32, peak) && runs.iter().all(|run| run.row < 132));
             let (mut few, mut each) = (Moments::default(), Moments::default());
-            few.add_few(&pieces, 100);
-            for piece in &pieces {
-                each.add(&Moments::of_run(0, (piece.row - 100).into(), &values));
+            few.add_few(&runs, 100);
+            for run in &runs {
+                each.add(&Moments::of_run(0, (run.row - 100).into(), &values));
             }
             assert_eq!(few, each);
         }

@@ -1,60 +1,60 @@
-//! The parts along a side of a panel.
+//! The labels along a side of a panel.
 
 use super::bits::WORD;
-use super::labels::Labels;
-use super::run::{Piece, key};
-use super::union_find::{NONE, Part};
+use super::labeller::Labeller;
+use super::run::{Run, key};
+use super::union_find::{Label, NONE};
 use crate::garment::{Area, Stretch};
 use core::ops::Range;
 
 /// Cursor over the taxels along a side of a panel.
 pub(crate) struct Side<'a> {
-    pieces: &'a [Piece],
-    parts: &'a [Part],
+    runs: &'a [Run],
+    labels: &'a [Label],
     edge: &'a Stretch,
     /// First row of the panel, over all panels.
     first_row: u16,
     last_row: u16,
     /// True if each taxel lies below the one before.
     is_down: bool,
-    /// Last result: from taxel `asked` on, the next `taxels` that belong to one part, or [`NONE`].
+    /// Last result: from taxel `asked` on, the next `taxels` that belong to one label, or [`NONE`].
     asked: i32,
-    part: u16,
+    label: u16,
     taxels: Range<i32>,
-    /// Index of a piece; no piece before it holds a taxel that comes after `taxels`.
+    /// Index of a run; no run before it holds a taxel that comes after `taxels`.
     near: usize,
 }
 
 impl<'a> Side<'a> {
-    pub fn of<const RUNS: usize, const PARTS: usize>(
-        labels: &'a Labels<RUNS, PARTS>,
+    pub fn of<const RUNS: usize, const LABELS: usize>(
+        labeller: &'a Labeller<RUNS, LABELS>,
         area: &Area,
         edge: &'a Stretch,
     ) -> Side<'a> {
         let Area { first_row, rows, .. } = *area;
         Side {
-            pieces: &labels.pieces,
-            parts: &labels.parts,
+            runs: &labeller.runs,
+            labels: &labeller.labels,
             edge,
             first_row,
             last_row: first_row.saturating_add(rows).saturating_sub(1),
             is_down: edge.at(1).1 > edge.at(0).1,
             asked: 0,
-            part: NONE,
+            label: NONE,
             taxels: -1..-1,
-            near: labels.pieces.partition_point(|piece| piece.row < first_row),
+            near: labeller.runs.partition_point(|run| run.row < first_row),
         }
     }
 
-    /// Returns the next part from `taxel` on, and its taxels; those before the range belong to none, those
-    /// after it may belong to the same part. Returns [`NONE`] if no taxel before the end of the range is
+    /// Returns the next label from `taxel` on, and its taxels; those before the range belong to none, those
+    /// after it may belong to the same label. Returns [`NONE`] if no taxel before the end of the range is
     /// touched.
     #[inline(always)]
     pub fn from(&mut self, taxel: i32) -> (u16, Range<i32>) {
         if taxel < self.asked || taxel >= self.taxels.end {
             self.look(taxel);
         }
-        (self.part, self.taxels.clone())
+        (self.label, self.taxels.clone())
     }
 
     #[inline(never)] // M0+: out of line
@@ -62,25 +62,25 @@ impl<'a> Side<'a> {
         let (x, y) = self.edge.at(taxel);
         let (row, column) = (self.first_row.saturating_add(y as u16), x as u16);
         if !self.is_down || taxel != self.taxels.end {
-            self.near = seek(self.pieces, self.near, key(row, column));
+            self.near = seek(self.runs, self.near, key(row, column));
         }
         let spot = Spot { column: column - column % WORD, taxel: 1 << (column % WORD) };
         let last = if self.is_down { self.last_row } else { row };
-        let (skipped, found) = spot.skip(self.pieces.get(self.near..).unwrap_or(&[]), last);
+        let (skipped, found) = spot.skip(self.runs.get(self.near..).unwrap_or(&[]), last);
         self.near += skipped;
-        (self.asked, self.part) = (taxel, NONE);
+        (self.asked, self.label) = (taxel, NONE);
         let start = taxel + i32::from(found - row);
         self.taxels = start..start;
         if found <= last
-            && let Some(piece) = self.pieces.get(self.near)
+            && let Some(run) = self.runs.get(self.near)
         {
-            self.part = self.parts.get(usize::from(piece.part)).map_or(NONE, |part| part.parent);
+            self.label = self.labels.get(usize::from(run.label)).map_or(NONE, |label| label.parent);
             self.taxels.end = start + 1;
             if self.is_down {
-                // If the next piece does not hold the taxel below, the part ends here.
-                let next = self.pieces.get(self.near + 1);
+                // If the next run does not hold the taxel below, the label ends here.
+                let next = self.runs.get(self.near + 1);
                 let (passed, rows) = if next.is_some_and(|next| next.row == found || spot.is_in(next)) {
-                    spot.pass(self.pieces.get(self.near..).unwrap_or(&[]), found, piece.part)
+                    spot.pass(self.runs.get(self.near..).unwrap_or(&[]), found, run.label)
                 } else {
                     (1, 1)
                 };
@@ -91,10 +91,10 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns the first piece from the position `word` on, searching from piece `near`.
+/// Returns the first run from the position `word` on, searching from run `near`.
 #[inline(never)] // M0+: out of line
-fn seek(pieces: &[Piece], mut near: usize, word: u32) -> usize {
-    let is_before = |number: usize| pieces.get(number).is_some_and(|piece| piece.key() < word);
+fn seek(runs: &[Run], mut near: usize, word: u32) -> usize {
+    let is_before = |number: usize| runs.get(number).is_some_and(|run| run.key() < word);
     while is_before(near) {
         near += 1;
     }
@@ -114,31 +114,32 @@ struct Spot {
 }
 
 impl Spot {
-    const fn is_in(&self, piece: &Piece) -> bool {
-        piece.column() == self.column && piece.taxels & self.taxel != 0
+    const fn is_in(&self, run: &Run) -> bool {
+        run.column() == self.column && run.taxels & self.taxel != 0
     }
 
-    /// Returns the number of pieces before the next one that holds the taxel, and the row of that piece; the
+    /// Returns the number of runs before the next one that holds the taxel, and the row of that run; the
     /// row after `last` if there is none up to `last`.
     #[inline(never)] // M0+: out of line
-    fn skip(self, pieces: &[Piece], last: u16) -> (usize, u16) {
-        let found = pieces.iter().position(|piece| piece.row > last || self.is_in(piece));
-        let number = found.unwrap_or(pieces.len());
-        (number, pieces.get(number).map_or(u16::MAX, |piece| piece.row).min(last.saturating_add(1)))
+    fn skip(self, runs: &[Run], last: u16) -> (usize, u16) {
+        let found = runs.iter().position(|run| run.row > last || self.is_in(run));
+        let number = found.unwrap_or(runs.len());
+        (number, runs.get(number).map_or(u16::MAX, |run| run.row).min(last.saturating_add(1)))
     }
 
-    /// From row `first` of a part on, returns the number of pieces before the next one that holds the taxel
-    /// but is of another part or follows a row without it; and the number of rows in which the part holds it.
+    /// From row `first` of a label on, returns the number of runs before the next one that holds the taxel
+    /// but is of another label or follows a row without it; and the number of rows in which the label holds
+    /// it.
     #[inline(never)] // M0+: out of line
-    fn pass(self, pieces: &[Piece], first: u16, part: u16) -> (usize, u16) {
+    fn pass(self, runs: &[Run], first: u16, label: u16) -> (usize, u16) {
         let mut row = first;
-        let another = |piece: &Piece| {
-            let is_in = self.is_in(piece);
-            let another = is_in && (piece.row != row || piece.part != part);
+        let another = |run: &Run| {
+            let is_in = self.is_in(run);
+            let another = is_in && (run.row != row || run.label != label);
             row += u16::from(is_in && !another);
             another
         };
-        let passed = pieces.iter().position(another).unwrap_or(pieces.len());
+        let passed = runs.iter().position(another).unwrap_or(runs.len());
         (passed, row - first)
     }
 }
@@ -155,7 +156,7 @@ mod tests {
 
     /// Two panels of two words a row, sewn in all ways. Asks for taxels in order, and then at random.
     #[test]
-    fn the_parts_along_a_side_are_those_of_its_taxels() {
+    fn the_labels_along_a_side_are_those_of_its_taxels() {
         let mut noise = 1u32;
         let mut next = |end: u32| {
             noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
@@ -179,23 +180,22 @@ mod tests {
             let mut values = vec![0; 3200];
             values.fill_with(|| u16::from(next(100) < share));
             let rows = Rows::of(&layout, &values);
-            let mut labels = Labels::<1700, 1700>::new();
-            labels.scan(&layout, &Image { values: &values, rows: &rows }, 1);
+            let mut labeller = Labeller::<1700, 1700>::new();
+            labeller.scan(&layout, &Image { values: &values, rows: &rows }, 1);
             let joint = &layout.joints()[0];
             for (edge, area) in [(&joint.edge_a, &layout.areas()[0]), (&joint.edge_b, &layout.areas()[1])] {
-                let part_at = |taxel| {
+                let label_at = |taxel| {
                     let (x, y) = edge.at(taxel);
                     let word = key(area.first_row + y as u16, x as u16);
-                    let piece =
-                        labels.pieces.iter().find(|piece| piece.key() == word && piece.holds(x as u16));
-                    piece.map_or(NONE, |piece| labels.part_of(piece).unwrap())
+                    let run = labeller.runs.iter().find(|run| run.key() == word && run.holds(x as u16));
+                    run.map_or(NONE, |run| labeller.label_of(run).unwrap())
                 };
-                let mut side = Side::of(&labels, area, edge);
+                let mut side = Side::of(&labeller, area, edge);
                 let mut at = 0;
                 let mut ask = |taxel| {
-                    let (part, taxels) = side.from(taxel);
+                    let (label, taxels) = side.from(taxel);
                     for here in taxel..taxels.end.min(36) {
-                        assert_eq!(part_at(here), if here < taxels.start { NONE } else { part });
+                        assert_eq!(label_at(here), if here < taxels.start { NONE } else { label });
                     }
                     assert!(taxels.end > taxel);
                     taxels.end

@@ -1,27 +1,27 @@
-//! Queries of a frame's pieces by position.
+//! Queries of a frame's runs by position.
 
 use super::bits::WORD;
-use super::labels::Labels;
-use super::run::{Piece, key};
+use super::labeller::Labeller;
+use super::run::{Run, key};
 use super::union_find::NONE;
 use crate::garment::Area;
 
-impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Root of the part of a piece.
-    pub fn part_of(&self, piece: &Piece) -> Option<u16> {
-        Some(self.parts.get(usize::from(piece.part))?.parent)
+impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
+    /// Root of the label of a run.
+    pub fn label_of(&self, run: &Run) -> Option<u16> {
+        Some(self.labels.get(usize::from(run.label))?.parent)
     }
 
-    /// Pieces of the rows `first ..= last`, counted over all panels, with their indices.
-    pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Piece)> {
-        let from = self.pieces.partition_point(|piece| piece.row < first);
-        let pieces = (from..).zip(self.pieces.get(from..).unwrap_or(&[]));
-        pieces.take_while(move |(_, piece)| piece.row <= last)
+    /// Runs of the rows `first ..= last`, counted over all panels, with their indices.
+    pub fn in_rows(&self, first: u16, last: u16) -> impl Iterator<Item = (usize, &Run)> {
+        let from = self.runs.partition_point(|run| run.row < first);
+        let runs = (from..).zip(self.runs.get(from..).unwrap_or(&[]));
+        runs.take_while(move |(_, run)| run.row <= last)
     }
 
-    /// Returns the taxels of piece `number` that have all four neighbours touched, in its panel `area`.
-    pub fn enclosed(&self, number: usize, piece: &Piece, area: &Area) -> u32 {
-        let (Piece { taxels, row, .. }, column) = (*piece, piece.column());
+    /// Returns the taxels of run `number` that have all four neighbours touched, in its panel `area`.
+    pub fn enclosed(&self, number: usize, run: &Run, area: &Area) -> u32 {
+        let (Run { taxels, row, .. }, column) = (*run, run.column());
         let last = area.first_row.saturating_add(area.rows).saturating_sub(1);
         if row <= area.first_row || row >= last {
             return 0;
@@ -39,33 +39,33 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         taxels & above & below & left & right
     }
 
-    /// Returns all touched taxels of a word that comes before piece `number`.
+    /// Returns all touched taxels of a word that comes before run `number`.
     #[inline(never)] // M0+: out of line
     fn all_before(&self, number: usize, word: u32) -> u32 {
-        let pieces = self.pieces.get(..number).unwrap_or(&[]);
-        let last = pieces.iter().rev().find(|piece| piece.key() <= word);
-        last.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
+        let runs = self.runs.get(..number).unwrap_or(&[]);
+        let last = runs.iter().rev().find(|run| run.key() <= word);
+        last.filter(|run| run.key() == word).map_or(0, |run| run.all)
     }
 
-    /// Returns all touched taxels of a word that comes after piece `number`.
+    /// Returns all touched taxels of a word that comes after run `number`.
     #[inline(never)] // M0+: out of line
     fn all_after(&self, number: usize, word: u32) -> u32 {
-        let pieces = self.pieces.get(number + 1..).unwrap_or(&[]);
-        let first = pieces.iter().find(|piece| piece.key() >= word);
-        first.filter(|piece| piece.key() == word).map_or(0, |piece| piece.all)
+        let runs = self.runs.get(number + 1..).unwrap_or(&[]);
+        let first = runs.iter().find(|run| run.key() >= word);
+        first.filter(|run| run.key() == word).map_or(0, |run| run.all)
     }
 
     /// Contact of a taxel; valid once contacts are numbered.
     pub fn contact_at(&self, area: &Area, row: u16, column: u16) -> Option<u16> {
         let word = key(area.first_row.saturating_add(row), column);
-        let first = self.pieces.partition_point(|piece| piece.key() < word);
-        let mut pieces = self.pieces.get(first..)?.iter().take_while(|piece| piece.key() == word);
-        self.contact_of(pieces.find(|piece| piece.holds(column))?)
+        let first = self.runs.partition_point(|run| run.key() < word);
+        let mut runs = self.runs.get(first..)?.iter().take_while(|run| run.key() == word);
+        self.contact_of(runs.find(|run| run.holds(column))?)
     }
 
-    /// Contact of a piece; valid once contacts are numbered.
-    pub fn contact_of(&self, piece: &Piece) -> Option<u16> {
-        let part = self.parts.get(usize::from(piece.part))?;
-        (part.contact != NONE).then_some(part.contact)
+    /// Contact of a run; valid once contacts are numbered.
+    pub fn contact_of(&self, run: &Run) -> Option<u16> {
+        let label = self.labels.get(usize::from(run.label))?;
+        (label.contact != NONE).then_some(label.contact)
     }
 }

@@ -1,17 +1,17 @@
 //! Rows of any length, word by word.
 
 use super::bits::WORD;
-use super::labels::{Labels, Line};
-use super::run::Piece;
+use super::labeller::{Labeller, Line};
+use super::run::Run;
 use super::sums::Sums;
 use super::threshold::touched;
 use super::union_find::{NONE, first_of, unite};
 use core::ops::Range;
 
-impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// Appends the runs of a row as one piece each, and adds their sums to their parts.
+impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
+    /// Appends the groups of adjacent taxels of a row as one run each, and adds their sums to their labels.
     pub(crate) fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
-        let here = self.pieces.len();
+        let here = self.runs.len();
         let mut above = line.above;
         for (values, column) in row.chunks(WORD.into()).zip((0..).step_by(WORD.into())) {
             let taxels = touched(values, low);
@@ -28,8 +28,8 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line.above = here;
     }
 
-    /// Appends the runs of a word; `above` is the range of pieces in the row above that may touch them.
-    /// Returns the first of these that may touch runs of the next word. All pieces are in the order of their
+    /// Appends the groups of a word; `above` is the range of runs in the row above that may touch them.
+    /// Returns the first of these that may touch taxels of the next word. All runs are in the order of their
     /// columns.
     #[inline(never)] // M0+: out of line
     fn scan_word(
@@ -41,10 +41,10 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
         line: &Line,
     ) -> usize {
         let Range { start: mut above, end: here } = above;
-        // The first run may continue one of the word before.
-        let before = self.pieces.get(here..).and_then(<[Piece]>::last);
+        // The first group may continue one of the word before.
+        let before = self.runs.get(here..).and_then(<[Run]>::last);
         let before = before.filter(|before| all & 1 == 1 && before.right.wrapping_add(1) == column);
-        let mut part = before.map_or(NONE, |before| before.part);
+        let mut label = before.map_or(NONE, |before| before.label);
         let mut rest = all;
         while rest != 0 {
             let start = rest.trailing_zeros() as u16;
@@ -52,19 +52,19 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             let after = rest & rest.wrapping_add(1 << start);
             let (left, end) = (column + start, column + start + area);
             while above < here
-                && let Some(piece) = self.pieces.get(above)
+                && let Some(run) = self.runs.get(above)
             {
-                let beyond = piece.right + 1;
+                let beyond = run.right + 1;
                 if beyond >= left {
-                    if piece.left > end {
+                    if run.left > end {
                         break;
                     }
-                    part = match part {
-                        NONE => first_of(&mut self.parts, piece.part),
-                        part => unite(&mut self.parts, piece.part, part),
+                    label = match label {
+                        NONE => first_of(&mut self.labels, run.label),
+                        label => unite(&mut self.labels, run.label, label),
                     };
                     if beyond >= end {
-                        // It may touch the next run, too.
+                        // It may touch the next group, too.
                         break;
                     }
                 }
@@ -75,13 +75,13 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
             let mut sums = Sums::NONE;
             let peak = sums.take(values);
             let (taxels, row, right) = (rest & !after, line.row, end - 1);
-            let piece = Piece { taxels, all, row, part, left, right, area, peak, sums };
-            if let (part, Some(_)) = self.push(piece, line.panel)
-                && let Some(part) = self.parts.get_mut(usize::from(part))
+            let run = Run { taxels, all, row, label, left, right, area, peak, sums };
+            if let (label, Some(_)) = self.push(run, line.panel)
+                && let Some(label) = self.labels.get_mut(usize::from(label))
             {
-                part.add(sums.s0, area, peak);
+                label.add(sums.s0, area, peak);
             }
-            (part, rest) = (NONE, after);
+            (label, rest) = (NONE, after);
         }
         above
     }

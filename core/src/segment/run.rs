@@ -1,23 +1,24 @@
-//! Pieces: the taxels of a row that belong to one part.
+//! Runs: the taxels of a row that belong to one label, mostly adjacent ones.
 
 use super::bits::{WORD, widened};
 use super::sums::Sums;
 
-/// The runs of one row that belong to one part, within one word: a whole row, or [`WORD`] columns of a longer
-/// one. The runs are complete, except where they go on in a neighbouring word.
+/// The touched taxels of one row that belong to one label, within one word: a whole row, or [`WORD`] columns
+/// of a longer one. They are one group of adjacent taxels or, if the label connects them elsewhere, several.
+/// The groups are complete, except where they go on in a neighbouring word.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct Run {
     /// Bit `i` stands for column `column + i`; not 0.
     pub taxels: u32,
     /// All touched taxels of the word.
     pub all: u32,
     /// Row, counted over all panels.
     pub row: u16,
-    /// Part under which it was found; the parent of that is the part that it belongs to.
-    pub part: u16,
-    /// First column of the piece.
+    /// Label under which it was found; the parent of that is the label that it belongs to.
+    pub label: u16,
+    /// First column of the run.
     pub left: u16,
-    /// Last column of the piece.
+    /// Last column of the run.
     pub right: u16,
     /// Number of taxels.
     pub area: u16,
@@ -27,13 +28,13 @@ pub(crate) struct Piece {
     pub sums: Sums,
 }
 
-impl Piece {
+impl Run {
     /// First column of the word.
     pub const fn column(&self) -> u16 {
         first_column(self.left)
     }
 
-    /// Position of the word as one number, in the order of the pieces.
+    /// Position of the word as one number, in the order of the runs.
     pub const fn key(&self) -> u32 {
         key(self.row, self.left)
     }
@@ -59,7 +60,7 @@ impl Piece {
     }
 }
 
-/// Position of a taxel's word as one number, in the order of the pieces.
+/// Position of a taxel's word as one number, in the order of the runs.
 pub(crate) const fn key(row: u16, column: u16) -> u32 {
     (row as u32) << 16 | first_column(column) as u32
 }

@@ -1,13 +1,13 @@
-//! Connected components: row by row, each row as bits, its 8-connected runs joined by union-find.
+//! Connected components: row by row, each row as bits, its 8-connected taxels joined by union-find.
 
-use super::labels::{Labels, Line};
+use super::labeller::{Labeller, Line};
 use super::threshold::sixteens;
 use super::union_find::NONE;
 use crate::garment::{Area, Layout};
 use crate::image::slices::{panel_of, row_of};
 use crate::image::view::Image;
 
-impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
+impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Labels the connected taxels of an image.
     pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
         self.clear();
@@ -22,16 +22,16 @@ impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
 
     #[inline(never)] // own frame: locals stay within short SP offsets
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
-        let start = self.pieces.len();
+        let start = self.runs.len();
         let last = area.first_row.saturating_add(area.rows);
         let sixteens = sixteens(panel_of(image.values, area), area.columns, low);
         let are_sixteens = sixteens.len() == usize::from(area.rows);
-        let mut line = Line { panel, row: 0, above: start, reach: 0, part: NONE, ends: [0; 2] };
+        let mut line = Line { panel, row: 0, above: start, reach: 0, label: NONE, ends: [0; 2] };
         let mut from = area.first_row;
-        // A gap between active rows separates parts.
+        // A gap between active rows separates labels.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
-            line = Line { row: rows.start, above: self.pieces.len(), reach: 0, part: NONE, ..line };
+            line = Line { row: rows.start, above: self.runs.len(), reach: 0, label: NONE, ..line };
             if are_sixteens {
                 let here = |row: u16| usize::from(row - area.first_row);
                 let sixteens = sixteens.get(here(rows.start)..here(rows.end));

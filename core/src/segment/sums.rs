@@ -1,4 +1,4 @@
-//! Sums over the taxels of a piece, relative to its first column.
+//! Sums over the taxels of a run, relative to its first column.
 
 use super::bits::WORD;
 

@@ -1,15 +1,15 @@
 //! Provisional labels: connected taxels of one panel, joined by union-find.
 
-/// Index that stands for no part, no component or no contact.
+/// Index that stands for no label, no component or no contact.
 pub(crate) const NONE: u16 = u16::MAX;
 
 /// A provisional label: union-find node of one panel, with the sums of its taxels.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Part {
+pub(crate) struct Label {
     /// sum f; fits in 32 bits, since taxels and values have 16 bits each
     pub mass: u32,
-    /// Union-find parent: a part with a smaller index, or itself for a root. Once the frame is scanned, it is
-    /// the root, which has the sums of all its parts.
+    /// Union-find parent: a label with a smaller index, or itself for a root. Once the frame is scanned, it
+    /// is the root, which has the sums of all its labels.
     pub parent: u16,
     /// Only of a root: its parent among the roots that seams join.
     pub group: u16,
@@ -20,16 +20,17 @@ pub(crate) struct Part {
     /// Greatest value, counts: 16 bits, held in a word because an M0+ loads that faster.
     pub peak: u32,
     pub panel: u8,
-    /// True if it comes within one taxel of a contact of the previous frame; set in frames with a faint part.
+    /// True if it comes within one taxel of a contact of the previous frame; set in frames with a faint
+    /// label.
     pub held: bool,
-    /// True if a seam joins it to another part.
+    /// True if a seam joins it to another label.
     pub joined: bool,
 }
 
-impl Part {
-    /// Part number `index`, without taxels.
-    pub const fn new(index: u16, panel: u8) -> Part {
-        Part {
+impl Label {
+    /// Label number `index`, without taxels.
+    pub const fn new(index: u16, panel: u8) -> Label {
+        Label {
             mass: 0,
             parent: index,
             group: index,
@@ -51,31 +52,32 @@ impl Part {
     }
 }
 
-/// Returns the root of a part, and halves the path to it. Ends because each parent has a smaller index.
+/// Returns the root of a label, and halves the path to it. Ends because each parent has a smaller index.
 #[cfg_attr(target_pointer_width = "64", inline)]
-pub(crate) fn first_of(parts: &mut [Part], mut part: u16) -> u16 {
-    let parent = |parts: &[Part], part: u16| parts.get(usize::from(part)).map_or(part, |part| part.parent);
+pub(crate) fn first_of(labels: &mut [Label], mut label: u16) -> u16 {
+    let parent =
+        |labels: &[Label], label: u16| labels.get(usize::from(label)).map_or(label, |label| label.parent);
     loop {
-        let above = parent(parts, part);
-        if above >= part {
-            return part;
+        let above = parent(labels, label);
+        if above >= label {
+            return label;
         }
-        let first = parent(parts, above);
+        let first = parent(labels, above);
         if first >= above {
             return above;
         }
-        if let Some(held) = parts.get_mut(usize::from(part)) {
+        if let Some(held) = labels.get_mut(usize::from(label)) {
             held.parent = first;
         }
-        part = first;
+        label = first;
     }
 }
 
-/// Joins two parts; returns their root.
-pub(crate) fn unite(parts: &mut [Part], a: u16, b: u16) -> u16 {
-    let (a, b) = (first_of(parts, a), first_of(parts, b));
-    if let Some(part) = parts.get_mut(usize::from(a.max(b))) {
-        part.parent = a.min(b);
+/// Joins two labels; returns their root.
+pub(crate) fn unite(labels: &mut [Label], a: u16, b: u16) -> u16 {
+    let (a, b) = (first_of(labels, a), first_of(labels, b));
+    if let Some(label) = labels.get_mut(usize::from(a.max(b))) {
+        label.parent = a.min(b);
     }
     a.min(b)
 }

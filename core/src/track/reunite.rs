@@ -5,17 +5,17 @@ use super::tracks::Tracks;
 use crate::garment::{Layout, Place, Rect};
 use crate::measure::component::Components;
 use crate::measure::contact::Contact;
-use crate::segment::labels::Labels;
-use crate::segment::run::Piece;
+use crate::segment::labeller::Labeller;
+use crate::segment::run::Run;
 use crate::segment::union_find::NONE;
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
     /// Adds each unassigned component to the component of the contact that it has just come off: it peaks
     /// where that contact was, and hardly a gap has opened.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn reunite<const RUNS: usize, const PARTS: usize>(
+    pub fn reunite<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &mut Labels<RUNS, PARTS>,
+        labeller: &mut Labeller<RUNS, LABELS>,
         layout: &Layout,
         tracks: &mut Tracks<CONTACTS>,
     ) {
@@ -26,29 +26,29 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         let known = tracks.known();
         // In descending order, because removal moves up the components behind.
         for lost in (0..self.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {
-            let whole = self.whole_of(lost, labels, layout, tracks);
+            let whole = self.whole_of(lost, labeller, layout, tracks);
             if let Some(whole) = whole {
                 self.join(usize::from(whole), lost);
-                labels.renumber(whole, lost as u16);
+                labeller.renumber(whole, lost as u16);
                 tracks.renumber(lost as u16);
             }
         }
     }
 
     /// Returns the component that `lost` belongs to, if hardly a gap separates it from a contact.
-    fn whole_of<const RUNS: usize, const PARTS: usize>(
+    fn whole_of<const RUNS: usize, const LABELS: usize>(
         &self,
         lost: usize,
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
         layout: &Layout,
         tracks: &Tracks<CONTACTS>,
     ) -> Option<u16> {
         let part = self.list.get(lost)?;
         let whole = tracks.component_of(only_at(tracks.contacts(), part.peak_at?)?)?;
-        let mut pieces = part.pieces(labels, layout).map(|(_, piece)| piece);
+        let mut runs = part.runs(labeller, layout).map(|(_, run)| run);
         let near = are_near(&part.bounds, &self.list.get(usize::from(whole))?.bounds)
-            && pieces
-                .any(|piece| labels.contact_of(piece) == Some(lost as u16) && labels.is_beside(piece, whole));
+            && runs
+                .any(|run| labeller.contact_of(run) == Some(lost as u16) && labeller.is_beside(run, whole));
         near.then_some(whole)
     }
 
@@ -100,23 +100,23 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 }
 
-impl<const RUNS: usize, const PARTS: usize> Labels<RUNS, PARTS> {
-    /// True if a piece has a taxel at most two away from one of a component, in the same panel.
-    fn is_beside(&self, piece: &Piece, component: u16) -> bool {
-        let panel = |piece: &Piece| self.parts.get(usize::from(piece.part)).map(|part| part.panel);
-        let mut near = self.in_rows(piece.row.saturating_sub(2), piece.row.saturating_add(2));
+impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
+    /// True if a run has a taxel at most two away from one of a component, in the same panel.
+    fn is_beside(&self, run: &Run, component: u16) -> bool {
+        let panel = |run: &Run| self.labels.get(usize::from(run.label)).map(|label| label.panel);
+        let mut near = self.in_rows(run.row.saturating_sub(2), run.row.saturating_add(2));
         near.any(|(_, other)| {
             self.contact_of(other) == Some(component)
-                && panel(other) == panel(piece)
-                && have_near_columns(piece, other)
+                && panel(other) == panel(run)
+                && have_near_columns(run, other)
         })
     }
 }
 
 /// True if some of their columns are at most two apart.
-fn have_near_columns(a: &Piece, b: &Piece) -> bool {
+fn have_near_columns(a: &Run, b: &Run) -> bool {
     let first = a.column().min(b.column());
-    let bits = |piece: &Piece| u64::from(piece.taxels).checked_shl((piece.column() - first).into());
+    let bits = |run: &Run| u64::from(run.taxels).checked_shl((run.column() - first).into());
     let (Some(a), Some(b)) = (bits(a), bits(b)) else { return false };
     (a | a << 1 | a << 2 | a >> 1 | a >> 2) & b != 0
 }
@@ -127,11 +127,11 @@ mod tests {
     use crate::segment::bits::WORD;
     use crate::segment::sums::Sums;
 
-    /// A piece of one taxel.
-    fn at(column: u16) -> Piece {
+    /// A run of one taxel.
+    fn at(column: u16) -> Run {
         let taxels = 1 << (column % WORD);
-        let (row, part, area, peak, sums) = (0, 0, 1, 1, Sums::NONE);
-        Piece { taxels, all: taxels, row, part, left: column, right: column, area, peak, sums }
+        let (row, label, area, peak, sums) = (0, 0, 1, 1, Sums::NONE);
+        Run { taxels, all: taxels, row, label, left: column, right: column, area, peak, sums }
     }
 
     #[test]

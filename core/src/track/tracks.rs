@@ -10,7 +10,7 @@ use crate::measure::form::Sight;
 use crate::measure::forms::Forms;
 use crate::measure::moments::Moments;
 use crate::segment::config::ContactConfig;
-use crate::segment::labels::Labels;
+use crate::segment::labeller::Labeller;
 use crate::segment::union_find::NONE;
 use heapless::Vec;
 
@@ -75,15 +75,15 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     /// Handles contacts that found no component. If the last peak of such a contact lies in a component or
     /// beside it, the contact takes that component. If another contact has it already, the one with the
     /// greater total keeps it, and if the totals are equal, the one that was matched by distance.
-    pub fn merge<const RUNS: usize, const PARTS: usize>(
+    pub fn merge<const RUNS: usize, const LABELS: usize>(
         &mut self,
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
         layout: &Layout,
     ) {
         for index in 0..self.contacts.len() {
             let lost = self.trails.get(index).is_some_and(|trail| trail.component == NONE);
             let Some(contact) = self.contacts.get(index).filter(|_| lost) else { continue };
-            let Some(component) = beside(labels, layout, contact.peak_at) else { continue };
+            let Some(component) = beside(labeller, layout, contact.peak_at) else { continue };
             let owner = self.index_of(component);
             let rival = owner.and_then(|owner| self.contacts.get(owner));
             let stays = rival.is_some_and(|rival| rival.total >= contact.total);
@@ -112,11 +112,11 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Updates all contacts: follows, releases and begins them.
-    pub fn update<const RUNS: usize, const PARTS: usize>(
+    pub fn update<const RUNS: usize, const LABELS: usize>(
         &mut self,
         config: &ContactConfig,
         components: &[Component],
-        labels: &Labels<RUNS, PARTS>,
+        labeller: &Labeller<RUNS, LABELS>,
         layout: &Layout,
         image: &Image,
         (now, forms): (Micros, Forms),
@@ -154,7 +154,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 self.begin(index, component, now);
             }
         }
-        self.look(held, forms, components, &Sight { labels, layout, image });
+        self.look(held, forms, components, &Sight { labeller, layout, image });
         self.moments.clear();
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {
@@ -164,12 +164,12 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     }
 
     /// Measures the form of new contacts, and of as many of the `held` older ones as have their turn.
-    fn look<const RUNS: usize, const PARTS: usize>(
+    fn look<const RUNS: usize, const LABELS: usize>(
         &mut self,
         held: usize,
         forms: Forms,
         components: &[Component],
-        sight: &Sight<'_, RUNS, PARTS>,
+        sight: &Sight<'_, RUNS, LABELS>,
     ) {
         let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
         self.turn = if next < held { next } else { 0 };
@@ -255,8 +255,8 @@ fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Compon
 }
 
 /// Returns the contact of a taxel or, if it has none, of one of its eight neighbours in the panel.
-fn beside<const RUNS: usize, const PARTS: usize>(
-    labels: &Labels<RUNS, PARTS>,
+fn beside<const RUNS: usize, const LABELS: usize>(
+    labeller: &Labeller<RUNS, LABELS>,
     layout: &Layout,
     place: Place,
 ) -> Option<u16> {
@@ -266,7 +266,7 @@ fn beside<const RUNS: usize, const PARTS: usize>(
         around(place.row).into_iter().flat_map(|row| around(place.column).map(|column| (row, column)));
     places
         .filter(|(row, column)| *row < area.rows && *column < area.columns)
-        .find_map(|(row, column)| labels.contact_at(area, row, column))
+        .find_map(|(row, column)| labeller.contact_at(area, row, column))
 }
 
 /// Copies the measures that need no history, without the form.
