@@ -109,7 +109,7 @@ pub extern "C" fn _start(given: &mut Given) {
         })),
         17 => step(Input::Misled),
         18 => step(Input::Reflex(given.early)),
-        19 => given.reflex.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel)),
+        19 => given.reflex.watch(board.reflexes(), board.reacting(), |taxel| board.inactive_code(taxel)),
         20 => keep(given.reflex.check(given.count, codes, given.frame, *now)),
         21 => keep(Fields::of(board.circuit(), &scene.plan).map(|fields| {
             fields.each(board.circuit(), &scene.plan, |field, _, taxels| {

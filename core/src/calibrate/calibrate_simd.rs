@@ -3,7 +3,7 @@
 use super::marks::Marks;
 use super::panel::Panel;
 use crate::format::Code;
-use crate::image::row16::{SIXTEEN, Sixteen};
+use crate::image::row16::{ROW16, Row16};
 use bytemuck::must_cast;
 use wide::u16x16;
 
@@ -13,7 +13,7 @@ impl Panel<'_> {
     pub fn calibrate_rows<const FALLING: bool>(&mut self, marks: &mut Marks<'_>, margin: u16) -> bool {
         let (codes, limits) = (self.codes.as_chunks().0, self.limit.as_chunks().0);
         let out = self.out.as_chunks_mut().0;
-        let row = marks.sixteens().max(1);
+        let row = marks.chunks16().max(1);
         let rows = codes.chunks(row).zip(limits.chunks(row)).zip(out.chunks_mut(row));
         let mut any = false;
         for (row, ((codes, limits), out)) in rows.enumerate() {
@@ -21,7 +21,7 @@ impl Panel<'_> {
             for (at, ((codes, limits), out)) in (0..).zip(codes.iter().zip(limits).zip(out)) {
                 let bits = exceed::<FALLING>(codes, limits, out, margin);
                 if bits != 0 {
-                    groups |= marks.groups_of_sixteen(at, bits);
+                    groups |= marks.groups_of_chunk16(at, bits);
                 }
             }
             if groups != 0 {
@@ -36,18 +36,13 @@ impl Panel<'_> {
 /// Stores the values of sixteen taxels, 0 for inactive ones, and returns the mask of active ones. Writes
 /// nothing if none is active.
 #[inline(always)]
-fn exceed<const FALLING: bool>(
-    codes: &[Code; SIXTEEN],
-    limits: &Sixteen,
-    out: &mut Sixteen,
-    margin: u16,
-) -> u32 {
+fn exceed<const FALLING: bool>(codes: &[Code; ROW16], limits: &Row16, out: &mut Row16, margin: u16) -> u32 {
     let (codes, limits) = (u16x16::new(must_cast(*codes)), u16x16::new(*limits));
     let beyond = if FALLING { limits.saturating_sub(codes) } else { codes.saturating_sub(limits) };
-    let loud = !beyond.simd_eq(u16x16::ZERO);
-    let bits = loud.to_bitmask();
+    let active = !beyond.simd_eq(u16x16::ZERO);
+    let bits = active.to_bitmask();
     if bits != 0 {
-        *out = (loud & (beyond + u16x16::splat(margin))).to_array();
+        *out = (active & (beyond + u16x16::splat(margin))).to_array();
     }
     bits
 }
@@ -61,7 +56,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Rows of one sixteen and of several, compared with the chunks that they consist of.
+    /// Rows of one chunk of sixteen and of several, compared with the portable kernel.
     #[test]
     fn rows_are_calibrated_as_their_chunks() {
         let mut noise = 1u32;

@@ -24,7 +24,7 @@ pub(crate) struct TaxelCalibration<const TAXELS: usize> {
     /// Terms of the limits; none if the limits are not valid.
     pub limits_for: Option<Terms>,
     /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
-    plain: bool,
+    unity: bool,
 }
 
 impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
@@ -35,7 +35,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
             gain: [0; TAXELS],
             limit: [0; TAXELS],
             limits_for: None,
-            plain: false,
+            unity: false,
         }
     }
 
@@ -55,7 +55,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
 
     /// Largest inactive difference of a code from its baseline, if every gain is 1.
     pub fn margin_of_unity(&self) -> Option<u16> {
-        self.limits_for.filter(|_| self.plain).map(|terms| terms.margin_of_unity())
+        self.limits_for.filter(|_| self.unity).map(|terms| terms.margin_of_unity())
     }
 
     /// Recomputes the limits if they are for other terms, or for another calibration.
@@ -64,7 +64,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
             return;
         }
         self.limits_for = Some(terms);
-        self.plain = self.gain.iter().all(is_plain);
+        self.unity = self.gain.iter().all(is_unity);
         // Neighbours often have the same gain.
         let (mut last, mut margin) = (0, u16::MAX);
         for ((limit, rest), gain) in self.limit.iter_mut().zip(&self.baseline).zip(&self.gain) {
@@ -82,13 +82,13 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
             (self.limits_for, calibration, self.limit.get_mut(taxel))
         {
             *limit = terms.limit(*rest, terms.margin(*gain));
-            self.plain &= is_plain(gain);
+            self.unity &= is_unity(gain);
         }
     }
 
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
     /// taxel.
-    pub fn quiet_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
+    pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
         let terms = Terms { floor: level, falling };
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
         calibration.map_or(terms.silent(), |(rest, gain)| {
@@ -109,6 +109,6 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     }
 }
 
-fn is_plain(gain: &u16) -> bool {
+fn is_unity(gain: &u16) -> bool {
     matches!(*gain, 0 | UNITY)
 }

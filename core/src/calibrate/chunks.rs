@@ -4,11 +4,11 @@ use super::marks::Marks;
 use super::panel::Panel;
 use super::scale::scale;
 use crate::format::Code;
-use crate::image::row16::SIXTEEN;
+use crate::image::row16::ROW16;
 use bytemuck::{Pod, try_cast_slice};
 
 /// Taxels that are compared together.
-const CHUNK: usize = SIXTEEN;
+const CHUNK: usize = ROW16;
 /// Taxels of a chunk that are calibrated together.
 const PART: usize = 8;
 /// Chunks whose masks are kept until they are marked.
@@ -19,11 +19,11 @@ impl Panel<'_> {
     pub fn calibrate_chunks<const FALLING: bool>(
         &mut self,
         marks: &mut Marks<'_>,
-        plain: Option<u16>,
+        unity: Option<u16>,
     ) -> bool {
         let whole = self.codes.len() / CHUNK * CHUNK;
-        let any = self.chunks::<CHUNK, PART, FALLING>(0, marks, plain);
-        whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, marks, plain) || any
+        let any = self.chunks::<CHUNK, PART, FALLING>(0, marks, unity);
+        whole < self.codes.len() && self.chunks::<1, 1, FALLING>(whole, marks, unity) || any
     }
 
     /// Calibrates all whole chunks of N taxels from `first` on: skips inactive chunks, then calibrates up to
@@ -32,7 +32,7 @@ impl Panel<'_> {
         &mut self,
         first: usize,
         marks: &mut Marks<'_>,
-        plain: Option<u16>,
+        unity: Option<u16>,
     ) -> bool {
         let (codes, _) = self.codes.get(first..).unwrap_or(&[]).as_chunks::<N>();
         let (limit, _) = self.limit.get(first..).unwrap_or(&[]).as_chunks::<N>();
@@ -42,7 +42,7 @@ impl Panel<'_> {
         let mut any = false;
         let mut at = 0;
         while let (Some(codes), Some(limit)) = (codes.get(at..), limit.get(at..)) {
-            let skipped = quiet::<N, FALLING>(codes, limit);
+            let skipped = inactive::<N, FALLING>(codes, limit);
             at += skipped;
             let (Some(codes), Some(limit)) = (codes.get(skipped..), limit.get(skipped..)) else { break };
             let (Some(rest), Some(gain), Some(out)) = (rest.get(at..), gain.get(at..), out.get_mut(at..))
@@ -52,20 +52,20 @@ impl Panel<'_> {
             if codes.is_empty() {
                 break;
             }
-            let mut loud = |found: &mut [u16]| match plain {
-                Some(margin) => loud_plain::<N, PART, FALLING>(codes, limit, out, found, margin),
-                None => loud::<N, PART, FALLING>(codes, limit, rest, gain, out, found),
+            let mut active = |found: &mut [u16]| match unity {
+                Some(margin) => active_unity::<N, PART, FALLING>(codes, limit, out, found, margin),
+                None => active::<N, PART, FALLING>(codes, limit, rest, gain, out, found),
             };
             let (held, there) = if N == CHUNK
                 && let Some(found) = marks.rows(at)
             {
-                let held = loud(found);
+                let held = active(found);
                 let there = found.len();
                 marks.hold(at..at + held);
                 (held, there)
             } else {
                 let mut found = [0; KEPT];
-                let held = loud(&mut found);
+                let held = active(&mut found);
                 for (chunk, bits) in (at..at + held).zip(found) {
                     marks.mark(first + chunk * N, N, bits.into());
                 }
@@ -80,10 +80,10 @@ impl Panel<'_> {
 }
 
 /// Returns the number of leading chunks that are inactive. The next one may be inactive, too.
-fn quiet<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
+fn inactive<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
     match (pairs(codes), pairs(limit)) {
-        (Some(codes), Some(limit)) => quiet_pairs::<FALLING>(codes, limit),
-        _ => quiet_taxels::<N, FALLING>(codes, limit),
+        (Some(codes), Some(limit)) => inactive_pairs::<FALLING>(codes, limit),
+        _ => inactive_taxels::<N, FALLING>(codes, limit),
     }
 }
 
@@ -107,7 +107,7 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
 /// counts as active then in any case. An underflow can leave bit 15 clear only if the subtrahend has it set,
 /// so that bit counts, too. Values and differences from 0x8000 may therefore report a false positive.
 #[inline(never)] // M0+: out of line
-fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
+fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
     let doubtful = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
         let [codes, limit] = [codes, limit].map(|pairs| pairs.as_chunks::<PAIRS>().0);
         codes.iter().zip(limit).any(|(codes, limit)| {
@@ -126,21 +126,21 @@ fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair;
 /// No branch per taxel: a chunk's differences are combined, and the sign of the result tells if one is
 /// negative.
 #[inline(never)] // M0+: out of line
-fn quiet_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
-    let loud = |(codes, limit): (&[Code; N], &[u16; N])| {
+fn inactive_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {
+    let active = |(codes, limit): (&[Code; N], &[u16; N])| {
         let over = codes.iter().zip(limit).map(|(code, limit)| {
             let (code, limit) = (i32::from(code.0), i32::from(*limit));
             if FALLING { code - limit } else { limit - code }
         });
         over.fold(0, |all, one| all | one) < 0
     };
-    codes.iter().zip(limit).position(loud).unwrap_or(codes.len())
+    codes.iter().zip(limit).position(active).unwrap_or(codes.len())
 }
 
 /// Calibrates chunks up to the first inactive one, or until `found` is full. Returns their number; `found[i]`
 /// masks the active taxels.
 #[inline(never)]
-fn loud<const N: usize, const PART: usize, const FALLING: bool>(
+fn active<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
     limit: &[[u16; N]],
     rest: &[[u16; N]],
@@ -168,9 +168,9 @@ fn loud<const N: usize, const PART: usize, const FALLING: bool>(
     held
 }
 
-/// Calibrates like [`loud`] with unity gain: code - baseline = (code - limit) + margin.
+/// Calibrates like [`active`] with unity gain: code - baseline = (code - limit) + margin.
 #[inline(never)]
-fn loud_plain<const N: usize, const PART: usize, const FALLING: bool>(
+fn active_unity<const N: usize, const PART: usize, const FALLING: bool>(
     codes: &[[Code; N]],
     limit: &[[u16; N]],
     out: &mut [[u16; N]],
@@ -253,7 +253,7 @@ mod tests {
 
     /// Few distinct values, so that many are equal, at both ends of the scale and in its middle.
     #[test]
-    fn pairs_are_quiet_where_both_taxels_are() {
+    fn pairs_are_inactive_where_both_taxels_are() {
         let mut noise = 1u32;
         let mut next = |sizes: &[u16]| {
             noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
@@ -276,12 +276,12 @@ mod tests {
             let codes = |taxels: [u16; CHUNK]| [taxels.map(Code)];
             for (quick, exact) in [
                 (
-                    quiet_pairs::<false>(&words(less), &words(more)),
-                    quiet_taxels::<_, false>(&codes(less), &[more]),
+                    inactive_pairs::<false>(&words(less), &words(more)),
+                    inactive_taxels::<_, false>(&codes(less), &[more]),
                 ),
                 (
-                    quiet_pairs::<true>(&words(more), &words(less)),
-                    quiet_taxels::<_, true>(&codes(more), &[less]),
+                    inactive_pairs::<true>(&words(more), &words(less)),
+                    inactive_taxels::<_, true>(&codes(more), &[less]),
                 ),
             ] {
                 if sizes.len() < all.len() {

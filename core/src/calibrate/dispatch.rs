@@ -43,7 +43,7 @@ fn calibrate_panel<const FALLING: bool>(
     unity: Option<u16>,
 ) -> bool {
     #[cfg(target_pointer_width = "64")]
-    if let Some(margin) = unity.filter(|_| marks.are_sixteens() && panel.codes.len() == panel.out.len()) {
+    if let Some(margin) = unity.filter(|_| marks.are_chunks16() && panel.codes.len() == panel.out.len()) {
         return panel.calibrate_rows::<FALLING>(&mut marks, margin);
     }
     panel.calibrate_chunks::<FALLING>(&mut marks, unity)

@@ -1,7 +1,7 @@
 //! Marks of taxels beyond their limits.
 
 use crate::garment::Area;
-use crate::image::row16::SIXTEEN;
+use crate::image::row16::ROW16;
 use crate::image::rows::{Rows, grain};
 use core::ops::Range;
 
@@ -34,8 +34,8 @@ impl<'a> Marks<'a> {
     /// entry each. Rows whose groups are written must be [held](Marks::hold).
     #[inline(always)]
     pub fn rows(&mut self, first: usize) -> Option<&mut [u16]> {
-        let (panel, sixteen) = (self.panel.clone(), self.columns == SIXTEEN);
-        if sixteen { self.rows.places(panel)?.get_mut(first..) } else { None }
+        let (panel, are_rows16) = (self.panel.clone(), self.columns == ROW16);
+        if are_rows16 { self.rows.places(panel)?.get_mut(first..) } else { None }
     }
 
     /// Holds some rows, numbered in the panel.
@@ -80,27 +80,27 @@ impl<'a> Marks<'a> {
 /// Largest grain at which a group's bits and those of 16 taxels fit in one word.
 const MOST_FOLDED: u32 = 4;
 
-/// Marks whole rows of sixteens, by SIMD.
+/// Marks rows that are whole chunks of sixteen columns, by SIMD.
 #[cfg(target_pointer_width = "64")]
 impl Marks<'_> {
-    /// True if rows are whole sixteens of columns, and no group is wider than one.
-    pub const fn are_sixteens(&self) -> bool {
-        self.columns.is_multiple_of(SIXTEEN) && self.grain <= MOST_FOLDED
+    /// True if rows are whole chunks of sixteen columns, and no group is wider than one.
+    pub const fn are_chunks16(&self) -> bool {
+        self.columns.is_multiple_of(ROW16) && self.grain <= MOST_FOLDED
     }
 
-    /// Number of sixteens of a row.
-    pub const fn sixteens(&self) -> usize {
-        self.columns / SIXTEEN
+    /// Number of chunks of sixteen columns of a row.
+    pub const fn chunks16(&self) -> usize {
+        self.columns / ROW16
     }
 
-    /// Groups of a row with active taxels in a sixteen, given its number in the row and a bit per taxel.
+    /// Groups of a row with active taxels in a chunk, given its number in the row and a bit per taxel.
     #[inline(always)]
-    pub fn groups_of_sixteen(&self, sixteen: u32, bits: u32) -> u16 {
+    pub fn groups_of_chunk16(&self, chunk: u32, bits: u32) -> u16 {
         let groups = match self.grain {
-            2 => fold_sixteen_by_four(bits),
+            2 => fold_chunk16_by_four(bits),
             grain => fold(bits, grain),
         };
-        (groups << ((sixteen * SIXTEEN as u32) >> self.grain)) as u16
+        (groups << ((chunk * ROW16 as u32) >> self.grain)) as u16
     }
 
     /// Replaces the groups of a row of the panel.
@@ -112,7 +112,7 @@ impl Marks<'_> {
 
 /// [`fold`] of 16 bits with a grain of 2, that of panels of 33 to 64 columns.
 #[cfg(target_pointer_width = "64")]
-const fn fold_sixteen_by_four(bits: u32) -> u32 {
+const fn fold_chunk16_by_four(bits: u32) -> u32 {
     let two = bits | bits >> 1;
     let four = (two | two >> 2) & 0x1111;
     // Brings bit 4 k to bit 12 + k; nothing carries.
@@ -139,27 +139,27 @@ mod tests {
     use crate::garment::{Garment, Layout};
 
     #[test]
-    fn sixteens_fold_as_others() {
-        for bits in 0..1 << SIXTEEN {
-            assert_eq!(fold_sixteen_by_four(bits), fold(bits, 2));
+    fn chunks16_fold_as_others() {
+        for bits in 0..1 << ROW16 {
+            assert_eq!(fold_chunk16_by_four(bits), fold(bits, 2));
         }
-        for columns in (1..=20).map(|sixteens| sixteens * SIXTEEN as u16) {
+        for columns in (1..=20).map(|chunks| chunks * ROW16 as u16) {
             let layout = Layout::build(&Garment::recorded(2, columns), 2048, 255).unwrap();
             let area = &layout.areas()[0];
             let (mut marked, mut expected) = (Rows::NONE, Rows::NONE);
             let mut marks = Marks::of(&mut marked, area);
-            assert_eq!((marks.are_sixteens(), marks.sixteens()), (columns <= 256, usize::from(columns) / 16));
+            assert_eq!((marks.are_chunks16(), marks.chunks16()), (columns <= 256, usize::from(columns) / 16));
             if columns > 256 {
                 continue;
             }
-            let bits = |sixteen: u32| 1u32 << (sixteen * 7 % 16);
-            let groups = (0..u32::from(columns) / 16).map(|at| marks.groups_of_sixteen(at, bits(at)));
+            let bits = |chunk: u32| 1u32 << (chunk * 7 % 16);
+            let groups = (0..u32::from(columns) / 16).map(|at| marks.groups_of_chunk16(at, bits(at)));
             let groups = groups.fold(0, |all, groups| all | groups);
             marks.mark_row(0, u16::MAX);
             marks.mark_row(0, groups);
             let mut each = Marks::of(&mut expected, area);
             for at in 0..u32::from(columns) / 16 {
-                each.mark(at as usize * SIXTEEN, SIXTEEN, bits(at));
+                each.mark(at as usize * ROW16, ROW16, bits(at));
             }
             assert!(marked == expected, "{columns}");
         }
@@ -176,10 +176,10 @@ mod tests {
             for _ in 0..200 {
                 let (mut marked, mut expected) = (Rows::NONE, Rows::NONE);
                 let mut marks = Marks::of(&mut marked, area);
-                for first in (0..count).step_by(SIXTEEN) {
+                for first in (0..count).step_by(ROW16) {
                     noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
-                    let there = SIXTEEN.min(count - first);
-                    let bits = (noise >> 16) & (noise >> 8) & 0xffff >> (SIXTEEN - there);
+                    let there = ROW16.min(count - first);
+                    let bits = (noise >> 16) & (noise >> 8) & 0xffff >> (ROW16 - there);
                     marks.mark(first, there, bits);
                     for taxel in (0..there).filter(|taxel| bits & 1 << taxel != 0).map(|taxel| first + taxel)
                     {

@@ -79,8 +79,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
     /// taxel.
-    pub fn quiet_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
-        self.calibration.quiet_code(taxel, level, falling)
+    pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
+        self.calibration.inactive_code(taxel, level, falling)
     }
 
     /// Pressure of a taxel at a code, counts.

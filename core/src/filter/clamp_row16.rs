@@ -4,16 +4,16 @@
 //! greater settle a taxel. A few comparisons settle most: the neighbours on both sides come first.
 
 use super::points::stands_out;
-use crate::image::row16::Sixteen;
+use crate::image::row16::Row16;
 
 /// A row and the one before it, adjacent: besides the compared values, a Cortex-M0+'s registers hold two
 /// addresses more, that of the row below and that of the result.
-pub(crate) type Two = [Sixteen; 2];
+pub(crate) type Two = [Row16; 2];
 
 /// Clamps the second of two rows, given the one below. Four columns without any of `groups` become 0. Sets
 /// `points` if a taxel [stands out](stands_out).
 #[inline(always)]
-pub(crate) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut Sixteen, points: &mut bool) {
+pub(crate) fn clamp_row16(two: &Two, below: &Row16, groups: u16, out: &mut Row16, points: &mut bool) {
     if groups == u16::MAX {
         clamp_groups::<true>(two, below, groups, out, points);
     } else {
@@ -23,13 +23,7 @@ pub(crate) fn clamp_sixteen(two: &Two, below: &Sixteen, groups: u16, out: &mut S
 
 /// Clamps a row; if ALL, all groups are set.
 #[inline(never)] // M0+: out of line
-fn clamp_groups<const ALL: bool>(
-    two: &Two,
-    below: &Sixteen,
-    groups: u16,
-    out: &mut Sixteen,
-    points: &mut bool,
-) {
+fn clamp_groups<const ALL: bool>(two: &Two, below: &Row16, groups: u16, out: &mut Row16, points: &mut bool) {
     // Unrolled by hand: the compiler would keep a loop, with an index and additions per taxel.
     if ALL || groups & 0xf != 0 {
         end::<0, 1>(two, below, out, points);
@@ -67,13 +61,13 @@ fn clamp_groups<const ALL: bool>(
 
 /// Clears four taxels.
 #[inline(always)]
-fn empty<const AT: usize>(out: &mut Sixteen) {
+fn empty<const AT: usize>(out: &mut Row16) {
     (out[AT], out[AT + 1], out[AT + 2], out[AT + 3]) = (0, 0, 0, 0);
 }
 
 /// Clamps a taxel with neighbours on both sides.
 #[inline(always)]
-fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen, points: &mut bool) {
+fn inside<const AT: usize>(two: &Two, below: &Row16, out: &mut Row16, points: &mut bool) {
     let [above, here] = two;
     let (left, value, right) = (here[AT - 1], here[AT], here[AT + 1]);
     // Stored before the comparisons, so that it needs no register during them.
@@ -91,12 +85,7 @@ fn inside<const AT: usize>(two: &Two, below: &Sixteen, out: &mut Sixteen, points
 
 /// Clamps the first or the last taxel, given the column beside it.
 #[inline(always)]
-fn end<const AT: usize, const BESIDE: usize>(
-    two: &Two,
-    below: &Sixteen,
-    out: &mut Sixteen,
-    points: &mut bool,
-) {
+fn end<const AT: usize, const BESIDE: usize>(two: &Two, below: &Row16, out: &mut Row16, points: &mut bool) {
     let [above, here] = two;
     let (value, beside) = (here[AT], here[BESIDE]);
     out[AT] = value;
@@ -115,7 +104,7 @@ fn end<const AT: usize, const BESIDE: usize>(
 /// The greatest neighbour, given the column before. Out of line, like [`least`]: inlined, the compiler would
 /// keep the neighbours on the stack.
 #[inline(never)]
-fn greatest(two: &Two, below: &Sixteen, first: usize, points: &mut bool) -> u16 {
+fn greatest(two: &Two, below: &Row16, first: usize, points: &mut bool) -> u16 {
     let greatest = neighbours(two, below, first).into_iter().fold(0, u16::max);
     let value = two[1].get(first + 1).copied().unwrap_or(0);
     *points |= stands_out(value, greatest);
@@ -124,14 +113,14 @@ fn greatest(two: &Two, below: &Sixteen, first: usize, points: &mut bool) -> u16 
 
 /// The smallest neighbour.
 #[inline(never)]
-fn least(two: &Two, below: &Sixteen, first: usize) -> u16 {
+fn least(two: &Two, below: &Row16, first: usize) -> u16 {
     neighbours(two, below, first).into_iter().fold(u16::MAX, u16::min)
 }
 
 /// All eight neighbours.
 #[inline(always)]
-fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
-    let three = |row: &Sixteen| row.get(first..).and_then(|row| row.first_chunk().copied());
+fn neighbours(two: &Two, below: &Row16, first: usize) -> [u16; 8] {
+    let three = |row: &Row16| row.get(first..).and_then(|row| row.first_chunk().copied());
     let [above, here] = two;
     let (Some([a, b, c]), Some([d, _, e]), Some([f, g, h])) = (three(above), three(here), three(below))
     else {
@@ -143,7 +132,7 @@ fn neighbours(two: &Two, below: &Sixteen, first: usize) -> [u16; 8] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::row16::SIXTEEN;
+    use crate::image::row16::ROW16;
 
     /// Few distinct values, so that many are equal, at both ends of the scale.
     #[test]
@@ -151,7 +140,7 @@ mod tests {
         let mut noise = 1u32;
         for round in 0..20_000 {
             let mut row = || {
-                [(); SIXTEEN].map(|()| {
+                [(); ROW16].map(|()| {
                     noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
                     [0, 1, 700, 701, 0x7fff, 0x8000, 0xffff, round][(noise >> 29) as usize]
                 })
@@ -160,15 +149,15 @@ mod tests {
             // Sometimes some columns are zero, and are then left out.
             let groups = [u16::MAX, 0xff0f, 0x000f, 0x0110, 0][usize::from(round % 5)];
             for row in &mut rows {
-                (0..SIXTEEN).filter(|at| groups >> (at / 4 * 4) & 0xf == 0).for_each(|at| row[at] = 0);
+                (0..ROW16).filter(|at| groups >> (at / 4 * 4) & 0xf == 0).for_each(|at| row[at] = 0);
             }
-            let (mut out, mut points) = ([7; SIXTEEN], false);
-            clamp_sixteen(&[rows[0], rows[1]], &rows[2], groups, &mut out, &mut points);
+            let (mut out, mut points) = ([7; ROW16], false);
+            clamp_row16(&[rows[0], rows[1]], &rows[2], groups, &mut out, &mut points);
             let stand_out = |(value, out): (&u16, &u16)| stands_out(*value, *out);
             assert_eq!(points, rows[1].iter().zip(&out).any(stand_out));
             for (column, have) in out.into_iter().enumerate() {
                 let (mut low, mut high) = (u16::MAX, 0);
-                for (row, beside) in (0..3).flat_map(|row| (0..SIXTEEN).map(move |beside| (row, beside))) {
+                for (row, beside) in (0..3).flat_map(|row| (0..ROW16).map(move |beside| (row, beside))) {
                     if beside.abs_diff(column) < 2 && (row, beside) != (1, column) {
                         (low, high) = (low.min(rows[row][beside]), high.max(rows[row][beside]));
                     }

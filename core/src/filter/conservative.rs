@@ -4,10 +4,10 @@
 //! and an impulse would survive.
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
-use super::clamp_row16::clamp_sixteen;
+use super::clamp_row16::clamp_row16;
 use super::row::Row;
 use crate::garment::Area;
-use crate::image::row16::SIXTEEN;
+use crate::image::row16::ROW16;
 use crate::image::rows::{Pieces, Rows};
 use core::ops::Range;
 
@@ -29,11 +29,11 @@ pub(crate) fn conservative(
     }
     let there = u16::MAX >> (15 - ((area.columns - 1) >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
-    if columns == SIXTEEN
+    if columns == ROW16
         && !VECTORS
         && let Some(groups) = marks.places(first..end)
     {
-        return smooth_sixteen(values, out, groups);
+        return smooth_rows16(values, out, groups);
     }
     let mut next = first;
     while let Some(number) = marks.next(next..end) {
@@ -46,7 +46,7 @@ pub(crate) fn conservative(
         let above = if number == first { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
         let row = Row { starts: [above, here, below], columns };
-        if columns == SIXTEEN || groups == there {
+        if columns == ROW16 || groups == there {
             smooth(&row, values, out, 0..columns);
             continue;
         }
@@ -59,7 +59,7 @@ pub(crate) fn conservative(
 
 /// Smooths a panel of sixteen columns and at least two rows. Returns true if it has points.
 #[inline(never)] // M0+: out of line
-fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
+fn smooth_rows16(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     let mut points = false;
     let (rows, _) = values.as_chunks();
     let (out, _) = out.as_chunks_mut();
@@ -69,15 +69,15 @@ fn smooth_sixteen(values: &[u16], out: &mut [u16], groups: &mut [u16]) -> bool {
     };
     // At both ends the opposite row replaces the missing one.
     if widen(top_groups) {
-        clamp_sixteen(&[*second, *top], second, *top_groups, top_out, &mut points);
+        clamp_row16(&[*second, *top], second, *top_groups, top_out, &mut points);
     }
     for ((three, out), groups) in rows.array_windows::<3>().zip(out).zip(groups) {
         if let (true, Some(two)) = (widen(groups), three.first_chunk()) {
-            clamp_sixteen(two, &three[2], *groups, out, &mut points);
+            clamp_row16(two, &three[2], *groups, out, &mut points);
         }
     }
     if widen(bottom_groups) {
-        clamp_sixteen(&[*last, *bottom], last, *bottom_groups, bottom_out, &mut points);
+        clamp_row16(&[*last, *bottom], last, *bottom_groups, bottom_out, &mut points);
     }
     points
 }
@@ -163,25 +163,25 @@ mod tests {
     fn rows_of_sixteen_are_as_others() {
         let mut noise = 1u32;
         for rows in [2, 3, 9] {
-            let mut values = [0; 9 * SIXTEEN];
+            let mut values = [0; 9 * ROW16];
             values.fill_with(|| {
                 noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
                 (noise >> 28) as u16
             });
-            let values = &values[..rows * SIXTEEN];
+            let values = &values[..rows * ROW16];
             // A row without pressure is left out.
             let mut groups = [u16::MAX; 9];
             groups[rows / 2] = 0;
-            let mut out = [[7; 9 * SIXTEEN]; 2];
-            smooth_sixteen(values, &mut out[0][..values.len()], &mut groups[..rows]);
+            let mut out = [[7; 9 * ROW16]; 2];
+            smooth_rows16(values, &mut out[0][..values.len()], &mut groups[..rows]);
             for row in (0..rows).filter(|row| *row != rows / 2) {
                 let around = [
                     if row == 0 { 1 } else { row - 1 },
                     row,
                     if row + 1 == rows { row - 1 } else { row + 1 },
                 ];
-                let row = Row { starts: around.map(|row| row * SIXTEEN), columns: SIXTEEN };
-                smooth(&row, values, &mut out[1], 0..SIXTEEN);
+                let row = Row { starts: around.map(|row| row * ROW16), columns: ROW16 };
+                smooth(&row, values, &mut out[1], 0..ROW16);
             }
             assert_eq!(out[0], out[1]);
         }

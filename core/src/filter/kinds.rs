@@ -3,7 +3,7 @@
 use super::conservative::conservative;
 use super::median::median;
 #[cfg(target_pointer_width = "64")]
-use super::median_simd::{FEWEST, median_by_eights};
+use super::median_simd::{FEWEST, median_simd};
 use super::points::Points;
 use super::square::square;
 use crate::garment::Area;
@@ -65,7 +65,7 @@ impl Filter {
             }
             #[cfg(target_pointer_width = "64")]
             Filter::Median if usize::from(area.columns) >= FEWEST => {
-                median_by_eights(values, out, area, grain(area), rows)
+                median_simd(values, out, area, grain(area), rows)
             }
             Filter::Median => median(values, out, area, grain(area), rows),
             Filter::Square => square(values, out, area, rows),

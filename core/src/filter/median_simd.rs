@@ -20,7 +20,7 @@ type Eight = i16x8;
 const NOTHING: Eight = Eight::splat(i16::MIN);
 
 /// Filters a panel where it may be non-zero, border replicated; `out` is zero elsewhere.
-pub(crate) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
+pub(crate) fn median_simd(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     let panel = area.first_row..area.first_row.saturating_add(area.rows);
     for column in (1..columns - 1).step_by(EIGHT) {
@@ -56,10 +56,10 @@ pub(crate) fn median_by_eights(values: &[u16], out: &mut [u16], area: &Area, gra
 /// Returns a mask of those of at most [`BLOCK`] rows that have any of the groups.
 #[inline(always)]
 fn holding(rows: &[u16], groups: u16) -> u32 {
-    let (sixteens, rest) = rows.as_chunks();
+    let (chunks, rest) = rows.as_chunks();
     let last = rest.iter().rev().fold(0, |held, row| held << 1 | u32::from(row & groups != 0));
-    sixteens.iter().rev().fold(last, |held, sixteen| {
-        let none = (u16x16::new(*sixteen) & u16x16::splat(groups)).simd_eq(u16x16::ZERO);
+    chunks.iter().rev().fold(last, |held, chunk| {
+        let none = (u16x16::new(*chunk) & u16x16::splat(groups)).simd_eq(u16x16::ZERO);
         held << 16 | (!none).to_bitmask()
     })
 }
@@ -192,7 +192,7 @@ mod tests {
             };
             check(&|out, marks| median(&values, out, area, grain(area), marks));
             if usize::from(columns) >= FEWEST {
-                check(&|out, marks| median_by_eights(&values, out, area, grain(area), marks));
+                check(&|out, marks| median_simd(&values, out, area, grain(area), marks));
             }
         }
     }

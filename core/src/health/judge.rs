@@ -14,7 +14,7 @@ const PRESSED: i32 = 128;
 /// Median travel, in steps, below which a code that does not move is no evidence: noise of 1.8 steps rms.
 const LIVELY: u16 = 20;
 /// Travel beyond three times the median that noise does not explain, counts.
-const LOUD: u16 = 52;
+const NOISY: u16 = 52;
 /// Travel of a code that goes to the next step and back in every frame, in steps.
 const STEPS: u16 = 12;
 
@@ -29,7 +29,7 @@ pub(super) struct Limits {
     /// Typical noise is high enough that a constant code is evidence.
     lively: bool,
     /// Greatest travel that counts as usual noise.
-    loud: u16,
+    noisy: u16,
     /// Travel of the usual noise while something touches.
     usual: u32,
     /// Distance from the code at rest that a pressed taxel exceeds.
@@ -41,7 +41,7 @@ impl Limits {
     pub fn of(usual: u16, step: u16) -> Limits {
         Limits {
             lively: usual >= LIVELY.saturating_mul(step),
-            loud: usual.saturating_mul(3).saturating_add(LOUD).saturating_add(step.saturating_mul(STEPS)),
+            noisy: usual.saturating_mul(3).saturating_add(NOISY).saturating_add(step.saturating_mul(STEPS)),
             usual: u32::from(usual) * 2,
             idle: i32::from(RAIL).max(i32::from(step) + 1),
         }
@@ -184,7 +184,7 @@ impl Shown<'_> {
     pub fn doubtful(&self, first: usize, seen: &[Seen]) -> Doubtful {
         let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
         let plain =
-            |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
+            |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.noisy;
         let odd = bits(seen.iter().map(|seen| !plain(seen)));
         let Some(rest) = self.rest.filter(|_| self.touched) else { return Doubtful { odd, beside: 0 } };
         // From one taxel before the first on, if there is one.
@@ -233,7 +233,7 @@ impl Shown<'_> {
         if seen.is_still() && high > 0 && self.limits.lively && !is_wide(low) {
             return TaxelHealth::Stuck;
         }
-        if seen.travel() > self.limits.loud && self.is_restless(seen, taxel) {
+        if seen.travel() > self.limits.noisy && self.is_restless(seen, taxel) {
             return TaxelHealth::Noisy;
         }
         let Some(rest) = self.at_rest(taxel) else { return TaxelHealth::Good };

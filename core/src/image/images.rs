@@ -4,7 +4,7 @@
 //! longer active are cleared once that is known, before the filter reads them.
 
 use super::held::Held;
-use super::row16::SIXTEEN;
+use super::row16::ROW16;
 use super::rows::Rows;
 use super::slices::{areas_of, row_mut};
 use super::view::Image;
@@ -44,7 +44,8 @@ impl<const TAXELS: usize> Images<TAXELS> {
     }
 
     /// Clears both images; returns the rows left for overwriting, none if no panel was active. These are no
-    /// longer [held](Rows), and may still be non-zero. `overwritten`: the filter writes whole rows of sixteen.
+    /// longer [held](Rows), and may still be non-zero. `overwritten`: the filter writes whole rows of
+    /// sixteen.
     pub fn clear(&mut self, layout: &Layout, codes: usize, overwritten: bool) -> Option<Held> {
         if self.active == 0 {
             return None;
@@ -78,8 +79,8 @@ impl<const TAXELS: usize> Images<TAXELS> {
     /// True if the rows of an active panel can be overwritten as a whole, given the number of codes.
     fn are_overwritten(&mut self, area: &Area, codes: usize) -> bool {
         let rows = area.first_row..area.first_row.saturating_add(area.rows);
-        let end = usize::from(area.base) + usize::from(area.rows) * SIXTEEN;
-        usize::from(area.columns) == SIXTEEN && end <= codes.min(TAXELS) && self.rows.places(rows).is_some()
+        let end = usize::from(area.base) + usize::from(area.rows) * ROW16;
+        usize::from(area.columns) == ROW16 && end <= codes.min(TAXELS) && self.rows.places(rows).is_some()
     }
 
     /// Clears the rows of `before` that are no longer active.

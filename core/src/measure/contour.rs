@@ -1,7 +1,7 @@
 //! The contour of a contact: its length and its steepness.
 
 use super::component::Component;
-use super::sobel::{Neighbourhood, steepness_of_sixteens};
+use super::sobel::{Neighbourhood, steepness_of_rows16};
 use crate::garment::Layout;
 use crate::image::view::Image;
 use crate::segment::labeller::Labeller;
@@ -42,15 +42,15 @@ impl Contour {
     #[inline(never)] // M0+: out of line
     fn add(&mut self, taxels: u32, column: u16, around: &Neighbourhood) {
         self.length = self.length.wrapping_add(taxels.count_ones());
-        let slope = match around.sixteens() {
-            Some(rows) => steepness_of_sixteens(rows, taxels),
+        let slope = match around.rows16() {
+            Some(rows) => steepness_of_rows16(rows, taxels),
             None => steepness(around, taxels, column),
         };
         self.slope = self.slope.wrapping_add(slope);
     }
 }
 
-/// Like [`steepness_of_sixteens`], for a row of any length; `taxels` are of the word that begins at `column`.
+/// Like [`steepness_of_rows16`], for a row of any length; `taxels` are of the word that begins at `column`.
 fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
     let mut sum = 0;
     while taxels != 0 {

@@ -1,7 +1,7 @@
 //! The Sobel operator at single taxels.
 
 use crate::garment::Area;
-use crate::image::row16::{SIXTEEN, Sixteen};
+use crate::image::row16::{ROW16, Row16};
 
 /// Slope of pressure at a taxel: eight times the counts per taxel of a plane.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -44,8 +44,8 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// The three rows, if they have sixteen columns.
-    pub fn sixteens(&self) -> Option<[&'a Sixteen; 3]> {
-        if usize::from(self.columns) == SIXTEEN { self.pieces(0) } else { None }
+    pub fn rows16(&self) -> Option<[&'a Row16; 3]> {
+        if usize::from(self.columns) == ROW16 { self.pieces(0) } else { None }
     }
 
     /// Gradient at a column of the panel.
@@ -85,13 +85,13 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// Sum of the gradients' magnitudes, each divided by 8 and truncated, at the taxels of the middle one of three
-/// rows of sixteen that are in the mask `taxels` (a bit per column).
+/// Sum of the gradients' magnitudes, each divided by 8 and truncated, at the taxels of the middle one of
+/// three rows of sixteen that are in the mask `taxels` (a bit per column).
 ///
 /// On a Cortex-M0+ a taxel in the mask takes 40 cycles, any other 4 (counted in instructions), as no bounds
 /// are checked.
 #[inline(never)] // M0+: out of line
-pub(crate) fn steepness_of_sixteens(rows: [&Sixteen; 3], taxels: u32) -> u32 {
+pub(crate) fn steepness_of_rows16(rows: [&Row16; 3], taxels: u32) -> u32 {
     // Unrolled by hand: the compiler would keep a loop, with an index and a shift per taxel.
     let sum = at::<0, 0, 1>(rows, taxels, 0);
     let sum = at::<0, 1, 2>(rows, taxels, sum);
@@ -112,7 +112,7 @@ pub(crate) fn steepness_of_sixteens(rows: [&Sixteen; 3], taxels: u32) -> u32 {
 }
 #[inline(always)]
 fn at<const LEFT: usize, const HERE: usize, const RIGHT: usize>(
-    rows: [&Sixteen; 3],
+    rows: [&Row16; 3],
     taxels: u32,
     sum: u32,
 ) -> u32 {
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn rows_of_sixteen_are_as_others() {
-        let layout = Layout::build(&Garment::recorded(3, SIXTEEN as u16), 48, 65535).unwrap();
+        let layout = Layout::build(&Garment::recorded(3, ROW16 as u16), 48, 65535).unwrap();
         let mut noise = 1u32;
         let values: [u16; 48] = core::array::from_fn(|_| {
             noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
@@ -146,15 +146,15 @@ mod tests {
         });
         for row in 0..3 {
             let around = Neighbourhood::of(&values, &layout.areas()[0], row);
-            let rows = around.sixteens().unwrap();
+            let rows = around.rows16().unwrap();
             for taxels in [0, 1, 0x8000, 0x5a3c, 0xffff] {
-                let columns = (0..SIXTEEN as u16).filter(|column| taxels & 1 << column != 0);
+                let columns = (0..ROW16 as u16).filter(|column| taxels & 1 << column != 0);
                 let sum: u32 = columns.map(|column| around.gradient(column).magnitude() >> 3).sum();
-                assert_eq!(steepness_of_sixteens(rows, taxels), sum);
+                assert_eq!(steepness_of_rows16(rows, taxels), sum);
             }
         }
         let other = Layout::build(&Garment::recorded(3, 15), 45, 65535).unwrap();
-        assert!(Neighbourhood::of(&values, &other.areas()[0], 1).sixteens().is_none());
+        assert!(Neighbourhood::of(&values, &other.areas()[0], 1).rows16().is_none());
     }
 
     #[test]

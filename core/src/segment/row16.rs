@@ -4,7 +4,7 @@ use super::bits::{highest, is_run, run_of, widened};
 use super::labeller::{Labeller, Line};
 use super::run::Run;
 use super::sums::Sums;
-use super::threshold::{Sixteen, touched_of_sixteen};
+use super::threshold::{PairedRow16, touched_of_row16};
 use super::union_find::{NONE, first_of, unite};
 use bytemuck::must_cast_slice;
 use core::ops::Range;
@@ -13,11 +13,11 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Appends the touched taxels of consecutive rows, as one run for each label of a row. Their sums are not
     /// added to the labels yet.
     #[inline(never)] // M0+: out of line
-    pub(crate) fn scan_sixteens(&mut self, rows: &[Sixteen], low: u16, line: &mut Line) {
+    pub(crate) fn scan_rows16(&mut self, rows: &[PairedRow16], low: u16, line: &mut Line) {
         let mut all = 0;
-        for sixteen in rows {
+        for row16 in rows {
             let here = self.runs.len();
-            let (taxels, values) = (touched_of_sixteen(sixteen, low), must_cast_slice(sixteen));
+            let (taxels, values) = (touched_of_row16(row16, low), must_cast_slice(row16));
             line.label = if is_run(taxels) {
                 self.scan_group(taxels, values, line)
             } else if taxels & !line.reach != 0 {

@@ -1,7 +1,7 @@
 //! Connected components: row by row, each row as bits, its 8-connected taxels joined by union-find.
 
 use super::labeller::{Labeller, Line};
-use super::threshold::sixteens;
+use super::threshold::paired_rows16;
 use super::union_find::NONE;
 use crate::garment::{Area, Layout};
 use crate::image::slices::{panel_of, row_of};
@@ -24,18 +24,18 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
         let start = self.runs.len();
         let last = area.first_row.saturating_add(area.rows);
-        let sixteens = sixteens(panel_of(image.values, area), area.columns, low);
-        let are_sixteens = sixteens.len() == usize::from(area.rows);
+        let rows16 = paired_rows16(panel_of(image.values, area), area.columns, low);
+        let are_rows16 = rows16.len() == usize::from(area.rows);
         let mut line = Line { panel, row: 0, above: start, reach: 0, label: NONE, ends: [0; 2] };
         let mut from = area.first_row;
         // A gap between active rows separates labels.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
             line = Line { row: rows.start, above: self.runs.len(), reach: 0, label: NONE, ..line };
-            if are_sixteens {
+            if are_rows16 {
                 let here = |row: u16| usize::from(row - area.first_row);
-                let sixteens = sixteens.get(here(rows.start)..here(rows.end));
-                self.scan_sixteens(sixteens.unwrap_or(&[]), low, &mut line);
+                let rows16 = rows16.get(here(rows.start)..here(rows.end));
+                self.scan_rows16(rows16.unwrap_or(&[]), low, &mut line);
                 continue;
             }
             for row in rows {
@@ -43,7 +43,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
                 self.scan_row(row_of(image.values, area, row - area.first_row), low, &mut line);
             }
         }
-        if are_sixteens {
+        if are_rows16 {
             self.weigh(start);
         }
         self.mark_sides(start, area, &line);

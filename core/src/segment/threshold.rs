@@ -26,20 +26,20 @@ fn touched_by_sums(values: &[u16], low: u16) -> u32 {
 #[cfg(target_pointer_width = "64")]
 #[inline(always)]
 fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
-    let (sixteens, rest) = values.as_chunks();
+    let (chunks, rest) = values.as_chunks();
     let last = rest.iter().rev().fold(0, |taxels, value| taxels << 1 | u32::from(*value >= low));
-    sixteens.iter().rev().fold(last, |taxels, sixteen| {
-        let missing = u16x16::splat(low).saturating_sub(u16x16::new(*sixteen));
+    chunks.iter().rev().fold(last, |taxels, chunk| {
+        let missing = u16x16::splat(low).saturating_sub(u16x16::new(*chunk));
         taxels << 16 | missing.simd_eq(u16x16::ZERO).to_bitmask()
     })
 }
 
 /// A row of sixteen taxels in memory: pairs of values.
-pub(crate) type Sixteen = [u32; 8];
+pub(crate) type PairedRow16 = [u32; 8];
 
 /// Returns the rows of a panel of sixteen columns; none if its values are not aligned to pairs, or if the
 /// threshold has 16 bits.
-pub(crate) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
+pub(crate) fn paired_rows16(values: &[u16], columns: u16, low: u16) -> &[PairedRow16] {
     match pod_align_to(values) {
         ([], pairs, []) if columns == 16 && low < 1 << 15 => pairs.as_chunks().0,
         _ => &[],
@@ -48,7 +48,7 @@ pub(crate) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
 
 /// Returns the bits of the values of a row that are not below a threshold of 15 bits.
 #[inline(never)] // M0+: out of line
-pub(crate) fn touched_of_sixteen([a, b, c, d, e, f, g, h]: &Sixteen, low: u16) -> u32 {
+pub(crate) fn touched_of_row16([a, b, c, d, e, f, g, h]: &PairedRow16, low: u16) -> u32 {
     // Unrolled by hand: the compiler would keep a loop.
     let low = u32::from(low) << 16 | u32::from(low);
     let four = two(two(two(two(0, *a, low), *b, low), *c, low), *d, low);
@@ -97,12 +97,14 @@ mod tests {
                 (touched_by_sums(short, low), touched_by_vectors(short, low)),
                 (want(short), want(short))
             );
-            let rows = sixteens(values, 16, low);
+            let rows = paired_rows16(values, 16, low);
             assert_eq!(rows.len(), if low == u16::MAX { 0 } else { 2 });
             for (row, values) in rows.iter().zip(values.chunks(16)) {
-                assert_eq!(touched_of_sixteen(row, low), want(values));
+                assert_eq!(touched_of_row16(row, low), want(values));
             }
-            assert!(sixteens(&values[1..], 16, low).is_empty() && sixteens(values, 8, low).is_empty());
+            assert!(
+                paired_rows16(&values[1..], 16, low).is_empty() && paired_rows16(values, 8, low).is_empty()
+            );
         }
     }
 }

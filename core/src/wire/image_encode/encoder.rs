@@ -126,9 +126,9 @@ impl<'a> Encoder<'a> {
             if at >= part.end {
                 return Some(());
             }
-            let quiet = same(values.get(at..part.end)?, base.get(at..part.end)?);
-            at += quiet;
-            if quiet == 0 {
+            let unchanged = same(values.get(at..part.end)?, base.get(at..part.end)?);
+            at += unchanged;
+            if unchanged == 0 {
                 let length = self.begin(at)?;
                 let run = rest::<false>(take(&mut self.out), values.get(at..)?, base.get(at..)?, RUN)?;
                 *length = run.taxels as u8;
@@ -156,7 +156,7 @@ impl<'a> Encoder<'a> {
                 128..FAR => begin_far(place, skip, now, last),
                 _ => break,
             };
-            if seen.quiet() == LANES {
+            if seen.unchanged() == LANES {
                 (at, skip) = (at + LANES, skip + LANES);
                 break;
             }
@@ -195,8 +195,8 @@ type Place = [u8; 3 + ROOM];
 fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, length, room @ .., _] = place;
     let seen = tell(room, now, base);
-    *first = (skip + seen.quiet()) as u8;
-    *length = (seen.next() - seen.quiet()) as u8;
+    *first = (skip + seen.unchanged()) as u8;
+    *length = (seen.next() - seen.unchanged()) as u8;
     seen
 }
 
@@ -205,9 +205,9 @@ fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> To
 fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, second, length, room @ ..] = place;
     let seen = tell_by_call(room, now, base);
-    let skip = skip + seen.quiet();
+    let skip = skip + seen.unchanged();
     (*first, *second) = (skip as u8 | 128, (skip >> 7) as u8);
-    *length = (seen.next() - seen.quiet()) as u8;
+    *length = (seen.next() - seen.unchanged()) as u8;
     seen
 }
 

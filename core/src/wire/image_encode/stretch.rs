@@ -18,7 +18,7 @@ pub(super) type Taxels = [u16; LANES + 1];
 
 /// Result of a stretch: two numbers, which are returned in registers.
 pub(super) struct Told {
-    /// Bits 0 to 15: [`Told::quiet`]; bits 16 to 30: [`Told::next`]; bit 31: [`ENDS`].
+    /// Bits 0 to 15: [`Told::unchanged`]; bits 16 to 30: [`Told::next`]; bit 31: [`ENDS`].
     taxels: u32,
     /// Address of the end of the written bytes.
     pub end: usize,
@@ -27,7 +27,7 @@ pub(super) struct Told {
 impl Told {
     /// Number of unchanged taxels before the run; all of them without a run.
     #[inline(always)]
-    pub fn quiet(&self) -> usize {
+    pub fn unchanged(&self) -> usize {
         (self.taxels & 0xffff) as usize
     }
 
@@ -51,7 +51,7 @@ const ENDS: u32 = 1 << 31;
 /// Encodes the differences of a run, which begins at the first changed taxel.
 #[inline(always)]
 pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
-    let state = State { out, within: false, quiet: LANES as u32 };
+    let state = State { out, within: false, unchanged: LANES as u32 };
     lanes::<false>(state, now, base).unwrap_or_else(|told| told)
 }
 
@@ -65,7 +65,7 @@ pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) ->
 /// from the one before it, `base` begins with that of the first, and a taxel is unchanged if it is 0.
 #[inline(never)]
 fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
-    let state = State { out, within: true, quiet: 0 };
+    let state = State { out, within: true, unchanged: 0 };
     lanes::<ALONE>(state, now, base).unwrap_or_else(|told| told)
 }
 
@@ -106,7 +106,7 @@ fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usiz
 struct State<'a> {
     out: &'a mut [u8],
     within: bool,
-    quiet: u32,
+    unchanged: u32,
 }
 
 /// Unrolled by hand: the compiler would keep a loop.
@@ -142,7 +142,7 @@ fn lanes<const ALONE: bool>(state: State<'_>, now: &Taxels, base: &Taxels) -> Re
 impl State<'_> {
     #[inline(always)]
     fn told(&self, next: usize) -> Told {
-        Told { taxels: self.quiet | (next as u32) << 16, end: self.out.as_ptr().addr() }
+        Told { taxels: self.unchanged | (next as u32) << 16, end: self.out.as_ptr().addr() }
     }
 
     #[inline(always)]
@@ -163,7 +163,7 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
         if now[LANE] == base[LANE] {
             return Ok(state);
         }
-        (state.within, state.quiet) = (true, LANE as u32);
+        (state.within, state.unchanged) = (true, LANE as u32);
     }
     // The first of two unchanged taxels ends a run.
     let last = if ALONE {
