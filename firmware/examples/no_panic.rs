@@ -96,7 +96,7 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep((Reference::bare(*info), board.dress(garment.clone()), board.employ(scene.clone()))),
+        10 => keep((Reference::bare(*info), board.set_garment(garment.clone()), board.set_scene(scene.clone()))),
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),
@@ -123,7 +123,7 @@ pub extern "C" fn _start(given: &mut Given) {
             let mut boots = Boots::begin(given.left, given.count > 0);
             boots.put_aside();
             boots.alive(*now);
-            boots.spend(given.call);
+            boots.charge(given.call);
             boots.saved();
             boots.asked();
             board.resume_saving(boots.saves().unwrap_or(given.call));

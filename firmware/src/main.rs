@@ -44,20 +44,20 @@ static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
 #[inline(never)]
-fn dress(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
-    board.dress(Garment::reference())
+fn set_garment(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
+    board.set_garment(Garment::reference())
 }
 
 #[inline(never)]
-fn employ(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
-    board.employ(Scene::shipped())
+fn set_scene(board: &mut Board<TAXELS, RUNS, PARTS>) -> Result<(), SetupError> {
+    board.set_scene(Scene::shipped())
 }
 
 /// Sets the shipped garment and scene. Functions of their own: otherwise the main task would keep their stack
 /// for ever.
 #[inline(never)]
 fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
-    if let Err(error) = dress(board).and_then(|()| employ(board)) {
+    if let Err(error) = set_garment(board).and_then(|()| set_scene(board)) {
         defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
         // From here on nothing feeds the watchdog, so the board restarts and reports it again.
         loop {

@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 use embassy_rp::{Peri, gpio};
 use embedded_hal::digital::{ErrorType, OutputPin};
-use taxel_core::acquire::{Pad, Pull};
+use taxel_core::acquire::{ProbePin, Pull};
 
 /// A free pin. It stays high-impedance until it is driven, so that a pin which no garment names has no
 /// effect.
@@ -38,7 +38,7 @@ impl OutputPin for Line {
     }
 }
 
-impl Pad for Line {
+impl ProbePin for Line {
     fn release(&mut self, pull: Pull) -> Result<(), Infallible> {
         self.0.set_pull(match pull {
             Pull::None => gpio::Pull::None,

@@ -170,7 +170,7 @@ impl Platform for Board {
     #[inline(never)]
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
         // Before it begins: the save itself may never end.
-        self.boots.spend(settings.saves);
+        self.boots.charge(settings.saves);
         let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let saved = flash.store().and_then(|mut store| store.save(settings));
         let saved = saved.and_then(|saved| self.keep_levels(Levels::of(&settings.scene.react), saved));
@@ -178,7 +178,7 @@ impl Platform for Board {
             self.boots.saved();
         }
         if saved == Ok(Saved::Unchanged) {
-            self.boots.spend(settings.saves.saturating_add(1));
+            self.boots.charge(settings.saves.saturating_add(1));
         }
         saved.map_err(StoreError::sentence)
     }

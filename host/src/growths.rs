@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
-use taxel_core::contact::Growth;
+use taxel_core::contact::HardnessCue;
 use taxel_core::garment::Layout;
 
 /// By the contact's id, with the panel that it was on last.
 #[derive(Debug, Default, Clone)]
-pub struct Growths(BTreeMap<u32, (Growth, u8)>);
+pub struct Growths(BTreeMap<u32, (HardnessCue, u8)>);
 
 impl Growths {
     /// Takes a frame: those that are there, and those that have just gone, which are known until the next.

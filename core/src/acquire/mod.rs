@@ -19,7 +19,7 @@ pub use duration::{
     LONGEST_MS, TooLong, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
 };
 pub use fields::{FIELDS, Fields};
-pub use lines::{Lines, Pad, Pull, PulledAdc};
+pub use lines::{Lines, ProbePin, Pull, PulledAdc};
 pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring, TURN_PLACES};

@@ -108,7 +108,7 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
 /// so that bit counts, too. Values and differences from 0x8000 may therefore report a false positive.
 #[inline(never)] // M0+: out of line
 fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
-    let doubtful = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
+    let maybe_active = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
         let [codes, limit] = [codes, limit].map(|pairs| pairs.as_chunks::<PAIRS>().0);
         codes.iter().zip(limit).any(|(codes, limit)| {
             let over = codes.iter().zip(limit).fold(0, |all, (code, limit)| {
@@ -118,7 +118,7 @@ fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pa
             over & 0x8000_8000 != 0
         })
     };
-    codes.iter().zip(limit).position(doubtful).unwrap_or(codes.len())
+    codes.iter().zip(limit).position(maybe_active).unwrap_or(codes.len())
 }
 
 /// Skips inactive chunks, one taxel after the other.

@@ -46,7 +46,7 @@ pub use crate::measure::axis::{Axis, axis, breadth};
 pub use crate::measure::component::Component;
 pub use crate::measure::contact::{Contact, Phase};
 pub use crate::measure::forms::Forms;
-pub use crate::measure::hardness::{self, Growth, Hardness};
+pub use crate::measure::hardness::{self, Hardness, HardnessCue};
 pub use crate::measure::moments::{Central, Moments};
 pub use crate::segment::config::{ContactConfig, NO_SLIP};
 pub use stage::{ContactState, Contacts, Touches};

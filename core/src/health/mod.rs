@@ -27,7 +27,7 @@
 //! | | |
 //! |---|---|
 //! | input | [`Code`](crate::format::Code) by taxel number, codes at rest |
-//! | output | at most [`ILL`] faulty taxels |
+//! | output | at most [`FAULTY_TAXELS`] faulty taxels |
 //! | RAM | 2.9 KB |
 
 mod codes;
@@ -40,5 +40,5 @@ mod walk;
 mod watch;
 
 pub use codes::Codes;
-pub use monitor::{Found, ILL, IllTaxel, Monitor};
+pub use monitor::{FAULTY_TAXELS, FaultyTaxel, Found, Monitor};
 pub use taxel::TaxelHealth;

@@ -6,7 +6,7 @@
 //! | output | counts per cm2, rounded down; and a word for it |
 //! | saturation | at 2^32 - 1 |
 //! | latency | none; the cue is unknown until the force is twice that of the first frame |
-//! | RAM | [`Growth`]: 16 bytes a contact |
+//! | RAM | [`HardnessCue`]: 16 bytes a contact |
 //! | M0+ cycles | 30 a frame, and a 32-bit division when the cue is read |
 //!
 //! A soft object wraps around what it touches, so that force and area grow together; a hard one keeps its
@@ -27,12 +27,12 @@ pub const HARD: u32 = 4_000;
 
 /// Force and area of a contact in its first frame, and in the frame of its greatest force.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-pub struct Growth {
+pub struct HardnessCue {
     first: Option<(u32, u16)>,
     greatest: (u32, u16),
 }
 
-impl Growth {
+impl HardnessCue {
     /// Takes the next frame of the contact. A force that is not greater than all before changes nothing.
     pub fn feel(&mut self, force: u32, area: u16) {
         if self.first.is_none() || force > self.greatest.0 {
@@ -94,10 +94,10 @@ mod tests {
     /// A taxel of 1 cm2.
     const CM: u32 = 100;
 
-    fn felt(frames: &[(u32, u16)]) -> Growth {
-        let mut growth = Growth::default();
-        frames.iter().for_each(|(force, area)| growth.feel(*force, *area));
-        growth
+    fn felt(frames: &[(u32, u16)]) -> HardnessCue {
+        let mut cue = HardnessCue::default();
+        frames.iter().for_each(|(force, area)| cue.feel(*force, *area));
+        cue
     }
 
     #[test]
@@ -151,11 +151,11 @@ mod tests {
         let mut last = 0;
         for kpa in [50.0, 200.0, 800.0, 3_200.0] {
             let forces = [1.0, 2.0, 5.0, 10.0, 20.0];
-            let mut growth = Growth::default();
+            let mut cue = HardnessCue::default();
             for newton in forces {
-                growth.feel((newton * 1_000.0) as u32, area(newton, kpa).round() as u16);
+                cue.feel((newton * 1_000.0) as u32, area(newton, kpa).round() as u16);
             }
-            let cue = growth.hardness(cell_mm2([2_000, 2_000])).unwrap();
+            let cue = cue.hardness(cell_mm2([2_000, 2_000])).unwrap();
             let exact = 19_000.0 / (area(20.0, kpa) - area(1.0, kpa)) * 25.0;
             assert!((f64::from(cue) / exact - 1.0).abs() < 0.02, "{kpa} kPa: {cue} for {exact}");
             assert!(cue > 2 * last, "four times the modulus: {last}, {cue}");

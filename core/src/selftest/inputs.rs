@@ -2,7 +2,7 @@
 
 use super::lines::PULLED_NS;
 use super::{Fault, Findings};
-use crate::acquire::{Clock, Lines, Pad, Pull, PulledAdc, ScanError};
+use crate::acquire::{Clock, Lines, ProbePin, Pull, PulledAdc, ScanError};
 use crate::format::Extremes;
 use crate::garment::{Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -26,7 +26,7 @@ struct Input {
 }
 
 /// Examines the inputs. Afterwards none is pulled; the lines stay driven.
-pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
+pub(super) fn examine<P: ProbePin, A: PulledAdc, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     adc: &mut A,
@@ -79,7 +79,7 @@ fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[Input], pull: Pull) -> Result<(
 }
 
 /// Reads the corners of the blocks that share a select code.
-fn read<P: Pad, A: PulledAdc, const PINS: usize>(
+fn read<P: ProbePin, A: PulledAdc, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     adc: &mut A,
@@ -102,7 +102,7 @@ fn read<P: Pad, A: PulledAdc, const PINS: usize>(
     Ok(())
 }
 
-fn apply<P: Pad, const PINS: usize>(
+fn apply<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     circuit: &Circuit,
     word: u32,

@@ -1,7 +1,7 @@
 //! Self-test of the select lines: each is driven alone, and the levels of all are read.
 
 use super::{Fault, Findings};
-use crate::acquire::{Clock, Lines, Pad, Pull, ScanError};
+use crate::acquire::{Clock, Lines, ProbePin, Pull, ScanError};
 use crate::garment::{CIRCUIT_LINES, Circuit};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
@@ -18,7 +18,7 @@ struct Shown {
 }
 
 /// Examines the lines. Afterwards none is driven or pulled.
-pub(super) fn examine<P: Pad, const PINS: usize>(
+pub(super) fn examine<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     clock: &impl Clock,
@@ -33,7 +33,7 @@ pub(super) fn examine<P: Pad, const PINS: usize>(
 }
 
 /// Drives each line to both levels.
-fn try_all<P: Pad, const PINS: usize>(
+fn try_all<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     clock: &impl Clock,
@@ -54,7 +54,7 @@ fn try_all<P: Pad, const PINS: usize>(
     Ok(all)
 }
 
-fn release<P: Pad, const PINS: usize>(
+fn release<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     circuit: &Circuit,
     pull: Pull,
@@ -66,7 +66,10 @@ fn release<P: Pad, const PINS: usize>(
 }
 
 /// Levels of all lines, bit `i` for line `i` of the circuit.
-fn look<P: Pad, const PINS: usize>(lines: &mut Lines<P, PINS>, circuit: &Circuit) -> Result<u32, ScanError> {
+fn look<P: ProbePin, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    circuit: &Circuit,
+) -> Result<u32, ScanError> {
     circuit.lines().iter().rev().try_fold(0, |word, pin| {
         let level = lines.level(*pin).ok_or(ScanError::NoPin(*pin))?;
         Ok(word << 1 | u32::from(level.map_err(|_| ScanError::Output(*pin))?))

@@ -48,7 +48,7 @@ impl Kept {
             garment: &self.garment,
             scene: &self.scene,
             gain: &self.gain,
-            ill: &[],
+            faulty: &[],
             baseline: self.baseline.as_deref(),
             calibration: self.calibration.as_ref(),
             saves: SAVES,
@@ -240,24 +240,24 @@ fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
     let mut flash = SimFlash::default();
     let aside = |flash: &mut SimFlash, aside| Store::new(flash, range(64)).unwrap().put_aside(aside);
     assert_eq!(aside(&mut flash, true), Ok(Saved::Unchanged), "there is nothing to be put aside");
-    let worn = Garment { name: name("worn"), ..Garment::block() };
-    let kept = Kept::new(worn.clone(), 64);
+    let garment = Garment { name: name("worn"), ..Garment::block() };
+    let kept = Kept::new(garment.clone(), 64);
     save(&mut flash, &kept).unwrap();
-    assert_eq!(start(&mut flash), (Found::Settings, worn.clone(), SAVES.into()));
+    assert_eq!(start(&mut flash), (Found::Settings, garment.clone(), SAVES.into()));
     assert_eq!([true, true].map(|it| aside(&mut flash, it)), [Ok(Saved::Written), Ok(Saved::Unchanged)]);
     assert_eq!(start(&mut flash), (Found::Aside, Garment::block(), SAVES.into()), "the quota stays");
     assert_eq!(aside(&mut flash, false), Ok(Saved::Written));
-    assert_eq!(start(&mut flash).1, worn);
+    assert_eq!(start(&mut flash).1, garment);
     aside(&mut flash, true).unwrap();
     assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "the same again, but in force");
-    assert_eq!(start(&mut flash).1, worn);
+    assert_eq!(start(&mut flash).1, garment);
 }
 
 #[test]
 fn power_may_fail_while_settings_are_put_aside() {
     let mut flash = SimFlash::default();
-    let worn = Garment { name: name("worn"), ..Garment::block() };
-    save(&mut flash, &Kept::new(worn.clone(), 64)).unwrap();
+    let garment = Garment { name: name("worn"), ..Garment::block() };
+    save(&mut flash, &Kept::new(garment.clone(), 64)).unwrap();
     for round in 0..40 {
         let (before, old) = (flash.clone(), start(&mut flash));
         Store::new(&mut flash, range(64)).unwrap().put_aside(round % 2 == 0).unwrap();

@@ -52,7 +52,7 @@ fn named(base: &mut Base, class: &str) -> Result<usize> {
     Ok(names.len() - 1)
 }
 
-/// Counts what each prototype is taken for by the others: card and table of sureness.
+/// Counts what each prototype is taken for by the others: card and table of confidence.
 fn judge(base: &mut Base) {
     let all = &base.gallery.prototypes;
     let by_others = |out: usize| {
@@ -71,6 +71,6 @@ fn judge(base: &mut Base) {
     // Of few that were all right the next is not sure to be.
     let right = hits.iter().filter(|hit| **hit).count() as f64;
     let mean = (right + 1.0) / (hits.len() as f64 + 2.0);
-    count(&mut base.gallery.sureness, &found, &hits, mean);
+    count(&mut base.gallery.confidence, &found, &hits, mean);
     (base.card.accuracy, base.card.confusion) = (confusion.accuracy(), confusion.counts);
 }

@@ -5,7 +5,7 @@ use super::data::Example;
 use super::discriminant::Discriminant;
 use taxel_core::format::name;
 use taxel_core::shape::{
-    DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space, Sureness,
+    ConfidenceTable, DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space,
 };
 
 /// A gallery as large as a board holds.
@@ -41,7 +41,7 @@ impl Default for Recipe {
 /// One unit of a [`Point`] is this part of the spread within a class.
 const UNITS: f64 = 256.0;
 
-/// Learns a gallery that knows everything it meets, without a table of sureness.
+/// Learns a gallery that knows everything it meets, without a table of confidence.
 pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
     let space = space(examples, recipe);
     let mut prototypes = heapless::Vec::new();
@@ -59,7 +59,7 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
         space,
         k: recipe.k,
         reject: u16::MAX,
-        sureness: Sureness::default(),
+        confidence: ConfidenceTable::default(),
         prototypes,
     }
 }
@@ -68,7 +68,8 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
 fn space(examples: &[&Example], recipe: &Recipe) -> Space {
     let row = |example: &&Example| recipe.measures.iter().map(|i| example.descriptor[*i].into()).collect();
     let rows: Vec<Vec<f64>> = examples.iter().map(row).collect();
-    // By the names of the labels: what is told apart within a class of several helps to tell the classes apart.
+    // By the names of the labels: what is told apart within a class of several helps to tell the classes
+    // apart.
     let labels: Vec<usize> = examples.iter().map(|example| example.kind).collect();
     let classes = labels.iter().max().map_or(0, |last| last + 1);
     let found = Discriminant::of(&rows, &labels, classes, DIMENSIONS, recipe.shrinkage);

@@ -55,8 +55,8 @@ impl Chain {
     /// Sets the reference garment and the shipped scene.
     #[inline(never)]
     pub fn ship(&mut self) -> Result<(), SetupError> {
-        self.board.dress(Garment::reference())?;
-        self.board.employ(Scene::shipped())
+        self.board.set_garment(Garment::reference())?;
+        self.board.set_scene(Scene::shipped())
     }
 
     fn now(&self) -> Micros {

@@ -1,11 +1,11 @@
 //! Queues of messages by urgency; a message is encoded only when the link has room.
 
 mod encoding;
-mod noting;
+mod enqueue;
 
 use super::pace::{Pace, Rates};
 use super::refusal::Refusal;
-use super::under_way::UnderWay;
+use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
 use super::{Codes, Sentence};
 use crate::boot::Boot;
@@ -44,7 +44,7 @@ type Gestures = Deque<(GestureReport, Option<Q15>), 4>;
 
 /// Messages to send.
 pub(super) struct Outbox<const TAXELS: usize> {
-    under_way: UnderWay,
+    tx_frame: TxFrame,
     streaming: bool,
     hello: Option<Micros>,
     /// True after a `Hello`: how the board started is sent next.
@@ -99,7 +99,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     #[inline(never)]
     pub fn new(stream: &StreamConfig) -> Self {
         Outbox {
-            under_way: UnderWay::new(),
+            tx_frame: TxFrame::new(),
             streaming: false,
             hello: Some(Micros(0)),
             greeted: false,
@@ -256,7 +256,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     /// Takes a time report, unless one is waiting.
-    pub fn spend(&mut self, budget: impl FnOnce() -> Option<Budget>) {
+    pub fn charge(&mut self, budget: impl FnOnce() -> Option<Budget>) {
         if self.streaming && self.budget.is_none() {
             self.budget = budget();
         }
@@ -296,7 +296,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     /// Bytes of the message in transmission that the link has not taken.
     pub fn rest(&self) -> &[u8] {
-        self.under_way.rest()
+        self.tx_frame.rest()
     }
 
     /// True if a message is in transmission.
@@ -305,6 +305,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     pub fn sent(&mut self, count: usize) {
-        self.under_way.sent(count);
+        self.tx_frame.sent(count);
     }
 }

@@ -16,17 +16,17 @@ const START: usize = lead(MESSAGE) + HEAD;
 const FRAME: usize = frame_bound(MESSAGE);
 
 /// Encodes one message at a time and hands out its bytes.
-pub(super) struct UnderWay {
+pub(super) struct TxFrame {
     seq: u32,
     wire: [u8; FRAME],
     from: usize,
     to: usize,
 }
 
-impl UnderWay {
+impl TxFrame {
     /// Begins with one 0x00, which ends whatever a booting board or an opening line put on the wire.
     pub const fn new() -> Self {
-        UnderWay { seq: 0, wire: [0; FRAME], from: 0, to: 1 }
+        TxFrame { seq: 0, wire: [0; FRAME], from: 0, to: 1 }
     }
 
     /// Bytes of the message that were not sent yet.
@@ -51,7 +51,7 @@ impl UnderWay {
         self.wire.get_mut(START..START + DATA).unwrap_or(&mut [])
     }
 
-    /// Encodes a report like [`UnderWay::put`]. Its data, the last field, are the first `length` bytes of the
+    /// Encodes a report like [`TxFrame::put`]. Its data, the last field, are the first `length` bytes of the
     /// scratch buffer; its other fields are written before them.
     pub fn put_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> bool {
         let start = self.put_head(number, without, length);

@@ -13,7 +13,14 @@ use heapless::Vec;
 impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Queues what was perceived in a frame. If the frame is `late`, its image, which is costly, is left out,
     /// unless one is already waiting for the link.
-    pub fn note(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, late: bool, health: &mut Health) {
+    pub fn enqueue(
+        &mut self,
+        frame: u32,
+        time: Micros,
+        percept: &Percept<'_>,
+        late: bool,
+        health: &mut Health,
+    ) {
         if !self.streaming {
             return;
         }
@@ -36,10 +43,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
                 self.intent = Some(report);
             }
         }
-        self.note_gesture(frame, time, percept, health);
-        self.note_contacts(frame, time, percept, health);
+        self.enqueue_gesture(frame, time, percept, health);
+        self.enqueue_contacts(frame, time, percept, health);
         self.unsure |= percept.unsure.has_changed();
-        self.note_symbols(frame, time, percept, health);
+        self.enqueue_symbols(frame, time, percept, health);
         // A waiting image is encoded from the newest image and codes, so it gets their number.
         let due = self.rates.frames.due(time);
         let waits = self.image.due.is_some();
@@ -92,7 +99,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    fn note_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+    fn enqueue_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let Some((gesture, name)) = &percept.gesture else { return };
         let Gesture { touch, panel, class, score, lead, confidence, observed_ms, ended } = *gesture;
         let name = name.clone();
@@ -102,7 +109,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     /// Queues the newest state of each contact; onsets and releases stay until they are sent.
-    fn note_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+    fn enqueue_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let list = &mut self.contacts.contacts;
         let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
         let due = self.rates.contacts.due(time) && !percept.present.is_empty();
@@ -144,7 +151,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.contacts.dropped = percept.dropped;
     }
 
-    fn note_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+    fn enqueue_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let events = percept.symbols.events();
         if !self.rates.symbols || (events.is_empty() && !self.symbols_wait) {
             return;

@@ -2,7 +2,7 @@
 
 use super::Board;
 use crate::format::{Code, Micros};
-use crate::health::{Codes, Found, IllTaxel, TaxelHealth};
+use crate::health::{Codes, FaultyTaxel, Found, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Updates the health of the taxels from the codes of a frame; `touched`: it has a contact.
@@ -11,10 +11,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let condition = &mut self.state.condition;
         let rest = condition.baseline().filter(|_| self.tared);
         let shown = Codes { now: codes, rest, full: self.info.full_scale, touched };
-        if self.monitor.doubts(circuit, &scene.plan, &shown) {
-            self.doubt.raise(now);
+        if self.monitor.needs_retest(circuit, &scene.plan, &shown) {
+            self.retest.raise(now);
         }
-        let well = self.monitor.acquit(circuit, &shown);
+        let well = self.monitor.clear_fault(circuit, &shown);
         let mut found = Found::new();
         self.monitor.watch(layout, circuit, &scene.plan, shown, &mut found);
         if let Some(well) = well {
@@ -23,7 +23,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
         for (taxel, health) in &found {
             let gain = condition.gain().get(usize::from(*taxel)).copied().unwrap_or(0);
-            if self.monitor.add(IllTaxel { taxel: *taxel, health: *health, gain }) {
+            if self.monitor.add(FaultyTaxel { taxel: *taxel, health: *health, gain }) {
                 condition.set_gain(usize::from(*taxel), 0);
                 self.outbox.map_changed();
             }
@@ -32,8 +32,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// Sets the gain of a taxel; a faulty one gets it when its fault is cleared.
     pub(super) fn put_gain(&mut self, taxel: usize, gain: u16) {
-        match self.monitor.ill_mut(taxel) {
-            Some(ill) => ill.gain = gain,
+        match self.monitor.faulty_mut(taxel) {
+            Some(faulty) => faulty.gain = gain,
             None => {
                 self.state.condition.set_gain(taxel, gain);
             }
@@ -42,8 +42,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// Clears all faults: restores the gains saved before the taxels were silenced, and watches them anew.
     pub(super) fn recover(&mut self) {
-        for ill in self.monitor.ill() {
-            self.state.condition.set_gain(usize::from(ill.taxel), ill.gain);
+        for faulty in self.monitor.faulty() {
+            self.state.condition.set_gain(usize::from(faulty.taxel), faulty.gain);
         }
         self.monitor.reset();
         self.outbox.map_changed();

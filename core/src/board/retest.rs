@@ -11,7 +11,7 @@ const DOUBLINGS: u8 = 6;
 
 /// State of self-tests that nobody has requested.
 #[derive(Debug)]
-pub(super) struct Doubt {
+pub(super) struct Retest {
     raised: bool,
     /// The test in progress was started by evidence.
     followed: bool,
@@ -20,10 +20,10 @@ pub(super) struct Doubt {
     doublings: u8,
 }
 
-impl Doubt {
+impl Retest {
     /// No evidence.
-    pub const fn new() -> Doubt {
-        Doubt { raised: false, followed: false, until: Micros(0), doublings: 0 }
+    pub const fn new() -> Retest {
+        Retest { raised: false, followed: false, until: Micros(0), doublings: 0 }
     }
 
     /// Records evidence against a line or an input.
@@ -37,15 +37,15 @@ impl Doubt {
         core::mem::take(&mut self.raised)
     }
 
-    /// Takes the end of a test. `is_new`: its findings differ from those before; `ill`: there are faults.
+    /// Takes the end of a test. `is_new`: its findings differ from those before; `faulty`: there are faults.
     /// Returns true if the test was started by evidence.
-    pub fn settle(&mut self, now: Micros, is_new: bool, ill: bool) -> bool {
+    pub fn settle(&mut self, now: Micros, is_new: bool, faulty: bool) -> bool {
         self.raised = false;
         let followed = core::mem::take(&mut self.followed);
         if is_new {
             self.doublings = 0;
         }
-        if followed || ill {
+        if followed || faulty {
             self.until = Micros(now.0.saturating_add(PAUSE_US << self.doublings.min(DOUBLINGS)));
             self.doublings = self.doublings.saturating_add(u8::from(!is_new)).min(DOUBLINGS);
         } else {
@@ -61,33 +61,33 @@ mod tests {
 
     #[test]
     fn what_finds_nothing_is_tried_less_and_less_often() {
-        let mut doubt = Doubt::new();
+        let mut retest = Retest::new();
         let second = |s: u64| Micros(s * 1_000_000);
         let mut tried = heapless::Vec::<u64, 16>::new();
         for s in 0..2_000 {
-            doubt.raise(second(s));
-            if doubt.follow() {
-                assert!(doubt.settle(second(s), false, false));
+            retest.raise(second(s));
+            if retest.follow() {
+                assert!(retest.settle(second(s), false, false));
                 let _ = tried.push(s);
             }
         }
         assert_eq!(tried, [0, 10, 30, 70, 150, 310, 630, 1270, 1910]);
-        doubt.raise(second(3_000));
-        assert!(doubt.follow() && doubt.settle(second(3_000), true, true));
-        doubt.raise(second(3_009));
-        assert!(!doubt.follow());
-        doubt.raise(second(3_010));
-        assert!(doubt.follow());
+        retest.raise(second(3_000));
+        assert!(retest.follow() && retest.settle(second(3_000), true, true));
+        retest.raise(second(3_009));
+        assert!(!retest.follow());
+        retest.raise(second(3_010));
+        assert!(retest.follow());
     }
 
     #[test]
     fn a_test_that_was_asked_for_and_finds_all_well_delays_nothing() {
-        let mut doubt = Doubt::new();
-        assert!(!doubt.settle(Micros(5), true, true));
-        doubt.raise(Micros(6));
-        assert!(!doubt.follow());
-        assert!(!doubt.settle(Micros(7), true, false));
-        doubt.raise(Micros(8));
-        assert!(doubt.follow());
+        let mut retest = Retest::new();
+        assert!(!retest.settle(Micros(5), true, true));
+        retest.raise(Micros(6));
+        assert!(!retest.follow());
+        assert!(!retest.settle(Micros(7), true, false));
+        retest.raise(Micros(8));
+        assert!(retest.follow());
     }
 }

@@ -9,7 +9,7 @@ pub const STEPS: usize = 4;
 /// A table of accuracies, measured by the trainer on examples that were left out of training.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Sureness {
+pub struct ConfidenceTable {
     /// Lower limits of the steps of the share of votes, from the second step on; ascending.
     pub shares: [u16; STEPS - 1],
     /// Lower limits of the steps of the distance to the nearest prototype, from the second step on;
@@ -19,7 +19,7 @@ pub struct Sureness {
     pub right: [[u16; STEPS]; STEPS],
 }
 
-impl Sureness {
+impl ConfidenceTable {
     /// Checks a table from outside. Error if an accuracy exceeds 1.0.
     pub fn check(&self) -> Result<(), Invalid> {
         if self.right.iter().flatten().any(|right| *right > 32_768) {
