@@ -18,7 +18,7 @@ use taxel_core::board::{Board, BoardInfo, Input, Part, Saved, Setup};
 use taxel_core::boot::{Boots, Remains, Reset, panicked};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
-use taxel_core::gesture::{Model, TouchState, Touches};
+use taxel_core::gesture::{Model, TouchState, TouchClassifier};
 use taxel_core::reflex::{Early, Reflex};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
@@ -96,14 +96,16 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep((Reference::bare(*info), board.set_garment(garment.clone()), board.set_scene(scene.clone()))),
+        10 => {
+            keep((Reference::bare(*info), board.set_garment(garment.clone()), board.set_scene(scene.clone())))
+        }
         11 => keep(Reference::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),
         14 => keep(board.settings().write(given.part, given.buffer)),
         15 => board.forgot("any"),
         16 => keep(Model::read(bytes).map(|model| {
-            let touches = Touches::new(model, given.count as u16, given.call.into());
+            let touches = TouchClassifier::new(model, given.count as u16, given.call.into());
             touches.process(touch, image);
             touches.decide(touch)
         })),

@@ -37,7 +37,7 @@ const PARTS: usize = TAXELS / 4;
 /// Number of bits per byte on the line: one start bit, eight data bits, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
 
-type Pool = Lines<pins::Line, { limits::LINES }>;
+type Pool = Lines<pins::LinePin, { limits::LINES }>;
 
 // Large objects are static, not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
@@ -70,9 +70,9 @@ fn ship(board: &mut Board<TAXELS, RUNS, PARTS>) {
 /// first.
 #[inline(never)]
 fn scanner(
-    lines: [(u8, pins::Line); limits::LINES],
+    lines: [(u8, pins::LinePin); limits::LINES],
     converter: adc::Converter<{ limits::INPUTS }>,
-    chain: scan::Chain,
+    chain: scan::DmaChain,
 ) -> &'static mut scan::Scanner {
     let lines = LINES.init_with(|| Lines::new(lines));
     SCANNER.init_with(|| {
@@ -85,8 +85,8 @@ fn scanner(
 async fn main(_spawner: Spawner) {
     guard::put_up();
     supply::watch();
-    let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
-    let mut platform = platform::Board::start(watchdog, led, flash);
+    let board::BoardParts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
+    let mut platform = platform::BoardPlatform::start(watchdog, led, flash);
     const { assert!(limits::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
     let mut board = Board::bare(limits::INFO);

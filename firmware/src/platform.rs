@@ -3,7 +3,7 @@
 use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
-use crate::store::{Fed, Flash};
+use crate::store::{FedFlash, Flash};
 use crate::watchdog::WATCHDOG;
 use crate::{PARTS, RUNS, TAXELS};
 use embassy_rp::{clocks, watchdog::Watchdog};
@@ -92,7 +92,7 @@ impl DelayNs for Settle {
 }
 
 /// The parts of the board other than pins, converter and link.
-pub struct Board {
+pub struct BoardPlatform {
     watchdog: Watchdog,
     flash: Flash,
     led: Led,
@@ -100,18 +100,18 @@ pub struct Board {
     boots: Boots<Scratch>,
 }
 
-impl Board {
+impl BoardPlatform {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> Board {
+    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> BoardPlatform {
         let boots = Boots::begin(Scratch, led.was_grounded());
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        Board { watchdog, flash, led, led_due: Micros(0), boots }
+        BoardPlatform { watchdog, flash, led, led_due: Micros(0), boots }
     }
 
     /// Stores the levels of outputs for the next start, beside the settings.
     fn keep_levels(&mut self, levels: Levels, saved: Saved) -> Result<Saved, StoreError> {
-        let mut flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let mut flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         Ok(match flash.keep_levels(levels)? {
             Saved::Written => Saved::Written,
             Saved::Unchanged => saved,
@@ -127,7 +127,7 @@ impl Board {
             board.resume_saving(saves);
         }
         if uses_stored {
-            let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+            let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
             match flash.store().and_then(|mut store| store.load(board)) {
                 Ok(Found::Aside) => self.boots.put_aside(),
                 Ok(Found::Nothing | Found::Settings) => {}
@@ -141,21 +141,21 @@ impl Board {
     }
 }
 
-impl Clock for Board {
+impl Clock for BoardPlatform {
     #[inline]
     fn now(&self) -> Micros {
         Timer.now()
     }
 }
 
-impl Probe for Board {
+impl Probe for BoardPlatform {
     #[inline]
     fn begin(&mut self, stage: Stage) {
         mark(stage as u32);
     }
 }
 
-impl Platform for Board {
+impl Platform for BoardPlatform {
     fn alive(&mut self) -> bool {
         self.watchdog.feed(WATCHDOG);
         let now = self.now();
@@ -171,7 +171,7 @@ impl Platform for Board {
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
         // Before it begins: the save itself may never end.
         self.boots.charge(settings.saves);
-        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let saved = flash.store().and_then(|mut store| store.save(settings));
         let saved = saved.and_then(|saved| self.keep_levels(Levels::of(&settings.scene.react), saved));
         if saved.is_ok() {
@@ -185,7 +185,7 @@ impl Platform for Board {
 
     #[inline(never)]
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
-        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         flash.store().and_then(|mut store| store.put_aside(!undo)).map_err(StoreError::sentence)
     }
 

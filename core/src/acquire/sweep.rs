@@ -2,7 +2,7 @@
 //! input reads. A board whose DMA reads the garment makes its tables from this.
 
 use super::Plan;
-use super::addresses::{self, Inputs, Read};
+use super::addresses::{self, InputPins, Read};
 use super::unfit::{SWEEP_INPUTS, Unfit};
 use crate::garment::Circuit;
 use heapless::Vec;
@@ -14,7 +14,7 @@ pub const SWEEP_STRETCHES: usize = 64;
 
 /// Consecutive addresses at which every input reads consecutive taxels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stretch {
+pub struct SweepStretch {
     /// Index of its first address in [`Sweep::levels`].
     pub first: u16,
     /// Taxels at that address, by the position of their input in [`Sweep::inputs`]. None for an input that
@@ -26,9 +26,9 @@ pub struct Stretch {
 /// The sweep of a plan: up to ADDRESSES addresses in 2 to STRETCHES stretches.
 #[derive(Debug)]
 pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
-    inputs: Inputs,
+    inputs: InputPins,
     levels: Vec<u32, ADDRESSES>,
-    stretches: Vec<Stretch, STRETCHES>,
+    stretches: Vec<SweepStretch, STRETCHES>,
 }
 
 impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES> {
@@ -60,7 +60,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
     fn add(&mut self, levels: u32, taxels: Read, goes_on: bool) -> Result<(), Unfit> {
         let first = self.levels.len() as u16;
         if !goes_on || first == 0 {
-            let stretch = Stretch { first, taxels };
+            let stretch = SweepStretch { first, taxels };
             self.stretches.push(stretch).map_err(|_| Unfit::Stretches(STRETCHES))?;
         }
         self.levels.push(levels).map_err(|_| Unfit::Addresses(ADDRESSES))
@@ -73,7 +73,8 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
             return Err(Unfit::Small);
         }
         if let [whole] = self.stretches.as_slice() {
-            let second = Stretch { first: half, taxels: whole.taxels.map(|t| t.map(|taxel| taxel + half)) };
+            let second =
+                SweepStretch { first: half, taxels: whole.taxels.map(|t| t.map(|taxel| taxel + half)) };
             self.stretches.push(second).map_err(|_| Unfit::Stretches(STRETCHES))?;
         }
         Ok(())
@@ -90,7 +91,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
     }
 
     /// Stretches, in the order of the scan.
-    pub fn stretches(&self) -> &[Stretch] {
+    pub fn stretches(&self) -> &[SweepStretch] {
         &self.stretches
     }
 }

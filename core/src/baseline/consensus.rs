@@ -38,13 +38,13 @@ const LASTS: u8 = 4;
 /// does not hide common drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Consensus {
-    panels: [Panel; PANELS],
+    panels: [PanelDrift; PANELS],
     /// True if one of the panels drifts fast.
     fast: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Panel {
+struct PanelDrift {
     /// Code of each witness if it had drifted with the panel; limited to 0 and 65535.
     known: [u16; WITNESSES],
     begun: bool,
@@ -56,7 +56,7 @@ struct Panel {
     lately: u8,
 }
 
-impl Panel {
+impl PanelDrift {
     /// Drift in a whole turn.
     fn in_turn(&self) -> i32 {
         i32::from(self.steps[0]) + i32::from(self.steps[1])
@@ -65,20 +65,20 @@ impl Panel {
 
 impl Consensus {
     pub const fn new() -> Self {
-        let panel = Panel { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0, lately: 0 };
+        let panel = PanelDrift { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0, lately: 0 };
         Consensus { panels: [panel; PANELS], fast: false }
     }
 
     /// Begins again after baselines have been set.
     pub fn forget(&mut self) {
-        let begin = |panel: &mut Panel| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
+        let begin = |panel: &mut PanelDrift| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
         self.panels.iter_mut().for_each(begin);
         self.fast = false;
     }
 
     /// Drift of a panel in this turn, counts.
     pub fn step(&self, panel: u8) -> i32 {
-        self.panels.get(usize::from(panel)).map_or(0, Panel::in_turn)
+        self.panels.get(usize::from(panel)).map_or(0, PanelDrift::in_turn)
     }
 
     /// Total drift of a panel, counts modulo 2^32.
@@ -132,7 +132,7 @@ impl Consensus {
                 };
             }
         }
-        let mut sorted = if is_middle_zero(&beyond) { Sorted::NONE } else { Sorted::of(&beyond) };
+        let mut sorted = if is_middle_zero(&beyond) { SortedVotes::NONE } else { SortedVotes::of(&beyond) };
         if sorted.middle().abs() > NOISE + 1 {
             // The median is more than noise, so witnesses that moved less vote with their codes, too.
             for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
@@ -140,7 +140,7 @@ impl Consensus {
                     *beyond = i32::from(code.0) - i32::from(*known);
                 }
             }
-            sorted = Sorted::of(&beyond);
+            sorted = SortedVotes::of(&beyond);
         }
         let middle = sorted.middle();
         let step = agreed(&sorted, panel.steps[1].into(), whole).clamp(-COMMON / 2, COMMON / 2);
@@ -179,7 +179,7 @@ fn is_middle_zero(beyond: &[Option<i32>; WITNESSES]) -> bool {
 
 /// Returns the step on which the votes agree, given the previous step; 0 for none. Fast drift goes on while
 /// five eighths agree, because noise may hide it from some.
-fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
+fn agreed(beyond: &SortedVotes, before: i32, whole: bool) -> i32 {
     let (all, middle) = (beyond.all(), beyond.middle());
     if all.len() < FEWEST {
         return 0;
@@ -195,16 +195,16 @@ fn agreed(beyond: &Sorted, before: i32, whole: bool) -> i32 {
 }
 
 /// Votes in ascending order.
-struct Sorted {
+struct SortedVotes {
     numbers: [i32; WITNESSES],
     count: usize,
 }
 
-impl Sorted {
-    const NONE: Sorted = Sorted { numbers: [0; WITNESSES], count: 0 };
+impl SortedVotes {
+    const NONE: SortedVotes = SortedVotes { numbers: [0; WITNESSES], count: 0 };
 
-    fn of(told: &[Option<i32>]) -> Sorted {
-        let mut sorted = Sorted::NONE;
+    fn of(told: &[Option<i32>]) -> SortedVotes {
+        let mut sorted = SortedVotes::NONE;
         told.iter().flatten().for_each(|number| sorted.insert(*number));
         sorted
     }
@@ -263,7 +263,7 @@ mod tests {
             let (silent, span) = (next(16), 1 + 2 * next(4));
             let beyond: [Option<i32>; WITNESSES] =
                 core::array::from_fn(|_| (next(16) >= silent).then(|| next(span) as i32 - span as i32 / 2));
-            let sorted = Sorted::of(&beyond);
+            let sorted = SortedVotes::of(&beyond);
             let is_zero = !sorted.all().is_empty() && sorted.middle() == 0;
             assert_eq!(is_middle_zero(&beyond), is_zero, "{beyond:?}");
             if sorted.middle() == 0 {
@@ -278,7 +278,7 @@ mod tests {
     #[test]
     fn most_move_it_by_a_count_and_seven_eighths_by_what_they_agree_on() {
         let sorted = |numbers: &[i32]| {
-            let mut list = Sorted::NONE;
+            let mut list = SortedVotes::NONE;
             numbers.iter().for_each(|number| list.insert(*number));
             assert!(list.all().is_sorted() && list.all().len() == numbers.len());
             list

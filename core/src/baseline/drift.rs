@@ -15,7 +15,7 @@ use super::rates::{OWN, beside};
 use super::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::sampled::Sampled;
-use crate::calibrate::terms::Terms;
+use crate::calibrate::terms::LimitTerms;
 use crate::garment::{Area, Layout};
 use crate::image::images::Images;
 use crate::image::slices::{panel_of, row_mut, row_of};
@@ -26,7 +26,7 @@ struct Drift<'a, const TAXELS: usize, const CONTACTS: usize> {
     images: &'a Images<TAXELS>,
     sampled: &'a Sampled<'a>,
     feedback: &'a Feedback<CONTACTS>,
-    terms: Terms,
+    terms: LimitTerms,
 }
 
 impl Tracking {
@@ -38,7 +38,7 @@ impl Tracking {
         layout: &Layout,
         sampled: &Sampled<'_>,
         feedback: &Feedback<CONTACTS>,
-        terms: Terms,
+        terms: LimitTerms,
     ) {
         if !self.progress.tared {
             return;

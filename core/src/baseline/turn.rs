@@ -5,7 +5,7 @@ use crate::format::Micros;
 
 /// The rotation of rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Turn {
+pub(crate) struct RowRotation {
     /// Next row, over all panels.
     row: u16,
     /// Time at which it is due.
@@ -14,10 +14,10 @@ pub(crate) struct Turn {
     row_us: u32,
 }
 
-impl Turn {
+impl RowRotation {
     /// Begins with the first row, at once.
     pub const fn new() -> Self {
-        Turn { row: 0, due: Micros(0), row_us: 0 }
+        RowRotation { row: 0, due: Micros(0), row_us: 0 }
     }
 
     /// Returns the next of `rows` rows if it is due; in half the time if `hurried`. After a pause at most one
@@ -53,7 +53,7 @@ mod tests {
 
     /// Rows visited in each frame.
     fn visits(times: impl Iterator<Item = u64>, rows: u16, hurried: bool) -> Vec<usize> {
-        let mut turn = Turn::new();
+        let mut turn = RowRotation::new();
         let mut want = 0;
         let mut frame = |now| {
             let mut count = 0;

@@ -1,4 +1,4 @@
-//! Counts lost frames: during work other than scanning, and when scans fail.
+//! Counts missed frames: during work other than scanning, and when scans fail.
 
 use super::Board;
 use crate::acquire::ScanError;
@@ -14,7 +14,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.log(format_args!("scan: {error}"));
     }
 
-    /// Called when the first scan after failures or an interruption began at `start`: counts the frames lost
+    /// Called when the first scan after failures or an interruption began at `start`: counts the frames missed
     /// beside the failed ones, to the nearest scan.
     #[cold]
     pub(super) fn go_on(&mut self, start: Micros) {
@@ -27,8 +27,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Counts as overruns the scans that fit into `us` without a scan.
     pub(super) fn not_scanned(&mut self, us: u64) {
         if self.setup.scene.rate_hz == 0 {
-            let lost = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
-            self.health.overruns = self.health.overruns.wrapping_add(lost);
+            let missed = us.checked_div(self.health.scan_us.into()).unwrap_or(0).min(u32::MAX.into()) as u32;
+            self.health.overruns = self.health.overruns.wrapping_add(missed);
         }
     }
 }

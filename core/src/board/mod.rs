@@ -395,4 +395,4 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 type Sentence = String<112>;
 
 /// Raw codes to be sent, kept until the link has room.
-type Codes<const TAXELS: usize> = Vec<Code, TAXELS>;
+type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;

@@ -2,7 +2,7 @@
 
 use super::Board;
 use crate::format::{Code, Micros};
-use crate::health::{Codes, FaultyTaxel, Found, TaxelHealth};
+use crate::health::{Codes, FaultyTaxel, FoundFaults, TaxelHealth};
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Updates the health of the taxels from the codes of a frame; `touched`: it has a contact.
@@ -15,7 +15,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.retest.raise(now);
         }
         let well = self.monitor.clear_fault(circuit, &shown);
-        let mut found = Found::new();
+        let mut found = FoundFaults::new();
         self.monitor.watch(layout, circuit, &scene.plan, shown, &mut found);
         if let Some(well) = well {
             condition.set_gain(usize::from(well.taxel), well.gain);

@@ -1,13 +1,13 @@
 //! Codes to pressure with unity gains by SIMD: sixteen taxels at once.
 
 use super::marks::Marks;
-use super::panel::Panel;
+use super::panel::PanelCodes;
 use crate::format::Code;
 use crate::image::row16::{ROW16, Row16};
 use bytemuck::must_cast;
 use wide::u16x16;
 
-impl Panel<'_> {
+impl PanelCodes<'_> {
     /// Calibrates whole rows of a multiple of sixteen columns, where a code is `margin` further from its
     /// baseline than from its limit. Returns true if any taxel is active.
     pub fn calibrate_rows<const FALLING: bool>(&mut self, marks: &mut Marks<'_>, margin: u16) -> bool {
@@ -86,7 +86,7 @@ mod tests {
                 let mut rows = Rows::NONE;
                 let mut marks = Marks::of(&mut rows, area);
                 let mut panel =
-                    Panel { codes: &codes, limit: &limit, rest: &limit, gain: &limit, out: &mut out };
+                    PanelCodes { codes: &codes, limit: &limit, rest: &limit, gain: &limit, out: &mut out };
                 let any = match (chunks, round % 4 < 2) {
                     (false, true) => panel.calibrate_rows::<false>(&mut marks, margin),
                     (false, false) => panel.calibrate_rows::<true>(&mut marks, margin),

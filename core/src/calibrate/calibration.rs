@@ -1,7 +1,7 @@
 //! Baseline, gain and limit of each taxel: an inactive taxel is only compared with its limit.
 
 use super::scale::scale;
-use super::terms::Terms;
+use super::terms::LimitTerms;
 use crate::format::Code;
 use crate::garment::Layout;
 use crate::image::slices::row_mut;
@@ -22,7 +22,7 @@ pub(crate) struct TaxelCalibration<const TAXELS: usize> {
     /// Last inactive code of each taxel.
     pub limit: [u16; TAXELS],
     /// Terms of the limits; none if the limits are not valid.
-    pub limits_for: Option<Terms>,
+    pub limits_for: Option<LimitTerms>,
     /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
     unity: bool,
 }
@@ -59,7 +59,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     }
 
     /// Recomputes the limits if they are for other terms, or for another calibration.
-    pub fn set_limits(&mut self, terms: Terms) {
+    pub fn set_limits(&mut self, terms: LimitTerms) {
         if self.limits_for == Some(terms) {
             return;
         }
@@ -89,7 +89,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
     /// taxel.
     pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
-        let terms = Terms { floor: level, falling };
+        let terms = LimitTerms { floor: level, falling };
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
         calibration.map_or(terms.silent(), |(rest, gain)| {
             let margin = if *gain == UNITY { terms.margin_of_unity() } else { terms.margin(*gain) };

@@ -1,7 +1,7 @@
 //! Codes to pressure in chunks of sixteen taxels, for those beyond their limits only.
 
 use super::marks::Marks;
-use super::panel::Panel;
+use super::panel::PanelCodes;
 use super::scale::scale;
 use crate::format::Code;
 use crate::image::row16::ROW16;
@@ -14,7 +14,7 @@ const PART: usize = 8;
 /// Chunks whose masks are kept until they are marked.
 const KEPT: usize = 8;
 
-impl Panel<'_> {
+impl PanelCodes<'_> {
     /// Calibrates with any number of columns and codes.
     pub fn calibrate_chunks<const FALLING: bool>(
         &mut self,

@@ -2,7 +2,7 @@
 
 use super::calibration::TaxelCalibration;
 use super::marks::Marks;
-use super::panel::Panel;
+use super::panel::PanelCodes;
 use crate::format::Code;
 use crate::garment::Area;
 use crate::image::images::Images;
@@ -20,7 +20,7 @@ pub(crate) fn calibrate<const TAXELS: usize>(
     let limit = panel_of(&calibration.limit, area);
     let codes = panel_of(codes, area);
     let there = limit.len().min(codes.len());
-    let panel = Panel {
+    let panel = PanelCodes {
         codes: codes.get(..there).unwrap_or(codes),
         limit: limit.get(..there).unwrap_or(limit),
         rest: panel_of(&calibration.baseline, area),
@@ -38,7 +38,7 @@ pub(crate) fn calibrate<const TAXELS: usize>(
 
 /// `unity`: the largest inactive difference of a code from its baseline, if every gain is 1.
 fn calibrate_panel<const FALLING: bool>(
-    mut panel: Panel<'_>,
+    mut panel: PanelCodes<'_>,
     mut marks: Marks<'_>,
     unity: Option<u16>,
 ) -> bool {

@@ -3,7 +3,7 @@
 use crate::format::Code;
 
 /// Values of the taxels of a panel.
-pub(crate) struct Panel<'a> {
+pub(crate) struct PanelCodes<'a> {
     pub codes: &'a [Code],
     pub limit: &'a [u16],
     pub rest: &'a [u16],

@@ -2,19 +2,19 @@
 
 /// Terms of the limits: the floor, and whether pressure lowers the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Terms {
+pub(crate) struct LimitTerms {
     pub floor: u16,
     pub falling: bool,
 }
 
-impl Terms {
+impl LimitTerms {
     /// Largest difference with less pressure than the floor: `(d gain + 2048) >> 12 < floor`.
     pub fn margin(&self, gain: u16) -> u16 {
         let below = (u32::from(self.floor) << 12).saturating_sub(2049);
         below.checked_div(gain.into()).map_or(u16::MAX, |margin| margin.min(0xffff) as u16)
     }
 
-    /// [`Terms::margin`] of unity gain, without a division.
+    /// [`LimitTerms::margin`] of unity gain, without a division.
     pub fn margin_of_unity(&self) -> u16 {
         self.floor.saturating_sub(1)
     }

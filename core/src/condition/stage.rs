@@ -6,7 +6,7 @@ use crate::baseline::feedback::Feedback;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::dispatch::calibrate;
 use crate::calibrate::sampled::Sampled;
-use crate::calibrate::terms::Terms;
+use crate::calibrate::terms::LimitTerms;
 use crate::filter::kinds::Filter;
 use crate::filter::points::Points;
 use crate::format::Invalid;
@@ -51,7 +51,7 @@ impl Condition {
         if tracking.tare_frame(calibration, images, layout, codes, panels) {
             points.forget();
         } else {
-            let terms = Terms { floor: self.config.floor, falling };
+            let terms = LimitTerms { floor: self.config.floor, falling };
             calibration.set_limits(terms);
             self.perceive(calibration, images, points, layout, sampled);
             if self.config.track_baseline {

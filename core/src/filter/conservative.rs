@@ -5,7 +5,7 @@
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::clamp_row16::clamp_row16;
-use super::row::Row;
+use super::row::FilterRow;
 use crate::garment::Area;
 use crate::image::row16::ROW16;
 use crate::image::rows::{Pieces, Rows};
@@ -45,7 +45,7 @@ pub(crate) fn conservative(
         // the range.
         let above = if number == first { columns } else { here - columns };
         let below = if next == end { above } else { here + columns };
-        let row = Row { starts: [above, here, below], columns };
+        let row = FilterRow { starts: [above, here, below], columns };
         if columns == ROW16 || groups == there {
             smooth(&row, values, out, 0..columns);
             continue;
@@ -119,7 +119,7 @@ fn narrow(values: &[u16], out: &mut [u16]) {
 
 /// Smooths some columns of a row, run by run.
 #[inline(never)]
-fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+fn smooth(row: &FilterRow, values: &[u16], out: &mut [u16], columns: Range<usize>) {
     if row.columns < SHORT {
         return smooth_each(row, values, out);
     }
@@ -130,7 +130,7 @@ fn smooth(row: &Row, values: &[u16], out: &mut [u16], columns: Range<usize>) {
 
 /// Smooths a row shorter than a run.
 #[inline(never)]
-fn smooth_each(row: &Row, values: &[u16], out: &mut [u16]) {
+fn smooth_each(row: &FilterRow, values: &[u16], out: &mut [u16]) {
     let [above, here, below] = row.starts;
     let value = |at: usize| values.get(at).copied().unwrap_or(0);
     for column in 0..row.columns {
@@ -180,7 +180,7 @@ mod tests {
                     row,
                     if row + 1 == rows { row - 1 } else { row + 1 },
                 ];
-                let row = Row { starts: around.map(|row| row * ROW16), columns: ROW16 };
+                let row = FilterRow { starts: around.map(|row| row * ROW16), columns: ROW16 };
                 smooth(&row, values, &mut out[1], 0..ROW16);
             }
             assert_eq!(out[0], out[1]);

@@ -22,7 +22,7 @@ pub(crate) const fn stands_out(value: u16, smooth: u16) -> bool {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct StoredPoint {
     taxel: u16,
     value: u16,
 }
@@ -30,7 +30,7 @@ struct Point {
 /// Points of two frames, ascending by taxel number.
 #[derive(Debug, Clone)]
 pub(crate) struct Points {
-    lists: [Vec<Point, POINTS, u8>; 2],
+    lists: [Vec<StoredPoint, POINTS, u8>; 2],
     /// True if the second list holds the points of this frame.
     second: bool,
     /// Number of the previous frame's points that have been compared.
@@ -87,14 +87,14 @@ impl Points {
     fn restore_row(&mut self, values: &[u16], out: &mut [u16], first: usize) {
         for (taxel, (value, out)) in (first..).zip(values.iter().zip(out)) {
             if stands_out(*value, *out) {
-                *out = self.take(Point { taxel: taxel as u16, value: *value }).max(*out);
+                *out = self.take(StoredPoint { taxel: taxel as u16, value: *value }).max(*out);
             }
         }
     }
 
     /// Stores a point whose number is above that of the last one. Returns the lesser of its value and that in
     /// the previous frame; 0 if it was no point then.
-    fn take(&mut self, point: Point) -> u16 {
+    fn take(&mut self, point: StoredPoint) -> u16 {
         let [first, second] = &mut self.lists;
         let (before, now) = if self.second { (first, second) } else { (second, first) };
         let _ = now.push(point);
@@ -123,7 +123,7 @@ mod tests {
         points.begin();
         let mut had = [0; 3];
         for ((taxel, value), had) in all.iter().zip(&mut had) {
-            *had = points.take(Point { taxel: *taxel, value: *value });
+            *had = points.take(StoredPoint { taxel: *taxel, value: *value });
         }
         had
     }
@@ -144,7 +144,7 @@ mod tests {
         for expected in [0, 700] {
             points.begin();
             for taxel in 0..POINTS as u16 + 1 {
-                let had = points.take(Point { taxel, value: 700 });
+                let had = points.take(StoredPoint { taxel, value: 700 });
                 assert_eq!(had, if usize::from(taxel) < POINTS { expected } else { 0 });
             }
         }

@@ -3,14 +3,14 @@
 use core::ops::Range;
 
 /// A row with the rows above and below it.
-pub(crate) struct Row {
+pub(crate) struct FilterRow {
     /// Offsets in a panel of the row above, the row, and the row below.
     pub starts: [usize; 3],
     /// Number of columns: at least a run with its two neighbours.
     pub columns: usize,
 }
 
-impl Row {
+impl FilterRow {
     /// Filters `columns`, N - 2 at a time, and possibly some beside them.
     ///
     /// `run` filters N taxels except both ends, given the rows above, here and below. `end` filters the first

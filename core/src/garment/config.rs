@@ -111,7 +111,7 @@ pub enum Side {
 /// Part of a panel's side, from taxel `start`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Edge {
+pub struct SeamEdge {
     /// Index of the panel.
     pub panel: u8,
     /// Side of the panel.
@@ -127,9 +127,9 @@ pub struct Edge {
 #[serde(deny_unknown_fields)]
 pub struct Seam {
     /// First edge.
-    pub a: Edge,
+    pub a: SeamEdge,
     /// Second edge.
-    pub b: Edge,
+    pub b: SeamEdge,
     /// Taxels along the seam.
     pub length: u16,
     /// True if the two run in opposite directions.

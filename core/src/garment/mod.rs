@@ -17,8 +17,8 @@ mod seam;
 pub use area::{ASSUMED_PITCH_UM, Area, Place, Rect, cell_mm2};
 pub use circuit::{Circuit, Site};
 pub use config::{
-    Absent, BLOCKS, Block, CIRCUIT_LINES, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS,
-    PITCH_UM, Panel, SEAMS, Seam, Side, Wiring,
+    Absent, BLOCKS, Block, CIRCUIT_LINES, Coding, Garment, Group, LINES, Line, Orientation, PANELS, PITCH_UM,
+    Panel, SEAMS, Seam, SeamEdge, Side, Wiring,
 };
 pub use error::GarmentError;
 pub use layout::Layout;

@@ -48,5 +48,5 @@ pub use model::{MAGIC, Model, checksum};
 pub use model_error::{CLASSES, EXPERTS, LARGEST, ModelError};
 pub use motion::MOTION;
 pub use signal::{NAMES, SIGNALS, Signals};
-pub use stage::{Decision, Touches};
+pub use stage::{Decision, TouchClassifier};
 pub use state::{FEATURES, Features, LONGEST, TouchState};

@@ -2,7 +2,7 @@
 
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
-use super::walk::Spot;
+use super::walk::TaxelSpot;
 use crate::format::Code;
 
 /// Distance from an end of the converter's range that counts as that end, counts: five times a noise of 3.
@@ -122,13 +122,13 @@ impl Shown<'_> {
     /// many of them are pressed. Stops once more than `missing` are not.
     fn around(
         &self,
-        spot: &Spot<'_>,
+        spot: &TaxelSpot<'_>,
         distance: u16,
         missing: u32,
         is_faulty: impl Fn(usize) -> bool,
     ) -> (u32, u32) {
         let (mut there, mut pressed) = (0, 0);
-        let Spot { area, row, column, .. } = *spot;
+        let TaxelSpot { area, row, column, .. } = *spot;
         let (rows, columns) = (i32::from(area.rows), i32::from(area.columns));
         let (row, column, distance) = (i32::from(row), i32::from(column), i32::from(distance));
         for y in (row - distance).max(0)..=(row + distance).min(rows - 1) {
@@ -155,7 +155,7 @@ impl Shown<'_> {
 
     /// True if what presses around a taxel should press it too: all neighbours but one, and four fifths of
     /// those around them. A ring with a hole of one taxel and a wall of one or two does not reach that far.
-    fn is_covered(&self, spot: &Spot<'_>, is_faulty: impl Fn(usize) -> bool) -> bool {
+    fn is_covered(&self, spot: &TaxelSpot<'_>, is_faulty: impl Fn(usize) -> bool) -> bool {
         let (there, pressed) = self.around(spot, 1, 1, &is_faulty);
         if pressed < 3 || there > pressed + 1 {
             return false;
@@ -165,8 +165,8 @@ impl Shown<'_> {
     }
 
     /// True if a neighbour of a taxel is pressed.
-    fn is_near_pressure(&self, spot: &Spot<'_>) -> bool {
-        let Spot { area, row, column, .. } = *spot;
+    fn is_near_pressure(&self, spot: &TaxelSpot<'_>) -> bool {
+        let TaxelSpot { area, row, column, .. } = *spot;
         (row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1))).any(|y| {
             (column.saturating_sub(1)..=column.saturating_add(1).min(area.columns.saturating_sub(1))).any(
                 |x| {
@@ -200,8 +200,8 @@ impl Shown<'_> {
     /// faulty ones and the one that [`Shown::is_covered`] allows.
     // M0+: out of line
     #[inline(never)]
-    pub fn is_bare(&self, spot: &Spot<'_>, faulty: usize) -> bool {
-        let Spot { area, row, column, .. } = *spot;
+    pub fn is_bare(&self, spot: &TaxelSpot<'_>, faulty: usize) -> bool {
+        let TaxelSpot { area, row, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let (top, left) = (row.saturating_sub(1), column.saturating_sub(1));
         let width = usize::from(column.saturating_add(2).min(area.columns) - left);
@@ -222,7 +222,7 @@ impl Shown<'_> {
     }
 
     /// Judges a taxel by its codes while it was watched, and by its healthy neighbours.
-    pub fn judge(&self, seen: &Seen, spot: &Spot<'_>, is_faulty: impl Fn(usize) -> bool) -> TaxelHealth {
+    pub fn judge(&self, seen: &Seen, spot: &TaxelSpot<'_>, is_faulty: impl Fn(usize) -> bool) -> TaxelHealth {
         let taxel = spot.taxel;
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
         if low >= self.full.saturating_sub(RAIL) {

@@ -40,5 +40,5 @@ mod walk;
 mod watch;
 
 pub use codes::Codes;
-pub use monitor::{FAULTY_TAXELS, FaultyTaxel, Found, Monitor};
+pub use monitor::{FAULTY_TAXELS, FaultyTaxel, FoundFaults, Monitor};
 pub use taxel::TaxelHealth;

@@ -1,11 +1,11 @@
 //! The monitor: watches the taxels group by group, and keeps the faulty ones.
 
 use super::codes::Codes;
-use super::inputs::Inputs;
+use super::inputs::InputCheck;
 use super::judge::{Limits, Shown, Suspects, is_pressed};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
-use super::walk::{Spot, Walk};
+use super::walk::{TaxelSpot, Walk};
 use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
 use crate::garment::{Circuit, Layout};
@@ -32,7 +32,7 @@ pub struct FaultyTaxel {
 }
 
 /// Taxels that were found to be faulty in a frame.
-pub type Found = Vec<(u16, TaxelHealth), FOUND>;
+pub type FoundFaults = Vec<(u16, TaxelHealth), FOUND>;
 
 /// The garment, and the part of it that is read.
 struct ReadGarment<'a> {
@@ -62,7 +62,7 @@ pub struct Monitor {
     crowd: bool,
     /// Index of the faulty taxel that is checked next for recovery.
     asked: u8,
-    inputs: Inputs,
+    inputs: InputCheck,
 }
 
 impl Monitor {
@@ -74,7 +74,7 @@ impl Monitor {
             usual: 0,
             crowd: false,
             asked: 0,
-            inputs: Inputs::new(),
+            inputs: InputCheck::new(),
         }
     }
 
@@ -151,7 +151,7 @@ impl Monitor {
         circuit: &Circuit,
         plan: &Plan,
         shown: Codes<'_>,
-        found: &mut Found,
+        found: &mut FoundFaults,
     ) {
         if self.watch.take(shown.now, layout.taxels()) {
             self.judge(&ReadGarment { layout, circuit, plan }, shown, found);
@@ -159,7 +159,7 @@ impl Monitor {
     }
 
     /// Judges the group that has been watched for long enough.
-    fn judge(&mut self, garment: &ReadGarment<'_>, shown: Codes<'_>, found: &mut Found) {
+    fn judge(&mut self, garment: &ReadGarment<'_>, shown: Codes<'_>, found: &mut FoundFaults) {
         let Codes { now: codes, rest, full, touched } = shown;
         let (first, seen) = self.watch.group(FRAMES - 1);
         let seen = seen.get(..garment.layout.taxels().saturating_sub(first)).unwrap_or(seen);
@@ -179,7 +179,7 @@ impl Monitor {
         }
         // A common cause may begin with the last taxels of this group, and end with the first ones of the
         // next.
-        let mut next = Found::new();
+        let mut next = FoundFaults::new();
         let apart = bounded.and_then(|()| self.suspect(garment, &shown, FRAMES - 2, &mut next));
         self.crowd |= apart.is_none() || found.len() + next.len() > FOUND;
         if self.crowd {
@@ -190,8 +190,8 @@ impl Monitor {
     /// True if the codes of the taxels beside, above and below travelled less than half as far as its own: a
     /// touch or a shock would move them, too. One other noisy taxel is allowed among them if the code goes to
     /// both sides of that at rest.
-    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> bool {
-        let Spot { taxel, area, column, .. } = *spot;
+    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &TaxelSpot<'_>) -> bool {
+        let TaxelSpot { taxel, area, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let left = (column > 0).then(|| taxel.wrapping_sub(1));
         let right = (column + 1 < area.columns).then_some(taxel + 1);
@@ -208,7 +208,7 @@ impl Monitor {
         garment: &ReadGarment<'_>,
         shown: &Shown<'_>,
         age: usize,
-        found: &mut Found,
+        found: &mut FoundFaults,
     ) -> Option<()> {
         let (first, seen) = self.watch.group(age);
         let Suspects { mut odd, mut beside } = shown.suspects(first, seen);
@@ -236,10 +236,10 @@ impl Monitor {
         garment: &ReadGarment<'_>,
         shown: &Shown<'_>,
         seen: &Seen,
-        spot: &Spot<'_>,
+        spot: &TaxelSpot<'_>,
     ) -> Option<TaxelHealth> {
         let ReadGarment { layout, circuit, plan } = *garment;
-        let Spot { taxel, panel, row, column, .. } = *spot;
+        let TaxelSpot { taxel, panel, row, column, .. } = *spot;
         if !plan.reads_panel(panel) {
             return None;
         }

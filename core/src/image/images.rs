@@ -3,7 +3,7 @@
 //! Rows that are calibrated and filtered as a whole are not cleared first, but overwritten. Those that are no
 //! longer active are cleared once that is known, before the filter reads them.
 
-use super::held::Held;
+use super::row_set::RowSet;
 use super::row16::ROW16;
 use super::rows::Rows;
 use super::slices::{areas_of, row_mut};
@@ -46,7 +46,7 @@ impl<const TAXELS: usize> Images<TAXELS> {
     /// Clears both images; returns the rows left for overwriting, none if no panel was active. These are no
     /// longer [held](Rows), and may still be non-zero. `overwritten`: the filter writes whole rows of
     /// sixteen.
-    pub fn clear(&mut self, layout: &Layout, codes: usize, overwritten: bool) -> Option<Held> {
+    pub fn clear(&mut self, layout: &Layout, codes: usize, overwritten: bool) -> Option<RowSet> {
         if self.active == 0 {
             return None;
         }
@@ -84,7 +84,7 @@ impl<const TAXELS: usize> Images<TAXELS> {
     }
 
     /// Clears the rows of `before` that are no longer active.
-    pub fn clear_left(&mut self, layout: &Layout, before: &Held) {
+    pub fn clear_left(&mut self, layout: &Layout, before: &RowSet) {
         let left = before.without(self.rows.held());
         if left.is_empty() {
             return;

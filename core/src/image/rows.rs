@@ -1,6 +1,6 @@
 //! Parts of an image that may be non-zero.
 
-use super::held::{ENTRIES, Held, SHARED, entry};
+use super::row_set::{ENTRIES, RowSet, SHARED, entry};
 use super::slices::row_of;
 use crate::garment::{Area, Layout};
 use core::ops::Range;
@@ -17,14 +17,14 @@ const GROUPS: u32 = 16;
 pub struct Rows {
     groups: [u16; ENTRIES],
     /// Rows with at least one group.
-    held: Held,
+    held: RowSet,
 }
 
 impl Rows {
     /// No row.
-    pub const NONE: Rows = Rows { groups: [0; ENTRIES], held: Held::NONE };
+    pub const NONE: Rows = Rows { groups: [0; ENTRIES], held: RowSet::NONE };
     /// Every column of every row.
-    pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: Held::ALL };
+    pub const ALL: Rows = Rows { groups: [u16::MAX; ENTRIES], held: RowSet::ALL };
 
     /// The places where `values` (by taxel number) are not 0.
     pub fn of(layout: &Layout, values: &[u16]) -> Rows {
@@ -56,7 +56,7 @@ impl Rows {
     }
 
     /// Rows that may be non-zero.
-    pub(crate) const fn held(&self) -> &Held {
+    pub(crate) const fn held(&self) -> &RowSet {
         &self.held
     }
 
@@ -85,8 +85,8 @@ impl Rows {
     }
 
     /// Releases and returns all rows; their groups stay.
-    pub(crate) fn release(&mut self) -> Held {
-        core::mem::replace(&mut self.held, Held::NONE)
+    pub(crate) fn release(&mut self) -> RowSet {
+        core::mem::replace(&mut self.held, RowSet::NONE)
     }
 
     /// Adds groups to a row that has some.

@@ -26,7 +26,7 @@ struct Normal {
 }
 
 /// `A - B`, `2 C` and `sqrt((A - B)^2 + 4 C^2)`.
-struct Spread {
+struct AxisSpread {
     difference: i32,
     mixed: i32,
     d: u32,
@@ -42,15 +42,15 @@ impl Normal {
         Normal { a: scaled(a), b: scaled(b), c, exponent: 33 - spare as i16 }
     }
 
-    fn spread(&self) -> Spread {
+    fn spread(&self) -> AxisSpread {
         let (difference, mixed) = (self.a.wrapping_sub(self.b) as i32, self.c.wrapping_mul(2));
         let square = |v: i32| wide(v.unsigned_abs(), v.unsigned_abs());
         // Both are at most 2^31, give or take the truncated bits: the sum of the squares fits.
         let d = root(square(difference).wrapping_add(square(mixed)));
-        Spread { difference, mixed, d }
+        AxisSpread { difference, mixed, d }
     }
 
-    fn axis(&self, spread: &Spread, area: u32) -> Axis {
+    fn axis(&self, spread: &AxisSpread, area: u32) -> Axis {
         let anisotropy = Q15::ratio(spread.d.into(), self.a.wrapping_add(self.b).into());
         // Tests share >= floor(32768 / area) without the division. Without any spread the share is 0.
         let share = anisotropy.0 as u32;
@@ -59,13 +59,13 @@ impl Normal {
     }
 
     /// `12 (A + B - D) / m^2`: 24 times the variance across the major axis.
-    fn across(&self, spread: &Spread, inverse: Scaled) -> Scaled {
+    fn across(&self, spread: &AxisSpread, inverse: Scaled) -> Scaled {
         let minor = self.a.wrapping_add(self.b).saturating_sub(spread.d);
         Scaled::from_u64(wide(minor, 12)).times(inverse).times(inverse).shifted(self.exponent)
     }
 
     /// See [`breadth`].
-    fn breadth(&self, spread: &Spread, inverse: Scaled, pitch_um: [u32; 2]) -> u32 {
+    fn breadth(&self, spread: &AxisSpread, inverse: Scaled, pitch_um: [u32; 2]) -> u32 {
         let [px, py] = pitch_um.map(tenths);
         let pixel2 = [px, py].map(|p| p * p);
         if px == py {

@@ -45,7 +45,7 @@ pub struct Component {
 const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX, right: 0 };
 
 /// Sums of a component before its moments are measured.
-struct Found {
+struct Candidate {
     label: u16,
     joined: bool,
     total: u32,
@@ -94,7 +94,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 }
                 continue;
             }
-            let found = Found { label: index, joined: label.joined, total, peak, area, panel: label.panel };
+            let found =
+                Candidate { label: index, joined: label.joined, total, peak, area, panel: label.panel };
             if self.list.is_full() {
                 self.dropped = self.dropped.saturating_add(1);
                 self.replace_least(&mut least, &found);
@@ -107,7 +108,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Replaces the component with the smallest total if `found` has more. `least` caches that component.
-    fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Found) {
+    fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Candidate) {
         // Among equal totals the last one found is replaced.
         let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
         let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
@@ -263,8 +264,8 @@ impl Component {
     };
 
     /// Starts over with what was found; neither component has been measured yet.
-    fn begin(&mut self, found: &Found) {
-        let Found { label, joined, total, peak, area, panel } = *found;
+    fn begin(&mut self, found: &Candidate) {
+        let Candidate { label, joined, total, peak, area, panel } = *found;
         (self.label, self.joined) = (label, joined);
         (self.total, self.peak, self.area) = (total, peak, area);
         self.bounds.panel = panel;
@@ -381,7 +382,7 @@ impl Component {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::garment::{Edge, Garment, Seam, Side};
+    use crate::garment::{Garment, Seam, SeamEdge, Side};
     use crate::image::rows::Rows;
     use std::vec;
     use std::vec::Vec;
@@ -400,8 +401,11 @@ mod tests {
             second.name = crate::format::Name::try_from("second").unwrap();
             garment.panels.push(second).unwrap();
             if round % 2 == 0 {
-                let [a, b] =
-                    [(0, Side::Bottom), (1, Side::Top)].map(|(panel, side)| Edge { panel, side, start: 0 });
+                let [a, b] = [(0, Side::Bottom), (1, Side::Top)].map(|(panel, side)| SeamEdge {
+                    panel,
+                    side,
+                    start: 0,
+                });
                 garment.seams.push(Seam { a, b, length: columns, reversed: false }).unwrap();
             }
             let layout = Layout::build(&garment, 3072, 4095).unwrap();

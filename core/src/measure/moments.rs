@@ -4,7 +4,7 @@ use crate::format::product;
 use crate::garment::{Transform, signed};
 use crate::segment::bits::WORD;
 use crate::segment::run::Run;
-use crate::segment::sums::{NARROW, Sums, squares};
+use crate::segment::sums::{NARROW, RunSums, squares};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
 ///
@@ -66,14 +66,14 @@ struct Near {
 impl Near {
     /// sum x f
     #[inline(always)]
-    fn first(x: u32, sums: &Sums) -> u32 {
+    fn first(x: u32, sums: &RunSums) -> u32 {
         (x * sums.s0).wrapping_add(sums.s1).wrapping_sub(sums.s0)
     }
 
     /// sum x f, sum x^2 f
     #[inline(always)]
-    fn across(x: u32, sums: &Sums) -> (u32, u32) {
-        let Sums { s0, s1, s2, .. } = *sums;
+    fn across(x: u32, sums: &RunSums) -> (u32, u32) {
+        let RunSums { s0, s1, s2, .. } = *sums;
         let first = s1.wrapping_sub(s0);
         let sx = x * s0 + first;
         // i^2 = (i + 1)(i + 2) - 3 (i + 1) + 1; wraps on the way, but the result fits.
@@ -83,7 +83,7 @@ impl Near {
     }
 
     #[inline(always)]
-    fn of(x: u32, y: u32, sums: &Sums) -> Near {
+    fn of(x: u32, y: u32, sums: &RunSums) -> Near {
         let ((sx, sxx), sy) = (Near::across(x, sums), y * sums.s0);
         Near { m: sums.s0, sx, sy, sxx, syy: y * sy, sxy: y * sx, s2: sums.squares }
     }
@@ -112,7 +112,7 @@ impl Moments {
         let mut sum = Moments::default();
         let mut x = x;
         for values in values.chunks(WORD.into()) {
-            let mut sums = Sums::NONE;
+            let mut sums = RunSums::NONE;
             let peak = sums.take(values);
             sum.add_run(x, y, &sums, peak, || squares(values, u32::MAX));
             x = x.wrapping_add(WORD.into());
@@ -122,7 +122,14 @@ impl Moments {
 
     /// Adds a run of a row whose first taxel is (x, y), from the sums of its taxels. Calls `squares` if the
     /// sum of squares may not fit in 32 bits.
-    pub(crate) fn add_run(&mut self, x: u32, y: u32, sums: &Sums, peak: u16, squares: impl FnOnce() -> u64) {
+    pub(crate) fn add_run(
+        &mut self,
+        x: u32,
+        y: u32,
+        sums: &RunSums,
+        peak: u16,
+        squares: impl FnOnce() -> u64,
+    ) {
         if x < 64 && y < 128 && sums.s0 < 1 << 17 && peak <= NARROW {
             self.add_near(x, y, sums);
         } else {
@@ -132,7 +139,7 @@ impl Moments {
 
     /// Adds small sums at small coordinates: nearly every run.
     #[inline(never)] // M0+: out of line
-    fn add_near(&mut self, x: u32, y: u32, sums: &Sums) {
+    fn add_near(&mut self, x: u32, y: u32, sums: &RunSums) {
         self.add(&Near::of(x, y, sums).wide());
     }
 
@@ -164,13 +171,13 @@ impl Moments {
     /// Adds sums of any size at any coordinates.
     #[cold]
     #[inline(never)]
-    fn add_far(&mut self, x: u32, y: u32, sums: &Sums, squares: u64) {
+    fn add_far(&mut self, x: u32, y: u32, sums: &RunSums, squares: u64) {
         self.add(&Moments::of_sums(x, y, sums, squares));
     }
 
     /// Moments of a run of a row whose first taxel is (x, y), from the sums of its taxels.
     #[inline(always)]
-    pub(crate) fn of_sums(x: u32, y: u32, sums: &Sums, squares: u64) -> Moments {
+    pub(crate) fn of_sums(x: u32, y: u32, sums: &RunSums, squares: u64) -> Moments {
         let (x, y) = (u64::from(x), u64::from(y));
         let [s0, s1, s2] = [sums.s0, sums.s1, sums.s2].map(u64::from);
         let first = s1.wrapping_sub(s0);
@@ -289,7 +296,7 @@ mod tests {
     fn sums_of_few_rows_are_those_of_each() {
         for (first, least) in [(16, 4095), (0, 4095), (7, 0)] {
             let values: [u16; 16] = core::array::from_fn(|i| least.max(i as u16 * 250));
-            let mut sums = Sums::NONE;
+            let mut sums = RunSums::NONE;
             let peak = sums.take(&values);
             let run = |row| Run {
                 taxels: 0xffff,

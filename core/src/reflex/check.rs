@@ -18,7 +18,7 @@ const NOWHERE: u16 = u16::MAX;
 
 /// A taxel, in the order of the scan.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct WatchedTaxel {
     taxel: u16,
     /// Last inactive code; inverted if pressure lowers the code.
     limit: u16,
@@ -42,11 +42,11 @@ pub struct Early {
 /// State of the check from sub-field to sub-field.
 #[derive(Debug, Clone)]
 pub struct Reflex<const TAXELS: usize> {
-    entries: [Entry; TAXELS],
+    entries: [WatchedTaxel; TAXELS],
     fields: Fields,
     falling: bool,
     reflexes: Reflexes,
-    /// Entry whose limit is updated next.
+    /// Taxel whose limit is updated next.
     next: u16,
     /// True once all limits are set.
     armed: bool,
@@ -60,7 +60,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     /// No scan is checked. All bytes are 0.
     pub const fn new() -> Self {
         Reflex {
-            entries: [Entry { taxel: 0, limit: 0 }; TAXELS],
+            entries: [WatchedTaxel { taxel: 0, limit: 0 }; TAXELS],
             fields: Fields::none(),
             falling: false,
             reflexes: Reflexes::none(),
@@ -76,7 +76,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     /// until all limits are set.
     pub fn begin(&mut self, fields: Fields, falling: bool) {
         (self.fields, self.falling) = (fields, falling);
-        self.entries.fill(Entry { taxel: NOWHERE, limit: u16::MAX });
+        self.entries.fill(WatchedTaxel { taxel: NOWHERE, limit: u16::MAX });
         self.disarm();
     }
 
@@ -198,11 +198,11 @@ type ActiveCodes = Vec<(u16, Code), JUDGED>;
 #[inline(never)] // M0+: out of line
 fn place_and_find<const FALLING: bool>(
     codes: &[Code],
-    entries: &[Entry],
+    entries: &[WatchedTaxel],
     frame: &mut [Code],
     active: &mut ActiveCodes,
 ) {
-    let mut take = |code: &Code, entry: &Entry| {
+    let mut take = |code: &Code, entry: &WatchedTaxel| {
         put(*code, *entry, frame);
         let pressed = if FALLING { !code.0 } else { code.0 };
         if pressed > entry.limit {
@@ -219,7 +219,7 @@ fn place_and_find<const FALLING: bool>(
 
 /// Stores a code in `frame` if the entry has a taxel.
 #[inline(always)]
-fn put(code: Code, entry: Entry, frame: &mut [Code]) {
+fn put(code: Code, entry: WatchedTaxel, frame: &mut [Code]) {
     if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
         *slot = code;
     }

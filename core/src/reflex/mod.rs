@@ -1,4 +1,5 @@
-//! The reflex: a check of raw codes after each sub-field of an interlaced scan, without waiting for the frame.
+//! The reflex: a check of raw codes after each sub-field of an interlaced scan, without waiting for the
+//! frame.
 //!
 //! | | |
 //! |---|---|
@@ -23,4 +24,4 @@ mod watched;
 
 pub use agree::Agree;
 pub use check::{Early, Reflex};
-pub use watched::{ROWS, Reflexes, Row};
+pub use watched::{ROWS, ReflexRow, Reflexes};

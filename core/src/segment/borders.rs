@@ -8,7 +8,7 @@ use crate::garment::{Area, Stretch};
 use core::ops::Range;
 
 /// Cursor over the taxels along a side of a panel.
-pub(crate) struct Side<'a> {
+pub(crate) struct SideCursor<'a> {
     runs: &'a [Run],
     labels: &'a [Label],
     edge: &'a Stretch,
@@ -25,14 +25,14 @@ pub(crate) struct Side<'a> {
     near: usize,
 }
 
-impl<'a> Side<'a> {
+impl<'a> SideCursor<'a> {
     pub fn of<const RUNS: usize, const LABELS: usize>(
         labeller: &'a Labeller<RUNS, LABELS>,
         area: &Area,
         edge: &'a Stretch,
-    ) -> Side<'a> {
+    ) -> SideCursor<'a> {
         let Area { first_row, rows, .. } = *area;
-        Side {
+        SideCursor {
             runs: &labeller.runs,
             labels: &labeller.labels,
             edge,
@@ -64,7 +64,7 @@ impl<'a> Side<'a> {
         if !self.is_down || taxel != self.taxels.end {
             self.near = seek(self.runs, self.near, key(row, column));
         }
-        let spot = Spot { column: column - column % WORD, taxel: 1 << (column % WORD) };
+        let spot = BorderColumn { column: column - column % WORD, taxel: 1 << (column % WORD) };
         let last = if self.is_down { self.last_row } else { row };
         let (skipped, found) = spot.skip(self.runs.get(self.near..).unwrap_or(&[]), last);
         self.near += skipped;
@@ -106,14 +106,14 @@ fn seek(runs: &[Run], mut near: usize, word: u32) -> usize {
 
 /// A column of the panel.
 #[derive(Clone, Copy)]
-struct Spot {
+struct BorderColumn {
     /// First column of its word.
     column: u16,
     /// Its bit in the word.
     taxel: u32,
 }
 
-impl Spot {
+impl BorderColumn {
     const fn is_in(&self, run: &Run) -> bool {
         run.column() == self.column && run.taxels & self.taxel != 0
     }
@@ -149,7 +149,7 @@ mod tests {
     extern crate std;
     use super::*;
     use crate::format::Name;
-    use crate::garment::{Edge, Garment, Layout, Seam, Side as Of};
+    use crate::garment::{Garment, Layout, Seam, SeamEdge, Side as Of};
     use crate::image::rows::Rows;
     use crate::image::view::Image;
     use std::vec;
@@ -169,7 +169,7 @@ mod tests {
             second.name = Name::try_from("second").unwrap();
             garment.panels.push(second).unwrap();
             let edges = [round, round / 4].map(|side| (sides[side % 4], next(5) as u16));
-            let [a, b] = [0, 1].map(|panel| Edge {
+            let [a, b] = [0, 1].map(|panel| SeamEdge {
                 panel,
                 side: edges[panel as usize].0,
                 start: edges[panel as usize].1,
@@ -190,7 +190,7 @@ mod tests {
                     let run = labeller.runs.iter().find(|run| run.key() == word && run.holds(x as u16));
                     run.map_or(NONE, |run| labeller.label_of(run).unwrap())
                 };
-                let mut side = Side::of(&labeller, area, edge);
+                let mut side = SideCursor::of(&labeller, area, edge);
                 let mut at = 0;
                 let mut ask = |taxel| {
                     let (label, taxels) = side.from(taxel);

@@ -1,17 +1,17 @@
 //! Rows of one word with several groups of adjacent taxels: assigns the groups to labels.
 
 use super::bits::{WORD, flood, is_run, lowest_run};
-use super::labeller::{Labeller, Line};
+use super::labeller::{Labeller, ScanLine};
 use super::union_find::{NONE, first_of, unite};
 use heapless::Vec;
 
 /// Pairs of a label and its taxels in a row, as bits.
-type Found = Vec<(u32, u16), { WORD as usize / 2 }>;
+type GroupLabels = Vec<(u32, u16), { WORD as usize / 2 }>;
 
 impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Returns the label that all groups of a row touch, if there is only one.
     #[inline(never)] // M0+: out of line
-    fn only_label(&mut self, all: u32, line: &Line) -> Option<u16> {
+    fn only_label(&mut self, all: u32, line: &ScanLine) -> Option<u16> {
         let above = self.runs.get(line.above..).unwrap_or(&[]);
         if let [run] = above
             && run.reach() & all == all
@@ -35,11 +35,11 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Appends the groups of a row, as one run for each label that they touch or begin. Returns the label if
     /// it is the only one.
     #[inline(never)] // M0+: out of line
-    pub(crate) fn scan_groups(&mut self, all: u32, values: &[u16], line: &Line) -> u16 {
+    pub(crate) fn scan_groups(&mut self, all: u32, values: &[u16], line: &ScanLine) -> u16 {
         if let Some(label) = self.only_label(all, line) {
             return self.push_groups(all, all, label, values, line);
         }
-        let mut found = Found::new();
+        let mut found = GroupLabels::new();
         self.find_labels(&mut found, all, line);
         for &(taxels, label) in &found {
             if is_run(taxels) {
@@ -53,7 +53,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
 
     /// Sorts the groups of a row by their labels: first those that touch the row above, then new ones.
     #[inline(never)] // rarely called
-    fn find_labels(&mut self, found: &mut Found, all: u32, line: &Line) {
+    fn find_labels(&mut self, found: &mut GroupLabels, all: u32, line: &ScanLine) {
         let mut free = all;
         for run in self.runs.get(line.above..).unwrap_or(&[]) {
             let touched = run.reach() & all;

@@ -27,7 +27,7 @@ const fn bit(panel: u8, side: Side) -> u32 {
 
 /// Position of the scan in a panel, and what it has found so far.
 #[derive(Clone, Copy)]
-pub(crate) struct Line {
+pub(crate) struct ScanLine {
     pub panel: u8,
     /// Row, counted over all panels.
     pub row: u16,
@@ -72,7 +72,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     }
 
     /// Marks the sides of a panel that its runs, those from `start` on, touch.
-    pub(super) fn mark_sides(&mut self, start: usize, area: &Area, line: &Line) {
+    pub(super) fn mark_sides(&mut self, start: usize, area: &Area, line: &ScanLine) {
         let runs = self.runs.get(start..).unwrap_or(&[]);
         let (Some(first), Some(last)) = (runs.first(), runs.last()) else { return };
         let [left, right] = line.ends;

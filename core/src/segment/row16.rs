@@ -1,9 +1,9 @@
 //! Rows of sixteen columns, each in one word.
 
 use super::bits::{highest, is_run, run_of, widened};
-use super::labeller::{Labeller, Line};
+use super::labeller::{Labeller, ScanLine};
 use super::run::Run;
-use super::sums::Sums;
+use super::sums::RunSums;
 use super::threshold::{PairedRow16, touched_of_row16};
 use super::union_find::{NONE, first_of, unite};
 use bytemuck::must_cast_slice;
@@ -13,7 +13,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Appends the touched taxels of consecutive rows, as one run for each label of a row. Their sums are not
     /// added to the labels yet.
     #[inline(never)] // M0+: out of line
-    pub(crate) fn scan_rows16(&mut self, rows: &[PairedRow16], low: u16, line: &mut Line) {
+    pub(crate) fn scan_rows16(&mut self, rows: &[PairedRow16], low: u16, line: &mut ScanLine) {
         let mut all = 0;
         for row16 in rows {
             let here = self.runs.len();
@@ -38,7 +38,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Appends the single group of a row to the label that it touches, and returns the label. Labels that it
     /// connects are joined.
     #[inline(never)] // M0+: out of line
-    fn scan_group(&mut self, group: u32, values: &[u16], line: &Line) -> u16 {
+    fn scan_group(&mut self, group: u32, values: &[u16], line: &ScanLine) -> u16 {
         let label = if line.reach & group != 0 { line.label } else { self.meet(group, line) };
         self.push_group(group, group, label, values, line)
     }
@@ -51,13 +51,13 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         all: u32,
         label: u16,
         values: &[u16],
-        line: &Line,
+        line: &ScanLine,
     ) -> u16 {
         let Range { start, end } = run_of(taxels);
         // Always: the row has as many values.
         let Some(values) = values.get(start..end) else { return label };
         let (left, right, area) = (start as u16, end as u16 - 1, values.len() as u16);
-        let (sums, peak) = (Sums::NONE, 0);
+        let (sums, peak) = (RunSums::NONE, 0);
         let run = Run { taxels, all, row: line.row, label, left, right, area, peak, sums };
         let (label, run) = self.push(run, line.panel);
         if let Some(run) = run {
@@ -70,7 +70,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Returns the label of the row above that a group touches, or [`NONE`]. If it touches several, they are
     /// joined.
     #[inline(never)] // M0+: out of line
-    fn meet(&mut self, group: u32, line: &Line) -> u16 {
+    fn meet(&mut self, group: u32, line: &ScanLine) -> u16 {
         let above = self.runs.get(line.above..).unwrap_or(&[]);
         let mut label = NONE;
         for run in above.iter().filter(|run| run.reach() & group != 0) {
@@ -90,11 +90,11 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         all: u32,
         label: u16,
         values: &[u16],
-        line: &Line,
+        line: &ScanLine,
     ) -> u16 {
         let (start, area) = (taxels.trailing_zeros(), taxels.count_ones() as u16);
         let (left, right) = (start as u16, highest(taxels));
-        let (sums, peak) = (Sums::NONE, 0);
+        let (sums, peak) = (RunSums::NONE, 0);
         let run = Run { taxels, all, row: line.row, label, left, right, area, peak, sums };
         let (label, run) = self.push(run, line.panel);
         if let Some(run) = run {

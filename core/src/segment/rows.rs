@@ -1,16 +1,16 @@
 //! Rows of any length, word by word.
 
 use super::bits::WORD;
-use super::labeller::{Labeller, Line};
+use super::labeller::{Labeller, ScanLine};
 use super::run::Run;
-use super::sums::Sums;
+use super::sums::RunSums;
 use super::threshold::touched;
 use super::union_find::{NONE, first_of, unite};
 use core::ops::Range;
 
 impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     /// Appends the groups of adjacent taxels of a row as one run each, and adds their sums to their labels.
-    pub(crate) fn scan_row(&mut self, row: &[u16], low: u16, line: &mut Line) {
+    pub(crate) fn scan_row(&mut self, row: &[u16], low: u16, line: &mut ScanLine) {
         let here = self.runs.len();
         let mut above = line.above;
         for (values, column) in row.chunks(WORD.into()).zip((0..).step_by(WORD.into())) {
@@ -38,7 +38,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         values: &[u16],
         column: u16,
         above: Range<usize>,
-        line: &Line,
+        line: &ScanLine,
     ) -> usize {
         let Range { start: mut above, end: here } = above;
         // The first group may continue one of the word before.
@@ -72,7 +72,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
             }
             // Always: the word has as many values.
             let Some(values) = values.get(start.into()..(start + area).into()) else { break };
-            let mut sums = Sums::NONE;
+            let mut sums = RunSums::NONE;
             let peak = sums.take(values);
             let (taxels, row, right) = (rest & !after, line.row, end - 1);
             let run = Run { taxels, all, row, label, left, right, area, peak, sums };

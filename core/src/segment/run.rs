@@ -1,7 +1,7 @@
 //! Runs: the taxels of a row that belong to one label, mostly adjacent ones.
 
 use super::bits::{WORD, widened};
-use super::sums::Sums;
+use super::sums::RunSums;
 
 /// The touched taxels of one row that belong to one label, within one word: a whole row, or [`WORD`] columns
 /// of a longer one. They are one group of adjacent taxels or, if the label connects them elsewhere, several.
@@ -25,7 +25,7 @@ pub(crate) struct Run {
     /// Greatest value, counts.
     pub peak: u16,
     /// Sums over the values, `i` counted from `left`.
-    pub sums: Sums,
+    pub sums: RunSums,
 }
 
 impl Run {

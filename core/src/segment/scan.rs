@@ -1,6 +1,6 @@
 //! Connected components: row by row, each row as bits, its 8-connected taxels joined by union-find.
 
-use super::labeller::{Labeller, Line};
+use super::labeller::{Labeller, ScanLine};
 use super::threshold::paired_rows16;
 use super::union_find::NONE;
 use crate::garment::{Area, Layout};
@@ -26,12 +26,12 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         let last = area.first_row.saturating_add(area.rows);
         let rows16 = paired_rows16(panel_of(image.values, area), area.columns, low);
         let are_rows16 = rows16.len() == usize::from(area.rows);
-        let mut line = Line { panel, row: 0, above: start, reach: 0, label: NONE, ends: [0; 2] };
+        let mut line = ScanLine { panel, row: 0, above: start, reach: 0, label: NONE, ends: [0; 2] };
         let mut from = area.first_row;
         // A gap between active rows separates labels.
         while let Some(rows) = image.rows.held().run(from..last) {
             from = rows.end;
-            line = Line { row: rows.start, above: self.runs.len(), reach: 0, label: NONE, ..line };
+            line = ScanLine { row: rows.start, above: self.runs.len(), reach: 0, label: NONE, ..line };
             if are_rows16 {
                 let here = |row: u16| usize::from(row - area.first_row);
                 let rows16 = rows16.get(here(rows.start)..here(rows.end));

@@ -3,7 +3,7 @@
 //! Each pair of labels that neighbour taxels of a seam connect is joined once.
 
 use super::bits::{lowest_run, run_of};
-use super::borders::Side;
+use super::borders::SideCursor;
 use super::labeller::Labeller;
 use super::union_find::{Label, NONE};
 use crate::baseline::feedback::CARRIED;
@@ -21,11 +21,11 @@ pub(crate) struct Join {
 }
 
 /// State of the walk along a seam.
-struct Walk<'a> {
+struct SeamWalk<'a> {
     /// Index of the joint.
     index: u8,
     joint: &'a Joint,
-    beside: Side<'a>,
+    beside: SideCursor<'a>,
     /// The label last looked at, and the last label found beside it, or [`NONE`].
     label: u16,
     there: u16,
@@ -80,12 +80,12 @@ impl Joins {
         else {
             return;
         };
-        let beside = Side::of(labeller, area_b, &joint.edge_b);
-        let mut walk = Walk { index, joint, beside, label: NONE, there: NONE, seen: -1 };
+        let beside = SideCursor::of(labeller, area_b, &joint.edge_b);
+        let mut walk = SeamWalk { index, joint, beside, label: NONE, there: NONE, seen: -1 };
         let end = i32::from(joint.length);
         let ((left, top), (right, _)) = (joint.edge_a.at(0), joint.edge_a.at(end - 1));
         if left == right {
-            let mut side = Side::of(labeller, area_a, &joint.edge_a);
+            let mut side = SideCursor::of(labeller, area_a, &joint.edge_a);
             let mut at = 0;
             while at < end {
                 let (label, taxels) = side.from(at);
@@ -111,7 +111,7 @@ impl Joins {
 
     /// Joins a label that has the taxels `first ..= last` along the seam to the labels beside them.
     #[inline(never)] // M0+: out of line
-    fn step(&mut self, walk: &mut Walk, label: u16, first: i32, last: i32) {
+    fn step(&mut self, walk: &mut SeamWalk, label: u16, first: i32, last: i32) {
         if walk.label != label {
             (walk.label, walk.there, walk.seen) = (label, NONE, -1);
         }

@@ -8,7 +8,7 @@ pub(crate) const NARROW: u16 = 11585;
 /// Sums over taxels of a row; taxel number `i` has the pressure f. For one word, all sums but the squares fit
 /// in 32 bits, as 65535 * (1 + 3 + 6 + ... + 528) < 2^32.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Sums {
+pub(crate) struct RunSums {
     /// sum f
     pub s0: u32,
     /// sum (i + 1) f
@@ -19,15 +19,15 @@ pub(crate) struct Sums {
     pub squares: u32,
 }
 
-impl Sums {
+impl RunSums {
     /// Sums of no value.
-    pub const NONE: Sums = Sums { s0: 0, s1: 0, s2: 0, squares: 0 };
+    pub const NONE: RunSums = RunSums { s0: 0, s1: 0, s2: 0, squares: 0 };
 
     /// Becomes the sums of at most [`WORD`] values; returns the greatest value.
     #[cfg_attr(target_pointer_width = "64", inline)]
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
     pub fn take(&mut self, values: &[u16]) -> u16 {
-        let (mut sums, mut greatest) = (Sums::NONE, 0);
+        let (mut sums, mut greatest) = (RunSums::NONE, 0);
         for value in values.iter().rev() {
             let value = u32::from(*value);
             if value > greatest {
@@ -49,7 +49,7 @@ impl Sums {
     pub fn take_named(&mut self, values: &[u16], taxels: u32) -> u16 {
         // The highest bit belongs to the value that comes next.
         let mut taxels = taxels << u32::from(WORD).saturating_sub(values.len() as u32);
-        let (mut sums, mut greatest) = (Sums::NONE, 0);
+        let (mut sums, mut greatest) = (RunSums::NONE, 0);
         for value in values.iter().rev() {
             if taxels >> 31 == 1 {
                 let value = u32::from(*value);
@@ -101,14 +101,14 @@ mod tests {
             let sum = |weight: &dyn Fn(u32) -> u32| -> u32 {
                 (0..).zip(&counted).map(|(i, f)| weight(i) * u32::from(*f)).sum()
             };
-            let want = Sums {
+            let want = RunSums {
                 s0: sum(&|_| 1),
                 s1: sum(&|i| i + 1),
                 s2: sum(&|i| (i + 1) * (i + 2) / 2),
                 squares: counted.iter().map(|f| u32::from(*f).pow(2)).sum(),
             };
             let want = (counted.iter().copied().max().unwrap(), want);
-            let mut sums = [Sums::NONE; 2];
+            let mut sums = [RunSums::NONE; 2];
             assert_eq!((sums[0].take_named(values, taxels), sums[0]), want);
             assert_eq!((sums[1].take(&counted[..length]), sums[1]), want);
             assert_eq!(squares(values, taxels), want.1.squares.into());

@@ -19,7 +19,7 @@ const RAIL: u16 = 32;
 const FOLLOWED: u16 = FULL / 8;
 
 /// An input and its codes under each pull.
-struct Input {
+struct PulledInput {
     pin: u8,
     up: Extremes,
     down: Extremes,
@@ -34,10 +34,10 @@ pub(super) fn examine<P: ProbePin, A: PulledAdc, const PINS: usize>(
     circuit: &Circuit,
     findings: &mut Findings,
 ) -> Result<(), ScanError> {
-    let mut inputs = Vec::<Input, INPUTS>::new();
+    let mut inputs = Vec::<PulledInput, INPUTS>::new();
     for site in circuit.sites() {
         if !inputs.iter().any(|input| input.pin == site.input) {
-            let _ = inputs.push(Input { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
+            let _ = inputs.push(PulledInput { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
         }
     }
     let read = [Pull::Up, Pull::Down].into_iter().try_for_each(|pull| {
@@ -59,9 +59,9 @@ pub(super) fn examine<P: ProbePin, A: PulledAdc, const PINS: usize>(
     Ok(())
 }
 
-impl Input {
+impl PulledInput {
     fn fault(&self) -> Option<Fault> {
-        let Input { up, down, .. } = self;
+        let PulledInput { up, down, .. } = self;
         if up.low >= FULL - FOLLOWED && down.high <= FOLLOWED {
             Some(Fault::Open)
         } else if up.high <= RAIL {
@@ -74,7 +74,7 @@ impl Input {
     }
 }
 
-fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[Input], pull: Pull) -> Result<(), ScanError> {
+fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[PulledInput], pull: Pull) -> Result<(), ScanError> {
     inputs.iter().try_for_each(|i| adc.pull(i.pin, pull).map_err(|_| ScanError::Output(i.pin)))
 }
 
@@ -84,7 +84,7 @@ fn read<P: ProbePin, A: PulledAdc, const PINS: usize>(
     delay: &mut impl DelayNs,
     adc: &mut A,
     (circuit, sites, pull): (&Circuit, &[Site], Pull),
-    inputs: &mut [Input],
+    inputs: &mut [PulledInput],
 ) -> Result<(), ScanError> {
     let select = sites.first().map_or(0, |site| site.select);
     let last_row = sites.iter().map(|site| site.rows).max().unwrap_or(1).saturating_sub(1);

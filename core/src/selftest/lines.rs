@@ -10,7 +10,7 @@ use heapless::Vec;
 pub(super) const PULLED_NS: u32 = 100_000;
 
 /// Levels of all lines while one of them is driven, as words of the circuit.
-struct Shown {
+struct ShownLevels {
     /// Driven high, all others pulled down.
     high: u32,
     /// Driven low, all others pulled up.
@@ -38,7 +38,7 @@ fn try_all<P: ProbePin, const PINS: usize>(
     delay: &mut impl DelayNs,
     clock: &impl Clock,
     circuit: &Circuit,
-) -> Result<Vec<Shown, CIRCUIT_LINES>, ScanError> {
+) -> Result<Vec<ShownLevels, CIRCUIT_LINES>, ScanError> {
     let mut all = Vec::new();
     for pin in circuit.lines() {
         let mut show = |level: bool| {
@@ -48,7 +48,7 @@ fn try_all<P: ProbePin, const PINS: usize>(
             delay.delay_ns(PULLED_NS);
             look(lines, circuit)
         };
-        let _ = all.push(Shown { high: show(true)?, low: show(false)? }); // as many as a circuit has
+        let _ = all.push(ShownLevels { high: show(true)?, low: show(false)? }); // as many as a circuit has
         clock.progressed();
     }
     Ok(all)
@@ -76,7 +76,7 @@ fn look<P: ProbePin, const PINS: usize>(
     })
 }
 
-fn judge(circuit: &Circuit, shown: &[Shown], findings: &mut Findings) {
+fn judge(circuit: &Circuit, shown: &[ShownLevels], findings: &mut Findings) {
     let is_high = |word: u32, line: usize| word >> line & 1 == 1;
     for (line, (pin, own)) in circuit.lines().iter().zip(shown).enumerate() {
         if !is_high(own.high, line) {

@@ -29,7 +29,7 @@ pub use base::BUILT_IN;
 pub use confidence::{ConfidenceTable, STEPS};
 pub use config::ShapeConfig;
 pub use descriptor::{Descriptor, MEASURE_NAMES, MEASURES, descriptor};
-pub use features::{FEATURES, Features, features};
+pub use features::{FEATURES, ShapeFeatures, features};
 pub use gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, Recognised};
 pub use knn::{Base, CLASSES, Class, Prototype};
 pub use nmi::{Nmi, nmi};

@@ -1,7 +1,7 @@
 //! The stage: words and events of a frame.
 
 use super::config::SymbolConfig;
-use super::said::{Said, said_of};
+use super::said::{ReportedWords, said_of};
 use super::words::Words;
 use crate::body::Placed;
 use crate::contact::Phase;
@@ -47,7 +47,7 @@ pub struct RegionState {
 /// State of the stage.
 #[derive(Debug, Clone)]
 pub struct SymbolState<const CONTACTS: usize> {
-    said: Vec<Said, CONTACTS>,
+    said: Vec<ReportedWords, CONTACTS>,
     events: Vec<Symbol, EVENTS>,
     /// Time of the last frame.
     last: Micros,
@@ -77,7 +77,7 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
     /// Resets the classes of all contacts, because another base of shapes is in force that does not have
     /// their names.
     pub(crate) fn forget_classes(&mut self) {
-        self.said.iter_mut().for_each(Said::forget_class);
+        self.said.iter_mut().for_each(ReportedWords::forget_class);
     }
 
     /// State of the first `count` regions.
@@ -135,7 +135,7 @@ impl Symbols {
                     false => continue,
                 },
                 None => {
-                    let said = Said::new(&self.config, placed, area_mm2(layout, placed));
+                    let said = ReportedWords::new(&self.config, placed, area_mm2(layout, placed));
                     let words = said.words;
                     let _ = state.said.push(said);
                     (Phase::Onset, words)
@@ -146,7 +146,7 @@ impl Symbols {
         for placed in released {
             let last = state.said.iter().find(|said| said.contact == placed.contact.id);
             let words = last.map_or_else(
-                || Said::new(&self.config, placed, area_mm2(layout, placed)).words,
+                || ReportedWords::new(&self.config, placed, area_mm2(layout, placed)).words,
                 |said| said.words,
             );
             let _ = state.events.push(symbol(placed, Phase::Released, words));

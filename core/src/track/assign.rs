@@ -1,6 +1,6 @@
 //! Assignment of this frame's components to the last frame's contacts: the nearest pairs first.
 
-use super::point::{Images, LONGEST, Point};
+use super::point::{LONGEST, PanelPoint, PointImages};
 use super::tracks::Tracks;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::{Layout, PANELS};
@@ -18,9 +18,9 @@ pub(crate) struct Matching<const CONTACTS: usize> {
     /// go to the lower index.
     least: [(u32, u16); CONTACTS],
     /// Centroids of the components.
-    points: Vec<Point, CONTACTS>,
+    points: Vec<PanelPoint, CONTACTS>,
     /// Expected position of a contact, on its own panel and as seen from others.
-    expected: Images,
+    expected: PointImages,
     /// Components that are assigned.
     taken: [bool; CONTACTS],
 }
@@ -33,7 +33,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         Matching {
             least: [(FAR, 0); CONTACTS],
             points: Vec::new(),
-            expected: Images::new(),
+            expected: PointImages::new(),
             taken: [false; CONTACTS],
         }
     }
@@ -52,7 +52,7 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
         self.taken.fill(false);
         self.points.clear();
         for component in components {
-            let _ = self.points.push(Point::of(component.bounds.panel, component.x, component.y));
+            let _ = self.points.push(PanelPoint::of(component.bounds.panel, component.x, component.y));
         }
         let mut crowds = [const { Crowd::NONE }; PANELS];
         gather(&mut crowds, &self.points);
@@ -117,15 +117,15 @@ fn seconds(us: u64) -> u32 {
 }
 
 /// Returns the expected position of a contact and its search radius; radius and `gate` in 1/16 taxel.
-fn expected(contact: &Contact, seconds: u32, gate: i32) -> (Point, u32) {
+fn expected(contact: &Contact, seconds: u32, gate: i32) -> (PanelPoint, u32) {
     let step = |v: Fixed16| (signed_wide(v.0, seconds) >> 28).clamp((-gate).into(), gate.into()) as i32;
     let still = contact.vx.0 == 0 && contact.vy.0 == 0;
     let (x, y) = if still { (0, 0) } else { (step(contact.vx), step(contact.vy)) };
-    let at = Point::of(contact.panel, contact.x, contact.y);
+    let at = PanelPoint::of(contact.panel, contact.x, contact.y);
     let bounds = &contact.bounds;
     let side = bounds.right.saturating_sub(bounds.left).max(bounds.bottom.saturating_sub(bounds.top));
     let reach = gate + (i32::from(side) + 1) * 8 + x.abs() + y.abs();
-    (Point { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
+    (PanelPoint { x: at.x + x, y: at.y + y, ..at }, reach.min(LONGEST) as u32)
 }
 
 /// The points on one panel.
@@ -145,14 +145,14 @@ impl Crowd {
         Crowd { span: 0..0, left: i32::MAX, right: i32::MIN, top: i32::MAX, bottom: i32::MIN };
 
     /// True if one of them may be within reach of a point.
-    fn is_near(&self, point: &Point, reach: i32) -> bool {
+    fn is_near(&self, point: &PanelPoint, reach: i32) -> bool {
         let near = |at: i32, from: i32, to: i32| at + reach >= from && at - reach <= to;
         near(point.x, self.left, self.right) && near(point.y, self.top, self.bottom)
     }
 }
 
 /// Collects the points of each panel.
-fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
+fn gather(crowds: &mut [Crowd; PANELS], points: &[PanelPoint]) {
     for (index, point) in points.iter().enumerate() {
         if let Some(crowd) = crowds.get_mut(usize::from(point.panel)) {
             crowd.span = if crowd.span.end == 0 { index } else { crowd.span.start }..index + 1;
@@ -166,8 +166,8 @@ fn gather(crowds: &mut [Crowd; PANELS], points: &[Point]) {
 /// it; [`FAR`] if none is within reach.
 #[inline(never)] // M0+: out of line
 fn nearest(
-    images: &Images,
-    points: &[Point],
+    images: &PointImages,
+    points: &[PanelPoint],
     crowds: &[Crowd; PANELS],
     mut reach: u32,
     taken: &[bool],

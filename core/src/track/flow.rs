@@ -6,7 +6,7 @@
 //! taxels it is 1 % off, plain central differences 17 %. The slope is that of both pictures together, so that
 //! the displacement there and back is the same.
 
-use super::gradient::{Line, SIDE, Terms, differentiate, products, smooth};
+use super::gradient::{SIDE, SlopeTerms, SmoothRow, differentiate, products, smooth};
 use crate::format::Inverse;
 
 /// Two pictures of one size, and the mask of the taxels to compare.
@@ -36,7 +36,7 @@ pub(crate) enum Flow {
 /// Sums over the masked taxels: slopes x and y in 24ths of 2^scale counts per taxel (13 bits), change t in
 /// 18ths (14 bits). None exceeds 31 bits, even if all 100 taxels inside the border count.
 #[derive(Debug, Default)]
-struct Sums {
+struct FlowSums {
     count: u32,
     x: i32,
     y: i32,
@@ -49,31 +49,32 @@ struct Sums {
     tt: i32,
 }
 
-/// Mean square of the slope, in the units of [`Sums`], below which there is no pattern: a third of 1/128 of the
-/// peak per taxel.
+/// Mean square of the slope, in the units of [`FlowSums`], below which there is no pattern: a third of 1/128
+/// of the peak per taxel.
 const FLAT: u32 = 64;
 
 impl Flow {
     /// Compares the pictures. Along a direction without a pattern, for example along a ridge, the result is
     /// `expected`.
     pub fn of(pictures: &Pictures, expected: [i32; 2]) -> Flow {
-        match Sums::of(pictures) {
+        match FlowSums::of(pictures) {
             Some(sums) => sums.solve(expected),
             None => Flow::Changed,
         }
     }
 }
 
-impl Sums {
+impl FlowSums {
     /// Returns none if a row is missing.
-    fn of(pictures: &Pictures) -> Option<Sums> {
+    fn of(pictures: &Pictures) -> Option<FlowSums> {
         // Eight significant bits: the rest is below the noise of any taxel.
         let scale = (16 - pictures.peak.leading_zeros()).saturating_sub(8);
         let now = pictures.now.get(..pictures.rows)?;
         if now.iter().any(|row| row.len() != pictures.columns) || pictures.columns > SIDE {
             return None;
         }
-        let (mut sums, mut line, mut terms) = (Sums::default(), Line::default(), Terms::default());
+        let (mut sums, mut line, mut terms) =
+            (FlowSums::default(), SmoothRow::default(), SlopeTerms::default());
         let rows = pictures.before.array_windows().zip(now.array_windows()).zip(&pictures.inner[1..]);
         for ((before, now), marked) in rows.filter(|(_, marked)| **marked != 0) {
             smooth(before, now, &mut line);
@@ -84,7 +85,7 @@ impl Sums {
     }
 
     /// Adds the terms of the marked taxels of a row.
-    fn take(&mut self, terms: &Terms, marked: u16) {
+    fn take(&mut self, terms: &SlopeTerms, marked: u16) {
         self.count += marked.count_ones();
         let [x, xx, xy] = products::<0, 1>(terms);
         let [y, yy, yt] = products::<1, 2>(terms);
@@ -270,7 +271,7 @@ mod tests {
             };
             let (before, now) = (make(0), make(round % 5));
             let pictures = Pictures { peak: extreme, ..pictures(&before, &now) };
-            let sums = Sums::of(&pictures).unwrap();
+            let sums = FlowSums::of(&pictures).unwrap();
             let wide = wide(&before, &now, extreme);
             let have = [sums.xx, sums.xy, sums.yy, sums.xt, sums.yt, sums.tt].map(i64::from);
             assert_eq!((sums.count, have), (100, wide), "round {round}");

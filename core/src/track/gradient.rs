@@ -18,15 +18,15 @@ pub(crate) struct Smooth {
 }
 
 /// A row of columns.
-pub(crate) type Line = [Smooth; SIDE];
+pub(crate) type SmoothRow = [Smooth; SIDE];
 
 /// Slopes x and y in 24ths of 2^scale counts per taxel and change t in 18ths, for the taxels of a line
 /// without the first and the last.
-pub(crate) type Terms = [[i32; 3]; SIDE - 2];
+pub(crate) type SlopeTerms = [[i32; 3]; SIDE - 2];
 
 /// Computes sums, slopes and changes of the middle one of three rows.
 #[inline(never)]
-pub(crate) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Line) {
+pub(crate) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut SmoothRow) {
     let [above, here, below] = before;
     let before = above.iter().zip(here).zip(below);
     let [above, here, below] = *now;
@@ -41,7 +41,7 @@ pub(crate) fn smooth(before: &[[u16; SIDE]; 3], now: &[&[u16]; 3], out: &mut Lin
 }
 
 /// Computes the terms of the marked taxels of a line, never the first or the last; all others are 0.
-pub(crate) fn differentiate(line: &Line, marked: u16, scale: u32, out: &mut Terms) {
+pub(crate) fn differentiate(line: &SmoothRow, marked: u16, scale: u32, out: &mut SlopeTerms) {
     let half = 1 << scale >> 1;
     across(line, scale, half, out);
     along(line, scale, half, out);
@@ -55,7 +55,7 @@ pub(crate) fn differentiate(line: &Line, marked: u16, scale: u32, out: &mut Term
 
 /// Slopes along x.
 #[inline(never)]
-fn across(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+fn across(line: &SmoothRow, scale: u32, half: i32, out: &mut SlopeTerms) {
     for ([left, _, right], out) in line.array_windows().zip(out) {
         out[0] = (right.sum - left.sum + half) >> scale;
     }
@@ -63,7 +63,7 @@ fn across(line: &Line, scale: u32, half: i32, out: &mut Terms) {
 
 /// Slopes along y.
 #[inline(never)]
-fn along(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+fn along(line: &SmoothRow, scale: u32, half: i32, out: &mut SlopeTerms) {
     for ([left, here, right], out) in line.array_windows().zip(out) {
         out[1] = (4 * here.slope + left.slope + right.slope + half) >> scale;
     }
@@ -71,7 +71,7 @@ fn along(line: &Line, scale: u32, half: i32, out: &mut Terms) {
 
 /// Changes in time.
 #[inline(never)]
-fn change(line: &Line, scale: u32, half: i32, out: &mut Terms) {
+fn change(line: &SmoothRow, scale: u32, half: i32, out: &mut SlopeTerms) {
     for ([left, here, right], out) in line.array_windows().zip(out) {
         out[2] = (4 * here.change + left.change + right.change + half) >> scale;
     }
@@ -79,7 +79,7 @@ fn change(line: &Line, scale: u32, half: i32, out: &mut Terms) {
 
 /// Returns the sums of term A, of its squares, and of its products with term B.
 #[inline(never)]
-pub(crate) fn products<const A: usize, const B: usize>(terms: &Terms) -> [i32; 3] {
+pub(crate) fn products<const A: usize, const B: usize>(terms: &SlopeTerms) -> [i32; 3] {
     let (mut sum, mut square, mut mixed) = (0, 0, 0i32);
     for term in terms {
         let (a, b) = (term[A], term[B]);

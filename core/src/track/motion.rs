@@ -1,7 +1,7 @@
 //! State of a track beside its public record, and the update of motion.
 
 use super::pattern::{Pattern, Way};
-use super::point::{Point, nearest_way};
+use super::point::{PanelPoint, nearest_way};
 use super::slip::{SLIP_STEPS, Slip};
 use crate::format::{Fixed16, Inverse, Micros, signed_wide};
 use crate::garment::{Area, Layout, Transform};
@@ -30,7 +30,7 @@ pub(crate) struct Scenery<'a> {
     pub config: &'a ContactConfig,
     pub layout: &'a Layout,
     pub image: &'a Image<'a>,
-    pub pace: Pace,
+    pub pace: VelocityFilter,
 }
 
 impl Trail {
@@ -42,8 +42,8 @@ impl Trail {
     #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
         let Scenery { config, layout, image, pace } = scenery;
-        let from = Point::of(contact.panel, contact.x, contact.y);
-        let to = Point::of(component.bounds.panel, component.x, component.y);
+        let from = PanelPoint::of(contact.panel, contact.x, contact.y);
+        let to = PanelPoint::of(component.bounds.panel, component.x, component.y);
         if let Some((Some(way), _)) = nearest_way(layout, from, to) {
             carry(contact, &way);
         }
@@ -98,7 +98,7 @@ fn carry(contact: &mut Contact, way: &Transform) {
 }
 
 /// Coefficients of the velocity filter in this frame, and the limit of a slip.
-pub(crate) struct Pace {
+pub(crate) struct VelocityFilter {
     /// Time constant, us; below 2^26.
     tau: u32,
     /// Inverse of `tau` plus the time since the last frame; none if no time has passed.
@@ -112,11 +112,11 @@ const LONGEST_WAY: u32 = 16 << 12;
 
 /// Times of the last frames.
 #[derive(Debug, Clone)]
-pub(crate) struct Clock([Micros; SLIP_STEPS]);
+pub(crate) struct FrameTimes([Micros; SLIP_STEPS]);
 
-impl Clock {
+impl FrameTimes {
     pub const fn new() -> Self {
-        Clock([Micros(0); SLIP_STEPS])
+        FrameTimes([Micros(0); SLIP_STEPS])
     }
 
     /// Time of the last frame.
@@ -125,7 +125,7 @@ impl Clock {
     }
 
     /// Takes the time of a new frame, and derives its coefficients.
-    pub fn tick(&mut self, config: &ContactConfig, now: Micros) -> Pace {
+    pub fn tick(&mut self, config: &ContactConfig, now: Micros) -> VelocityFilter {
         let [last, second, third] = self.0;
         self.0 = [now, last, second];
         let elapsed = now.since(last);
@@ -133,11 +133,11 @@ impl Clock {
         let inverse = (elapsed > 0).then(|| Inverse::of(tau + elapsed.min(1 << 31) as u32));
         // 16 + 32 + 8 bits; 256 = 2^12 / 16.
         let way = u64::from(config.slip_speed) * now.since(third).min(u32::MAX.into()) * 256;
-        Pace { tau, inverse, limit: Inverse::of(1_000_000).quotient(way) }
+        VelocityFilter { tau, inverse, limit: Inverse::of(1_000_000).quotient(way) }
     }
 }
 
-impl Pace {
+impl VelocityFilter {
     /// `v + (step / dt - v) dt / (tau + dt)` as `(v tau + step) / (tau + dt)`: a first-order low pass over
     /// the real time between the frames.
     fn velocity(&self, v: Fixed16, step: i32) -> Fixed16 {

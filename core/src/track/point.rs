@@ -9,23 +9,23 @@ pub(crate) const LONGEST: i32 = 32767;
 
 /// A point of a panel in 1/16 taxel: fine enough to compare distances, and in 32 bits.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Point {
+pub(crate) struct PanelPoint {
     pub panel: u8,
     pub x: i32,
     pub y: i32,
 }
 
-impl Point {
+impl PanelPoint {
     /// Point with coordinates in Q16.
-    pub fn of(panel: u8, x: Fixed16, y: Fixed16) -> Point {
-        Point { panel, x: x.0 >> 12, y: y.0 >> 12 }
+    pub fn of(panel: u8, x: Fixed16, y: Fixed16) -> PanelPoint {
+        PanelPoint { panel, x: x.0 >> 12, y: y.0 >> 12 }
     }
 
     /// Lists the point, and its images on the panels beyond every seam.
-    pub fn list_images(self, layout: &Layout, images: &mut Images) {
+    pub fn list_images(self, layout: &Layout, images: &mut PointImages) {
         images.clear();
         let mut add = |panel, (x, y)| {
-            let _ = images.push(Point { panel, x, y });
+            let _ = images.push(PanelPoint { panel, x, y });
         };
         add(self.panel, (self.x, self.y));
         for joint in layout.joints() {
@@ -45,11 +45,15 @@ impl Point {
 }
 
 /// A point, and its images on the panels that seams join to its own.
-pub(crate) type Images = Vec<Point, { 1 + 2 * SEAMS }>;
+pub(crate) type PointImages = Vec<PanelPoint, { 1 + 2 * SEAMS }>;
 
 /// Returns the transform between two panels (none within one panel, else over one seam) that brings `from`
 /// closest to `to`, and the squared distance that is left.
-pub(crate) fn nearest_way(layout: &Layout, from: Point, to: Point) -> Option<(Option<Transform>, u32)> {
+pub(crate) fn nearest_way(
+    layout: &Layout,
+    from: PanelPoint,
+    to: PanelPoint,
+) -> Option<(Option<Transform>, u32)> {
     let squared = |(x, y): (i32, i32)| {
         let square = |apart: i32| (apart.clamp(-LONGEST, LONGEST).pow(2)) as u32;
         square(x - to.x) + square(y - to.y)

@@ -125,12 +125,12 @@ fn have_near_columns(a: &Run, b: &Run) -> bool {
 mod tests {
     use super::*;
     use crate::segment::bits::WORD;
-    use crate::segment::sums::Sums;
+    use crate::segment::sums::RunSums;
 
     /// A run of one taxel.
     fn at(column: u16) -> Run {
         let taxels = 1 << (column % WORD);
-        let (row, label, area, peak, sums) = (0, 0, 1, 1, Sums::NONE);
+        let (row, label, area, peak, sums) = (0, 0, 1, 1, RunSums::NONE);
         Run { taxels, all: taxels, row, label, left: column, right: column, area, peak, sums }
     }
 

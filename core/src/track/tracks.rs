@@ -1,6 +1,6 @@
 //! Track management: update, merge, split, release.
 
-use super::motion::{Clock, Scenery, Trail};
+use super::motion::{FrameTimes, Scenery, Trail};
 use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
 use crate::image::view::Image;
@@ -26,7 +26,7 @@ pub(crate) struct Tracks<const CONTACTS: usize> {
     /// Index of the first contact whose form is measured in this frame.
     turn: usize,
     id: u32,
-    pub clock: Clock,
+    pub clock: FrameTimes,
 }
 
 impl<const CONTACTS: usize> Tracks<CONTACTS> {
@@ -39,7 +39,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             ages: Vec::new(),
             turn: 0,
             id: 0,
-            clock: Clock::new(),
+            clock: FrameTimes::new(),
         }
     }
 

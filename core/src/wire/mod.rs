@@ -55,7 +55,7 @@ pub(crate) use codec::{close, frame, lead};
 pub use codec::{decode, encode, frame_bound, open};
 pub use error::WireError;
 pub use image_decode::{ImageError, ImageFault, decode_image, image_bound, image_sum};
-pub(crate) use image_encode::Reference;
+pub(crate) use image_encode::ImageReference;
 pub use image_encode::encode_image;
 pub use message::*;
 pub use receiver::Receiver;

@@ -9,15 +9,15 @@
 //! | GP13 | heartbeat LED; grounded at power-up: the board starts with the shipped settings |
 //! | GP26 - GP29 | converter inputs |
 
-use super::parts::Parts;
+use super::parts::BoardParts;
 use crate::{
     adc::Converter,
     led::Led,
     levels,
     limits::INFO,
     link::{Uart, Usb, Wire, uart},
-    pins::Line,
-    scan::{Begun, Chain},
+    pins::LinePin,
+    scan::{Begun, DmaChain},
     store::Flash,
 };
 use embassy_rp::{
@@ -33,7 +33,7 @@ use static_cell::ConstStaticCell;
 macro_rules! lines {
     ($p:ident: $($pin:ident = $gpio:literal),* $(,)?) => {{
         const { assert!(INFO.pins.outputs == 0 $(| 1 << $gpio)*) };
-        [$(Line::new($p.$pin.into())),*]
+        [$(LinePin::new($p.$pin.into())),*]
     }};
 }
 
@@ -44,11 +44,11 @@ bind_interrupts!(struct Interrupts {
 });
 
 /// Starts the clocks (125 MHz) and returns the board's parts. Must be called once.
-pub fn take() -> Parts {
+pub fn take() -> BoardParts {
     let p = embassy_rp::init(Default::default());
     // `init` has reset the pads.
     levels::drive();
-    Parts {
+    BoardParts {
         lines: lines!(p:
             PIN_2 = 2,
             PIN_3 = 3,
@@ -74,7 +74,7 @@ pub fn take() -> Parts {
                 adc::Channel::new_pin(p.PIN_29, Pull::None),
             ],
         ),
-        chain: Chain::new(
+        chain: DmaChain::new(
             (
                 p.PIO0,
                 (

@@ -4,4 +4,4 @@ mod feather;
 mod parts;
 
 pub use feather::take;
-pub use parts::Parts;
+pub use parts::BoardParts;

@@ -10,10 +10,10 @@ const TO_HOST: usize = 2560;
 const FROM_HOST: usize = 256;
 
 /// A ring.
-pub(super) type Ring<const N: usize> = Pipe<CriticalSectionRawMutex, N>;
+pub(super) type ByteRing<const N: usize> = Pipe<CriticalSectionRawMutex, N>;
 
-pub(super) static SENT: Ring<TO_HOST> = Ring::new();
-pub(super) static RECEIVED: Ring<FROM_HOST> = Ring::new();
+pub(super) static SENT: ByteRing<TO_HOST> = ByteRing::new();
+pub(super) static RECEIVED: ByteRing<FROM_HOST> = ByteRing::new();
 
 /// State of the port: open if a program has opened it, and the cable was not pulled nor the host suspended
 /// since.

@@ -29,7 +29,7 @@ mod reflex;
 mod select;
 mod tables;
 
-pub use chain::Chain;
+pub use chain::DmaChain;
 pub use frames::Begun;
 
 use crate::limits::{INPUTS, LINES};
@@ -46,7 +46,7 @@ use taxel_core::selftest::{Examine, Findings};
 /// The scanner that works by the processor.
 pub type Processor = MuxScan<
     'static,
-    pins::Line,
+    pins::LinePin,
     platform::Settle,
     adc::Converter<INPUTS>,
     platform::Timer,
@@ -67,7 +67,7 @@ enum By {
 /// Reads the garment, by the chain or by the processor.
 pub struct Scanner {
     processor: Processor,
-    chain: Chain,
+    chain: DmaChain,
     frames: Frames,
     by: By,
     /// Circuit that is being scanned.
@@ -82,7 +82,7 @@ pub struct Scanner {
 
 impl Scanner {
     /// Builds on the processor's scan, whose pins and converter the chain uses.
-    pub fn new(processor: Processor, chain: Chain) -> Scanner {
+    pub fn new(processor: Processor, chain: DmaChain) -> Scanner {
         Scanner {
             processor,
             chain,

@@ -72,7 +72,7 @@ impl<E> From<sequential_storage::Error<E>> for StoreError {
     }
 }
 
-type Map<F> = MapStorage<u8, Waitless<F>, Cache<Uncached, Uncached, Uncached, u8>>;
+type SettingsMap<F> = MapStorage<u8, Waitless<F>, Cache<Uncached, Uncached, Uncached, u8>>;
 
 /// Result of loading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,7 +87,7 @@ pub enum Found {
 
 /// Settings in a range of sectors of a flash.
 pub struct Store<F: NorFlash> {
-    map: Map<F>,
+    map: SettingsMap<F>,
 }
 
 impl<F: NorFlash> Store<F> {

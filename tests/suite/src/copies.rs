@@ -12,11 +12,11 @@ const PACKET: usize = 64;
 const LONGEST: usize = 80;
 
 /// Room for the longest copy at the last position, and for bytes that must not change.
-pub type Space = [u8; PLACES + LONGEST + PLACES];
+pub type CopySpace = [u8; PLACES + LONGEST + PLACES];
 
 /// Copies a packet once for each pair of places.
 #[inline(never)]
-pub fn packets(from: &Space, to: &mut Space) {
+pub fn packets(from: &CopySpace, to: &mut CopySpace) {
     for pair in 0..PAIRS {
         copy(from, to, pair, black_box(PACKET));
     }
@@ -24,10 +24,10 @@ pub fn packets(from: &Space, to: &mut Space) {
 
 /// Copies and moves with all lengths and pairs of positions; returns every byte of the room after each of
 /// them.
-pub fn all(from: &Space) -> impl Iterator<Item = u8> {
+pub fn all(from: &CopySpace) -> impl Iterator<Item = u8> {
     let pairs = (0..=LONGEST).flat_map(|length| (0..PAIRS).map(move |pair| (length, pair)));
     pairs.flat_map(|(length, pair)| {
-        let (mut to, mut moved) = ([0xa5; size_of::<Space>()], *from);
+        let (mut to, mut moved) = ([0xa5; size_of::<CopySpace>()], *from);
         copy(from, &mut to, pair, length);
         shift(&mut moved, pair, length);
         to.into_iter().chain(moved)
@@ -35,7 +35,7 @@ pub fn all(from: &Space) -> impl Iterator<Item = u8> {
 }
 
 #[inline(never)]
-fn copy(from: &Space, to: &mut Space, pair: usize, length: usize) {
+fn copy(from: &CopySpace, to: &mut CopySpace, pair: usize, length: usize) {
     let (at, source) = (pair / PLACES, pair % PLACES);
     if let (Some(to), Some(from)) = (to.get_mut(at..at + length), from.get(source..source + length)) {
         to.copy_from_slice(from);
@@ -44,7 +44,7 @@ fn copy(from: &Space, to: &mut Space, pair: usize, length: usize) {
 
 /// Moves bytes within the room, in both directions.
 #[inline(never)]
-fn shift(space: &mut Space, pair: usize, length: usize) {
+fn shift(space: &mut CopySpace, pair: usize, length: usize) {
     let (at, source) = (pair / PLACES, pair % PLACES);
     if source + length <= space.len() && at + length <= space.len() {
         space.copy_within(source..source + length, at);

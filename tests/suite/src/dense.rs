@@ -2,7 +2,7 @@
 //! Without seams, shapes and tracks, it does less than the core.
 
 use crate::chain::TAXELS;
-use crate::pattern::Pattern;
+use crate::pattern::TouchPattern;
 use taxel_core::format::Code;
 
 const COLUMNS: usize = 16;
@@ -45,7 +45,7 @@ impl Dense {
     /// A chain with the first frame of noise as its baseline.
     pub fn new() -> Dense {
         let mut rest = [Code(0); TAXELS];
-        Pattern::Empty.codes(0, &mut rest);
+        TouchPattern::Empty.codes(0, &mut rest);
         let [values, filtered, labels] = [[0; TAXELS]; 3];
         Dense { rest, values, filtered, labels, sums: [Sums::default(); CONTACTS] }
     }
@@ -145,12 +145,13 @@ fn neighbours(taxel: usize) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Pattern;
+    use crate::pattern::TouchPattern;
 
     #[test]
     fn it_finds_the_contacts_of_a_scene() {
         let mut codes = [Code(0); TAXELS];
-        for (pattern, count) in [(Pattern::Empty, 0), (Pattern::One, 1), (Pattern::Texture, 4)] {
+        for (pattern, count) in [(TouchPattern::Empty, 0), (TouchPattern::One, 1), (TouchPattern::Texture, 4)]
+        {
             pattern.codes(0, &mut codes);
             assert_eq!(Dense::new().process(&codes).len(), count, "{}", pattern.name());
         }

@@ -8,7 +8,7 @@ use crate::measure::Measure;
 use crate::windows::{AREA, SIDE, WINDOWS};
 use core::hint::black_box;
 use taxel_core::format::Code;
-use taxel_core::gesture::{Model, Shipped, TouchState, Touches};
+use taxel_core::gesture::{Model, Shipped, TouchClassifier, TouchState};
 use taxel_core::intent::{Inference, Outcome};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::shape::{DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Patch, descriptor};
@@ -48,7 +48,7 @@ pub struct Bench {
     dense: Dense,
     maps: Option<Maps>,
     inferred: Inference<CONCEPTS>,
-    gestures: Option<Touches<'static>>,
+    gestures: Option<TouchClassifier<'static>>,
     touch: TouchState,
     gallery: Gallery<GALLERY_PROTOTYPES>,
 }
@@ -57,7 +57,7 @@ impl Default for Bench {
     #[inline(never)] // out of line: its stack is needed only during the call
     fn default() -> Bench {
         let model = Model::read(Shipped::Gestures.bytes()).ok();
-        let gestures = model.map(|model| Touches::new(model, 32, 16));
+        let gestures = model.map(|model| TouchClassifier::new(model, 32, 16));
         Bench {
             dense: Dense::new(),
             maps: Maps::shipped(),
@@ -170,7 +170,7 @@ fn describe(codes: &[Code]) -> u32 {
 }
 
 fn copy(codes: &[Code], probe: &mut impl Probe) -> u32 {
-    let mut from: copies::Space = [0; _];
+    let mut from: copies::CopySpace = [0; _];
     from.iter_mut().zip(codes).for_each(|(byte, code)| *byte = code.0 as u8);
     let mut to = from;
     begin(probe);

@@ -23,7 +23,7 @@ pub enum Measure {
 }
 
 /// Results in their format: column and row of the centroid, NMI (eq. 4 of the source), azimuth.
-pub type Raw = [u32; 4];
+pub type RawMoments = [u32; 4];
 
 impl Measure {
     /// All of them.
@@ -50,19 +50,19 @@ impl Measure {
 
     /// Measures a window of 16 x 16 taxels that are not all 0.
     #[inline(never)]
-    pub fn of(self, window: &[Code]) -> Raw {
+    pub fn of(self, window: &[Code]) -> RawMoments {
         match self {
             Measure::Exact => exact(window),
             Measure::Q15 => q15(window),
-            Measure::SumsMicromath => finish(&Sums::exact(window), F32Ext::sqrt, F32Ext::atan2),
-            Measure::SumsLibm => finish(&Sums::exact(window), libm::sqrtf, libm::atan2f),
-            Measure::Micromath => finish(&Sums::of(window), F32Ext::sqrt, F32Ext::atan2),
-            Measure::Libm => finish(&Sums::of(window), libm::sqrtf, libm::atan2f),
+            Measure::SumsMicromath => finish(&MomentSums::exact(window), F32Ext::sqrt, F32Ext::atan2),
+            Measure::SumsLibm => finish(&MomentSums::exact(window), libm::sqrtf, libm::atan2f),
+            Measure::Micromath => finish(&MomentSums::of(window), F32Ext::sqrt, F32Ext::atan2),
+            Measure::Libm => finish(&MomentSums::of(window), libm::sqrtf, libm::atan2f),
         }
     }
 
     /// Values of the results: taxels, NMI, radians.
-    pub fn values(self, raw: Raw) -> [f64; 4] {
+    pub fn values(self, raw: RawMoments) -> [f64; 4] {
         let [x, y, nmi, azimuth] = raw;
         match self {
             Measure::Exact => [
@@ -93,7 +93,7 @@ fn moments(window: &[Code]) -> Moments {
     sum
 }
 
-fn exact(window: &[Code]) -> Raw {
+fn exact(window: &[Code]) -> RawMoments {
     let sums = moments(window);
     let mass = Inverse::of(sums.m as u32);
     let [x, y] = [sums.sx, sums.sy].map(|sum| mass.nearest(sum << 16) as u32);
@@ -108,7 +108,7 @@ fn exact(window: &[Code]) -> Raw {
 const NMI_BITS: u32 = 21;
 
 /// Uses weights `f / m` of 15 bits: the window may have at most 16 x 16 taxels of 12 bits.
-fn q15(window: &[Code]) -> Raw {
+fn q15(window: &[Code]) -> RawMoments {
     let mass: u32 = window.iter().map(|code| u32::from(code.0)).sum();
     let inverse = (1u32 << 31).checked_div(mass).unwrap_or(0);
     let weight = |code: &Code| (u32::from(code.0) * inverse + (1 << 15)) >> 16;
@@ -141,7 +141,7 @@ fn q15(window: &[Code]) -> Raw {
 }
 
 /// Sums in f32, for the rest of the computation.
-struct Sums {
+struct MomentSums {
     m: f32,
     sx: f32,
     sy: f32,
@@ -151,11 +151,11 @@ struct Sums {
     c: f32,
 }
 
-impl Sums {
-    fn exact(window: &[Code]) -> Sums {
+impl MomentSums {
+    fn exact(window: &[Code]) -> MomentSums {
         let sums = moments(window);
         let central = sums.central();
-        Sums {
+        MomentSums {
             m: sums.m as f32,
             sx: sums.sx as f32,
             sy: sums.sy as f32,
@@ -165,7 +165,7 @@ impl Sums {
         }
     }
 
-    fn of(window: &[Code]) -> Sums {
+    fn of(window: &[Code]) -> MomentSums {
         let [mut m, mut sx, mut sy, mut sxx, mut syy, mut sxy] = [0f32; 6];
         for (row, codes) in window.chunks(SIDE).enumerate() {
             let y = row as f32;
@@ -179,11 +179,11 @@ impl Sums {
                 sxy += x * y * f;
             }
         }
-        Sums { m, sx, sy, a: m * sxx - sx * sx, b: m * syy - sy * sy, c: m * sxy - sx * sy }
+        MomentSums { m, sx, sy, a: m * sxx - sx * sx, b: m * syy - sy * sy, c: m * sxy - sx * sy }
     }
 }
 
-fn finish(sums: &Sums, root: fn(f32) -> f32, arctangent: fn(f32, f32) -> f32) -> Raw {
-    let Sums { m, sx, sy, a, b, c } = *sums;
+fn finish(sums: &MomentSums, root: fn(f32) -> f32, arctangent: fn(f32, f32) -> f32) -> RawMoments {
+    let MomentSums { m, sx, sy, a, b, c } = *sums;
     [sx / m, sy / m, root((a + b) / m) / m, 0.5 * arctangent(2.0 * c, a - b)].map(f32::to_bits)
 }

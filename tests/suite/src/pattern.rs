@@ -14,7 +14,7 @@ pub const UNITS: i32 = 20;
 
 /// A scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pattern {
+pub enum TouchPattern {
     /// Noise alone.
     Empty,
     /// One disc.
@@ -75,30 +75,30 @@ impl Disc {
     }
 }
 
-impl Pattern {
+impl TouchPattern {
     /// All patterns.
-    pub const ALL: [Pattern; 8] = [
-        Pattern::Empty,
-        Pattern::One,
-        Pattern::Five,
-        Pattern::Forty,
-        Pattern::Texture,
-        Pattern::Flat,
-        Pattern::Grid,
-        Pattern::Checkerboard,
+    pub const ALL: [TouchPattern; 8] = [
+        TouchPattern::Empty,
+        TouchPattern::One,
+        TouchPattern::Five,
+        TouchPattern::Forty,
+        TouchPattern::Texture,
+        TouchPattern::Flat,
+        TouchPattern::Grid,
+        TouchPattern::Checkerboard,
     ];
 
     /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
-            Pattern::Empty => "empty",
-            Pattern::One => "1 contact",
-            Pattern::Five => "5 contacts",
-            Pattern::Forty => "40 contacts",
-            Pattern::Texture => "saturated",
-            Pattern::Flat => "flat 4095",
-            Pattern::Grid => "512 labels",
-            Pattern::Checkerboard => "checkerboard",
+            TouchPattern::Empty => "empty",
+            TouchPattern::One => "1 contact",
+            TouchPattern::Five => "5 contacts",
+            TouchPattern::Forty => "40 contacts",
+            TouchPattern::Texture => "saturated",
+            TouchPattern::Flat => "flat 4095",
+            TouchPattern::Grid => "512 labels",
+            TouchPattern::Checkerboard => "checkerboard",
         }
     }
 
@@ -117,8 +117,8 @@ impl Pattern {
             disc(3, 150, 311 + along),
         ];
         let count = match self {
-            Pattern::One => 1,
-            Pattern::Five => 5,
+            TouchPattern::One => 1,
+            TouchPattern::Five => 5,
             _ => 0,
         };
         discs.into_iter().take(count)
@@ -129,12 +129,12 @@ impl Pattern {
         for (taxel, value) in image.iter_mut().enumerate() {
             let (row, column) = (taxel / COLUMNS, taxel % COLUMNS);
             *value = match self {
-                Pattern::Empty | Pattern::One | Pattern::Five => 0,
-                Pattern::Forty => small(row, column),
-                Pattern::Texture => 64 + (hash(taxel as u32, 1) & 0x7ff) as u16,
-                Pattern::Flat => FULL_SCALE,
-                Pattern::Grid => 1000 * u16::from(row % 2 == 0 && column % 2 == 0),
-                Pattern::Checkerboard => 1000 * u16::from((row + column) % 2 == 0),
+                TouchPattern::Empty | TouchPattern::One | TouchPattern::Five => 0,
+                TouchPattern::Forty => small(row, column),
+                TouchPattern::Texture => 64 + (hash(taxel as u32, 1) & 0x7ff) as u16,
+                TouchPattern::Flat => FULL_SCALE,
+                TouchPattern::Grid => 1000 * u16::from(row % 2 == 0 && column % 2 == 0),
+                TouchPattern::Checkerboard => 1000 * u16::from((row + column) % 2 == 0),
             };
         }
         self.discs(frame).for_each(|disc| disc.press(image));
@@ -173,7 +173,7 @@ pub(crate) const fn hash(taxel: u32, salt: u32) -> u32 {
 mod tests {
     use super::*;
 
-    fn pressed(pattern: Pattern, frame: u32) -> usize {
+    fn pressed(pattern: TouchPattern, frame: u32) -> usize {
         let mut image = [0; TAXELS];
         pattern.pressure(frame, &mut image);
         image.iter().filter(|value| **value > 0).count()
@@ -181,24 +181,27 @@ mod tests {
 
     #[test]
     fn scenes_press_as_many_taxels_as_they_say() {
-        assert_eq!([Pattern::Empty, Pattern::Texture, Pattern::Flat].map(|p| pressed(p, 0)), [0, 2048, 2048]);
-        assert_eq!([Pattern::Grid, Pattern::Checkerboard].map(|p| pressed(p, 0)), [512, 1024]);
+        assert_eq!(
+            [TouchPattern::Empty, TouchPattern::Texture, TouchPattern::Flat].map(|p| pressed(p, 0)),
+            [0, 2048, 2048]
+        );
+        assert_eq!([TouchPattern::Grid, TouchPattern::Checkerboard].map(|p| pressed(p, 0)), [512, 1024]);
         for frame in 0..400 {
-            assert!((5 * 24..=5 * 32).contains(&pressed(Pattern::Five, frame)), "frame {frame}");
-            let discs = Pattern::Five.discs(frame).zip(Pattern::Five.discs(frame + 1));
+            assert!((5 * 24..=5 * 32).contains(&pressed(TouchPattern::Five, frame)), "frame {frame}");
+            let discs = TouchPattern::Five.discs(frame).zip(TouchPattern::Five.discs(frame + 1));
             for (disc, next) in discs {
                 let moved = (next.x - disc.x).abs().max((next.y - disc.y).abs());
                 assert!(moved <= UNITS / 10);
             }
         }
-        assert!((40 * 4..=40 * 9).contains(&pressed(Pattern::Forty, 0)));
+        assert!((40 * 4..=40 * 9).contains(&pressed(TouchPattern::Forty, 0)));
     }
 
     #[test]
     fn noise_stays_within_two_counts_of_an_offset_of_100_within_20() {
         for frame in 0..50 {
             let mut codes = [Code(0); TAXELS];
-            Pattern::Empty.codes(frame, &mut codes);
+            TouchPattern::Empty.codes(frame, &mut codes);
             assert!(codes.iter().all(|code| (78..=122).contains(&code.0)));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::super::tx_frame::TxFrame;
 use super::super::{BoardInfo, Setup};
-use super::{About, Gestures, Outbox, Waiting};
+use super::{About, GestureQueue, Outbox, Waiting};
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
@@ -146,7 +146,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
 /// Encodes the confidence of the first waiting gesture, then that gesture, so that a reader has the
 /// confidence first.
-fn put_gesture(tx_frame: &mut TxFrame, waiting: &mut Gestures) -> bool {
+fn put_gesture(tx_frame: &mut TxFrame, waiting: &mut GestureQueue) -> bool {
     let Some((report, confidence)) = waiting.front_mut() else { return true };
     let GestureReport { frame, time, touch, .. } = *report;
     if let Some(confidence) = confidence.take() {

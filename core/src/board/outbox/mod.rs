@@ -7,7 +7,7 @@ use super::pace::{Pace, Rates};
 use super::refusal::Refusal;
 use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
-use super::{Codes, Sentence};
+use super::{CodeVec, Sentence};
 use crate::boot::Boot;
 use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros, Q15};
@@ -40,7 +40,7 @@ pub(super) struct About<'a> {
 }
 
 /// Gestures to send, each with its confidence until that has been sent.
-type Gestures = Deque<(GestureReport, Option<Q15>), 4>;
+type GestureQueue = Deque<(GestureReport, Option<Q15>), 4>;
 
 /// Messages to send.
 pub(super) struct Outbox<const TAXELS: usize> {
@@ -55,7 +55,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     reactions: Deque<ReactionReport, 16>,
     reflexes: Deque<ReflexReport, REACTIONS>,
     changes: Deque<IntentReport, 4>,
-    gestures: Gestures,
+    gestures: GestureQueue,
     intent: Option<IntentReport>,
     symbols: SymbolList,
     symbols_wait: bool,
@@ -80,7 +80,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     examined: bool,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
-    codes: Codes<TAXELS>,
+    codes: CodeVec<TAXELS>,
     /// Frames of raw codes per second that were requested beside the scene.
     raw_hz: u16,
     rates: Rates,
@@ -91,7 +91,7 @@ struct Waiting<const TAXELS: usize> {
     due: Option<(u32, Micros)>,
     base: Option<u32>,
     key: Micros,
-    last: Reference<TAXELS>,
+    last: ImageReference<TAXELS>,
 }
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
@@ -126,9 +126,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             shapes: false,
             map: None,
             examined: false,
-            image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
+            image: Waiting { due: None, base: None, key: Micros(0), last: ImageReference::new() },
             raw: None,
-            codes: Codes::new(),
+            codes: CodeVec::new(),
             raw_hz: 0,
             rates: Rates::of(stream, 0),
         }

@@ -187,12 +187,12 @@ const NEAR: usize = 128 - LANES;
 const FAR: usize = (1 << 14) - LANES;
 
 /// Room for a stretch and the head of its run.
-type Place = [u8; 3 + ROOM];
+type RunBuffer = [u8; 3 + ROOM];
 
 /// Encodes a stretch and the head of its run, behind `skip` unchanged taxels. Without a run the bytes have no
 /// meaning.
 #[inline(always)]
-fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+fn begin_near(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, length, room @ .., _] = place;
     let seen = tell(room, now, base);
     *first = (skip + seen.unchanged()) as u8;
@@ -202,7 +202,7 @@ fn begin_near(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> To
 
 /// Encodes like [`begin_near`], behind more taxels.
 #[inline(never)] // rarely called
-fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+fn begin_far(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> Told {
     let [first, second, length, room @ ..] = place;
     let seen = tell_by_call(room, now, base);
     let skip = skip + seen.unchanged();
@@ -212,7 +212,7 @@ fn begin_far(place: &mut Place, skip: usize, now: &Taxels, base: &Taxels) -> Tol
 }
 
 /// Number of encoded taxels of a run, and the room that is left.
-struct More<'a> {
+struct RunRest<'a> {
     taxels: usize,
     out: &'a mut [u8],
 }
@@ -225,7 +225,7 @@ fn rest<'a, const ALONE: bool>(
     now: &[u16],
     base: &[u16],
     most: usize,
-) -> Option<More<'a>> {
+) -> Option<RunRest<'a>> {
     let base = base.get(..now.len())?;
     let mut taxels = 0;
     loop {
@@ -247,7 +247,7 @@ fn rest<'a, const ALONE: bool>(
             taxels += 1;
         }
     }
-    Some(More { taxels, out })
+    Some(RunRest { taxels, out })
 }
 
 fn varint(mut out: &mut [u8], mut value: u32) -> Option<&mut [u8]> {

@@ -2,32 +2,32 @@
 
 use super::encoder::Encoder;
 use crate::garment::Layout;
-use crate::image::held::Held;
+use crate::image::row_set::RowSet;
 use crate::image::view::Image;
 use bytemuck::{try_cast_slice, try_cast_slice_mut};
 use core::ops::Range;
 
 /// The image that was sent last, to which the next one is encoded as a difference. Only rows in which either
 /// of them may hold something are read.
-pub(crate) struct Reference<const TAXELS: usize> {
+pub(crate) struct ImageReference<const TAXELS: usize> {
     values: [u16; TAXELS],
     /// Rows of `values` that may not be 0.
-    rows: Held,
+    rows: RowSet,
     /// [`image_sum`](crate::wire::image_sum) of `values`.
     sum: u32,
 }
 
-impl<const TAXELS: usize> Reference<TAXELS> {
+impl<const TAXELS: usize> ImageReference<TAXELS> {
     /// An image without pressure.
     pub const fn new() -> Self {
-        Reference { values: [0; TAXELS], rows: Held::NONE, sum: 0 }
+        ImageReference { values: [0; TAXELS], rows: RowSet::NONE, sum: 0 }
     }
 
     /// Resets it to an image without pressure: before another layout, and when an image was stored only in
     /// part.
     pub fn clear(&mut self) {
         self.values.fill(0);
-        (self.rows, self.sum) = (Held::NONE, 0);
+        (self.rows, self.sum) = (RowSet::NONE, 0);
     }
 
     /// The checksum of the image.
@@ -50,7 +50,7 @@ impl<const TAXELS: usize> Reference<TAXELS> {
         // not see what follows it.
         let narrow = layout.areas().iter().any(|area| area.columns == 1);
         let taxels = image.values.len().min(TAXELS);
-        let mut step = Step {
+        let mut step = BaseStep {
             encoder: Encoder::new(out),
             now: image.values.get(..taxels)?,
             kept: self.values.get_mut(..taxels)?,
@@ -78,8 +78,8 @@ impl<const TAXELS: usize> Reference<TAXELS> {
     }
 }
 
-/// Work space of [`Reference::advance`].
-struct Step<'a> {
+/// Work space of [`ImageReference::advance`].
+struct BaseStep<'a> {
     encoder: Encoder<'a>,
     now: &'a [u16],
     kept: &'a mut [u16],
@@ -90,7 +90,7 @@ struct Step<'a> {
     narrow: bool,
 }
 
-impl Step<'_> {
+impl BaseStep<'_> {
     /// Encodes and stores consecutive rows as one part: a run does not end where a row does.
     #[inline(never)] // M0+: out of line
     fn tell(&mut self, part: Range<usize>) -> Option<()> {

@@ -51,7 +51,7 @@ const ENDS: u32 = 1 << 31;
 /// Encodes the differences of a run, which begins at the first changed taxel.
 #[inline(always)]
 pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
-    let state = State { out, within: false, unchanged: LANES as u32 };
+    let state = LaneState { out, within: false, unchanged: LANES as u32 };
     lanes::<false>(state, now, base).unwrap_or_else(|told| told)
 }
 
@@ -65,7 +65,7 @@ pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) ->
 /// from the one before it, `base` begins with that of the first, and a taxel is unchanged if it is 0.
 #[inline(never)]
 fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
-    let state = State { out, within: true, unchanged: 0 };
+    let state = LaneState { out, within: true, unchanged: 0 };
     lanes::<ALONE>(state, now, base).unwrap_or_else(|told| told)
 }
 
@@ -103,7 +103,7 @@ fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usiz
 }
 
 /// Remaining room, whether a run has begun, and number of unchanged taxels before it.
-struct State<'a> {
+struct LaneState<'a> {
     out: &'a mut [u8],
     within: bool,
     unchanged: u32,
@@ -111,7 +111,7 @@ struct State<'a> {
 
 /// Unrolled by hand: the compiler would keep a loop.
 #[inline(always)]
-fn lanes<const ALONE: bool>(state: State<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
+fn lanes<const ALONE: bool>(state: LaneState<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
     let state = lane::<ALONE, 0>(state, now, base)?;
     let state = lane::<ALONE, 1>(state, now, base)?;
     let state = lane::<ALONE, 2>(state, now, base)?;
@@ -139,7 +139,7 @@ fn lanes<const ALONE: bool>(state: State<'_>, now: &Taxels, base: &Taxels) -> Re
     Ok(state.told(LANES))
 }
 
-impl State<'_> {
+impl LaneState<'_> {
     #[inline(always)]
     fn told(&self, next: usize) -> Told {
         Told { taxels: self.unchanged | (next as u32) << 16, end: self.out.as_ptr().addr() }
@@ -155,10 +155,10 @@ impl State<'_> {
 /// Encodes one taxel. Error: the run ends before it, or its difference is too long.
 #[inline(always)]
 fn lane<'a, const ALONE: bool, const LANE: usize>(
-    mut state: State<'a>,
+    mut state: LaneState<'a>,
     now: &Taxels,
     base: &Taxels,
-) -> Result<State<'a>, Told> {
+) -> Result<LaneState<'a>, Told> {
     if !state.within {
         if now[LANE] == base[LANE] {
             return Ok(state);
@@ -183,7 +183,7 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
     }
     let told = state.told(LANE);
     match write(state.out, difference) {
-        Some(out) => Ok(State { out, ..state }),
+        Some(out) => Ok(LaneState { out, ..state }),
         None => Err(told),
     }
 }

@@ -8,23 +8,23 @@ pub(crate) const ENTRIES: usize = 256;
 /// A bit for each row by its number over all panels ([`Area::first_row`](crate::garment::Area)` + row`). Rows
 /// from 255 on share one bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Held([u32; ENTRIES / 32]);
+pub(crate) struct RowSet([u32; ENTRIES / 32]);
 
-impl Held {
+impl RowSet {
     /// No row.
-    pub const NONE: Held = Held([0; ENTRIES / 32]);
+    pub const NONE: RowSet = RowSet([0; ENTRIES / 32]);
     /// Every row.
-    pub const ALL: Held = Held([u32::MAX; ENTRIES / 32]);
+    pub const ALL: RowSet = RowSet([u32::MAX; ENTRIES / 32]);
 
     /// Union.
-    pub fn with(&self, other: &Held) -> Held {
+    pub fn with(&self, other: &RowSet) -> RowSet {
         let mut all = *self;
         all.0.iter_mut().zip(other.0).for_each(|(all, other)| *all |= other);
         all
     }
 
     /// Rows that are not in `other`.
-    pub(crate) fn without(&self, other: &Held) -> Held {
+    pub(crate) fn without(&self, other: &RowSet) -> RowSet {
         let mut rest = *self;
         rest.0.iter_mut().zip(other.0).for_each(|(rest, other)| *rest &= !other);
         rest
@@ -32,7 +32,7 @@ impl Held {
 
     /// True if there is no row.
     pub fn is_empty(&self) -> bool {
-        *self == Held::NONE
+        *self == RowSet::NONE
     }
 
     /// First row of the range that may be non-zero.
@@ -116,7 +116,7 @@ mod tests {
         for (first, last) in
             [(0, 0), (3, 7), (0, 31), (31, 32), (30, 100), (64, 95), (200, 254), (0, 255), (255, 255)]
         {
-            let mut held = Held::NONE;
+            let mut held = RowSet::NONE;
             held.add_run(first..last + 1);
             let (first, end) = (first as u16, if last == SHARED { 300 } else { last as u16 + 1 });
             for rows in [0..300, first..300, 0..end, first..end] {
@@ -125,7 +125,7 @@ mod tests {
             assert_eq!(held.run(end..300), None);
             assert_eq!(held.run(first..first + 1), Some(first..first + 1));
         }
-        assert_eq!(Held::NONE.run(0..300), None);
-        assert_eq!(Held::ALL.run(7..300), Some(7..300));
+        assert_eq!(RowSet::NONE.run(0..300), None);
+        assert_eq!(RowSet::ALL.run(7..300), Some(7..300));
     }
 }
