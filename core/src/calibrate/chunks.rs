@@ -123,7 +123,7 @@ fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pa
 
 /// Skips inactive chunks, one taxel after the other.
 ///
-/// No branch per taxel: a chunk's differences are combined, and the sign of the result tells if one is
+/// No branch per taxel: a chunk's differences are combined, and the sign of the result says if one is
 /// negative.
 #[inline(never)] // M0+: out of line
 fn inactive_taxels<const N: usize, const FALLING: bool>(codes: &[[Code; N]], limit: &[[u16; N]]) -> usize {

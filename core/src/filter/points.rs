@@ -56,7 +56,7 @@ impl Points {
     }
 
     /// Restores each point of a panel to the lesser of its values in the previous frame and in this one.
-    /// `values` are unfiltered, `out` smoothed; `marks` tells where they may be non-zero.
+    /// `values` are unfiltered, `out` smoothed; `marks` says where they may be non-zero.
     #[inline(never)] // M0+: out of line
     pub fn restore(&mut self, values: &[u16], out: &mut [u16], area: &Area, marks: &Rows) {
         let columns = usize::from(area.columns);

@@ -3,7 +3,7 @@
 //! [`assign`] pairs this frame's components with the last frame's contacts by the distances of [`point`];
 //! [`reunite`] keeps what has hardly parted together; [`tracks`] updates, merges, splits and releases.
 //! [`motion`] follows the centroid or the [`pattern`] inside a contact, by the optical [`flow`] of its
-//! [`gradient`]; [`slip`] tells when it slips.
+//! [`gradient`]; [`slip`] reports when it slips.
 
 pub(crate) mod assign;
 pub(crate) mod flow;

@@ -8,7 +8,7 @@
 //! | `select.rs` | PIO program that drives the select lines |
 //! | `frames.rs` | frames in memory, and who may access them |
 //! | `reflex.rs` | check of a sub-field, and the pins that it asserts |
-//! | `lent.rs` | tells the emulator which frame is read |
+//! | `lent.rs` | reports to the emulator which frame is read |
 //!
 //! Per address, a channel for each input takes one sample and stores it in the place of its taxel. Then the
 //! next levels go out, and while the select lines settle the converter measures its own temperature. The
