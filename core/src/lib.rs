@@ -10,6 +10,9 @@
 //! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
 //! [`capacity`] the sizes of the board that ships.
 //!
+//! Two stages are folders of their own, which the stage composes: `image`, `calibrate`, `baseline` and
+//! `filter` make up [`condition`]; `segment`, `measure` and `track` make up [`contact`].
+//!
 //! `// M0+: out of line` explains an `#[inline(never)]`: on the Cortex-M0+ only eight registers are cheap to
 //! reach. A hot loop is therefore a function of its own, out of line, so that it gets all of them. The choice
 //! follows the cycles of the emulated image.
@@ -31,9 +34,23 @@ pub mod selftest;
 
 pub mod health;
 
+mod image;
+
+mod calibrate;
+
+mod baseline;
+
+mod filter;
+
 pub mod condition;
 
 pub mod fold;
+
+mod segment;
+
+mod measure;
+
+mod track;
 
 pub mod contact;
 

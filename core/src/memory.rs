@@ -3,7 +3,7 @@
 
 use crate::capacity::{PARTS, RUNS, TAXELS};
 use crate::condition::ConditionState;
-use crate::contact::{ContactState, Growth};
+use crate::contact::{ContactState, HardnessCue};
 use crate::fold::FoldState;
 use crate::gesture::TouchState;
 use crate::health::Monitor;
@@ -35,7 +35,7 @@ macro_rules! states {
 states! {
     ConditionState<TAXELS>, "condition/mod.rs", 21584, 21584;
     ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76400, 76456;
-    Growth, "contact/hardness.rs", 20, 20;
+    HardnessCue, "measure/hardness.rs", 20, 20;
     FoldState, "fold.rs", 96, 96;
     TouchState, "gesture/mod.rs", 3712, 3720;
     Monitor, "health/mod.rs", 2812, 2816;

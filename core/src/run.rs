@@ -48,7 +48,7 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     let mut reader = Reader::new();
     while platform.alive() {
         reader.receive(link, platform, board);
-        acquire.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel));
+        acquire.watch(board.reflexes(), board.reacting(), |taxel| board.inactive_code(taxel));
         let now = platform.now();
         let job = board.step(now, Input::Tick, platform);
         // A reaction's pin moves before its message is sent.

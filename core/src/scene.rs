@@ -6,7 +6,7 @@ use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
 use crate::format::{Invalid, InvalidRow, Name, name};
 use crate::garment::{Layout, Line, PANELS};
-use crate::intent::{Input, IntentConfig, Source, tactile};
+use crate::intent::{IntentConfig, MapInput, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
 use crate::reflex::Agree;
 use crate::shape::ShapeConfig;
@@ -228,7 +228,7 @@ impl Scene {
             row.hysteresis = scale(row.hysteresis.unsigned_abs()) as i32;
         }
         if let Some(intent) = &mut scene.intent {
-            let pressure = |input: &&mut Input| {
+            let pressure = |input: &&mut MapInput| {
                 use Source::{Blow, Hardness, Load, Peak, Press, Rise};
                 matches!(input.source, Press | Rise | Hardness | Blow | Load | Peak)
             };

@@ -19,7 +19,7 @@ use taxel_core::boot::{Boots, Remains, Reset, panicked};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
-use taxel_core::gesture::{Model, TouchState, Touches};
+use taxel_core::gesture::{Model, TouchState, TouchClassifier};
 use taxel_core::reflex::{Early, Reflex};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
@@ -94,20 +94,22 @@ pub extern "C" fn _start(given: &mut Given) {
         7 => keep((board.wake(), board.circuit(), board.setup(), board.state(), board.health())),
         8 => keep((Garment::reference(), Scene::shipped())),
         9 => keep(Setup::build(info, garment.clone(), scene.clone(), given.count)),
-        10 => keep((Shipped::bare(*info), board.dress(garment.clone()), board.employ(scene.clone()))),
+        10 => {
+            keep((Shipped::bare(*info), board.set_garment(garment.clone()), board.set_scene(scene.clone())))
+        }
         11 => keep(Shipped::new(*info, garment.clone(), scene.clone())),
         12 => step(Input::Examined(given.examined.clone())),
         13 => board.restore(given.part, bytes),
         14 => keep(board.settings().write(given.part, given.buffer)),
         15 => board.forgot("any"),
         16 => keep(Model::read(bytes).map(|model| {
-            let touches = Touches::new(model, given.count as u16, given.call.into());
+            let touches = TouchClassifier::new(model, given.count as u16, given.call.into());
             touches.process(touch, image);
             touches.decide(touch)
         })),
         17 => step(Input::Misled),
         18 => step(Input::Reflex(given.early)),
-        19 => given.reflex.watch(board.reflexes(), board.reacting(), |taxel| board.quiet_code(taxel)),
+        19 => given.reflex.watch(board.reflexes(), board.reacting(), |taxel| board.inactive_code(taxel)),
         20 => keep(given.reflex.check(given.count, codes, given.frame, *now)),
         21 => keep(Fields::of(board.circuit(), &scene.plan).map(|fields| {
             fields.each(board.circuit(), &scene.plan, |field, _, taxels| {
@@ -121,7 +123,7 @@ pub extern "C" fn _start(given: &mut Given) {
             let mut boots = Boots::begin(given.left, given.count > 0);
             boots.put_aside();
             boots.alive(*now);
-            boots.spend(given.call);
+            boots.charge(given.call);
             boots.saved();
             boots.asked();
             board.resume_saving(boots.saves().unwrap_or(given.call));

@@ -9,6 +9,7 @@ mod copy;
 mod guard;
 mod led;
 mod levels;
+mod limits;
 mod link;
 mod mark;
 mod panic;
@@ -18,6 +19,7 @@ mod remains;
 mod scan;
 mod store;
 mod supply;
+mod watchdog;
 
 use defmt_rtt as _;
 use embassy_executor::Spawner;
@@ -30,27 +32,27 @@ use taxel_core::scene::Scene;
 /// Number of bits per byte on the line: one start bit, eight data bits, one stop bit.
 const BITS_PER_BYTE: u32 = 10;
 
-type Pool = Lines<pins::Line, { board::LINES }>;
+type Pool = Lines<pins::LinePin, { limits::LINES }>;
 
 // Large objects are static, not on the stack: these, and the board, which is a part of the main task.
 static LINES: StaticCell<Pool> = StaticCell::new();
 static SCANNER: StaticCell<scan::Scanner> = StaticCell::new();
 
 #[inline(never)]
-fn dress(board: &mut Shipped) -> Result<(), SetupError> {
-    board.dress(Garment::reference())
+fn set_garment(board: &mut Shipped) -> Result<(), SetupError> {
+    board.set_garment(Garment::reference())
 }
 
 #[inline(never)]
-fn employ(board: &mut Shipped) -> Result<(), SetupError> {
-    board.employ(Scene::shipped())
+fn set_scene(board: &mut Shipped) -> Result<(), SetupError> {
+    board.set_scene(Scene::shipped())
 }
 
 /// Sets the shipped garment and scene. Functions of their own: otherwise the main task would keep their stack
 /// for ever.
 #[inline(never)]
 fn ship(board: &mut Shipped) {
-    if let Err(error) = dress(board).and_then(|()| employ(board)) {
+    if let Err(error) = set_garment(board).and_then(|()| set_scene(board)) {
         defmt::error!("what ships does not fit this board: {}", defmt::Display2Format(&error));
         // From here on nothing feeds the watchdog, so the board restarts and reports it again.
         loop {
@@ -63,9 +65,9 @@ fn ship(board: &mut Shipped) {
 /// first.
 #[inline(never)]
 fn scanner(
-    lines: [(u8, pins::Line); board::LINES],
-    converter: adc::Converter<{ board::INPUTS }>,
-    chain: scan::Chain,
+    lines: [(u8, pins::LinePin); limits::LINES],
+    converter: adc::Converter<{ limits::INPUTS }>,
+    chain: scan::DmaChain,
 ) -> &'static mut scan::Scanner {
     let lines = LINES.init_with(|| Lines::new(lines));
     SCANNER.init_with(|| {
@@ -78,11 +80,11 @@ fn scanner(
 async fn main(_spawner: Spawner) {
     guard::put_up();
     supply::watch();
-    let board::Parts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
-    let mut platform = platform::Board::start(watchdog, led, flash);
-    const { assert!(board::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
+    let board::BoardParts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
+    let mut platform = platform::BoardPlatform::start(watchdog, led, flash);
+    const { assert!(limits::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
-    let mut board = Shipped::bare(board::INFO);
+    let mut board = Shipped::bare(limits::INFO);
     ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

@@ -3,26 +3,26 @@
 use core::convert::Infallible;
 use embassy_rp::{Peri, gpio};
 use embedded_hal::digital::{ErrorType, OutputPin};
-use taxel_core::acquire::{Pad, Pull};
+use taxel_core::acquire::{ProbePin, Pull};
 
 /// A free pin. It stays high-impedance until it is driven, so that a pin which no garment names has no
 /// effect.
-pub struct Line(gpio::Flex<'static>);
+pub struct LinePin(gpio::Flex<'static>);
 
-impl Line {
+impl LinePin {
     /// Takes the pin; returns its number with it.
-    pub fn new(pin: Peri<'static, gpio::AnyPin>) -> (u8, Line) {
+    pub fn new(pin: Peri<'static, gpio::AnyPin>) -> (u8, LinePin) {
         use gpio::Pin;
-        (pin.pin(), Line(gpio::Flex::new(pin)))
+        (pin.pin(), LinePin(gpio::Flex::new(pin)))
     }
 }
 
-impl ErrorType for Line {
+impl ErrorType for LinePin {
     type Error = Infallible;
 }
 
 // The level is set before the driver is switched on, so that no other level ever shows.
-impl OutputPin for Line {
+impl OutputPin for LinePin {
     #[inline]
     fn set_low(&mut self) -> Result<(), Infallible> {
         self.0.set_low();
@@ -38,7 +38,7 @@ impl OutputPin for Line {
     }
 }
 
-impl Pad for Line {
+impl ProbePin for LinePin {
     fn release(&mut self, pull: Pull) -> Result<(), Infallible> {
         self.0.set_pull(match pull {
             Pull::None => gpio::Pull::None,

@@ -3,9 +3,10 @@
 use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
-use crate::store::{Fed, Flash};
+use crate::store::{FedFlash, Flash};
+use crate::watchdog::WATCHDOG;
 use embassy_rp::{clocks, watchdog::Watchdog};
-use embassy_time::{Duration, Instant};
+use embassy_time::Instant;
 use embedded_hal::delay::DelayNs;
 use rp_pac::watchdog::regs::Load;
 use taxel_core::{
@@ -18,10 +19,6 @@ use taxel_core::{
     run::Platform,
 };
 use taxel_store::{Found, StoreError};
-
-/// Time without a round of the loop after which the board restarts. The core refuses garments and scenes
-/// whose frames take nearly as long.
-pub const WATCHDOG: Duration = Duration::from_millis(WATCHDOG_MS as u64);
 
 /// Time between two toggles of the LED, as long as the loop runs.
 const HEARTBEAT_US: u64 = 500_000;
@@ -94,7 +91,7 @@ impl DelayNs for Settle {
 }
 
 /// The parts of the board other than pins, converter and link.
-pub struct Board {
+pub struct BoardPlatform {
     watchdog: Watchdog,
     flash: Flash,
     led: Led,
@@ -102,18 +99,18 @@ pub struct Board {
     boots: Boots<Scratch>,
 }
 
-impl Board {
+impl BoardPlatform {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> Board {
+    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> BoardPlatform {
         let boots = Boots::begin(Scratch, led.was_grounded());
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        Board { watchdog, flash, led, led_due: Micros(0), boots }
+        BoardPlatform { watchdog, flash, led, led_due: Micros(0), boots }
     }
 
     /// Stores the levels of outputs for the next start, beside the settings.
     fn keep_levels(&mut self, levels: Levels, saved: Saved) -> Result<Saved, StoreError> {
-        let mut flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let mut flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         Ok(match flash.keep_levels(levels)? {
             Saved::Written => Saved::Written,
             Saved::Unchanged => saved,
@@ -129,7 +126,7 @@ impl Board {
             board.resume_saving(saves);
         }
         if uses_stored {
-            let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+            let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
             match flash.store().and_then(|mut store| store.load(board)) {
                 Ok(Found::Aside) => self.boots.put_aside(),
                 Ok(Found::Nothing | Found::Settings) => {}
@@ -143,21 +140,21 @@ impl Board {
     }
 }
 
-impl Clock for Board {
+impl Clock for BoardPlatform {
     #[inline]
     fn now(&self) -> Micros {
         Timer.now()
     }
 }
 
-impl Probe for Board {
+impl Probe for BoardPlatform {
     #[inline]
     fn begin(&mut self, stage: Stage) {
         mark(stage as u32);
     }
 }
 
-impl Platform for Board {
+impl Platform for BoardPlatform {
     fn alive(&mut self) -> bool {
         self.watchdog.feed(WATCHDOG);
         let now = self.now();
@@ -172,22 +169,22 @@ impl Platform for Board {
     #[inline(never)]
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
         // Before it begins: the save itself may never end.
-        self.boots.spend(settings.saves);
-        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        self.boots.charge(settings.saves);
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let saved = flash.store().and_then(|mut store| store.save(settings));
         let saved = saved.and_then(|saved| self.keep_levels(Levels::of(&settings.scene.react), saved));
         if saved.is_ok() {
             self.boots.saved();
         }
         if saved == Ok(Saved::Unchanged) {
-            self.boots.spend(settings.saves.saturating_add(1));
+            self.boots.charge(settings.saves.saturating_add(1));
         }
         saved.map_err(StoreError::sentence)
     }
 
     #[inline(never)]
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
-        let flash = Fed { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         flash.store().and_then(|mut store| store.put_aside(!undo)).map_err(StoreError::sentence)
     }
 

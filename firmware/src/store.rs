@@ -1,6 +1,6 @@
 //! The sectors of the flash with the settings, and those with the levels of outputs.
 
-use crate::platform::WATCHDOG;
+use crate::watchdog::WATCHDOG;
 use core::ops::Range;
 use embassy_rp::flash::{self, Blocking, ERASE_SIZE, Error, READ_SIZE, WRITE_SIZE};
 use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};
@@ -23,14 +23,14 @@ pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.sta
 pub type Flash = flash::Flash<'static, FLASH, Blocking, BYTES>;
 
 /// The flash with a watchdog that is fed before each step: erasing a sector may take 0.4 s.
-pub struct Fed<'a> {
+pub struct FedFlash<'a> {
     /// The flash.
     pub flash: &'a mut Flash,
     /// The watchdog.
     pub watchdog: &'a mut Watchdog,
 }
 
-impl Fed<'_> {
+impl FedFlash<'_> {
     /// Opens the settings.
     pub fn store(self) -> Result<Store<Self>, StoreError> {
         Store::new(self, SECTORS)
@@ -42,11 +42,11 @@ impl Fed<'_> {
     }
 }
 
-impl ErrorType for Fed<'_> {
+impl ErrorType for FedFlash<'_> {
     type Error = Error;
 }
 
-impl ReadNorFlash for Fed<'_> {
+impl ReadNorFlash for FedFlash<'_> {
     const READ_SIZE: usize = READ_SIZE;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
@@ -58,7 +58,7 @@ impl ReadNorFlash for Fed<'_> {
     }
 }
 
-impl NorFlash for Fed<'_> {
+impl NorFlash for FedFlash<'_> {
     const WRITE_SIZE: usize = WRITE_SIZE;
     const ERASE_SIZE: usize = ERASE_SIZE;
 

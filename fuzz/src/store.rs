@@ -32,7 +32,7 @@ pub fn run(data: &[u8]) {
         garment: &garment,
         scene: &scene,
         gain: &gain,
-        ill: &[],
+        faulty: &[],
         baseline: None,
         calibration: None,
         saves: 5,

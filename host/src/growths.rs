@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
-use taxel_core::contact::Growth;
+use taxel_core::contact::HardnessCue;
 use taxel_core::garment::Layout;
 
 /// Growth and last panel by contact id.
 #[derive(Debug, Default, Clone)]
-pub struct Growths(BTreeMap<u32, (Growth, u8)>);
+pub struct Growths(BTreeMap<u32, (HardnessCue, u8)>);
 
 impl Growths {
     /// Handles a frame. Contacts just released stay known until the next frame.

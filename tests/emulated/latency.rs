@@ -12,7 +12,7 @@ use taxel_core::intent::Leading;
 use taxel_core::reflex::Agree;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
-use taxel_suite::pattern::Pattern;
+use taxel_suite::pattern::TouchPattern;
 
 /// Columns of a panel, and taxels.
 const COLUMNS: usize = 16;
@@ -65,7 +65,7 @@ fn codes() -> Vec<u16> {
     let mut frames = Vec::new();
     let empty = |number: usize| {
         let mut codes = [Code(0); TAXELS];
-        Pattern::Empty.codes(number as u32, &mut codes);
+        TouchPattern::Empty.codes(number as u32, &mut codes);
         codes.map(|code| code.0)
     };
     (0..RESTS).for_each(|number| frames.extend(empty(number)));

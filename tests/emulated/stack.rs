@@ -5,8 +5,8 @@ use crate::board::Emulated;
 use taxel_core::capacity::TAXELS;
 use taxel_core::condition::Filter;
 use taxel_core::format::{Name, name};
-use taxel_core::garment::{Absent, Block, Edge, Garment, Line, Panel, Seam, Side};
-use taxel_core::intent::{CONCEPTS, Edge as Link, Input, Map, Source, Threshold};
+use taxel_core::garment::{Absent, Block, Garment, Line, Panel, Seam, SeamEdge, Side};
+use taxel_core::intent::{CONCEPTS, Edge as Link, Map, MapInput, Source, Threshold};
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::{Friendliness, Scene};
 use taxel_core::wire::{Hello, IntentReport, LONGEST_REQUEST, Report, Request};
@@ -87,7 +87,7 @@ fn greatest_garment() -> Garment {
     };
     garment.blocks = (0..64).map(block).collect();
     // Along both flanks of two panels, as on the torso.
-    let edge = |panel, side| Edge { panel, side, start: 0 };
+    let edge = |panel, side| SeamEdge { panel, side, start: 0 };
     let seam = |index: u8| {
         let (one, other) =
             if index.is_multiple_of(2) { (Side::Left, Side::Right) } else { (Side::Right, Side::Left) };
@@ -129,7 +129,7 @@ fn greatest_scene() -> Scene {
     let sources =
         [Source::Press, Source::Breadth, Source::Friendliness, Source::Duration, Source::Speed, Source::Rise];
     let sources = sources.into_iter().chain((0..2).map(Source::Host));
-    let input = |(source, concept)| Input {
+    let input = |(source, concept)| MapInput {
         concept,
         source,
         low: 0,

@@ -10,7 +10,7 @@ use taxel_core::garment::Garment;
 use taxel_core::reflex::Agree;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Budget, Report, Request};
-use taxel_suite::pattern::Pattern;
+use taxel_suite::pattern::TouchPattern;
 
 /// Time from scan to scan, us.
 const SCAN_US: u64 = 5_120;
@@ -30,28 +30,37 @@ fn judged((mean, most): (u64, u64)) -> u64 {
 }
 
 /// A scene, and whether all of its images must come.
-type Shown = (Pattern, bool);
+type Shown = (TouchPattern, bool);
 
 /// What is shown, and for how many scans each.
 fn shown() -> (Vec<Shown>, usize) {
-    let shown = |patterns: &[Pattern]| {
-        patterns.iter().map(|pattern| (*pattern, !matches!(pattern, Pattern::Texture))).collect()
+    let shown = |patterns: &[TouchPattern]| {
+        patterns.iter().map(|pattern| (*pattern, !matches!(pattern, TouchPattern::Texture))).collect()
     };
     if std::env::var_os("TAXEL_CAMPAIGN").is_some() {
-        (shown(&Pattern::ALL), 400)
+        (shown(&TouchPattern::ALL), 400)
     } else {
-        (shown(&[Pattern::Empty, Pattern::One, Pattern::Five, Pattern::Grid, Pattern::Texture]), 60)
+        (
+            shown(&[
+                TouchPattern::Empty,
+                TouchPattern::One,
+                TouchPattern::Five,
+                TouchPattern::Grid,
+                TouchPattern::Texture,
+            ]),
+            60,
+        )
     }
 }
 
 /// A rest, then the scenes one after the other.
 fn codes(shown: &[Shown], scans: usize) -> Vec<u16> {
     let scenes = shown.iter().flat_map(|(pattern, _)| std::iter::repeat_n(*pattern, scans));
-    let frames = std::iter::repeat_n(Pattern::Empty, REST).chain(scenes).zip(0..);
+    let frames = std::iter::repeat_n(TouchPattern::Empty, REST).chain(scenes).zip(0..);
     frames.flat_map(|(pattern, number)| codes_of(pattern, number)).collect()
 }
 
-fn codes_of(pattern: Pattern, number: u32) -> [u16; TAXELS] {
+fn codes_of(pattern: TouchPattern, number: u32) -> [u16; TAXELS] {
     let mut codes = [Code(0); TAXELS];
     pattern.codes(number, &mut codes);
     codes.map(|code| code.0)
@@ -191,7 +200,7 @@ fn a_flood_of_requests_stops_no_scan() {
         ("SelfTest", Request::SelfTest, 4_000, 60.0),
     ];
     for (of, request, times, least) in floods {
-        let (mut board, _) = streaming(&Scene::shipped(), &codes_of(Pattern::Empty, 0), &[]);
+        let (mut board, _) = streaming(&Scene::shipped(), &codes_of(TouchPattern::Empty, 0), &[]);
         next_frame(&mut board, &mut Images::default());
         // What the host loses does not matter here: after each change the numbers of frames go on.
         board.forgiving = true;
@@ -218,8 +227,10 @@ fn a_flood_of_requests_stops_no_scan() {
 
 #[test]
 fn a_cable_may_be_pulled_and_put_again() {
-    let codes: Vec<u16> =
-        [Pattern::Empty, Pattern::One].into_iter().flat_map(|pattern| codes_of(pattern, 0)).collect();
+    let codes: Vec<u16> = [TouchPattern::Empty, TouchPattern::One]
+        .into_iter()
+        .flat_map(|pattern| codes_of(pattern, 0))
+        .collect();
     let (mut board, _) = streaming(&Scene::shipped(), &codes, &["--seconds", "3"]);
     let first = next_frame(&mut board, &mut Images::default());
     let before = board.look("unplug").as_f64().unwrap() as u64;

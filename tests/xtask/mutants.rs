@@ -21,7 +21,7 @@ const UNEXPLAINED: &str = "not explained";
 /// A part to be mutated, and the tests that should notice.
 struct Part {
     name: &'static str,
-    folder: &'static str,
+    folders: &'static [&'static str],
     package: &'static str,
     /// Test target besides the unit tests.
     target: &'static str,
@@ -32,19 +32,36 @@ struct Part {
 const PARTS: [Part; 3] = [
     Part {
         name: "contact",
-        folder: "core/src/contact",
+        folders: &["core/src/segment", "core/src/measure", "core/src/track", "core/src/contact"],
         package: "taxel-core",
         target: "core",
-        tests: &["contact", "hard::", "moments", "dense", "bounds::", "tracking::", "board"],
+        tests: &[
+            "segment::",
+            "measure::",
+            "track::",
+            "contact",
+            "hard::",
+            "moments",
+            "dense",
+            "bounds::",
+            "tracking::",
+            "board",
+        ],
     },
     Part {
         name: "wire",
-        folder: "core/src/wire",
+        folders: &["core/src/wire"],
         package: "taxel-core",
         target: "core",
         tests: &["wire", "golden", "board", "exchange"],
     },
-    Part { name: "store", folder: "store/src", package: "taxel-store", target: "settings", tests: &[""] },
+    Part {
+        name: "store",
+        folders: &["firmware/store/src"],
+        package: "taxel-store",
+        target: "settings",
+        tests: &[""],
+    },
 ];
 
 /// Results, as cargo-mutants names the files that list them.
@@ -119,7 +136,8 @@ fn written() -> PathBuf {
 fn mutants(tool: &Path, part: &Part) -> Command {
     let mut command = Command::new(tool);
     command.args(["mutants", "--no-config", "--colors", "never", "--dir"]).arg(paths::root());
-    command.args(["--package", part.package, "--file", &format!("{}/**", part.folder)]);
+    command.args(["--package", part.package]);
+    part.folders.iter().for_each(|folder| _ = command.arg("--file").arg(format!("{folder}/**")));
     // Build products are reused for the next mutant and the next run: only changes are compiled, and quickly.
     command.env("CARGO_TARGET_DIR", paths::target().join("mutants/build")).env("CARGO_INCREMENTAL", "1");
     command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "0");

@@ -1,7 +1,7 @@
 //! The addresses of a plan, which every scan reads, whatever its order.
 
 use super::Plan;
-use super::sweep::{SWEEP_INPUTS, Unfit};
+use super::unfit::{SWEEP_INPUTS, Unfit};
 use crate::garment::{Circuit, Site};
 use heapless::Vec;
 
@@ -9,17 +9,17 @@ use heapless::Vec;
 pub type Read = [Option<u16>; SWEEP_INPUTS];
 
 /// GPIO numbers of the converter inputs of a plan, ascending.
-pub(super) type Inputs = Vec<u8, SWEEP_INPUTS>;
+pub(super) type InputPins = Vec<u8, SWEEP_INPUTS>;
 
 /// Returns the inputs that one converter reads in turn. Error if a line is past GPIO 31 or there are too
 /// many.
-pub(super) fn inputs(circuit: &Circuit, plan: &Plan) -> Result<Inputs, Unfit> {
+pub(super) fn inputs(circuit: &Circuit, plan: &Plan) -> Result<InputPins, Unfit> {
     if let Some(pin) = circuit.lines().iter().find(|pin| **pin >= 32) {
         return Err(Unfit::Line(*pin));
     }
     let read = circuit.sites().iter().filter(|s| plan.reads(s.panel, s.block));
     let mask = read.fold(0u64, |mask, site| mask | 1 << (site.input & 63));
-    let mut inputs = Inputs::new();
+    let mut inputs = InputPins::new();
     // Without the library's sort, which can panic.
     for input in (0..64).filter(|input| mask >> input & 1 == 1) {
         inputs.push(input).map_err(|_| Unfit::Inputs)?;
@@ -57,7 +57,7 @@ impl Address<'_> {
     }
 
     /// Returns the taxels that these inputs read here.
-    pub fn taxels(&self, inputs: &Inputs) -> Read {
+    pub fn taxels(&self, inputs: &InputPins) -> Read {
         let mut here = [None; SWEEP_INPUTS];
         let there = |site: &&Site| {
             self.plan.reads(site.panel, site.block) && self.row < site.rows && self.column < site.columns

@@ -42,7 +42,7 @@ pub fn longest_self_test_us(circuit: &Circuit) -> u64 {
 
 /// Error of a garment or plan with which the loop would not feed the watchdog in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TooLong {
+pub struct FrameTooLong {
     /// "a frame" or "a self-test"
     pub what: &'static str,
     /// Longest time of it, ms.
@@ -53,9 +53,9 @@ pub struct TooLong {
     pub scans: u16,
 }
 
-impl fmt::Display for TooLong {
+impl fmt::Display for FrameTooLong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let TooLong { what, ms, settle_ns, scans } = self;
+        let FrameTooLong { what, ms, settle_ns, scans } = self;
         write!(f, "{what} takes {ms} ms, at most {LONGEST_MS}: lower wiring.settle_ns ({settle_ns})")?;
         if *scans > 1 {
             write!(f, " or plan.depth (mean of {scans})")?;
@@ -64,17 +64,17 @@ impl fmt::Display for TooLong {
     }
 }
 
-impl core::error::Error for TooLong {}
+impl core::error::Error for FrameTooLong {}
 
 /// Error if a frame or a self-test can take longer than [`LONGEST_MS`] with this wiring and plan.
 #[inline(never)] // own frame: its stack is free again on return
-pub fn check_duration(circuit: &Circuit, plan: &Plan) -> Result<(), TooLong> {
+pub fn check_duration(circuit: &Circuit, plan: &Plan) -> Result<(), FrameTooLong> {
     let settle_ns = circuit.settle_ns();
     let frame = ("a frame", longest_frame_us(circuit, plan), plan.depth.scans());
     let test = ("a self-test", longest_self_test_us(circuit), 1);
     for (what, us, scans) in [frame, test] {
         if us > 1000 * u64::from(LONGEST_MS) {
-            return Err(TooLong { what, ms: us.div_ceil(1000), settle_ns, scans });
+            return Err(FrameTooLong { what, ms: us.div_ceil(1000), settle_ns, scans });
         }
     }
     Ok(())

@@ -19,9 +19,10 @@
 //! neighbour: the residue is a part of the whole signal, not of a difference between neighbours. The bound, a
 //! full-scale step, is that of every order (`taxel bench acquisition`, "order").
 
-use super::addresses::{self, Address, Inputs, Read};
+use super::addresses::{self, Address, InputPins, Read};
 use super::rounds::Rounds;
-use super::sweep::{SWEEP_ADDRESSES, Unfit};
+use super::sweep::SWEEP_ADDRESSES;
+use super::unfit::Unfit;
 use super::{Depth, Plan};
 use crate::garment::Circuit;
 use core::ops::Range;
@@ -34,7 +35,7 @@ const SHORTEST_NS: u64 = 100_000;
 /// The sub-fields of a plan.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Fields {
-    inputs: Inputs,
+    inputs: InputPins,
     /// Number of sub-fields: 8, 4 or 2; 0 if there is no plan.
     count: u8,
     /// Addresses per sub-field.
@@ -44,7 +45,7 @@ pub struct Fields {
 impl Fields {
     /// No sub-fields.
     pub const fn none() -> Fields {
-        Fields { inputs: Inputs::new(), count: 0, addresses: [0; FIELDS] }
+        Fields { inputs: InputPins::new(), count: 0, addresses: [0; FIELDS] }
     }
 
     /// Computes the sub-fields of an interlaced plan. Error if a DMA chain cannot read them.

@@ -16,7 +16,7 @@ pub enum Pull {
 }
 
 /// An output pin that can be released and read.
-pub trait Pad: OutputPin {
+pub trait ProbePin: OutputPin {
     /// Stops driving the pin, and pulls it.
     fn release(&mut self, pull: Pull) -> Result<(), Self::Error>;
     /// Level at the pin itself, driven or not.
@@ -55,7 +55,7 @@ impl<P: OutputPin, const PINS: usize> Lines<P, PINS> {
     }
 }
 
-impl<P: Pad, const PINS: usize> Lines<P, PINS> {
+impl<P: ProbePin, const PINS: usize> Lines<P, PINS> {
     /// Stops driving a pin and pulls it; none if no pin has that number.
     pub fn release(&mut self, number: u8, pull: Pull) -> Option<Result<(), P::Error>> {
         Some(self.pin(number)?.release(pull))

@@ -12,18 +12,20 @@ mod plan;
 mod ring;
 mod rounds;
 mod sweep;
+mod unfit;
 
 pub use addresses::Read;
 pub use duration::{
-    LONGEST_MS, TooLong, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
+    FrameTooLong, LONGEST_MS, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
 };
 pub use fields::{FIELDS, Fields};
-pub use lines::{Lines, Pad, Pull, PulledAdc};
+pub use lines::{Lines, ProbePin, Pull, PulledAdc};
 pub use mux::{Adc, Clock, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring, TURN_PLACES};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
-pub use sweep::{SWEEP_ADDRESSES, SWEEP_INPUTS, SWEEP_STRETCHES, Stretch, Sweep, Unfit};
+pub use sweep::{SWEEP_ADDRESSES, SWEEP_STRETCHES, Sweep, SweepStretch};
+pub use unfit::{SWEEP_INPUTS, Unfit};
 
 use crate::format::{Celsius, Code, Micros};
 use crate::garment::Circuit;

@@ -1,6 +1,6 @@
 //! Progressive scan through multiplexers, on any HAL.
 
-use super::{Acquire, Depth, Lines, Pad, Plan, Scan, ScanError, ScanReport};
+use super::{Acquire, Depth, Lines, Plan, ProbePin, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
 use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -172,7 +172,7 @@ where
     }
 }
 
-impl<P: Pad, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'_, P, D, A, C, PINS, TAXELS>
+impl<P: ProbePin, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'_, P, D, A, C, PINS, TAXELS>
 where
     D: DelayNs,
     A: Adc,

@@ -2,13 +2,10 @@
 //! input reads. A board whose DMA reads the garment makes its tables from this.
 
 use super::Plan;
-use super::addresses::{self, Inputs, Read};
+use super::addresses::{self, InputPins, Read};
+use super::unfit::{SWEEP_INPUTS, Unfit};
 use crate::garment::Circuit;
-use core::fmt;
 use heapless::Vec;
-
-/// Most converter inputs of a sweep.
-pub const SWEEP_INPUTS: usize = 4;
 
 /// Most addresses of a sweep on the reference board: as many as 2,048 taxels take on four inputs.
 pub const SWEEP_ADDRESSES: usize = 512;
@@ -17,7 +14,7 @@ pub const SWEEP_STRETCHES: usize = 64;
 
 /// Consecutive addresses at which every input reads consecutive taxels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stretch {
+pub struct SweepStretch {
     /// Index of its first address in [`Sweep::levels`].
     pub first: u16,
     /// Taxels at that address, by the position of their input in [`Sweep::inputs`]. None for an input that
@@ -26,44 +23,12 @@ pub struct Stretch {
     pub taxels: Read,
 }
 
-/// Why a plan cannot be read in one sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unfit {
-    /// The plan reads fewer than two addresses.
-    Small,
-    /// The plan reads more than [`SWEEP_INPUTS`] inputs.
-    Inputs,
-    /// A select line is on a pin past GPIO 31.
-    Line(u8),
-    /// The plan reads more addresses than there is room for.
-    Addresses(usize),
-    /// Taxel numbers are not consecutive more often than there is room for.
-    Stretches(usize),
-    /// The whole frame is shorter than two sub-fields may be: interlacing it gains nothing.
-    Short,
-}
-
-impl fmt::Display for Unfit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unfit::Small => write!(f, "fewer than two addresses are read"),
-            Unfit::Inputs => write!(f, "more than {SWEEP_INPUTS} converter inputs are read"),
-            Unfit::Line(pin) => write!(f, "the select line on pin {pin} is out of reach"),
-            Unfit::Addresses(room) => write!(f, "more than {room} addresses are read"),
-            Unfit::Stretches(room) => write!(f, "the taxels jump more than {room} times"),
-            Unfit::Short => write!(f, "a frame of less than 200 us is not interlaced"),
-        }
-    }
-}
-
-impl core::error::Error for Unfit {}
-
 /// The sweep of a plan: up to ADDRESSES addresses in 2 to STRETCHES stretches.
 #[derive(Debug)]
 pub struct Sweep<const ADDRESSES: usize, const STRETCHES: usize> {
-    inputs: Inputs,
+    inputs: InputPins,
     levels: Vec<u32, ADDRESSES>,
-    stretches: Vec<Stretch, STRETCHES>,
+    stretches: Vec<SweepStretch, STRETCHES>,
 }
 
 impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES> {
@@ -95,7 +60,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
     fn add(&mut self, levels: u32, taxels: Read, goes_on: bool) -> Result<(), Unfit> {
         let first = self.levels.len() as u16;
         if !goes_on || first == 0 {
-            let stretch = Stretch { first, taxels };
+            let stretch = SweepStretch { first, taxels };
             self.stretches.push(stretch).map_err(|_| Unfit::Stretches(STRETCHES))?;
         }
         self.levels.push(levels).map_err(|_| Unfit::Addresses(ADDRESSES))
@@ -108,7 +73,8 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
             return Err(Unfit::Small);
         }
         if let [whole] = self.stretches.as_slice() {
-            let second = Stretch { first: half, taxels: whole.taxels.map(|t| t.map(|taxel| taxel + half)) };
+            let second =
+                SweepStretch { first: half, taxels: whole.taxels.map(|t| t.map(|taxel| taxel + half)) };
             self.stretches.push(second).map_err(|_| Unfit::Stretches(STRETCHES))?;
         }
         Ok(())
@@ -125,7 +91,7 @@ impl<const ADDRESSES: usize, const STRETCHES: usize> Sweep<ADDRESSES, STRETCHES>
     }
 
     /// Stretches, in the order of the scan.
-    pub fn stretches(&self) -> &[Stretch] {
+    pub fn stretches(&self) -> &[SweepStretch] {
         &self.stretches
     }
 }

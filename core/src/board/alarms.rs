@@ -72,7 +72,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             let value = match cause {
                 Cause::Fault => self.faults(),
                 Cause::Blind => self.senses.seen.map_or(i32::MAX, |seen| ms(now, seen)),
-                Cause::Ill => self.ill_in(region),
+                Cause::Faulty => self.faulty_in(region),
                 Cause::Silent => ms(now, self.senses.heard),
                 // All other causes are judged by frames, or not at all.
                 _ => continue,
@@ -102,13 +102,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         known as i32 + i32::from(self.stumbles > 0)
     }
 
-    fn ill_in(&self, region: Option<u8>) -> i32 {
+    fn faulty_in(&self, region: Option<u8>) -> i32 {
         let layout = &self.setup.layout;
         let of = |taxel: u16| {
             let place = layout.place(taxel.into())?;
             layout.areas().get(usize::from(place.panel)).map(|area| area.region)
         };
-        let there = self.monitor.ill().iter().filter(|ill| region.is_none() || of(ill.taxel) == region);
+        let there =
+            self.monitor.faulty().iter().filter(|faulty| region.is_none() || of(faulty.taxel) == region);
         there.count() as i32
     }
 }

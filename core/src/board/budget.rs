@@ -27,9 +27,9 @@ pub(super) struct Ledger {
     /// Time since which a message has been waiting for room on the link.
     waiting: Option<Micros>,
     /// Frame being processed.
-    frame: Frame,
+    frame: FrameCost,
     /// Largest times of the frames since the last report, and their number.
-    dearest: Frame,
+    dearest: FrameCost,
     frames: u16,
     /// Number of consecutive frames that began late.
     late: u8,
@@ -40,7 +40,7 @@ const SPARED: u8 = 16;
 
 /// Times of a frame, us.
 #[derive(Debug, Default, Clone, Copy)]
-struct Frame {
+struct FrameCost {
     number: u32,
     time: Micros,
     scan: u32,
@@ -52,7 +52,7 @@ struct Frame {
 impl Ledger {
     /// An account without any frame.
     pub fn new() -> Ledger {
-        let none = Frame::default();
+        let none = FrameCost::default();
         Ledger {
             pace: Pace::new(RATE_HZ),
             doing: Doing::Else,
@@ -107,9 +107,9 @@ impl Ledger {
             self.frame.send = self.frame.send.saturating_add(us(now, *since));
             *since = now;
         }
-        let Frame { scan, process, encode, send, .. } = self.frame;
-        let most = if self.frames == 0 { Frame::default() } else { self.dearest };
-        self.dearest = Frame {
+        let FrameCost { scan, process, encode, send, .. } = self.frame;
+        let most = if self.frames == 0 { FrameCost::default() } else { self.dearest };
+        self.dearest = FrameCost {
             scan: scan.max(most.scan),
             process: process.max(most.process),
             encode: encode.max(most.encode),
@@ -118,7 +118,7 @@ impl Ledger {
         };
         // The first call has no previous frame.
         self.frames = self.frames.saturating_add(u16::from(self.frame.number != 0));
-        self.frame = Frame { number, time, scan: scan_us, ..Frame::default() };
+        self.frame = FrameCost { number, time, scan: scan_us, ..FrameCost::default() };
         let late = us(now, self.scanned()) > scan_us / 2;
         self.late = if late { self.late.wrapping_add(1) } else { 0 };
     }
@@ -134,7 +134,7 @@ impl Ledger {
         if self.frames == 0 || !self.pace.due(now) {
             return None;
         }
-        let Frame { number, time, scan, process, encode, send } = self.dearest;
+        let FrameCost { number, time, scan, process, encode, send } = self.dearest;
         Some(Budget {
             frame: number,
             time,

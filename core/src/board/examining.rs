@@ -17,9 +17,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Ok(findings) => (self.found(now, findings), None),
             Err(error) => (false, Some(Refusal::of(error))),
         };
-        let is_ill = self.examined.as_ref().is_some_and(|report| !report.findings.faults.is_empty());
-        let doubted = self.doubt.settle(now, is_new, is_ill);
-        if doubted {
+        let is_faulty = self.examined.as_ref().is_some_and(|report| !report.findings.faults.is_empty());
+        let retested = self.retest.settle(now, is_new, is_faulty);
+        if retested {
             self.interrupted = true;
             if is_new {
                 self.outbox.examined();

@@ -4,11 +4,10 @@
 
 mod alarms;
 mod budget;
-mod doubt;
 mod examining;
 mod exchange;
 mod info;
-mod lost;
+mod missed_scans;
 mod outbox;
 mod outputs;
 mod pace;
@@ -18,11 +17,12 @@ mod rebuilds;
 mod reflex;
 mod refusal;
 mod request;
+mod retest;
 mod saving;
 mod settings;
 mod setup;
-mod under_way;
-mod wellness;
+mod taxel_health;
+mod tx_frame;
 
 pub use info::BoardInfo;
 pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
@@ -42,13 +42,13 @@ use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use alarms::Senses;
 use budget::{Doing, Ledger};
-use doubt::Doubt;
 use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox};
 use outputs::Outputs;
 use pace::Pace;
 use rebuilds::Rebuilds;
 use refusal::Refusal;
+use retest::Retest;
 use saving::Saving;
 
 /// Input of the board: an event, or the passing of time.
@@ -123,7 +123,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     rebuilds: Rebuilds,
     /// The last self-test of the present garment's lines and inputs.
     examined: Option<SelfTestReport>,
-    doubt: Doubt,
+    retest: Retest,
     scans: Pace,
     scanning: bool,
     /// Number of scans that have failed since the last good one.
@@ -150,8 +150,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// A board with a garment and a scene.
     pub fn new(info: BoardInfo, garment: Garment, scene: Scene) -> Result<Self, SetupError> {
         let mut board = Board::bare(info);
-        board.dress(garment)?;
-        board.employ(scene)?;
+        board.set_garment(garment)?;
+        board.set_scene(scene)?;
         Ok(board)
     }
 
@@ -176,7 +176,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             rebuilds: Rebuilds::new(),
             examined: None,
             scans: Pace::new(0),
-            doubt: Doubt::new(),
+            retest: Retest::new(),
             scanning: false,
             stumbles: 0,
             interrupted: false,
@@ -192,12 +192,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     /// Sets the first garment, before the first [`Board::step`].
-    pub fn dress(&mut self, mut garment: Garment) -> Result<(), SetupError> {
+    pub fn set_garment(&mut self, mut garment: Garment) -> Result<(), SetupError> {
         self.setup.change_garment(&self.info, &mut garment, TAXELS)
     }
 
     /// Sets the first scene, before the first [`Board::step`].
-    pub fn employ(&mut self, mut scene: Scene) -> Result<(), SetupError> {
+    pub fn set_scene(&mut self, mut scene: Scene) -> Result<(), SetupError> {
         self.setup.change_scene(&self.info, &mut scene)?;
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
@@ -218,7 +218,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     /// The garment has changed: resets everything known of the old one.
-    fn worn(&mut self) {
+    fn garment_changed(&mut self) {
         self.reset();
         self.senses.blind();
         self.rewired = true;
@@ -227,13 +227,13 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
-        (self.examined, self.doubt) = (None, Doubt::new());
+        (self.examined, self.retest) = (None, Retest::new());
         self.certificate = None;
-        self.used();
+        self.scene_changed();
     }
 
     /// The scene has changed: resets what its stages have found.
-    fn used(&mut self) {
+    fn scene_changed(&mut self) {
         self.state.forget();
         self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
@@ -263,7 +263,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Saved(result) => self.saved(now, result),
             Input::SettingsReset(result) => self.settings_reset(now, result),
             Input::Examined(result) => self.examined(now, result),
-            Input::Misled => self.doubt.raise(now),
+            Input::Misled => self.retest.raise(now),
             Input::Reflex(early) => self.reflex(&early),
             Input::Tick => return self.next_job(now),
         }
@@ -286,7 +286,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if core::mem::take(&mut self.rewired) {
             return Some(Job::Examine);
         }
-        if self.doubt.follow() {
+        if self.retest.follow() {
             return Some(Job::Examine);
         }
         if !self.scans.due(now) {
@@ -321,7 +321,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
         self.frame = self.frame.wrapping_add(1);
         self.ledger.begin(now, self.frame, scan.report.start, scan.report.duration_us);
-        self.outbox.spend(|| self.ledger.due(now, &self.health));
+        self.outbox.charge(|| self.ledger.due(now, &self.health));
         self.health.scans = self.health.scans.wrapping_add(1);
         // A scene that wants fewer frames than the converter makes skips the others on purpose.
         if self.setup.scene.rate_hz == 0 {
@@ -340,7 +340,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         }
         // Only a scene without a rate limit keeps pace with the converter.
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
-        self.outbox.note(self.frame, time, &percept, late, &mut self.health);
+        self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
             self.outbox.answer(request::TARE, None);
@@ -400,4 +400,4 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 type Sentence = String<112>;
 
 /// Raw codes to be sent, kept until the link has room.
-type Codes<const TAXELS: usize> = Vec<Code, TAXELS>;
+type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;

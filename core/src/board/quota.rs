@@ -41,7 +41,7 @@ impl<const MOST: u8, const REFILL_US: u64> Quota<MOST, REFILL_US> {
     }
 
     /// Records a use.
-    pub fn spend(&mut self, now: Micros) {
+    pub fn charge(&mut self, now: Micros) {
         if self.left == MOST {
             self.since = now;
         }
@@ -58,10 +58,10 @@ mod tests {
         let mut quota = Quota::<3, 100>::new();
         for left in [3, 2, 1] {
             assert_eq!((quota.left(Micros(1_000)), quota.wait_us(Micros(1_000))), (left, 0));
-            quota.spend(Micros(1_000));
+            quota.charge(Micros(1_000));
         }
         assert_eq!([1_000, 1_060, 1_100].map(|us| quota.wait_us(Micros(us))), [100, 40, 0]);
-        quota.spend(Micros(1_100));
+        quota.charge(Micros(1_100));
         assert_eq!(quota.wait_us(Micros(1_110)), 90);
         assert_eq!((quota.left(Micros(9_000)), quota.left(Micros(9_000))), (3, 3));
     }

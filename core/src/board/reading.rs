@@ -104,7 +104,7 @@ mod tests {
 
     use super::*;
     use crate::format::name;
-    use crate::intent::{Edge, Input, Source, Threshold};
+    use crate::intent::{Edge, MapInput, Source, Threshold};
     use std::string::{String, ToString};
 
     /// A scene whose map fills every list.
@@ -114,8 +114,14 @@ mod tests {
         map.concepts = (0..64).map(|at| name(&std::format!("c{at}"))).collect();
         map.edges = (0..=255).map(|at| Edge { from: at % 32, to: 32 + at / 8, weight: -9_999 }).collect();
         map.thresholds = (0..64).map(|concept| Threshold { concept, value: -5 }).collect();
-        let input =
-            |concept| Input { concept, source: Source::Rise, low: i32::MIN, high: 1, at_low: 0, at_high: 1 };
+        let input = |concept| MapInput {
+            concept,
+            source: Source::Rise,
+            low: i32::MIN,
+            high: 1,
+            at_low: 0,
+            at_high: 1,
+        };
         map.inputs = (0..32).map(input).collect();
         scene
     }

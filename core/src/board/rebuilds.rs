@@ -23,8 +23,8 @@ impl Rebuilds {
     }
 
     /// Records a change.
-    pub fn spend(&mut self, now: Micros) {
-        self.quota.spend(now);
+    pub fn charge(&mut self, now: Micros) {
+        self.quota.charge(now);
         self.waits = true;
     }
 
@@ -48,14 +48,14 @@ mod tests {
                 rebuilds.scanned();
             }
             if rebuilds.are_due(Micros(us)) {
-                rebuilds.spend(Micros(us));
+                rebuilds.charge(Micros(us));
                 changes.push(us).unwrap();
             }
         }
         assert_eq!(changes[..6], [0, 5_000, 10_000, 15_000, 100_000, 200_000]);
         assert_eq!(changes.len(), 4 + 19);
         // Without a scan no change is allowed, however much time passes.
-        rebuilds.spend(Micros(2_000_000));
+        rebuilds.charge(Micros(2_000_000));
         assert!(!rebuilds.are_due(Micros(90_000_000)));
         rebuilds.scanned();
         assert!(rebuilds.are_due(Micros(90_000_000)));

@@ -16,9 +16,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     /// Last code of a taxel that begins no reflex; none if no row watches the taxel.
-    pub fn quiet_code(&self, taxel: u16) -> Option<u16> {
+    pub fn inactive_code(&self, taxel: u16) -> Option<u16> {
         let row = self.setup.pipeline.reactions().reflexes().row_of(taxel)?;
-        Some(self.state.condition.quiet_code(taxel.into(), row.level, self.setup.circuit.falling()))
+        Some(self.state.condition.inactive_code(taxel.into(), row.level, self.setup.circuit.falling()))
     }
 
     /// Takes a reflex that began, whose pin has been asserted.

@@ -71,11 +71,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     fn obey(&mut self, now: Micros, request: Request<'_>) {
         let number = request.number();
         if rebuilds(number) {
-            self.rebuilds.spend(now);
+            self.rebuilds.charge(now);
         }
         let result = match request {
-            Request::SetGarment(bytes) => self.set_garment(bytes, now),
-            Request::SetScene(bytes) => self.set_scene(bytes, now),
+            Request::SetGarment(bytes) => self.take_garment(bytes, now),
+            Request::SetScene(bytes) => self.take_scene(bytes, now),
             Request::Tare { frames } => match self.tare(frames) {
                 Ok(()) => return,
                 refused => refused,
@@ -141,19 +141,19 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     // Own frames, here and below: each needs much stack, and most requests need none of it.
     #[inline(never)]
-    fn set_garment(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
+    fn take_garment(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         // Used in place: the stack has no room for a second garment.
         let mut read = read::<Garment>("garment", bytes);
         let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
         let lasting = self.lasting();
         self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
-        self.worn();
+        self.garment_changed();
         self.end_all(&lasting, now);
         Ok(())
     }
 
     #[inline(never)]
-    pub(super) fn set_scene(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
+    pub(super) fn take_scene(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         let mut scene = Scene::empty();
         reading::scene(bytes, &mut scene)?;
         if let Some(done) = self.setup.change_stream(&self.info, &mut scene) {
@@ -166,7 +166,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.setup.change_scene(&self.info, &mut scene).map_err(Refusal::of)?;
         // A pin that the new scene does not drive must not keep the level of the old one.
         self.outputs.follow(before);
-        self.used();
+        self.scene_changed();
         // `scene` now holds the previous scene.
         self.carry(&lasting, &scene.react, now);
         Ok(())

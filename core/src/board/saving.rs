@@ -101,8 +101,8 @@ impl Saving {
     }
 
     /// Records a write of the flash.
-    pub fn spend(&mut self, now: Micros) {
-        self.allowance.spend(now);
+    pub fn charge(&mut self, now: Micros) {
+        self.allowance.charge(now);
     }
 
     /// Records that scanning stops for other work.
@@ -204,7 +204,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.not_scanned(us);
         // A failed save may have written something, too.
         if result != Ok(Saved::Unchanged) {
-            self.saving.spend(now);
+            self.saving.charge(now);
         }
         if result.is_ok()
             && let Some(boot) = &mut self.boot
@@ -244,12 +244,12 @@ mod tests {
         let minute = |m: u64| Micros(m * 60_000_000);
         for _ in 0..12 {
             assert_eq!(saving.allowed(minute(1)), Ok(()));
-            saving.spend(minute(1));
+            saving.charge(minute(1));
         }
         assert_eq!(saving.allowed(minute(1)), Err(5));
         assert_eq!(saving.allowed(minute(4)), Err(2));
         assert_eq!(saving.allowed(minute(6)), Ok(()));
-        saving.spend(minute(6));
+        saving.charge(minute(6));
         assert_eq!(saving.allowed(minute(6)), Err(5));
         assert_eq!(saving.allowed(minute(600)), Ok(()));
         assert_eq!(saving.left_after(), 11);

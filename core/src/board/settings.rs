@@ -7,7 +7,7 @@ use crate::capacity::TAXELS;
 use crate::condition::Certificate;
 use crate::format::{Code, Micros};
 use crate::garment::Garment;
-use crate::health::IllTaxel;
+use crate::health::FaultyTaxel;
 use crate::scene::Scene;
 use crate::wire::{decode, write};
 use core::fmt;
@@ -72,7 +72,7 @@ pub struct Settings<'a> {
     /// Gains by taxel number, Q4.12.
     pub gain: &'a [u16],
     /// Faulty taxels; their gains replace those of `gain`.
-    pub ill: &'a [IllTaxel],
+    pub faulty: &'a [FaultyTaxel],
     /// Baseline codes by taxel number; none without a tare.
     pub baseline: Option<&'a [u16]>,
     /// Calibration from which the gains come.
@@ -88,8 +88,12 @@ impl Settings<'_> {
             Part::Garment => text(self.garment, buffer).map(Some),
             Part::Scene => text(self.scene, buffer).map(Some),
             Part::Gain => {
-                let gains =
-                    |taxel| self.ill.iter().find(|ill| usize::from(ill.taxel) == taxel).map(|ill| ill.gain);
+                let gains = |taxel| {
+                    self.faulty
+                        .iter()
+                        .find(|faulty| usize::from(faulty.taxel) == taxel)
+                        .map(|faulty| faulty.gain)
+                };
                 numbers(self.gain, gains, buffer).map(Some)
             }
             Part::Baseline => self.baseline.map(|baseline| numbers(baseline, |_| None, buffer)).transpose(),
@@ -127,7 +131,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             garment,
             scene,
             gain: gain.get(..layout.taxels()).unwrap_or(gain),
-            ill: self.monitor.ill(),
+            faulty: self.monitor.faulty(),
             baseline: baseline.map(|all| all.get(..layout.taxels()).unwrap_or(all)),
             calibration: self.certificate.as_ref(),
             saves: self.saving.left_after(),
@@ -167,14 +171,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let reactions = core::mem::take(&mut self.setup.scene.react);
         let done = self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of);
         match done {
-            Ok(()) => self.worn(),
+            Ok(()) => self.garment_changed(),
             Err(_) => self.setup.scene.react = reactions,
         }
         done
     }
 
     fn restore_scene(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let done = self.set_scene(bytes, Micros(0));
+        let done = self.take_scene(bytes, Micros(0));
         if done.is_err() {
             self.ship_scene();
         }
@@ -185,7 +189,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     #[inline(never)]
     fn ship_scene(&mut self) {
         let _ = self.setup.change_scene(&self.info, &mut Scene::shipped());
-        self.used();
+        self.scene_changed();
     }
 
     fn restore_numbers(&mut self, bytes: &[u8], set: fn(&mut Self, usize, u16)) -> Result<(), Refusal> {

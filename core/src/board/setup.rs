@@ -1,7 +1,9 @@
 //! Garment, scene, and the stages built from them; changed as a whole or not at all.
 
 use super::info::BoardInfo;
-use crate::acquire::{Depth, Fields, TooLong, Unfit, check_duration, longest_frame_us, longest_self_test_us};
+use crate::acquire::{
+    Depth, Fields, FrameTooLong, Unfit, check_duration, longest_frame_us, longest_self_test_us,
+};
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Circuit, Garment, GarmentError, Layout};
 use crate::pipeline::{Pipeline, SceneError};
@@ -32,7 +34,7 @@ pub enum SetupError {
     /// The scene is invalid.
     Scene(SceneError),
     /// The garment with this scene takes longer than the watchdog allows.
-    Slow(TooLong),
+    Slow(FrameTooLong),
     /// The scene asks for an interlaced scan, which the garment does not allow.
     Interlaced(Unfit),
 }
@@ -56,8 +58,8 @@ impl From<GarmentError> for SetupError {
     }
 }
 
-impl From<TooLong> for SetupError {
-    fn from(error: TooLong) -> Self {
+impl From<FrameTooLong> for SetupError {
+    fn from(error: FrameTooLong) -> Self {
         SetupError::Slow(error)
     }
 }

@@ -81,7 +81,7 @@ impl<R: Remains> Boots<R> {
     }
 
     /// Stores the number of saves left, for a reset.
-    pub fn spend(&mut self, saves: u8) {
+    pub fn charge(&mut self, saves: u8) {
         self.kept.saves = Some(saves);
         self.keep();
     }
@@ -231,7 +231,7 @@ mod tests {
         let board = Played(Cell::new(0));
         let start = |reset| Boots::begin((&board, reset), false);
         assert_eq!(start(Reset::Power).saves(), None);
-        start(Reset::Power).spend(4);
+        start(Reset::Power).charge(4);
         for _ in 0..5 {
             assert_eq!(start(Reset::Watchdog).saves(), Some(4));
             board.0.set(panicked(board.0.get()));

@@ -26,54 +26,22 @@
 //! contact the baseline moves with the drift on which the panel's witnesses agree, so that a held contact
 //! neither vanishes nor drifts.
 
-mod calibrate;
-mod certificate;
-mod clamp;
-mod clear;
 mod config;
-mod consensus;
-mod conservative;
-mod drift;
-mod edge;
-#[cfg(target_pointer_width = "64")]
-mod eights;
-mod feedback;
-mod filter;
-mod held;
-mod image;
-mod limit;
-mod marks;
-mod median;
-#[cfg(target_pointer_width = "64")]
-mod plain;
-mod points;
-mod progress;
-mod rates;
-mod row;
-mod rows;
-mod sampled;
-mod sixteen;
-mod slices;
-mod square;
 mod stage;
 mod state;
-mod tare;
-mod terms;
-mod turn;
 
-pub use certificate::Certificate;
-pub use config::{ConditionConfig, Filter};
-pub(crate) use edge::{Neighbourhood, steepness_of_sixteens};
-pub use feedback::{CARRIED, Feedback, Pressed};
-pub(crate) use held::Held;
-pub use image::Image;
-pub use points::{MARGIN, POINTS};
-pub use progress::Tare;
-pub use rows::Rows;
-pub use sampled::Sampled;
-pub(crate) use slices::{panel_of, row_of};
+pub use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
+pub use crate::baseline::progress::Tare;
+pub use crate::calibrate::calibration::UNITY;
+pub use crate::calibrate::certificate::Certificate;
+pub use crate::calibrate::sampled::Sampled;
+pub use crate::filter::kinds::Filter;
+pub use crate::filter::points::{MARGIN, POINTS};
+pub use crate::image::rows::Rows;
+pub use crate::image::view::Image;
+pub use config::ConditionConfig;
 pub use stage::Condition;
-pub use state::{ConditionState, UNITY};
+pub use state::ConditionState;
 
 #[cfg(doc)]
 use crate::format::Code;

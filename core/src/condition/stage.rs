@@ -1,14 +1,19 @@
 //! The stage, which turns codes into an image.
 
-use super::config::{ConditionConfig, Filter};
-use super::feedback::Feedback;
-use super::image::Image;
-use super::sampled::Sampled;
+use super::config::ConditionConfig;
 use super::state::ConditionState;
-use super::tare::areas_of;
-use super::terms::Terms;
-use crate::format::{Code, Invalid};
+use crate::baseline::feedback::Feedback;
+use crate::calibrate::calibration::TaxelCalibration;
+use crate::calibrate::dispatch::calibrate;
+use crate::calibrate::sampled::Sampled;
+use crate::calibrate::terms::LimitTerms;
+use crate::filter::kinds::Filter;
+use crate::filter::points::Points;
+use crate::format::Invalid;
 use crate::garment::Layout;
+use crate::image::images::Images;
+use crate::image::slices::areas_of;
+use crate::image::view::Image;
 
 /// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -42,12 +47,15 @@ impl Condition {
         feedback: &Feedback<CONTACTS>,
     ) -> Image<'a> {
         let Sampled { codes, falling, panels, .. } = *sampled;
-        if !state.tare_frame(layout, codes, panels) {
-            let terms = Terms { floor: self.config.floor, falling };
-            state.set_limits(terms);
-            state.perceive(layout, codes, falling, panels, self.config.filter);
+        let ConditionState { calibration, images, points, tracking } = state;
+        if tracking.tare_frame(calibration, images, layout, codes, panels) {
+            points.forget();
+        } else {
+            let terms = LimitTerms { floor: self.config.floor, falling };
+            calibration.set_limits(terms);
+            self.perceive(calibration, images, points, layout, sampled);
             if self.config.track_baseline {
-                state.follow_drift(layout, sampled, feedback, terms);
+                tracking.follow_drift((calibration, images), layout, sampled, feedback, terms);
             }
         }
         self.image(state, layout)
@@ -59,26 +67,30 @@ impl Condition {
         state: &'a ConditionState<TAXELS>,
         layout: &Layout,
     ) -> Image<'a> {
-        // During a tare `calibrated` holds sums and `filtered` zeros.
-        let calibrated = self.config.filter == Filter::Off && state.active != 0;
-        let values = if calibrated { &state.calibrated } else { &state.filtered };
-        Image { values: values.get(..layout.taxels()).unwrap_or(values), rows: &state.rows }
+        state.images.image(layout, self.config.filter == Filter::Off)
     }
-}
 
-impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Computes the image of a frame.
-    fn perceive(&mut self, layout: &Layout, codes: &[Code], falling: bool, panels: u8, filter: Filter) {
-        self.points.begin();
-        let before = self.clear(layout, codes.len(), filter);
+    fn perceive<const TAXELS: usize>(
+        &self,
+        calibration: &TaxelCalibration<TAXELS>,
+        images: &mut Images<TAXELS>,
+        points: &mut Points,
+        layout: &Layout,
+        sampled: &Sampled<'_>,
+    ) {
+        let Sampled { codes, falling, panels, .. } = *sampled;
+        let filter = self.config.filter;
+        points.begin();
+        let before = images.clear(layout, codes.len(), filter.overwrites_rows());
         for (panel, area) in areas_of(layout, panels) {
-            self.active |= u8::from(self.calibrate(area, codes, falling)) << panel;
+            images.active |= u8::from(calibrate(calibration, images, area, codes, falling)) << panel;
         }
         if let Some(before) = before {
-            self.clear_left(layout, &before);
+            images.clear_left(layout, &before);
         }
-        for (_, area) in areas_of(layout, self.active) {
-            self.filter(area, filter);
+        for (_, area) in areas_of(layout, images.active) {
+            filter.apply(images, points, area);
         }
     }
 }
@@ -86,10 +98,10 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::feedback::Pressed;
     use super::super::{Tare, UNITY};
     use super::*;
-    use crate::format::Micros;
+    use crate::baseline::feedback::Pressed;
+    use crate::format::{Code, Micros};
     use crate::garment::{Absent, Garment, Rect};
     use std::vec;
     use std::vec::Vec;
@@ -263,5 +275,30 @@ mod tests {
         assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
         // The memory stated in the module's table.
         assert!(size_of::<State>() <= 10 * 2048 + 1312, "{}", size_of::<State>());
+    }
+
+    #[test]
+    fn what_each_filter_keeps() {
+        let layout = Layout::build(&Garment::block(), 64, u16::MAX).unwrap();
+        let kept = |filter, taxels: &[(usize, u16)]| {
+            let mut codes = [Code(0); 64];
+            taxels.iter().for_each(|(taxel, code)| codes[*taxel] = Code(*code));
+            let mut state = ConditionState::<64>::new();
+            state.reset(&layout, Code(0));
+            let condition = ConditionConfig { filter, ..ConditionConfig::default() }.build().unwrap();
+            let sampled = Sampled { codes: &codes, falling: false, panels: 1, now: Micros(0) };
+            let image = condition.process(&mut state, &layout, &sampled, &Feedback::<1>::new());
+            image.values.iter().filter(|v| **v > 0).count()
+        };
+        let finger = [(20, 900), (21, 900), (36, 900), (37, 900)];
+        let line: Vec<(usize, u16)> = (16..32).map(|taxel| (taxel, 500)).collect();
+        let filters = [Filter::Conservative, Filter::Median, Filter::Square];
+        assert_eq!(filters.map(|f| kept(f, &finger)), [4, 0, 4]);
+        assert_eq!(filters.map(|f| kept(f, &line)), [16, 0, 16]);
+        // An impulse is removed, on the border too; a gap is bridged.
+        assert_eq!(kept(Filter::Conservative, &[(37, 4000)]), 0);
+        assert_eq!(kept(Filter::Conservative, &[(0, 4000)]), 0);
+        let gap: Vec<_> = (0..64).filter(|t| *t != 37).map(|taxel| (taxel, 500)).collect();
+        assert_eq!(kept(Filter::Conservative, &gap), 64);
     }
 }

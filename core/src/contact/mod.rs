@@ -24,61 +24,29 @@
 //! displacement nor as velocity.
 //!
 //! Motion is that of the centroid or, where the pressure inside a contact has a pattern, that of the pattern
-//! (`pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36 taxels
-//! that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five taxels, and a
-//! step of less than half a structure (in an outline just as large, less than one taxel). A slip begins when
-//! three steps in a row go the same way, and together are at least as fast as the slip speed and three times
-//! the contact's own jitter (`slip`). It lasts as long as the velocity is above the slip speed. A scene
-//! without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each contact with a
-//! pattern, 400 for any other.
+//! (`track::pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36
+//! taxels that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five
+//! taxels, and a step of less than half a structure (in an outline just as large, less than one taxel). A
+//! slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
+//! and three times the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the
+//! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each
+//! contact with a pattern, 400 for any other.
 //!
-//! The stage makes four passes: each active row as bits (`touched`), its runs summed up and joined to the
-//! parts above (`piece`, `sums`, `part`, `label`; `sixteens` and `runs` in rows of one word, `words` in
-//! others); joins across seams (`side`, `join`); the choice of contacts (`near`); and the moments of the
-//! chosen ones only (`strip`, `component`). [`Contacts::segment`] ends here. Then the components are matched
-//! to the contacts of the last frame (`track`), and the form of one contact is measured (`form`, `contour`,
-//! `axis`): it costs as much as the rest of a contact together, and changes slowly.
+//! The stage makes four passes: each active row as bits (`segment::threshold`), its runs summed up and joined
+//! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
+//! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
+//! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
+//! `track::tracks`), and the form of one contact is measured (`measure::form`): it costs as much as the rest
+//! of a contact together, and changes slowly.
 
-mod axis;
-mod bits;
-mod component;
-mod config;
-mod contour;
-mod flow;
-mod form;
-mod forms;
-pub mod hardness;
-mod join;
-mod label;
-mod matching;
-mod moments;
-mod near;
-mod part;
-mod pattern;
-mod piece;
-mod place;
-mod point;
-mod record;
-mod reunite;
-mod runs;
-mod side;
-mod sixteens;
-mod slip;
-mod slopes;
 mod stage;
-mod strip;
-mod sums;
-mod touched;
-mod track;
-mod trail;
-mod words;
 
-pub(crate) use axis::tenths;
-pub use axis::{Axis, axis, breadth};
-pub use component::Component;
-pub use config::{ContactConfig, NO_SLIP};
-pub use forms::Forms;
-pub use hardness::{Growth, Hardness};
-pub use moments::{Central, Moments};
-pub use record::{Contact, Phase};
+pub(crate) use crate::measure::axis::tenths;
+pub use crate::measure::axis::{Axis, axis, breadth};
+pub use crate::measure::component::Component;
+pub use crate::measure::contact::{Contact, Phase};
+pub use crate::measure::forms::Forms;
+pub use crate::measure::hardness::{self, Hardness, HardnessCue};
+pub use crate::measure::moments::{Central, Moments};
+pub use crate::segment::config::{ContactConfig, NO_SLIP};
 pub use stage::{ContactState, Contacts, Touches};

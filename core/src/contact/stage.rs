@@ -1,17 +1,19 @@
 //! The stage: segmentation and tracking of a frame.
 
-use super::component::{Component, Components};
-use super::config::ContactConfig;
-use super::forms::Forms;
-use super::join::Joins;
-use super::label::Labels;
-use super::matching::Matching;
-use super::moments::Moments;
-use super::record::Contact;
-use super::track::Tracks;
-use crate::condition::{Feedback, Image};
+use crate::baseline::feedback::Feedback;
 use crate::format::{Invalid, Micros};
 use crate::garment::Layout;
+use crate::image::view::Image;
+use crate::measure::carried::CarriedLabels;
+use crate::measure::component::{Component, Components};
+use crate::measure::contact::Contact;
+use crate::measure::forms::Forms;
+use crate::measure::moments::Moments;
+use crate::segment::config::ContactConfig;
+use crate::segment::labeller::Labeller;
+use crate::segment::seams::Joins;
+use crate::track::assign::Matching;
+use crate::track::tracks::Tracks;
 
 /// Finds and follows contacts; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -21,13 +23,14 @@ pub struct Contacts {
     pub forms: Forms,
 }
 
-/// State and work space of the stage, for at most CONTACTS contacts, RUNS runs of a row and PARTS parts
+/// State and work space of the stage, for at most CONTACTS contacts, RUNS runs and LABELS labels
 /// (connected taxels of one panel; at most 65534). If the columns are even in number, half as many runs as
-/// taxels suffice. Parts never exceed the runs, nor the squares of two by two taxels.
+/// taxels suffice. Labels never exceed the runs, nor the squares of two by two taxels.
 #[derive(Debug, Clone)]
-pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
-    labels: Labels<RUNS, PARTS>,
+pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: usize = RUNS> {
+    labeller: Labeller<RUNS, LABELS>,
     joins: Joins,
+    carried: CarriedLabels,
     components: Components<CONTACTS>,
     matching: Matching<CONTACTS>,
     tracks: Tracks<CONTACTS>,
@@ -55,12 +58,13 @@ pub struct Touches<'a> {
     pub overflow: u16,
 }
 
-impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<CONTACTS, RUNS, PARTS> {
+impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> ContactState<CONTACTS, RUNS, LABELS> {
     /// No contacts; the next id is 1.
     pub const fn new() -> Self {
         ContactState {
-            labels: Labels::new(),
+            labeller: Labeller::new(),
             joins: Joins::new(),
+            carried: CarriedLabels::new(),
             components: Components::new(),
             matching: Matching::new(),
             tracks: Tracks::new(),
@@ -70,7 +74,7 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<
 
     /// Drops all contacts without a release, for example for another garment; ids go on.
     pub fn reset(&mut self) {
-        self.labels.clear();
+        self.labeller.clear();
         self.tracks.clear();
         self.feedback = Feedback::new();
     }
@@ -88,12 +92,12 @@ impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> ContactState<
     /// Index in [`Touches::present`] of the last frame's contact at a taxel.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
         let area = layout.areas().get(usize::from(place.panel))?;
-        self.tracks.index_of(self.labels.contact_at(area, place.row, place.column)?)
+        self.tracks.index_of(self.labeller.contact_at(area, place.row, place.column)?)
     }
 }
 
-impl<const CONTACTS: usize, const RUNS: usize, const PARTS: usize> Default
-    for ContactState<CONTACTS, RUNS, PARTS>
+impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> Default
+    for ContactState<CONTACTS, RUNS, LABELS>
 {
     fn default() -> Self {
         ContactState::new()
@@ -127,9 +131,9 @@ impl Contacts {
     }
 
     /// Processes one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
-    pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
+    pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
         layout: &Layout,
         image: &Image,
         now: Micros,
@@ -141,36 +145,36 @@ impl Contacts {
     /// Returns the components of a frame that are contacts, measured, in the order of their first taxels.
     /// This suffices if you need no ids and no velocities. Of earlier contacts it uses only the positions,
     /// which keep faint ones.
-    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
+    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
         layout: &Layout,
         image: &Image,
     ) -> &'a [Component] {
-        let ContactState { labels, joins, components, feedback, .. } = state;
-        labels.scan(layout, image, self.config.low);
-        labels.mark_held(layout, feedback, self.config.high);
-        joins.find(labels, layout);
-        components.select(&self.config, labels);
-        components.number(labels);
-        components.measure(labels, joins, layout, image);
+        let ContactState { labeller, joins, carried, components, feedback, .. } = state;
+        labeller.scan(layout, image, self.config.low);
+        labeller.mark_held(layout, feedback, self.config.high);
+        joins.find(labeller, layout);
+        components.select(&self.config, labeller);
+        components.number(labeller);
+        components.measure(labeller, (joins, carried), layout, image);
         components.feed_back(feedback);
         &components.list
     }
 
     /// Follows contacts from the last frame to the components that [`Contacts::segment`] found in this image.
-    pub fn track<'a, const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
+    pub fn track<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, PARTS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
         layout: &Layout,
         image: &Image,
         now: Micros,
     ) -> Touches<'a> {
-        let ContactState { labels, joins, components, matching, tracks, .. } = state;
+        let ContactState { labeller, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
-        components.reunite(labels, layout, tracks);
-        tracks.merge(labels, layout);
-        tracks.update(&self.config, &components.list, labels, layout, image, (now, self.forms));
+        components.reunite(labeller, layout, tracks);
+        tracks.merge(labeller, layout);
+        tracks.update(&self.config, &components.list, labeller, layout, image, (now, self.forms));
         Touches {
             present: tracks.contacts(),
             moments: tracks.moments(),
@@ -178,7 +182,7 @@ impl Contacts {
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,
-            overflow: labels.overflow.saturating_add(joins.overflow),
+            overflow: labeller.overflow.saturating_add(joins.overflow),
         }
     }
 }

@@ -2,14 +2,11 @@
 //! there.
 
 use super::area::{Area, Place};
-use super::config::{BLOCKS, Block, Coding, Garment, Group, LINES, Line};
+use super::config::{BLOCKS, Block, CIRCUIT_LINES, Coding, Garment, Group, LINES, Line};
 use super::error::GarmentError;
 use super::layout::Layout;
 use super::pins::Pins;
 use heapless::Vec;
-
-/// Most lines of a circuit, all groups and enables together.
-pub const CIRCUIT_LINES: usize = 32;
 
 /// Wiring of a block: the taxel at wired row r and column c is `origin + r row_step + c column_step`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,6 +10,8 @@ pub const PANELS: usize = 8;
 pub const BLOCKS: usize = 64;
 /// Most lines of one select group (16 one-hot rows).
 pub const LINES: usize = 16;
+/// Most lines of a circuit, all groups and enables together.
+pub const CIRCUIT_LINES: usize = 32;
 /// Most seams between panels.
 pub const SEAMS: usize = 8;
 /// Most rectangles of absent taxels.
@@ -109,7 +111,7 @@ pub enum Side {
 /// Part of a panel's side, from taxel `start`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Edge {
+pub struct SeamEdge {
     /// Index of the panel.
     pub panel: u8,
     /// Side of the panel.
@@ -125,9 +127,9 @@ pub struct Edge {
 #[serde(deny_unknown_fields)]
 pub struct Seam {
     /// First edge.
-    pub a: Edge,
+    pub a: SeamEdge,
     /// Second edge.
-    pub b: Edge,
+    pub b: SeamEdge,
     /// Taxels along the seam.
     pub length: u16,
     /// True if the two run in opposite directions.

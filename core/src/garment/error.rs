@@ -1,7 +1,6 @@
 //! Errors of a garment. Each names the place as the author wrote it.
 
-use super::circuit::CIRCUIT_LINES;
-use super::config::{PITCH_UM, Side};
+use super::config::{CIRCUIT_LINES, PITCH_UM, Side};
 use super::pins::{NotFree, PinList};
 use crate::format::Name;
 use core::fmt;

@@ -15,10 +15,10 @@ mod presets;
 mod seam;
 
 pub use area::{ASSUMED_PITCH_UM, Area, Place, Rect, cell_mm2};
-pub use circuit::{CIRCUIT_LINES, Circuit, Site};
+pub use circuit::{Circuit, Site};
 pub use config::{
-    Absent, BLOCKS, Block, Coding, Edge, Garment, Group, LINES, Line, Orientation, PANELS, PITCH_UM, Panel,
-    SEAMS, Seam, Side, Wiring,
+    Absent, BLOCKS, Block, CIRCUIT_LINES, Coding, Garment, Group, LINES, Line, Orientation, PANELS, PITCH_UM,
+    Panel, SEAMS, Seam, SeamEdge, Side, Wiring,
 };
 pub use error::GarmentError;
 pub use layout::Layout;

@@ -1,6 +1,6 @@
 //! Garments that come with the program.
 
-use super::config::{Block, Coding, Edge, Garment, Group, Line, Orientation, Panel, Seam, Side, Wiring};
+use super::config::{Block, Coding, Garment, Group, Line, Orientation, Panel, Seam, SeamEdge, Side, Wiring};
 use crate::format::name;
 use heapless::Vec;
 
@@ -147,8 +147,8 @@ fn block(panel: u8, row: u16, column: u16, input: u8, select: u8) -> Block {
 /// A flank of the torso: one side of the chest (panel 0), sewn to the opposite side of the back (panel 1).
 fn flank(chest: Side, back: Side) -> Seam {
     Seam {
-        a: Edge { panel: 0, side: chest, start: 0 },
-        b: Edge { panel: 1, side: back, start: 0 },
+        a: SeamEdge { panel: 0, side: chest, start: 0 },
+        b: SeamEdge { panel: 1, side: back, start: 0 },
         length: 32,
         reversed: false,
     }

@@ -1,7 +1,7 @@
 //! Seams: edges along which two panels touch, and the transform of coordinates across them.
 
 use super::area::Area;
-use super::config::{Edge, Seam, Side};
+use super::config::{Seam, SeamEdge, Side};
 use super::error::GarmentError;
 use core::ops::RangeInclusive;
 
@@ -74,8 +74,8 @@ pub(crate) const fn signed(factor: i32, value: i64) -> i64 {
 pub struct Stretch {
     /// The side of the panel.
     pub side: Side,
-    first: Point,
-    along: Point,
+    first: GridPoint,
+    along: GridPoint,
 }
 
 impl Stretch {
@@ -143,10 +143,15 @@ impl Joint {
     }
 }
 
-type Point = (i32, i32);
+type GridPoint = (i32, i32);
 
 /// Returns a stretch of a panel's side, and the direction out of the panel.
-fn stretch(seam: usize, edge: &Edge, length: u16, area: &Area) -> Result<(Stretch, Point), GarmentError> {
+fn stretch(
+    seam: usize,
+    edge: &SeamEdge,
+    length: u16,
+    area: &Area,
+) -> Result<(Stretch, GridPoint), GarmentError> {
     let (right, bottom) = (i32::from(area.columns) - 1, i32::from(area.rows) - 1);
     let start = i32::from(edge.start);
     let (first, along, out, side_length) = match edge.side {

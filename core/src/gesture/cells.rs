@@ -37,9 +37,9 @@ impl Sheet {
     /// ignored.
     pub fn cells(&self, image: &[u16]) -> Cells {
         let mut cells = [0; CELLS];
-        let rows = image.chunks(usize::from(self.columns).max(1)).zip(Side::new(self.rows));
+        let rows = image.chunks(usize::from(self.columns).max(1)).zip(SheetSide::new(self.rows));
         for (row, y) in rows {
-            for (value, x) in row.iter().zip(Side::new(self.columns)) {
+            for (value, x) in row.iter().zip(SheetSide::new(self.columns)) {
                 if let Some(cell) = cells.get_mut(y * SIDE + x) {
                     *cell += u32::from(*value);
                 }
@@ -52,19 +52,19 @@ impl Sheet {
 
 /// Index of the cell of each taxel along a side. Without a division: the index advances whenever a cell's
 /// share is full.
-struct Side {
+struct SheetSide {
     size: usize,
     share: usize,
     cell: usize,
 }
 
-impl Side {
-    fn new(size: u16) -> Side {
-        Side { size: usize::from(size).max(SIDE), share: 0, cell: 0 }
+impl SheetSide {
+    fn new(size: u16) -> SheetSide {
+        SheetSide { size: usize::from(size).max(SIDE), share: 0, cell: 0 }
     }
 }
 
-impl Iterator for Side {
+impl Iterator for SheetSide {
     type Item = usize;
 
     fn next(&mut self) -> Option<usize> {

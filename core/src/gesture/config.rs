@@ -1,6 +1,7 @@
 //! Settings of the recognition of touches, and the models that come with the program.
 
-use super::model::{Model, ModelError};
+use super::model::Model;
+use super::model_error::ModelError;
 use crate::format::Invalid;
 use core::fmt;
 use serde::{Deserialize, Serialize};

@@ -9,9 +9,15 @@
 //! | 6 + 2 c each | a feature: its index, its middle, its scale (65,536 / deviation), its weights, Q10, signed |
 //! | 20 each | a row: age from which it holds, confidence at leads of 0, 1/4 ..= 2, Q15 |
 
-use super::model::{LIMIT, ModelError, Scores};
+use super::model_error::{CLASSES, ModelError};
 use super::state::{FEATURES, Features};
 use crate::format::Q15;
+
+/// Greatest distance of a feature from its middle: 2.5 deviations, Q8. Values beyond are clamped.
+pub const LIMIT: i32 = 640;
+
+/// Scores of the classes, Q18; 0 for classes that the model does not have.
+pub type Scores = [i32; CLASSES];
 
 /// Number of leads in a row of the table of confidence.
 pub const LEADS: usize = 9;

@@ -4,7 +4,7 @@ use super::announce::{Announced, Demand};
 use super::certainty::Certainty;
 use super::config::{GestureConfig, GestureError};
 use super::model::Model;
-use super::stage::{Decision, Touches};
+use super::stage::{Decision, TouchClassifier};
 use super::state::TouchState;
 use crate::condition::Image;
 use crate::format::{Micros, Name, Q15};
@@ -151,8 +151,8 @@ impl Gestures {
         Some(told(state, panel, &decision, now, false))
     }
 
-    fn touches(&self, area: &Area) -> Touches<'static> {
-        Touches::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
+    fn touches(&self, area: &Area) -> TouchClassifier<'static> {
+        TouchClassifier::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
     }
 
     fn demand(&self, certainty: Certainty) -> Demand {
@@ -214,19 +214,24 @@ mod tests {
     const SCAN_US: u64 = 5_128;
 
     /// A garment of two panels and its image.
-    struct Shown {
+    struct ShownFrame {
         layout: Layout,
         stage: Gestures,
         state: GestureState,
         frame: u64,
     }
 
-    impl Shown {
-        fn new(edit: fn(&mut GestureConfig)) -> Shown {
+    impl ShownFrame {
+        fn new(edit: fn(&mut GestureConfig)) -> ShownFrame {
             let mut config = GestureConfig::default();
             edit(&mut config);
             let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
-            Shown { layout, stage: Gestures::build(&config).unwrap(), state: GestureState::new(), frame: 0 }
+            ShownFrame {
+                layout,
+                stage: Gestures::build(&config).unwrap(),
+                state: GestureState::new(),
+                frame: 0,
+            }
         }
 
         /// Shows a hand of 16 by 8 taxels with this pressure, from a column of a panel on; shows nothing at
@@ -262,7 +267,7 @@ mod tests {
 
     #[test]
     fn pats_are_one_touch_that_ends_once_and_another_begins() {
-        let mut shown = Shown::new(|_| ());
+        let mut shown = ShownFrame::new(|_| ());
         let told = shown.told(195 * 4, 2, pats);
         assert!(!told.is_empty() && told.len() < 5, "{told:?}");
         assert!(told.iter().all(|g| (g.touch, g.panel, g.ended) == (1, 2, false)));
@@ -280,13 +285,13 @@ mod tests {
 
     #[test]
     fn it_decides_as_the_model_does_on_the_frames_it_was_shown() {
-        let mut shown = Shown::new(|config| {
+        let mut shown = ShownFrame::new(|config| {
             (config.decide_ms, config.onset_ms, config.lead, config.gain) = (50, 0, 0, 512)
         });
         let told = shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
         // The same frames without a garment, one every 1/54 s.
         let model = Model::read(Shipped::Gestures.bytes()).unwrap();
-        let (touches, mut state) = (Touches::new(model, 32, 16), TouchState::new());
+        let (touches, mut state) = (TouchClassifier::new(model, 32, 16), TouchState::new());
         let (mut next, mut decisions) = (SCAN_US as f64, Vec::new());
         for frame in 0..195 * 3u64 {
             let now = (frame + 1) * SCAN_US;
@@ -312,7 +317,7 @@ mod tests {
 
     #[test]
     fn another_panel_is_not_watched_meanwhile() {
-        let mut shown = Shown::new(|_| ());
+        let mut shown = ShownFrame::new(|_| ());
         shown.told(100, 3, |_| (4, 60));
         let other = shown.told(300, 1, |_| (4, 900));
         // The touch of panel 3 ends a second after its last frame, then that of panel 1 begins.

@@ -22,7 +22,7 @@ pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
         peak = peak.max(*cell);
         area += u16::from(*cell > pressed);
     }
-    let sums = Sums::of(cells);
+    let sums = SheetSums::of(cells);
     let [x, y, spread, anisotropy] = sums.form();
     let (total, peak, change) = (log2(sums.m.into()), log2(peak.into()), log2(change.into()));
     let all = [total, peak, area << 6, x, y, spread, anisotropy, change];
@@ -31,7 +31,7 @@ pub fn signals(cells: &Cells, change: u32, pressed: u16) -> (u32, Signals) {
 }
 
 /// Sums over the cells; at most 64 x 65,535 x 49: 28 bits.
-struct Sums {
+struct SheetSums {
     m: u32,
     x: u32,
     y: u32,
@@ -40,9 +40,9 @@ struct Sums {
     xy: u32,
 }
 
-impl Sums {
-    fn of(cells: &Cells) -> Sums {
-        let mut sums = Sums { m: 0, x: 0, y: 0, xx: 0, yy: 0, xy: 0 };
+impl SheetSums {
+    fn of(cells: &Cells) -> SheetSums {
+        let mut sums = SheetSums { m: 0, x: 0, y: 0, xx: 0, yy: 0, xy: 0 };
         for (row, y) in cells.chunks_exact(SIDE).zip(0u32..) {
             let (mut m, mut sx) = (0, 0);
             for (value, x) in row.iter().zip(0u32..) {

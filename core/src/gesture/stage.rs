@@ -2,13 +2,15 @@
 
 use super::cells::Sheet;
 use super::expert::Expert;
-use super::model::{CLASSES, Model, Scores};
+use super::expert::Scores;
+use super::model::Model;
+use super::model_error::CLASSES;
 use super::state::TouchState;
 use crate::format::Q15;
 
 /// Recognises touches of one sheet by a model.
 #[derive(Debug, Clone, Copy)]
-pub struct Touches<'a> {
+pub struct TouchClassifier<'a> {
     model: Model<'a>,
     sheet: Sheet,
 }
@@ -26,15 +28,15 @@ pub struct Decision {
     pub confidence: Option<Q15>,
 }
 
-impl<'a> Touches<'a> {
+impl<'a> TouchClassifier<'a> {
     /// Recognises touches on a sheet of that many rows and columns.
-    pub const fn new(model: Model<'a>, rows: u16, columns: u16) -> Touches<'a> {
-        Touches { model, sheet: Sheet::new(rows, columns) }
+    pub const fn new(model: Model<'a>, rows: u16, columns: u16) -> TouchClassifier<'a> {
+        TouchClassifier { model, sheet: Sheet::new(rows, columns) }
     }
 
     /// Sets the gain: counts of the model's sheet per count of the images, Q8, at most 4096.
-    pub fn with_gain(self, gain: u16) -> Touches<'a> {
-        Touches { sheet: self.sheet.with_gain(gain), ..self }
+    pub fn with_gain(self, gain: u16) -> TouchClassifier<'a> {
+        TouchClassifier { sheet: self.sheet.with_gain(gain), ..self }
     }
 
     /// The model.

@@ -6,7 +6,7 @@
 //! at rest, which no touch causes. A line that is connected to the supply shows the same code everywhere. If
 //! an input shows this at rest already, the fault is not found.
 
-use super::monitor::Codes;
+use super::codes::Codes;
 use crate::acquire::Plan;
 use crate::format::{Code, Extremes};
 use crate::garment::{Circuit, Site};
@@ -20,17 +20,17 @@ const FAR: u16 = 8;
 
 /// Input that is checked next.
 #[derive(Debug, Clone)]
-pub(super) struct Inputs {
+pub(super) struct InputCheck {
     input: u8,
     round: u8,
     /// Frame counter.
     turn: u8,
 }
 
-impl Inputs {
+impl InputCheck {
     /// Starts at the first input.
-    pub const fn new() -> Inputs {
-        Inputs { input: u8::MAX, round: 0, turn: 0 }
+    pub const fn new() -> InputCheck {
+        InputCheck { input: u8::MAX, round: 0, turn: 0 }
     }
 
     /// Checks an input in every fourth frame; true if it seems faulty. `travel` is the median travel of a
@@ -51,7 +51,7 @@ impl Inputs {
         let sites = circuit.sites().iter();
         let lines = sites
             .filter(|site| site.input == self.input && plan.reads(site.panel, site.block))
-            .map(|site| Line::of(site, part, first, shift));
+            .map(|site| TaxelLine::of(site, part, first, shift));
         let mut tally = Tally { far, ..Tally::default() };
         for line in lines.clone() {
             tally.take(line, shown.now, rest);
@@ -74,7 +74,7 @@ impl Inputs {
 }
 
 /// Taxels at equal distances in a wired row.
-struct Line {
+struct TaxelLine {
     /// The next taxel.
     taxel: usize,
     /// Distance from one taxel to the next.
@@ -83,18 +83,18 @@ struct Line {
     count: u32,
 }
 
-impl Line {
+impl TaxelLine {
     /// Every `2^shift`th taxel of a block from `first` on, in the row at `part` / 256 of its height.
-    fn of(site: &Site, part: u8, first: u8, shift: u32) -> Line {
+    fn of(site: &Site, part: u8, first: u8, shift: u32) -> TaxelLine {
         // Without a division, which an M0+ does not have.
         let row = ((u16::from(part) * u16::from(site.rows)) >> 8) as u8;
         let count = (u32::from(site.columns.saturating_sub(first)) + (1 << shift) - 1) >> shift;
         // A negative step wraps: all additions to a taxel's number are modulo 2^32.
-        Line { taxel: site.taxel(row, first), step: (site.column_step << shift) as usize, count }
+        TaxelLine { taxel: site.taxel(row, first), step: (site.column_step << shift) as usize, count }
     }
 }
 
-impl Iterator for Line {
+impl Iterator for TaxelLine {
     type Item = usize;
 
     fn next(&mut self) -> Option<usize> {
@@ -118,7 +118,7 @@ struct Tally {
 impl Tally {
     // M0+: out of line
     #[inline(never)]
-    fn take(&mut self, line: Line, codes: &[Code], rest: &[u16]) {
+    fn take(&mut self, line: TaxelLine, codes: &[Code], rest: &[u16]) {
         let (far, mut below, mut above) = (u32::from(self.far), 0, 0);
         for taxel in line {
             let Some((code, rest)) = codes.get(taxel).zip(rest.get(taxel)) else { continue };
@@ -134,7 +134,7 @@ impl Tally {
 
 /// True if the codes of all these taxels are nearly equal, and were not at rest.
 #[cold]
-fn are_alike(lines: impl Iterator<Item = Line>, codes: &[Code], rest: &[u16], far: u16) -> bool {
+fn are_alike(lines: impl Iterator<Item = TaxelLine>, codes: &[Code], rest: &[u16], far: u16) -> bool {
     let (mut now, mut before) = (Extremes::NONE, Extremes::NONE);
     for (code, rest) in lines.flatten().filter_map(|it| codes.get(it).zip(rest.get(it))) {
         now.take(code.0);
@@ -171,7 +171,7 @@ mod tests {
             for site in [*site, back] {
                 let (part, first, far) = (next(256) as u8, next(1 << shift) as u8, 1 + next(20) as u16);
                 let mut tally = Tally { far, ..Tally::default() };
-                tally.take(Line::of(&site, part, first, shift), &codes, &rest);
+                tally.take(TaxelLine::of(&site, part, first, shift), &codes, &rest);
                 let row = (u32::from(part) * u32::from(site.rows) / 256) as u8;
                 let columns = (first..site.columns).step_by(1 << shift);
                 let pairs: Vec<_> = columns

@@ -2,7 +2,7 @@
 
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
-use super::walk::Spot;
+use super::walk::TaxelSpot;
 use crate::format::Code;
 
 /// Distance from an end of the converter's range that counts as that end, counts: five times a noise of 3.
@@ -14,7 +14,7 @@ const PRESSED: i32 = 128;
 /// Median travel, in steps, below which a code that does not move is no evidence: noise of 1.8 steps rms.
 const LIVELY: u16 = 20;
 /// Travel beyond three times the median that noise does not explain, counts.
-const LOUD: u16 = 52;
+const NOISY: u16 = 52;
 /// Travel of a code that goes to the next step and back in every frame, in steps.
 const STEPS: u16 = 12;
 
@@ -29,7 +29,7 @@ pub(super) struct Limits {
     /// Typical noise is high enough that a constant code is evidence.
     lively: bool,
     /// Greatest travel that counts as usual noise.
-    loud: u16,
+    noisy: u16,
     /// Travel of the usual noise while something touches.
     usual: u32,
     /// Distance from the code at rest that a pressed taxel exceeds.
@@ -41,7 +41,7 @@ impl Limits {
     pub fn of(usual: u16, step: u16) -> Limits {
         Limits {
             lively: usual >= LIVELY.saturating_mul(step),
-            loud: usual.saturating_mul(3).saturating_add(LOUD).saturating_add(step.saturating_mul(STEPS)),
+            noisy: usual.saturating_mul(3).saturating_add(NOISY).saturating_add(step.saturating_mul(STEPS)),
             usual: u32::from(usual) * 2,
             idle: i32::from(RAIL).max(i32::from(step) + 1),
         }
@@ -80,7 +80,7 @@ fn bits(answers: impl Iterator<Item = bool>) -> u32 {
 
 /// Taxels of a group that are to be judged, the first one in the lowest bit. Most are not; bits past the last
 /// taxel have no meaning.
-pub(super) struct Doubtful {
+pub(super) struct Suspects {
     /// Their noise differs from that of most, or they have come to an end of the range.
     pub odd: u32,
     /// They lie beside a pressed taxel and are not pressed themselves: only a touch that covers them can be
@@ -122,13 +122,13 @@ impl Shown<'_> {
     /// many of them are pressed. Stops once more than `missing` are not.
     fn around(
         &self,
-        spot: &Spot<'_>,
+        spot: &TaxelSpot<'_>,
         distance: u16,
         missing: u32,
-        is_ill: impl Fn(usize) -> bool,
+        is_faulty: impl Fn(usize) -> bool,
     ) -> (u32, u32) {
         let (mut there, mut pressed) = (0, 0);
-        let Spot { area, row, column, .. } = *spot;
+        let TaxelSpot { area, row, column, .. } = *spot;
         let (rows, columns) = (i32::from(area.rows), i32::from(area.columns));
         let (row, column, distance) = (i32::from(row), i32::from(column), i32::from(distance));
         for y in (row - distance).max(0)..=(row + distance).min(rows - 1) {
@@ -138,7 +138,7 @@ impl Shown<'_> {
             let mut x = column - distance;
             while x <= column + distance {
                 let taxel = (begin + x) as usize;
-                let is_there = x >= 0 && x < columns && !is_ill(taxel);
+                let is_there = x >= 0 && x < columns && !is_faulty(taxel);
                 x += step;
                 if !is_there {
                     continue;
@@ -155,18 +155,18 @@ impl Shown<'_> {
 
     /// True if what presses around a taxel should press it too: all neighbours but one, and four fifths of
     /// those around them. A ring with a hole of one taxel and a wall of one or two does not reach that far.
-    fn is_covered(&self, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> bool {
-        let (there, pressed) = self.around(spot, 1, 1, &is_ill);
+    fn is_covered(&self, spot: &TaxelSpot<'_>, is_faulty: impl Fn(usize) -> bool) -> bool {
+        let (there, pressed) = self.around(spot, 1, 1, &is_faulty);
         if pressed < 3 || there > pressed + 1 {
             return false;
         }
-        let (there, pressed) = self.around(spot, 2, 3, &is_ill);
+        let (there, pressed) = self.around(spot, 2, 3, &is_faulty);
         pressed >= 3 && (there - pressed) * 5 <= there
     }
 
     /// True if a neighbour of a taxel is pressed.
-    fn is_near_pressure(&self, spot: &Spot<'_>) -> bool {
-        let Spot { area, row, column, .. } = *spot;
+    fn is_near_pressure(&self, spot: &TaxelSpot<'_>) -> bool {
+        let TaxelSpot { area, row, column, .. } = *spot;
         (row.saturating_sub(1)..=row.saturating_add(1).min(area.rows.saturating_sub(1))).any(|y| {
             (column.saturating_sub(1)..=column.saturating_add(1).min(area.columns.saturating_sub(1))).any(
                 |x| {
@@ -181,27 +181,27 @@ impl Shown<'_> {
     /// Returns the taxels of a group that are to be judged.
     // M0+: out of line
     #[inline(never)]
-    pub fn doubtful(&self, first: usize, seen: &[Seen]) -> Doubtful {
+    pub fn suspects(&self, first: usize, seen: &[Seen]) -> Suspects {
         let (low, high) = (RAIL + 1, self.full.saturating_sub(RAIL + 1));
         let plain =
-            |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.loud;
+            |seen: &Seen| seen.is_within(low, high) && !seen.is_still() && seen.travel() <= self.limits.noisy;
         let odd = bits(seen.iter().map(|seen| !plain(seen)));
-        let Some(rest) = self.rest.filter(|_| self.touched) else { return Doubtful { odd, beside: 0 } };
+        let Some(rest) = self.rest.filter(|_| self.touched) else { return Suspects { odd, beside: 0 } };
         // From one taxel before the first on, if there is one.
         let before = usize::from(first > 0);
         let from = first - before;
         let (codes, rest) = self.codes.get(from..).zip(rest.get(from..)).unwrap_or((&[], &[]));
         let pressed = pressed(codes, rest, seen.len() + 1 + before);
         let (left, itself) = if before == 1 { (pressed, pressed >> 1) } else { (pressed << 1, pressed) };
-        Doubtful { odd, beside: (left | itself >> 1) & !itself }
+        Suspects { odd, beside: (left | itself >> 1) & !itself }
     }
 
     /// True if a taxel that is not odd need not be judged: around it, more taxels are not pressed than the
     /// faulty ones and the one that [`Shown::is_covered`] allows.
     // M0+: out of line
     #[inline(never)]
-    pub fn is_bare(&self, spot: &Spot<'_>, ill: usize) -> bool {
-        let Spot { area, row, column, .. } = *spot;
+    pub fn is_bare(&self, spot: &TaxelSpot<'_>, faulty: usize) -> bool {
+        let TaxelSpot { area, row, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let (top, left) = (row.saturating_sub(1), column.saturating_sub(1));
         let width = usize::from(column.saturating_add(2).min(area.columns) - left);
@@ -213,7 +213,7 @@ impl Shown<'_> {
             let range = first..first + width;
             let (Some(codes), Some(rest)) = (self.codes.get(range.clone()), rest.get(range)) else { break };
             count += idle(codes, rest, self.falling);
-            if count > 2 + ill {
+            if count > 2 + faulty {
                 return true;
             }
             first += columns;
@@ -222,7 +222,7 @@ impl Shown<'_> {
     }
 
     /// Judges a taxel by its codes while it was watched, and by its healthy neighbours.
-    pub fn judge(&self, seen: &Seen, spot: &Spot<'_>, is_ill: impl Fn(usize) -> bool) -> TaxelHealth {
+    pub fn judge(&self, seen: &Seen, spot: &TaxelSpot<'_>, is_faulty: impl Fn(usize) -> bool) -> TaxelHealth {
         let taxel = spot.taxel;
         let (low, high) = seen.pressure(self.falling.then_some(self.full));
         if low >= self.full.saturating_sub(RAIL) {
@@ -233,7 +233,7 @@ impl Shown<'_> {
         if seen.is_still() && high > 0 && self.limits.lively && !is_wide(low) {
             return TaxelHealth::Stuck;
         }
-        if seen.travel() > self.limits.loud && self.is_restless(seen, taxel) {
+        if seen.travel() > self.limits.noisy && self.is_restless(seen, taxel) {
             return TaxelHealth::Noisy;
         }
         let Some(rest) = self.at_rest(taxel) else { return TaxelHealth::Good };
@@ -245,7 +245,7 @@ impl Shown<'_> {
         if !self.touched || i32::from(high).max(now) - rest > self.limits.idle {
             return TaxelHealth::Good;
         }
-        if !self.is_covered(spot, is_ill) {
+        if !self.is_covered(spot, is_faulty) {
             return TaxelHealth::Good;
         }
         if high <= RAIL { TaxelHealth::Open } else { TaxelHealth::Dead }
@@ -300,15 +300,15 @@ mod tests {
         for _ in 0..20 {
             let (codes, rest) = images(&layout, &mut random);
             let shown = shown(&codes, &rest);
-            let ill: Vec<usize> = (0..40).map(|_| random.below(layout.taxels() as u32) as usize).collect();
-            let is_ill = |taxel| ill.contains(&taxel);
+            let faulty: Vec<usize> = (0..40).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let is_faulty = |taxel| faulty.contains(&taxel);
             let mut walk = Walk::new(&layout);
             for spot in (0..layout.taxels()).step_by(3).filter_map(|taxel| walk.to(taxel)) {
                 for (distance, missing) in [(1, 1), (2, 3), (2, 100)] {
                     let ring = (0..layout.taxels()).filter(|other| {
                         let place = layout.place(*other).unwrap();
                         let apart = place.row.abs_diff(spot.row).max(place.column.abs_diff(spot.column));
-                        place.panel == spot.panel && apart == distance && !is_ill(*other)
+                        place.panel == spot.panel && apart == distance && !is_faulty(*other)
                     });
                     let (mut there, mut pressed) = (0, 0);
                     for other in ring {
@@ -318,7 +318,11 @@ mod tests {
                         there += 1;
                         pressed += u32::from(shown.is_pressed(other));
                     }
-                    assert_eq!(shown.around(&spot, distance, missing, is_ill), (there, pressed), "{spot:?}");
+                    assert_eq!(
+                        shown.around(&spot, distance, missing, is_faulty),
+                        (there, pressed),
+                        "{spot:?}"
+                    );
                 }
             }
         }
@@ -331,11 +335,11 @@ mod tests {
         for _ in 0..40 {
             let (codes, rest) = images(&layout, &mut random);
             let shown = shown(&codes, &rest);
-            let ill: Vec<usize> = (0..2).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let faulty: Vec<usize> = (0..2).map(|_| random.below(layout.taxels() as u32) as usize).collect();
             let mut walk = Walk::new(&layout);
             for spot in (0..layout.taxels()).filter_map(|taxel| walk.to(taxel)) {
-                let covered = shown.is_covered(&spot, |taxel| ill.contains(&taxel));
-                let bare = shown.is_bare(&spot, ill.len());
+                let covered = shown.is_covered(&spot, |taxel| faulty.contains(&taxel));
+                let bare = shown.is_bare(&spot, faulty.len());
                 assert!(!(bare && covered), "{spot:?}");
                 found[usize::from(bare) * 2 + usize::from(covered)] += 1;
             }
@@ -344,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn those_beside_a_pressed_one_are_doubtful() {
+    fn those_beside_a_pressed_one_are_suspects() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         let mut random = Random(2);
         for round in 0..200 {
@@ -364,7 +368,7 @@ mod tests {
                 let is_beside = is_beside && !is_far(taxel);
                 (odd | u32::from(seen.is_still()) << at, beside | u32::from(is_beside) << at)
             });
-            let Doubtful { odd, beside } = shown.doubtful(first, seen);
+            let Suspects { odd, beside } = shown.suspects(first, seen);
             let real = (1 << seen.len()) - 1;
             assert_eq!((odd & real, beside & real), plain, "{first}");
         }

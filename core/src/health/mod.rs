@@ -27,9 +27,10 @@
 //! | | |
 //! |---|---|
 //! | input | [`Code`](crate::format::Code) by taxel number, codes at rest |
-//! | output | at most [`ILL`] faulty taxels |
+//! | output | at most [`FAULTY_TAXELS`] faulty taxels |
 //! | RAM | [`Monitor`]: 2,812 bytes |
 
+mod codes;
 mod inputs;
 mod judge;
 mod monitor;
@@ -38,5 +39,6 @@ mod taxel;
 mod walk;
 mod watch;
 
-pub use monitor::{Codes, Found, ILL, IllTaxel, Monitor};
+pub use codes::Codes;
+pub use monitor::{FAULTY_TAXELS, FaultyTaxel, FoundFaults, Monitor};
 pub use taxel::TaxelHealth;

@@ -1,13 +1,13 @@
 //! The monitor: watches the taxels group by group, and keeps the faulty ones.
 
-use super::inputs::Inputs;
-use super::judge::{Doubtful, Limits, Shown, is_pressed};
+use super::codes::Codes;
+use super::inputs::InputCheck;
+use super::judge::{Limits, Shown, Suspects, is_pressed};
 use super::seen::Seen;
 use super::taxel::TaxelHealth;
-use super::walk::{Spot, Walk};
+use super::walk::{TaxelSpot, Walk};
 use super::watch::{FRAMES, Watch};
 use crate::acquire::Plan;
-use crate::format::Code;
 use crate::garment::{Circuit, Layout};
 use heapless::Vec;
 
@@ -15,14 +15,14 @@ use heapless::Vec;
 const TOUCHED: u16 = 256;
 
 /// Greatest number of faulty taxels that are remembered.
-pub const ILL: usize = 128;
+pub const FAULTY_TAXELS: usize = 128;
 /// Greatest number of neighbours that may fail together. If more seem to, the cause is not the taxels, and
 /// none is called faulty.
 const FOUND: usize = 16;
 
 /// A faulty taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct IllTaxel {
+pub struct FaultyTaxel {
     /// Number of the taxel.
     pub taxel: u16,
     /// Kind of fault.
@@ -31,30 +31,17 @@ pub struct IllTaxel {
     pub gain: u16,
 }
 
-/// Codes of a frame, with their context.
-#[derive(Debug, Clone, Copy)]
-pub struct Codes<'a> {
-    /// The codes of a frame.
-    pub now: &'a [Code],
-    /// Codes at rest; none if unknown.
-    pub rest: Option<&'a [u16]>,
-    /// Largest possible code.
-    pub full: u16,
-    /// True if something touches the garment.
-    pub touched: bool,
-}
-
 /// Taxels that were found to be faulty in a frame.
-pub type Found = Vec<(u16, TaxelHealth), FOUND>;
+pub type FoundFaults = Vec<(u16, TaxelHealth), FOUND>;
 
 /// The garment, and the part of it that is read.
-struct Worn<'a> {
+struct ReadGarment<'a> {
     layout: &'a Layout,
     circuit: &'a Circuit,
     plan: &'a Plan,
 }
 
-impl Worn<'_> {
+impl ReadGarment<'_> {
     /// True if the panel of a taxel is read.
     fn is_read(&self, taxel: usize) -> bool {
         // Panels are numbered in the order of their taxels.
@@ -67,7 +54,7 @@ impl Worn<'_> {
 #[derive(Debug, Clone)]
 pub struct Monitor {
     /// In the order of their numbers.
-    ill: Vec<IllTaxel, ILL>,
+    faulty: Vec<FaultyTaxel, FAULTY_TAXELS>,
     watch: Watch,
     /// Median travel of a code while it is watched, eighths of a count.
     usual: u16,
@@ -75,25 +62,25 @@ pub struct Monitor {
     crowd: bool,
     /// Index of the faulty taxel that is checked next for recovery.
     asked: u8,
-    inputs: Inputs,
+    inputs: InputCheck,
 }
 
 impl Monitor {
     /// State without findings.
     pub const fn new() -> Self {
         Monitor {
-            ill: Vec::new(),
+            faulty: Vec::new(),
             watch: Watch::new(),
             usual: 0,
             crowd: false,
             asked: 0,
-            inputs: Inputs::new(),
+            inputs: InputCheck::new(),
         }
     }
 
     /// Forgets all findings, and restarts the watch.
     pub fn reset(&mut self) {
-        self.ill.clear();
+        self.faulty.clear();
         self.again();
     }
 
@@ -104,29 +91,29 @@ impl Monitor {
     }
 
     /// Faulty taxels in the order of their numbers.
-    pub fn ill(&self) -> &[IllTaxel] {
-        &self.ill
+    pub fn faulty(&self) -> &[FaultyTaxel] {
+        &self.faulty
     }
 
     /// Entry of a taxel, if it is faulty.
-    pub fn ill_mut(&mut self, taxel: usize) -> Option<&mut IllTaxel> {
-        self.ill.iter_mut().find(|ill| usize::from(ill.taxel) == taxel)
+    pub fn faulty_mut(&mut self, taxel: usize) -> Option<&mut FaultyTaxel> {
+        self.faulty.iter_mut().find(|faulty| usize::from(faulty.taxel) == taxel)
     }
 
     /// Health of a taxel.
     pub fn health(&self, taxel: usize) -> TaxelHealth {
-        let ill = self.ill.iter().find(|ill| usize::from(ill.taxel) == taxel);
-        ill.map_or(TaxelHealth::Good, |ill| ill.health)
+        let faulty = self.faulty.iter().find(|faulty| usize::from(faulty.taxel) == taxel);
+        faulty.map_or(TaxelHealth::Good, |faulty| faulty.health)
     }
 
     /// Adds a faulty taxel. Returns `false` if there are too many.
-    pub fn add(&mut self, ill: IllTaxel) -> bool {
-        if self.ill.push(ill).is_err() {
+    pub fn add(&mut self, faulty: FaultyTaxel) -> bool {
+        if self.faulty.push(faulty).is_err() {
             return false;
         }
         // Sorts it in by swaps, because `Vec::insert` has a panic path.
-        for at in (1..self.ill.len()).rev() {
-            if let Some([a, b, ..]) = self.ill.get_mut(at - 1..)
+        for at in (1..self.faulty.len()).rev() {
+            if let Some([a, b, ..]) = self.faulty.get_mut(at - 1..)
                 && b.taxel < a.taxel
             {
                 core::mem::swap(a, b);
@@ -137,21 +124,22 @@ impl Monitor {
 
     /// Checks one faulty taxel per call. Clears and returns it if it was called dead and responds to
     /// pressure, or was called shorted and rests: a needle had filled it alone.
-    pub fn acquit(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<IllTaxel> {
-        let ill = self.ill.get(usize::from(self.asked)).copied();
-        self.asked = ill.map_or(0, |_| self.asked + 1);
-        let ill = ill.filter(|ill| matches!(ill.health, TaxelHealth::Dead | TaxelHealth::Shorted))?;
-        let taxel = usize::from(ill.taxel);
+    pub fn clear_fault(&mut self, circuit: &Circuit, shown: &Codes<'_>) -> Option<FaultyTaxel> {
+        let faulty = self.faulty.get(usize::from(self.asked)).copied();
+        self.asked = faulty.map_or(0, |_| self.asked + 1);
+        let faulty =
+            faulty.filter(|faulty| matches!(faulty.health, TaxelHealth::Dead | TaxelHealth::Shorted))?;
+        let taxel = usize::from(faulty.taxel);
         let (code, rest) = shown.now.get(taxel).zip(shown.rest?.get(taxel))?;
-        if is_pressed(code.0, *rest, circuit.falling()) != (ill.health == TaxelHealth::Dead) {
+        if is_pressed(code.0, *rest, circuit.falling()) != (faulty.health == TaxelHealth::Dead) {
             return None;
         }
-        self.ill.retain(|other| other.taxel != ill.taxel);
-        Some(ill)
+        self.faulty.retain(|other| other.taxel != faulty.taxel);
+        Some(faulty)
     }
 
     /// True if a converter input seems faulty in this frame.
-    pub fn doubts(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>) -> bool {
+    pub fn needs_retest(&mut self, circuit: &Circuit, plan: &Plan, shown: &Codes<'_>) -> bool {
         self.inputs.is_one_odd(circuit, plan, shown, self.usual / 8)
     }
 
@@ -163,36 +151,36 @@ impl Monitor {
         circuit: &Circuit,
         plan: &Plan,
         shown: Codes<'_>,
-        found: &mut Found,
+        found: &mut FoundFaults,
     ) {
         if self.watch.take(shown.now, layout.taxels()) {
-            self.judge(&Worn { layout, circuit, plan }, shown, found);
+            self.judge(&ReadGarment { layout, circuit, plan }, shown, found);
         }
     }
 
     /// Judges the group that has been watched for long enough.
-    fn judge(&mut self, worn: &Worn<'_>, shown: Codes<'_>, found: &mut Found) {
+    fn judge(&mut self, garment: &ReadGarment<'_>, shown: Codes<'_>, found: &mut FoundFaults) {
         let Codes { now: codes, rest, full, touched } = shown;
         let (first, seen) = self.watch.group(FRAMES - 1);
-        let seen = seen.get(..worn.layout.taxels().saturating_sub(first)).unwrap_or(seen);
+        let seen = seen.get(..garment.layout.taxels().saturating_sub(first)).unwrap_or(seen);
         // The codes of a panel that is not read are no evidence.
-        if worn.is_read(first) {
+        if garment.is_read(first) {
             self.usual = nearer(self.usual, seen);
         }
         // 8-bit codes repeat their upper bits in the lower ones, which hides their step.
-        let step = step(seen).max(worn.plan.depth.step());
+        let step = step(seen).max(garment.plan.depth.step());
         let limits = Limits::of(self.usual / 8, step);
-        let falling = worn.circuit.falling();
+        let falling = garment.circuit.falling();
         let shown = Shown { codes, rest, full, falling, limits, touched };
-        let bounded = self.suspect(worn, &shown, FRAMES - 1, found);
+        let bounded = self.suspect(garment, &shown, FRAMES - 1, found);
         if bounded.is_some() && found.is_empty() {
             self.crowd = false;
             return;
         }
         // A common cause may begin with the last taxels of this group, and end with the first ones of the
         // next.
-        let mut next = Found::new();
-        let apart = bounded.and_then(|()| self.suspect(worn, &shown, FRAMES - 2, &mut next));
+        let mut next = FoundFaults::new();
+        let apart = bounded.and_then(|()| self.suspect(garment, &shown, FRAMES - 2, &mut next));
         self.crowd |= apart.is_none() || found.len() + next.len() > FOUND;
         if self.crowd {
             found.clear();
@@ -202,8 +190,8 @@ impl Monitor {
     /// True if the codes of the taxels beside, above and below travelled less than half as far as its own: a
     /// touch or a shock would move them, too. One other noisy taxel is allowed among them if the code goes to
     /// both sides of that at rest.
-    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> bool {
-        let Spot { taxel, area, column, .. } = *spot;
+    fn is_alone(&self, shown: &Shown<'_>, seen: &Seen, spot: &TaxelSpot<'_>) -> bool {
+        let TaxelSpot { taxel, area, column, .. } = *spot;
         let columns = usize::from(area.columns);
         let left = (column > 0).then(|| taxel.wrapping_sub(1));
         let right = (column + 1 < area.columns).then_some(taxel + 1);
@@ -215,16 +203,22 @@ impl Monitor {
     }
 
     /// Finds the faulty taxels of a group; none if there are too many.
-    fn suspect(&self, worn: &Worn<'_>, shown: &Shown<'_>, age: usize, found: &mut Found) -> Option<()> {
+    fn suspect(
+        &self,
+        garment: &ReadGarment<'_>,
+        shown: &Shown<'_>,
+        age: usize,
+        found: &mut FoundFaults,
+    ) -> Option<()> {
         let (first, seen) = self.watch.group(age);
-        let Doubtful { mut odd, mut beside } = shown.doubtful(first, seen);
-        let mut walk = Walk::new(worn.layout);
+        let Suspects { mut odd, mut beside } = shown.suspects(first, seen);
+        let mut walk = Walk::new(garment.layout);
         let mut taxel = first;
-        while odd | beside != 0 && taxel < worn.layout.taxels() {
+        while odd | beside != 0 && taxel < garment.layout.taxels() {
             if (odd | beside) & 1 == 1
                 && let Some((seen, spot)) = seen.get(taxel - first).zip(walk.to(taxel))
-                && (odd & 1 == 1 || !shown.is_bare(&spot, self.ill.len()))
-                && let Some(health) = self.fault(worn, shown, seen, &spot)
+                && (odd & 1 == 1 || !shown.is_bare(&spot, self.faulty.len()))
+                && let Some(health) = self.fault(garment, shown, seen, &spot)
             {
                 found.push((taxel as u16, health)).ok()?;
             }
@@ -237,20 +231,26 @@ impl Monitor {
     /// Returns the fault of a taxel that was not known to be faulty. A taxel that is absent or not read has
     /// none.
     #[inline(never)]
-    fn fault(&self, worn: &Worn<'_>, shown: &Shown<'_>, seen: &Seen, spot: &Spot<'_>) -> Option<TaxelHealth> {
-        let Worn { layout, circuit, plan } = *worn;
-        let Spot { taxel, panel, row, column, .. } = *spot;
+    fn fault(
+        &self,
+        garment: &ReadGarment<'_>,
+        shown: &Shown<'_>,
+        seen: &Seen,
+        spot: &TaxelSpot<'_>,
+    ) -> Option<TaxelHealth> {
+        let ReadGarment { layout, circuit, plan } = *garment;
+        let TaxelSpot { taxel, panel, row, column, .. } = *spot;
         if !plan.reads_panel(panel) {
             return None;
         }
-        let is_ill = |taxel| self.health(taxel) != TaxelHealth::Good;
-        let health = shown.judge(seen, spot, is_ill);
-        let ill = health != TaxelHealth::Good
+        let is_faulty = |taxel| self.health(taxel) != TaxelHealth::Good;
+        let health = shown.judge(seen, spot, is_faulty);
+        let faulty = health != TaxelHealth::Good
             && (health != TaxelHealth::Noisy || self.is_alone(shown, seen, spot))
-            && !is_ill(taxel)
+            && !is_faulty(taxel)
             && !layout.is_absent(panel, row, column)
             && circuit.wired(taxel).is_some_and(|(block, ..)| plan.reads(panel, block));
-        ill.then_some(health)
+        faulty.then_some(health)
     }
 }
 

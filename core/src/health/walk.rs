@@ -4,7 +4,7 @@ use crate::garment::{Area, Layout};
 
 /// A taxel and its position.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spot<'a> {
+pub(super) struct TaxelSpot<'a> {
     pub taxel: usize,
     /// Index of its panel.
     pub panel: u8,
@@ -31,7 +31,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Advances to `taxel`, which is not before the last one. None past the last taxel of the garment.
-    pub fn to(&mut self, taxel: usize) -> Option<Spot<'a>> {
+    pub fn to(&mut self, taxel: usize) -> Option<TaxelSpot<'a>> {
         while let [_, rest @ ..] = self.areas
             && let [next, ..] = rest
             && taxel >= usize::from(next.base)
@@ -46,7 +46,7 @@ impl<'a> Walk<'a> {
             self.row += 1;
         }
         let column = (taxel - self.begin) as u16;
-        (self.row < area.rows).then_some(Spot { taxel, panel: self.panel, area, row: self.row, column })
+        (self.row < area.rows).then_some(TaxelSpot { taxel, panel: self.panel, area, row: self.row, column })
     }
 }
 
@@ -65,7 +65,7 @@ mod tests {
             let mut walk = Walk::new(&layout);
             for taxel in (0..layout.taxels() + 600).step_by(stride) {
                 let spot = walk.to(taxel);
-                let place = spot.map(|Spot { panel, row, column, .. }| Place { panel, row, column });
+                let place = spot.map(|TaxelSpot { panel, row, column, .. }| Place { panel, row, column });
                 assert_eq!(place, layout.place(taxel), "{taxel}");
                 assert!(spot.is_none_or(
                     |spot| spot.taxel == taxel && spot.area == &layout.areas()[usize::from(spot.panel)]

@@ -3,8 +3,8 @@
 
 use super::config::{DECIMALS, MapConfig, Rule};
 use super::error::MapError;
-use super::input::Encoder;
-use super::map::{CauseOf, Map, Row};
+use super::input::RampEncoder;
+use super::map::{CauseOf, Map, MapRow};
 use super::transfer::{Gain, Transfer};
 use crate::format::{Name, Q15};
 
@@ -78,7 +78,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         }
         for to in 0..config.concepts.len() {
             let causes = config.edges.iter().filter(|edge| usize::from(edge.to) == to && edge.weight != 0);
-            let mut row = Row { held: false, bias: 0, causes: 0 };
+            let mut row = MapRow { held: false, bias: 0, causes: 0 };
             for edge in causes {
                 let room = MapError::Edges { found: config.edges.len(), room: E };
                 self.causes.push(CauseOf { from: edge.from, weight: edge.weight }).map_err(|_| room)?;
@@ -166,7 +166,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
             if self.rows.get(usize::from(input.concept)).is_some_and(|row| row.causes > 0) {
                 return Err(MapError::DrivenInput { concept: name });
             }
-            let encoder = Encoder::build(input, &name, config.decimals, self.one)?;
+            let encoder = RampEncoder::build(input, &name, config.decimals, self.one)?;
             let room = MapError::Inputs { found: config.inputs.len(), room: N };
             self.inputs.push(encoder).map_err(|_| room)?;
         }

@@ -1,6 +1,6 @@
 //! Configuration of a map as its author writes it, in decimal steps. A scene contains this form.
 
-use super::input::Input;
+use super::input::MapInput;
 use super::transfer::Transfer;
 use crate::format::Name;
 use heapless::Vec;
@@ -75,7 +75,7 @@ pub struct MapConfig<const N: usize = CONCEPTS, const E: usize = EDGES> {
     /// all others.
     pub held: bool,
     /// Inputs: the concepts that the touch or the host sets, with their ramps.
-    pub inputs: Vec<Input, N>,
+    pub inputs: Vec<MapInput, N>,
 }
 
 /// Configuration of the stage.

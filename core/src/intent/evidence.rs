@@ -38,16 +38,16 @@ struct Anchor {
 
 /// Greatest recent value.
 #[derive(Debug, Default, Clone, Copy)]
-struct Recent {
+struct RecentPeak {
     value: u32,
     at: Micros,
 }
 
-impl Recent {
+impl RecentPeak {
     /// Takes the value of this frame; a greatest value older than `memory_us` is forgotten.
     fn take(&mut self, value: u32, now: Micros, memory_us: u64) {
         if value >= self.value || now.since(self.at) >= memory_us {
-            *self = Recent { value, at: now };
+            *self = RecentPeak { value, at: now };
         }
     }
 }
@@ -92,9 +92,9 @@ pub struct Evidence {
     begun: bool,
     /// Rise of this frame, counts/ms.
     pub(super) rise: u32,
-    blow: Recent,
-    load: Recent,
-    peak: Recent,
+    blow: RecentPeak,
+    load: RecentPeak,
+    peak: RecentPeak,
     cover_mm2: u32,
     beats: Beats,
     /// Load when it began to be still, counts; and time of that.

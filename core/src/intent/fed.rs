@@ -106,14 +106,14 @@ fn fraction(value: Q15, parameter: &'static str) -> Result<Q15, Invalid> {
 mod tests {
     use super::*;
     use crate::format::name;
-    use crate::intent::{Input, MapConfig, Source};
+    use crate::intent::{MapConfig, MapInput, Source};
 
     /// A map whose concept `warmth` is fed by slot 3, `press` by the touch.
     fn map() -> Map {
         let mut config: MapConfig = MapConfig { lambda: 1000, ..MapConfig::default() };
         config.concepts.extend(["press", "warmth"].map(name));
         let input =
-            |concept, source| Input { concept, source, low: -32768, high: 32768, at_low: -1, at_high: 1 };
+            |concept, source| MapInput { concept, source, low: -32768, high: 32768, at_low: -1, at_high: 1 };
         config.inputs.extend([input(0, Source::Press), input(1, Source::Host(3))]);
         Map::build(&config).unwrap()
     }

@@ -97,7 +97,7 @@ pub enum Source {
 /// One input of a map. The ramp may fall (`at_high` below `at_low`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Input {
+pub struct MapInput {
     /// Index of the concept; it must not have an incoming edge.
     pub concept: u8,
     /// Source of the value.
@@ -112,9 +112,9 @@ pub struct Input {
     pub at_high: i16,
 }
 
-/// An [`Input`] with its ramp in units of the state.
+/// A [`MapInput`] with its ramp in units of the state.
 #[derive(Debug, Clone)]
-pub(crate) struct Encoder {
+pub(crate) struct RampEncoder {
     pub concept: u8,
     pub source: Source,
     low: i32,
@@ -123,8 +123,13 @@ pub(crate) struct Encoder {
     at_high: i32,
 }
 
-impl Encoder {
-    pub(crate) fn build(input: &Input, concept: &Name, decimals: u8, one: i32) -> Result<Encoder, MapError> {
+impl RampEncoder {
+    pub(crate) fn build(
+        input: &MapInput,
+        concept: &Name,
+        decimals: u8,
+        one: i32,
+    ) -> Result<RampEncoder, MapError> {
         if input.low >= input.high {
             let (low, high) = (input.low, input.high);
             return Err(MapError::InputRange { concept: concept.clone(), low, high });
@@ -139,7 +144,7 @@ impl Encoder {
             Ok(twice.checked_div(2 * step).unwrap_or(0) as i32)
         };
         let (at_low, at_high) = (value(input.at_low)?, value(input.at_high)?);
-        Ok(Encoder {
+        Ok(RampEncoder {
             concept: input.concept,
             source: input.source,
             low: input.low,
@@ -181,9 +186,9 @@ mod tests {
     use super::*;
     use crate::format::name;
 
-    fn encoder(low: i32, high: i32, at_low: i16, at_high: i16, one: i32) -> Encoder {
-        let input = Input { concept: 0, source: Source::Press, low, high, at_low, at_high };
-        Encoder::build(&input, &name("press"), 1, one).unwrap()
+    fn encoder(low: i32, high: i32, at_low: i16, at_high: i16, one: i32) -> RampEncoder {
+        let input = MapInput { concept: 0, source: Source::Press, low, high, at_low, at_high };
+        RampEncoder::build(&input, &name("press"), 1, one).unwrap()
     }
 
     #[test]

@@ -10,14 +10,14 @@
 //! gain as one multiplication.
 
 use super::config::{CONCEPTS, EDGES, Rule};
-use super::input::{Encoder, Source};
+use super::input::{RampEncoder, Source};
 use super::transfer::{Gain, Transfer};
 use crate::format::{Name, Q15};
 use heapless::Vec;
 
 /// A concept as inference needs it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct MapRow {
     /// True if it keeps its value.
     pub held: bool,
     /// -T in the unit of the sum.
@@ -40,10 +40,10 @@ pub(crate) struct CauseOf {
 #[derive(Debug, Clone)]
 pub struct Map<const N: usize = CONCEPTS, const E: usize = EDGES> {
     pub(crate) concepts: Vec<Name, N>,
-    pub(crate) rows: Vec<Row, N>,
+    pub(crate) rows: Vec<MapRow, N>,
     /// The causes of the first concept, then those of the second, and so on.
     pub(crate) causes: Vec<CauseOf, E>,
-    pub(crate) inputs: Vec<Encoder, N>,
+    pub(crate) inputs: Vec<RampEncoder, N>,
     pub(crate) rule: Rule,
     pub(crate) transfer: Transfer,
     pub(crate) gain: Gain,

@@ -27,13 +27,13 @@ pub use evidence::Evidence;
 pub use fed::{Fed, Feed, SLOTS};
 pub use felt::Felt;
 pub use infer::{Inference, Outcome};
-pub use input::{Input, Source, Touch};
+pub use input::{MapInput, Source, Touch};
 pub use leading::Leading;
 pub use map::Map;
 pub use stage::{Intent, IntentState, Meaning};
 pub use tactile::{PRESS_PER_NEWTON, tactile};
 pub use transfer::Transfer;
-pub use why::{Part, Why};
+pub use why::{Contribution, Why};
 
 #[cfg(test)]
 mod tests;

@@ -19,7 +19,7 @@ use super::input::{Source, Touch};
 use super::leading::Leading;
 use super::map::Map;
 use super::why::Why;
-use crate::contact::Growth;
+use crate::contact::HardnessCue;
 use crate::format::{Micros, Q15};
 use heapless::Vec;
 
@@ -42,8 +42,8 @@ pub struct Meaning<const N: usize = CONCEPTS> {
 #[derive(Debug, Clone)]
 pub struct IntentState<const N: usize = CONCEPTS> {
     touch: Option<Touch>,
-    /// Growth of the touch, for its hardness.
-    growth: Growth,
+    /// Growth of the touch, from which its hardness follows.
+    cue: HardnessCue,
     evidence: Evidence,
     released: Option<Micros>,
     inputs: [i32; N],
@@ -60,7 +60,7 @@ impl<const N: usize> Default for IntentState<N> {
     fn default() -> Self {
         IntentState {
             touch: None,
-            growth: Growth::default(),
+            cue: HardnessCue::default(),
             evidence: Evidence::default(),
             released: None,
             inputs: [0; N],
@@ -217,7 +217,7 @@ impl<const N: usize> Intent<N> {
                 // A new touch takes the recent rise as its own; later it takes the rises of its own frames.
                 let rise = before.map_or(state.evidence.blow(), |held| held.rise.max(state.evidence.rise));
                 let own = before.map_or(present.own, |held| held.own);
-                let hardness = self.feel(&mut state.growth, before.is_some(), &present);
+                let hardness = self.feel(&mut state.cue, before.is_some(), &present);
                 (state.touch, state.released) = (Some(Touch { rise, own, hardness, ..present }), None);
             }
             (Some(_), present) => {
@@ -244,15 +244,15 @@ impl<const N: usize> Intent<N> {
     }
 
     /// Returns the hardness of the touch so far; `known` is false in its first frame.
-    fn feel(&self, growth: &mut Growth, known: bool, touch: &Touch) -> Option<u32> {
+    fn feel(&self, cue: &mut HardnessCue, known: bool, touch: &Touch) -> Option<u32> {
         if !self.feels {
             return None;
         }
         if !known {
-            *growth = Growth::default();
+            *cue = HardnessCue::default();
         }
-        growth.feel(touch.force, touch.area);
-        growth.hardness(touch.cell_mm2)
+        cue.feel(touch.force, touch.area);
+        cue.hardness(touch.cell_mm2)
     }
 
     /// Infers if the inputs have changed and the period is over; true if it did.

@@ -10,7 +10,7 @@
 //! follow meanings: if a threat or an attack leads, happiness and politeness are 0.
 
 use super::config::{Edge, MapConfig, Rule};
-use super::input::{Input, Source};
+use super::input::{MapInput, Source};
 use super::transfer::Transfer;
 use crate::format::name;
 
@@ -186,7 +186,7 @@ pub fn tactile() -> MapConfig {
         let _ = map.edges.push(Edge { from, to, weight });
     }
     for (concept, source, [low, high], [at_low, at_high]) in INPUTS {
-        let _ = map.inputs.push(Input { concept, source, low, high, at_low, at_high });
+        let _ = map.inputs.push(MapInput { concept, source, low, high, at_low, at_high });
     }
     map
 }

@@ -395,8 +395,14 @@ fn a_quiet_stage_says_nothing_after_its_first_word() {
 #[test]
 fn a_host_value_feeds_its_concept() {
     let mut config = tactile();
-    config.inputs[2] =
-        Input { concept: 2, source: Source::Host(1), low: -32768, high: 32768, at_low: -100, at_high: 100 };
+    config.inputs[2] = MapInput {
+        concept: 2,
+        source: Source::Host(1),
+        low: -32768,
+        high: 32768,
+        at_low: -100,
+        at_high: 100,
+    };
     let map = Map::<CONCEPTS>::build(&config).unwrap();
     assert_eq!(map.encode(None, &[Q15(5), Q15(-12345)])[2], -12345);
     assert_eq!(map.encode(None, &[])[2], 0);
@@ -408,7 +414,7 @@ fn the_inputs_of_a_concept_add_up() {
     let mut config = MapConfig::<4, 4> { decimals: 1, lambda: 1000, ..Default::default() };
     config.concepts.push(name("medium")).unwrap();
     let source = Source::Press;
-    let ramp = |low, high, at_high| Input { concept: 0, source, low, high, at_low: 0, at_high };
+    let ramp = |low, high, at_high| MapInput { concept: 0, source, low, high, at_low: 0, at_high };
     config.inputs.extend([ramp(100, 300, 10), ramp(500, 700, -10)]);
     let map = Map::<4>::build(&config).unwrap();
     let of = |press| map.encode(Some(&Touch { press, ..Touch::default() }), &[])[0];

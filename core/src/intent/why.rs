@@ -7,7 +7,7 @@ use heapless::Vec;
 
 /// Contribution of one cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
+pub struct Contribution {
     /// Index of the cause; the concept itself under the rules mkosko and rescaled.
     pub from: u8,
     /// weight * y, rounded to the nearest 2^-15.
@@ -21,7 +21,7 @@ pub struct Why<const N: usize> {
     pub concept: u8,
     /// One part for each incoming edge, in the order of the map; then one for the concept itself, unless the
     /// rule is kosko (an edge from the concept to itself is included in that part).
-    pub parts: Vec<Part, N>,
+    pub parts: Vec<Contribution, N>,
     /// T of this concept.
     pub threshold: Q15,
     /// The argument of the transfer function, before lambda.
@@ -59,7 +59,7 @@ impl<const N: usize, const E: usize> Map<N, E> {
         let value = self.product_q15(i64::from(weight) * i64::from(y));
         why.sum = Q15(why.sum.0.saturating_add(value.0));
         // Always room: at most N parts, one for each concept.
-        let _ = why.parts.push(Part { from, value });
+        let _ = why.parts.push(Contribution { from, value });
     }
 
     /// Returns the product of a weight (steps) and an activation (1 / one) as Q15, rounded to the nearest,

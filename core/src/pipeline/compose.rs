@@ -48,8 +48,8 @@ impl Pipeline {
         self.contact = scene.contact.build()?;
         self.contact.forms = forms;
         self.symbol = scene.symbol.build()?;
-        self.recognise(scene)?;
-        self.mean(scene)?;
+        self.build_shapes(scene)?;
+        self.build_intent(scene)?;
         self.fit(scene, layout)
     }
 
@@ -63,13 +63,13 @@ impl Pipeline {
     }
 
     #[inline(never)]
-    fn recognise(&mut self, scene: &Scene) -> Result<(), SceneError> {
+    fn build_shapes(&mut self, scene: &Scene) -> Result<(), SceneError> {
         self.shape = scene.shape.map(|shape| shape.build(Base::built_in())).transpose()?;
         Ok(())
     }
 
     #[inline(never)]
-    fn mean(&mut self, scene: &Scene) -> Result<(), SceneError> {
+    fn build_intent(&mut self, scene: &Scene) -> Result<(), SceneError> {
         match &scene.intent {
             Some(intent) => self.intent.get_or_insert_default().fill(intent)?,
             None => self.intent = None,

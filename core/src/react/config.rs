@@ -34,7 +34,8 @@ pub enum Cause {
     /// the scan, and during a tare.
     Blind,
     /// Number of faulty taxels.
-    Ill,
+    #[serde(rename = "ill")]
+    Faulty,
     /// Time since the last message of a host, ms.
     Silent,
     /// No value: its pin toggles every `level` perceived frames, and stands still if there are none.
@@ -72,7 +73,7 @@ const LONGEST_MS: i32 = 3_600_000;
 impl Cause {
     /// True for causes in the board itself, not in what touches it.
     pub fn is_of_board(&self) -> bool {
-        matches!(self, Cause::Fault | Cause::Blind | Cause::Ill | Cause::Silent | Cause::Watching)
+        matches!(self, Cause::Fault | Cause::Blind | Cause::Faulty | Cause::Silent | Cause::Watching)
     }
 
     /// True for causes that a board cannot rule out when it has just started.
@@ -92,7 +93,7 @@ impl ReactionConfig {
         if !(1..=most).contains(&self.level) {
             return refuse("level", must);
         }
-        if !self.region.is_empty() && self.cause != Cause::Ill {
+        if !self.region.is_empty() && self.cause != Cause::Faulty {
             return refuse("region", "must be empty: this cause has none");
         }
         if self.cause == Cause::Watching && self.output.is_none() {

@@ -55,7 +55,7 @@ mod tests {
             row(Cause::Pressure, 4, true),
             row(Cause::Fault, 4, true),
             row(Cause::Pressure, 5, false),
-            row(Cause::Ill, 6, true),
+            row(Cause::Faulty, 6, true),
             row(Cause::Silent, 31, true),
             row(Cause::Watching, 32, true),
             ReactionConfig { output: None, ..row(Cause::Fault, 7, false) },

@@ -21,7 +21,7 @@ pub use levels::Levels;
 use crate::format::{Invalid, InvalidRow, Micros, Name, Q15};
 use crate::garment::{Layout, Line};
 use crate::intent::{Leading, Map, Meaning};
-use crate::reflex::{Agree, Reflexes, Row};
+use crate::reflex::{Agree, ReflexRow, Reflexes};
 use crate::symbol::RegionState;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ pub struct Reaction {
 
 /// A cause, resolved against the layout and the map.
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Watch {
+enum ResolvedCause {
     Region(Cause, Option<u8>),
     Concept(usize),
     Leading(Leading),
@@ -52,7 +52,7 @@ enum Watch {
 /// The checked stage.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Reactions {
-    rows: Vec<(ReactionConfig, Watch), REACTIONS>,
+    rows: Vec<(ReactionConfig, ResolvedCause), REACTIONS>,
     reflexes: Reflexes,
 }
 
@@ -105,7 +105,7 @@ impl Reactions {
                 return Err(at(Invalid { parameter: "name", must: "must not be given twice" }));
             }
             let watch = watch(row, layout, map).map_err(at)?;
-            if let (Cause::Reflex(agree), Watch::Region(_, region)) = (&row.cause, &watch) {
+            if let (Cause::Reflex(agree), ResolvedCause::Region(_, region)) = (&row.cause, &watch) {
                 reactions.add_reflex(index as u8, row, *agree, *region, layout).map_err(at)?;
             }
             let full = Invalid { parameter: "name", must: "must be one of 8 rows at most" };
@@ -125,7 +125,7 @@ impl Reactions {
         let Some(level) = u16::try_from(row.level).ok().filter(|level| *level > 0) else {
             return Err(Invalid { parameter: "level", must: "must be 1 to 65535 counts for a reflex" });
         };
-        let reflex = Row { index, agree, level, output: row.output, region };
+        let reflex = ReflexRow { index, agree, level, output: row.output, region };
         if self.reflexes.add(reflex, layout) {
             return Ok(());
         }
@@ -150,10 +150,10 @@ impl Reactions {
         }
         for (index, ((row, watch), since)) in (0..).zip(self.rows.iter().zip(active)) {
             let value = match watch {
-                Watch::Region(cause, region) => of_regions(cause, *region, regions),
-                Watch::Concept(concept) => activations.get(*concept).map_or(0, |a| a.0),
-                Watch::Leading(wanted) => i32::from(wanted == leading),
-                Watch::Board(..) => continue,
+                ResolvedCause::Region(cause, region) => of_regions(cause, *region, regions),
+                ResolvedCause::Concept(concept) => activations.get(*concept).map_or(0, |a| a.0),
+                ResolvedCause::Leading(wanted) => i32::from(wanted == leading),
+                ResolvedCause::Board(..) => continue,
             };
             // Always room: as many places as rows.
             follow(index, row, since, value, now).into_iter().for_each(|change| _ = changes.push(change));
@@ -163,7 +163,7 @@ impl Reactions {
     /// Rows with a cause in the board itself: index, cause, region.
     pub fn alarms(&self) -> impl Iterator<Item = (u8, &Cause, Option<u8>)> {
         (0..).zip(&self.rows).filter_map(|(index, (_, watch))| match watch {
-            Watch::Board(cause, region) => Some((index, cause, *region)),
+            ResolvedCause::Board(cause, region) => Some((index, cause, *region)),
             _ => None,
         })
     }
@@ -204,7 +204,7 @@ impl Reactions {
     /// Pin of a row and its level: asserted while any row with this pin is active.
     pub fn pin(&self, state: &ReactState, index: u8) -> Option<(u8, bool)> {
         let line = self.output(index)?;
-        let lasts = |((row, _), since): (&(ReactionConfig, Watch), &Option<Micros>)| {
+        let lasts = |((row, _), since): (&(ReactionConfig, ResolvedCause), &Option<Micros>)| {
             since.is_some() && row.output == Some(line)
         };
         let asserted = self.rows.iter().zip(&state.active).any(lasts);
@@ -214,7 +214,7 @@ impl Reactions {
     /// Pins that show that frames are perceived, each with its level after that many frames.
     pub fn watching(&self, frames: u32) -> impl Iterator<Item = (u8, bool)> + '_ {
         self.rows.iter().filter_map(move |(row, watch)| {
-            let Watch::Board(Cause::Watching, _) = watch else { return None };
+            let ResolvedCause::Board(Cause::Watching, _) = watch else { return None };
             let changes = frames.checked_div(row.level.unsigned_abs())?;
             row.output.map(|line| (line.pin, (changes & 1 == 1) != line.inverted))
         })
@@ -239,7 +239,7 @@ fn follow(
 }
 
 /// Checks a row and resolves its cause.
-fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<Watch, Invalid> {
+fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<ResolvedCause, Invalid> {
     let refuse = |parameter, must| Err(Invalid { parameter, must });
     if row.hysteresis < 0 || row.hysteresis > row.level.max(0) {
         return refuse("hysteresis", "must be 0 to level");
@@ -251,18 +251,18 @@ fn watch(row: &ReactionConfig, layout: &Layout, map: Option<&Map>) -> Result<Wat
     };
     Ok(match &row.cause {
         Cause::Concept(name) => match map.and_then(|map| map.find(name)) {
-            Some(concept) => Watch::Concept(concept),
+            Some(concept) => ResolvedCause::Concept(concept),
             None => return refuse("cause.concept", "must be a concept of the map"),
         },
         Cause::Leading(_) if map.is_none() => {
             return refuse("cause.leading", "needs a map, and the scene has none");
         }
-        Cause::Leading(leading) => Watch::Leading(*leading),
+        Cause::Leading(leading) => ResolvedCause::Leading(*leading),
         cause if cause.is_of_board() => {
             row.check_of_board()?;
-            Watch::Board(cause.clone(), region)
+            ResolvedCause::Board(cause.clone(), region)
         }
-        cause => Watch::Region(cause.clone(), region),
+        cause => ResolvedCause::Region(cause.clone(), region),
     })
 }
 

@@ -1,6 +1,6 @@
 //! How many taxels must agree before a reflex begins.
 
-use super::watched::Spot;
+use super::spot::Spot;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ const NEXT: u16 = 1;
 
 /// A taxel that was beyond its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Seen {
+struct SeenTaxel {
     taxel: u16,
     spot: Spot,
     /// Number of the sub-field, counted over all frames.
@@ -37,7 +37,7 @@ struct Seen {
 /// Taxels that were beyond their limits within the time of a frame.
 #[derive(Debug, Clone)]
 pub(super) struct Recent {
-    seen: Vec<Seen, SEEN>,
+    seen: Vec<SeenTaxel, SEEN>,
     oldest: u8,
     /// Number of the present sub-field, counted over all frames.
     field: u32,
@@ -63,13 +63,13 @@ impl Recent {
     /// Stores a taxel; returns one that agrees with it. `within`: index of the present sub-field in its
     /// frame, of `count`.
     pub fn agree(&mut self, taxel: u16, spot: Spot, within: usize, count: usize) -> Option<u16> {
-        let near = |seen: &&Seen| {
+        let near = |seen: &&SeenTaxel| {
             let age = self.field.wrapping_sub(seen.field) as usize;
             let reach = if age <= within { NEAR } else { NEXT };
             age < count && seen.taxel != taxel && seen.spot.is_near(spot, reach)
         };
         let other = self.seen.iter().find(near).map(|seen| seen.taxel);
-        let new = Seen { taxel, spot, field: self.field };
+        let new = SeenTaxel { taxel, spot, field: self.field };
         if self.seen.push(new).is_err() {
             if let Some(seen) = self.seen.get_mut(usize::from(self.oldest)) {
                 *seen = new;

@@ -18,7 +18,7 @@ const NOWHERE: u16 = u16::MAX;
 
 /// A taxel, in the order of the scan.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct WatchedTaxel {
     taxel: u16,
     /// Last inactive code; inverted if pressure lowers the code.
     limit: u16,
@@ -42,11 +42,11 @@ pub struct Early {
 /// State of the check from sub-field to sub-field.
 #[derive(Debug, Clone)]
 pub struct Reflex<const TAXELS: usize> {
-    entries: [Entry; TAXELS],
+    entries: [WatchedTaxel; TAXELS],
     fields: Fields,
     falling: bool,
     reflexes: Reflexes,
-    /// Entry whose limit is updated next.
+    /// Taxel whose limit is updated next.
     next: u16,
     /// True once all limits are set.
     armed: bool,
@@ -60,7 +60,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     /// No scan is checked. All bytes are 0.
     pub const fn new() -> Self {
         Reflex {
-            entries: [Entry { taxel: 0, limit: 0 }; TAXELS],
+            entries: [WatchedTaxel { taxel: 0, limit: 0 }; TAXELS],
             fields: Fields::none(),
             falling: false,
             reflexes: Reflexes::none(),
@@ -76,7 +76,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     /// until all limits are set.
     pub fn begin(&mut self, fields: Fields, falling: bool) {
         (self.fields, self.falling) = (fields, falling);
-        self.entries.fill(Entry { taxel: NOWHERE, limit: u16::MAX });
+        self.entries.fill(WatchedTaxel { taxel: NOWHERE, limit: u16::MAX });
         self.disarm();
     }
 
@@ -136,14 +136,14 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         for (input, codes) in codes.chunks(addresses).enumerate() {
             let at = first + input * addresses;
             let Some(entries) = self.entries.get(at..at + codes.len()) else { break };
-            let mut loud = Loud::new();
+            let mut active = ActiveCodes::new();
             let watches = self.armed && self.reflexes.rows().iter().any(|row| self.begun & row.bit() == 0);
             match (watches, self.falling) {
-                (true, false) => place_and_find::<false>(codes, entries, frame, &mut loud),
-                (true, true) => place_and_find::<true>(codes, entries, frame, &mut loud),
+                (true, false) => place_and_find::<false>(codes, entries, frame, &mut active),
+                (true, true) => place_and_find::<true>(codes, entries, frame, &mut active),
                 (false, _) => codes.iter().zip(entries).for_each(|(code, entry)| put(*code, *entry, frame)),
             }
-            loud.into_iter().for_each(|(taxel, code)| self.judge(field, taxel, code, now));
+            active.into_iter().for_each(|(taxel, code)| self.judge(field, taxel, code, now));
         }
         self.begun & !before
     }
@@ -192,21 +192,21 @@ impl<const TAXELS: usize> Default for Reflex<TAXELS> {
 }
 
 /// Numbers and codes of the taxels beyond their limits.
-type Loud = Vec<(u16, Code), JUDGED>;
+type ActiveCodes = Vec<(u16, Code), JUDGED>;
 
-/// Stores codes in `frame`, and collects those beyond their limits in `loud`.
+/// Stores codes in `frame`, and collects those beyond their limits in `active`.
 #[inline(never)] // M0+: out of line
 fn place_and_find<const FALLING: bool>(
     codes: &[Code],
-    entries: &[Entry],
+    entries: &[WatchedTaxel],
     frame: &mut [Code],
-    loud: &mut Loud,
+    active: &mut ActiveCodes,
 ) {
-    let mut take = |code: &Code, entry: &Entry| {
+    let mut take = |code: &Code, entry: &WatchedTaxel| {
         put(*code, *entry, frame);
         let pressed = if FALLING { !code.0 } else { code.0 };
         if pressed > entry.limit {
-            find(loud, entry.taxel, *code);
+            find(active, entry.taxel, *code);
         }
     };
     let (chunks, rest) = codes.as_chunks::<CHUNK>();
@@ -219,7 +219,7 @@ fn place_and_find<const FALLING: bool>(
 
 /// Stores a code in `frame` if the entry has a taxel.
 #[inline(always)]
-fn put(code: Code, entry: Entry, frame: &mut [Code]) {
+fn put(code: Code, entry: WatchedTaxel, frame: &mut [Code]) {
     if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
         *slot = code;
     }
@@ -228,6 +228,6 @@ fn put(code: Code, entry: Entry, frame: &mut [Code]) {
 /// Adds a taxel beyond its limit; those past the last place are not judged.
 #[cold]
 #[inline(never)] // M0+: out of line
-fn find(loud: &mut Loud, taxel: u16, code: Code) {
-    let _ = loud.push((taxel, code));
+fn find(active: &mut ActiveCodes, taxel: u16, code: Code) {
+    let _ = active.push((taxel, code));
 }

@@ -1,4 +1,5 @@
-//! The reflex: a check of raw codes after each sub-field of an interlaced scan, without waiting for the frame.
+//! The reflex: a check of raw codes after each sub-field of an interlaced scan, without waiting for the
+//! frame.
 //!
 //! | | |
 //! |---|---|
@@ -18,8 +19,9 @@
 
 mod agree;
 mod check;
+mod spot;
 mod watched;
 
 pub use agree::Agree;
 pub use check::{Early, Reflex};
-pub use watched::{ROWS, Reflexes, Row};
+pub use watched::{ROWS, ReflexRow, Reflexes};

@@ -1,6 +1,7 @@
 //! The reactions that are reflexes: what they watch and which pins they drive.
 
 use super::agree::Agree;
+use super::spot::Spot;
 use crate::garment::{Layout, Line, PANELS};
 use heapless::Vec;
 
@@ -9,7 +10,7 @@ pub const ROWS: usize = 8;
 
 /// A reaction that begins by reflex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Row {
+pub struct ReflexRow {
     /// Index into the scene's table of reactions.
     pub index: u8,
     /// Number of taxels that must agree.
@@ -22,7 +23,7 @@ pub struct Row {
     pub region: Option<u8>,
 }
 
-impl Row {
+impl ReflexRow {
     /// Bit of the row in a mask.
     pub(super) const fn bit(&self) -> u8 {
         1 << (self.index & 7)
@@ -31,7 +32,7 @@ impl Row {
 
 /// A panel, and the row that watches it.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-struct Panel {
+struct WatchedPanel {
     base: u16,
     rows: u16,
     columns: u16,
@@ -39,28 +40,11 @@ struct Panel {
     row: Option<u8>,
 }
 
-/// Position of a taxel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Spot {
-    pub panel: u8,
-    pub row: u16,
-    pub column: u16,
-}
-
-impl Spot {
-    /// True if another taxel of the panel is at most `reach` rows and columns away.
-    pub fn is_near(self, other: Spot, reach: u16) -> bool {
-        self.panel == other.panel
-            && self.row.abs_diff(other.row) <= reach
-            && self.column.abs_diff(other.column) <= reach
-    }
-}
-
 /// All reflexes of a scene on a garment. At most one of them watches a panel.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Reflexes {
-    rows: Vec<Row, ROWS>,
-    panels: Vec<Panel, PANELS>,
+    rows: Vec<ReflexRow, ROWS>,
+    panels: Vec<WatchedPanel, PANELS>,
 }
 
 impl Reflexes {
@@ -73,14 +57,14 @@ impl Reflexes {
     pub fn of(layout: &Layout) -> Reflexes {
         let mut reflexes = Reflexes::none();
         for area in layout.areas() {
-            let panel = Panel { base: area.base, rows: area.rows, columns: area.columns, row: None };
+            let panel = WatchedPanel { base: area.base, rows: area.rows, columns: area.columns, row: None };
             let _ = reflexes.panels.push(panel); // a layout has at most PANELS of them
         }
         reflexes
     }
 
     /// Adds a row. Returns `false` if there is no room, or another row watches a panel of its region.
-    pub fn add(&mut self, row: Row, layout: &Layout) -> bool {
+    pub fn add(&mut self, row: ReflexRow, layout: &Layout) -> bool {
         let place = self.rows.len() as u8;
         let there = self.rows.push(row).is_ok();
         let areas = layout.areas().iter().zip(&mut self.panels);
@@ -94,12 +78,12 @@ impl Reflexes {
     }
 
     /// All rows.
-    pub fn rows(&self) -> &[Row] {
+    pub fn rows(&self) -> &[ReflexRow] {
         &self.rows
     }
 
     /// Row that watches a taxel.
-    pub fn row_of(&self, taxel: u16) -> Option<&Row> {
+    pub fn row_of(&self, taxel: u16) -> Option<&ReflexRow> {
         let (panel, _) = self.find(taxel)?;
         self.rows.get(usize::from(self.panels.get(usize::from(panel))?.row?))
     }

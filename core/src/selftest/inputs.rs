@@ -2,7 +2,7 @@
 
 use super::lines::PULLED_NS;
 use super::{Fault, Findings};
-use crate::acquire::{Clock, Lines, Pad, Pull, PulledAdc, ScanError};
+use crate::acquire::{Clock, Lines, ProbePin, Pull, PulledAdc, ScanError};
 use crate::format::Extremes;
 use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
@@ -17,14 +17,14 @@ const RAIL: u16 = 32;
 const FOLLOWED: u16 = FULL / 8;
 
 /// An input and its codes under each pull.
-struct Input {
+struct PulledInput {
     pin: u8,
     up: Extremes,
     down: Extremes,
 }
 
 /// Examines the inputs. Afterwards none is pulled; the lines stay driven.
-pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
+pub(super) fn examine<P: ProbePin, A: PulledAdc, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     adc: &mut A,
@@ -32,11 +32,11 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     circuit: &Circuit,
     findings: &mut Findings,
 ) -> Result<(), ScanError> {
-    let mut inputs = Vec::<Input, BLOCKS>::new();
+    let mut inputs = Vec::<PulledInput, BLOCKS>::new();
     for site in circuit.sites() {
         if !inputs.iter().any(|input| input.pin == site.input) {
             // Always room: a circuit has at most BLOCKS blocks, and each has one input.
-            let _ = inputs.push(Input { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
+            let _ = inputs.push(PulledInput { pin: site.input, up: Extremes::NONE, down: Extremes::NONE });
         }
     }
     let read = [Pull::Up, Pull::Down].into_iter().try_for_each(|pull| {
@@ -58,9 +58,9 @@ pub(super) fn examine<P: Pad, A: PulledAdc, const PINS: usize>(
     Ok(())
 }
 
-impl Input {
+impl PulledInput {
     fn fault(&self) -> Option<Fault> {
-        let Input { up, down, .. } = self;
+        let PulledInput { up, down, .. } = self;
         if up.low >= FULL - FOLLOWED && down.high <= FOLLOWED {
             Some(Fault::Open)
         } else if up.high <= RAIL {
@@ -73,17 +73,17 @@ impl Input {
     }
 }
 
-fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[Input], pull: Pull) -> Result<(), ScanError> {
+fn pull_all<A: PulledAdc>(adc: &mut A, inputs: &[PulledInput], pull: Pull) -> Result<(), ScanError> {
     inputs.iter().try_for_each(|i| adc.pull(i.pin, pull).map_err(|_| ScanError::Output(i.pin)))
 }
 
 /// Reads the corners of the blocks that share a select code.
-fn read<P: Pad, A: PulledAdc, const PINS: usize>(
+fn read<P: ProbePin, A: PulledAdc, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     adc: &mut A,
     (circuit, sites, pull): (&Circuit, &[Site], Pull),
-    inputs: &mut [Input],
+    inputs: &mut [PulledInput],
 ) -> Result<(), ScanError> {
     let select = sites.first().map_or(0, |site| site.select);
     let last_row = sites.iter().map(|site| site.rows).max().unwrap_or(1).saturating_sub(1);
@@ -101,7 +101,7 @@ fn read<P: Pad, A: PulledAdc, const PINS: usize>(
     Ok(())
 }
 
-fn apply<P: Pad, const PINS: usize>(
+fn apply<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     circuit: &Circuit,
     word: u32,

@@ -1,7 +1,7 @@
 //! Self-test of the select lines: each is driven alone, and the levels of all are read.
 
 use super::{Fault, Findings};
-use crate::acquire::{Clock, Lines, Pad, Pull, ScanError};
+use crate::acquire::{Clock, Lines, ProbePin, Pull, ScanError};
 use crate::garment::{CIRCUIT_LINES, Circuit};
 use embedded_hal::delay::DelayNs;
 use heapless::Vec;
@@ -10,7 +10,7 @@ use heapless::Vec;
 pub(super) const PULLED_NS: u32 = 100_000;
 
 /// Levels of all lines while one of them is driven, as words of the circuit.
-struct Shown {
+struct ShownLevels {
     /// Driven high, all others pulled down.
     high: u32,
     /// Driven low, all others pulled up.
@@ -18,7 +18,7 @@ struct Shown {
 }
 
 /// Examines the lines. Afterwards none is driven or pulled.
-pub(super) fn examine<P: Pad, const PINS: usize>(
+pub(super) fn examine<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     clock: &impl Clock,
@@ -33,12 +33,12 @@ pub(super) fn examine<P: Pad, const PINS: usize>(
 }
 
 /// Drives each line to both levels.
-fn try_all<P: Pad, const PINS: usize>(
+fn try_all<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     delay: &mut impl DelayNs,
     clock: &impl Clock,
     circuit: &Circuit,
-) -> Result<Vec<Shown, CIRCUIT_LINES>, ScanError> {
+) -> Result<Vec<ShownLevels, CIRCUIT_LINES>, ScanError> {
     let mut all = Vec::new();
     for pin in circuit.lines() {
         let mut show = |level: bool| {
@@ -48,13 +48,13 @@ fn try_all<P: Pad, const PINS: usize>(
             delay.delay_ns(PULLED_NS);
             look(lines, circuit)
         };
-        let _ = all.push(Shown { high: show(true)?, low: show(false)? }); // as many as a circuit has
+        let _ = all.push(ShownLevels { high: show(true)?, low: show(false)? }); // as many as a circuit has
         clock.progressed();
     }
     Ok(all)
 }
 
-fn release<P: Pad, const PINS: usize>(
+fn release<P: ProbePin, const PINS: usize>(
     lines: &mut Lines<P, PINS>,
     circuit: &Circuit,
     pull: Pull,
@@ -66,14 +66,17 @@ fn release<P: Pad, const PINS: usize>(
 }
 
 /// Levels of all lines, bit `i` for line `i` of the circuit.
-fn look<P: Pad, const PINS: usize>(lines: &mut Lines<P, PINS>, circuit: &Circuit) -> Result<u32, ScanError> {
+fn look<P: ProbePin, const PINS: usize>(
+    lines: &mut Lines<P, PINS>,
+    circuit: &Circuit,
+) -> Result<u32, ScanError> {
     circuit.lines().iter().rev().try_fold(0, |word, pin| {
         let level = lines.level(*pin).ok_or(ScanError::NoPin(*pin))?;
         Ok(word << 1 | u32::from(level.map_err(|_| ScanError::Output(*pin))?))
     })
 }
 
-fn judge(circuit: &Circuit, shown: &[Shown], findings: &mut Findings) {
+fn judge(circuit: &Circuit, shown: &[ShownLevels], findings: &mut Findings) {
     let is_high = |word: u32, line: usize| word >> line & 1 == 1;
     for (line, (pin, own)) in circuit.lines().iter().zip(shown).enumerate() {
         if !is_high(own.high, line) {

@@ -12,7 +12,7 @@
 //! frame is not scanned.
 //!
 //! While the board runs, the levels of the lines and the codes of the inputs are monitored. Evidence against
-//! one of them makes the board examine them all again ([`Examine::is_misled`], `board/doubt.rs`,
+//! one of them makes the board examine them all again ([`Examine::is_misled`], `board/retest.rs`,
 //! `health/inputs.rs`).
 //!
 //! Limits: a line that is broken between the board and the multiplexers shows nothing at its pin. A source of
@@ -26,7 +26,7 @@ mod lines;
 
 pub use findings::{FAULTS, Fault, Findings, PinFault};
 
-use crate::acquire::{Clock, MuxScan, Pad, PulledAdc, ScanError};
+use crate::acquire::{Clock, MuxScan, ProbePin, PulledAdc, ScanError};
 use crate::garment::Circuit;
 use embedded_hal::delay::DelayNs;
 
@@ -59,7 +59,7 @@ impl<E: Examine> Examine for &mut E {
 
 impl<P, D, A, C, const PINS: usize, const TAXELS: usize> Examine for MuxScan<'_, P, D, A, C, PINS, TAXELS>
 where
-    P: Pad,
+    P: ProbePin,
     D: DelayNs,
     A: PulledAdc,
     C: Clock,

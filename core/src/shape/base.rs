@@ -19,7 +19,7 @@
 //! On a grid of 4 x 16 a shape has some 12 taxels, and most errors confuse square and round; on finer grids,
 //! short fingers and rectangles.
 
-use super::features::Features;
+use super::features::ShapeFeatures;
 use super::knn::{Base, Class, Prototype};
 use crate::format::name;
 use heapless::Vec;
@@ -27,7 +27,7 @@ use heapless::Vec;
 /// Number of prototypes of the built-in base.
 pub const BUILT_IN: usize = 48;
 
-const RECTANGLE: [Features; 16] = [
+const RECTANGLE: [ShapeFeatures; 16] = [
     [3385, 2140, 396, -40],
     [3011, 1583, 245, 213],
     [2982, 1727, 243, 246],
@@ -46,7 +46,7 @@ const RECTANGLE: [Features; 16] = [
     [3874, 1958, 720, 519],
 ];
 
-const ROUND: [Features; 16] = [
+const ROUND: [ShapeFeatures; 16] = [
     [2591, 1323, -52, 172],
     [3323, 1974, 212, 203],
     [2826, 1610, 35, 213],
@@ -65,7 +65,7 @@ const ROUND: [Features; 16] = [
     [3094, 1678, -13, 500],
 ];
 
-const FINGER: [Features; 16] = [
+const FINGER: [ShapeFeatures; 16] = [
     [2817, 1599, 547, 189],
     [3017, 1975, 360, 194],
     [3230, 1860, 608, 207],

@@ -9,7 +9,7 @@ pub struct ShapeConfig {
     /// Number of neighbours that vote: 1 to 9, and at most the number of prototypes.
     pub k: u8,
     /// Greatest distance from the nearest prototype at which a contact is recognised, at least 1; in the
-    /// units of [`super::Features`].
+    /// units of [`super::ShapeFeatures`].
     pub reject: u16,
 }
 

@@ -8,7 +8,7 @@ use crate::format::Fixed24;
 pub const FEATURES: usize = 4;
 
 /// NMI by sum of squares, NMI by peak, anisotropy, size; see [`features`].
-pub type Features = [i16; FEATURES];
+pub type ShapeFeatures = [i16; FEATURES];
 
 /// Computes the features of a contact, scaled so that a step of one is as significant as a step of another:
 ///
@@ -20,7 +20,7 @@ pub type Features = [i16; FEATURES];
 ///
 /// None of them depends on pressure, position or direction. Never panics: forms above 4 and 8 saturate, no
 /// area counts as one taxel, and the anisotropy is clamped to 0 to 1.
-pub fn features(nmi: &Nmi, contact: &Contact) -> Features {
+pub fn features(nmi: &Nmi, contact: &Contact) -> ShapeFeatures {
     let anisotropy = contact.anisotropy.0.clamp(0, 32768) >> 5;
     [form(nmi.s2_sheppard, 13), form(nmi.peak_sheppard, 12), anisotropy as i16, size(contact.area)]
 }

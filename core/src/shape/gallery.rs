@@ -1,8 +1,8 @@
 //! A gallery: examples of the shapes that a user taught, and k-NN among them.
 
+use super::confidence::{ConfidenceTable, STEPS};
 use super::descriptor::{Descriptor, MEASURES};
 use super::space::{Point, Space, distance2};
-use super::sureness::{STEPS, Sureness};
 use crate::format::{Invalid, Name, Q15, root};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,8 @@ pub struct Gallery<const PROTOTYPES: usize> {
     /// Greatest distance from the nearest prototype at which a touch is recognised; in units of a [`Point`].
     pub reject: u16,
     /// Confidence of a vote.
-    pub sureness: Sureness,
+    #[serde(rename = "sureness")]
+    pub confidence: ConfidenceTable,
     /// The examples; ties go to the earlier one.
     pub prototypes: Vec<Exemplar, PROTOTYPES>,
 }
@@ -47,7 +48,7 @@ pub struct Gallery<const PROTOTYPES: usize> {
 pub struct Recognised {
     /// Index of the class; none if the touch is of no class.
     pub class: Option<u8>,
-    /// Accuracy of such votes, see [`Sureness`]; 0 without a class.
+    /// Accuracy of such votes, see [`ConfidenceTable`]; 0 without a class.
     pub confidence: Q15,
     /// The class's share of the votes, each weighted by 1 / distance.
     pub share: Q15,
@@ -65,9 +66,9 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
     /// An empty gallery, which recognises nothing.
     pub const fn new() -> Self {
         let space = Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 };
-        let sureness =
-            Sureness { shares: [0; STEPS - 1], distances: [0; STEPS - 1], right: [[0; STEPS]; STEPS] };
-        Gallery { names: Vec::new(), space, k: 1, reject: 0, sureness, prototypes: Vec::new() }
+        let confidence =
+            ConfidenceTable { shares: [0; STEPS - 1], distances: [0; STEPS - 1], right: [[0; STEPS]; STEPS] };
+        Gallery { names: Vec::new(), space, k: 1, reject: 0, confidence, prototypes: Vec::new() }
     }
 
     /// Checks a gallery from outside. Error if a parameter is out of range.
@@ -88,7 +89,7 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         if self.reject == 0 {
             return refuse("shapes.reject", "must be at least 1");
         }
-        self.sureness.check()
+        self.confidence.check()
     }
 
     /// Recognises a touch.
@@ -115,7 +116,7 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
         }
         let share = Q15::ratio(best.0, all);
         let class = best.1.filter(|_| distance <= u32::from(self.reject));
-        let confidence = if class.is_some() { self.sureness.of(share, distance) } else { Q15(0) };
+        let confidence = if class.is_some() { self.confidence.of(share, distance) } else { Q15(0) };
         Recognised { class, confidence, share, distance: distance.min(u16::MAX.into()) as u16 }
     }
 

@@ -1,6 +1,6 @@
 //! Nearest neighbours among the prototypes of a base.
 
-use super::features::Features;
+use super::features::ShapeFeatures;
 use crate::format::{Name, Q15};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub struct Prototype {
     /// Class that it is an example of.
     pub class: Class,
     /// Its features, see [`features`](super::features).
-    pub features: Features,
+    pub features: ShapeFeatures,
 }
 
 /// A base of shapes.
@@ -58,7 +58,12 @@ pub(super) const VOTERS: usize = 9;
 /// Returns the majority class of the `k` nearest prototypes (in a tie, that of the nearest), and its
 /// confidence: its share of the votes, weighted by nearness. If even the nearest is farther than `reject`,
 /// returns unknown, with a confidence that grows with the distance.
-pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reject: u32) -> (Class, Q15) {
+pub(super) fn vote(
+    prototypes: &[Prototype],
+    features: &ShapeFeatures,
+    k: usize,
+    reject: u32,
+) -> (Class, Q15) {
     let limit = reject.saturating_mul(reject);
     // Most touches are near a prototype, so prototypes beyond the limit need not be compared in full.
     let mut nearest = nearest(prototypes, features, k, limit.saturating_add(1));
@@ -86,7 +91,12 @@ pub(super) fn vote(prototypes: &[Prototype], features: &Features, k: usize, reje
 
 /// Returns the `k` nearest prototypes in the order of their squared distance, if that is below `limit`; ties
 /// go to the first in the base.
-fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) -> [(u32, Class); VOTERS] {
+fn nearest(
+    prototypes: &[Prototype],
+    features: &ShapeFeatures,
+    k: usize,
+    limit: u32,
+) -> [(u32, Class); VOTERS] {
     let mut nearest = [(limit, Class::UNKNOWN); VOTERS];
     if k == 1 {
         nearest[0] = closest(prototypes, features, limit);
@@ -108,7 +118,7 @@ fn nearest(prototypes: &[Prototype], features: &Features, k: usize, limit: u32) 
 
 /// Returns the nearest prototype, if its squared distance is below `limit`; ties go to the first in the base.
 #[inline(never)] // M0+: out of line
-fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, Class) {
+fn closest(prototypes: &[Prototype], features: &ShapeFeatures, limit: u32) -> (u32, Class) {
     let mut closest = (limit, Class::UNKNOWN);
     // One by one: two at a time need more registers.
     let mut left = prototypes;
@@ -123,7 +133,7 @@ fn closest(prototypes: &[Prototype], features: &Features, limit: u32) -> (u32, C
 
 /// Returns the squared distance if it is below `limit`. Size and anisotropy come first: they exclude most
 /// prototypes.
-fn distance_below(limit: u32, prototype: &Prototype, features: &Features) -> Option<u32> {
+fn distance_below(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
     let [nmi, form, anisotropy, size] = *features;
     let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
     // Subtracts from the limit instead of adding up, so that nothing overflows.

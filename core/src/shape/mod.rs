@@ -10,6 +10,7 @@
 //! | M0+ cycles | 5.3 k with the built-in base of 48 prototypes, for each contact whose form is measured: the new ones, and one of the others |
 
 mod base;
+mod confidence;
 mod config;
 mod descriptor;
 mod features;
@@ -22,13 +23,13 @@ mod seen;
 mod space;
 mod spread;
 mod stage;
-mod sureness;
 mod taught;
 
 pub use base::BUILT_IN;
+pub use confidence::{ConfidenceTable, STEPS};
 pub use config::ShapeConfig;
 pub use descriptor::{Descriptor, MEASURE_NAMES, MEASURES, descriptor};
-pub use features::{FEATURES, Features, features};
+pub use features::{FEATURES, ShapeFeatures, features};
 pub use gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, Recognised};
 pub use knn::{Base, CLASSES, Class, Prototype};
 pub use nmi::{Nmi, nmi};
@@ -38,7 +39,6 @@ pub use seen::seen;
 pub use space::{DIMENSIONS, Point, Space};
 pub use spread::Spread;
 pub use stage::{Shape, Shapes};
-pub use sureness::{STEPS, Sureness};
 pub use taught::{GalleryHead, Taught};
 
 #[cfg(test)]

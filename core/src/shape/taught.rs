@@ -5,12 +5,12 @@
 //!
 //! One contact is described per frame, new ones first: a description takes as long as everything else.
 
+use super::confidence::ConfidenceTable;
 use super::gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery};
 use super::knn::Class;
 use super::seen::seen;
 use super::space::Space;
 use super::stage::Shape;
-use super::sureness::Sureness;
 use crate::condition::Image;
 use crate::contact::{Contact, ContactState};
 use crate::format::{Invalid, Name, Q15};
@@ -29,8 +29,9 @@ pub struct GalleryHead {
     pub k: u8,
     /// See [`Gallery::reject`].
     pub reject: u16,
-    /// See [`Gallery::sureness`].
-    pub sureness: Sureness,
+    /// See [`Gallery::confidence`].
+    #[serde(rename = "sureness")]
+    pub confidence: ConfidenceTable,
     /// Number of prototypes that follow, 1 ..= [`GALLERY_PROTOTYPES`].
     pub prototypes: u16,
 }
@@ -85,9 +86,9 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
             return Err(Invalid { parameter: "shapes.prototypes", must: "must be 1 to 200 on this board" });
         }
         self.wanted = head.prototypes;
-        let Gallery { names, space, k, reject, sureness, prototypes } = &mut self.gallery;
+        let Gallery { names, space, k, reject, confidence, prototypes } = &mut self.gallery;
         prototypes.clear();
-        (*names, *space, *sureness) = (head.names, head.space, head.sureness);
+        (*names, *space, *confidence) = (head.names, head.space, head.confidence);
         (*k, *reject) = (head.k, head.reject);
         Ok(())
     }
@@ -163,7 +164,7 @@ mod tests {
             space: Space { origin: [0; 24], weights, shift: 0 },
             k: 1,
             reject: 100,
-            sureness: Sureness::default(),
+            confidence: ConfidenceTable::default(),
             prototypes,
         }
     }

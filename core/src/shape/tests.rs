@@ -256,7 +256,7 @@ fn gallery() -> Gallery<8> {
         (at[0], at[1]) = (x, y);
         Exemplar { class, at }
     };
-    let sureness = Sureness {
+    let confidence = ConfidenceTable {
         shares: [8192, 16384, 32768],
         distances: [10, 20, 30],
         right: [[16384; 4], [20000; 4], [30000; 4], [32768; 4]],
@@ -267,7 +267,7 @@ fn gallery() -> Gallery<8> {
         space: Space { origin: [0; MEASURES], weights, shift: 1 },
         k: 3,
         reject: 400,
-        sureness,
+        confidence,
         prototypes: Few::from_slice(&prototypes).unwrap(),
     }
 }
@@ -307,7 +307,7 @@ fn a_wrong_gallery_is_refused() {
     assert_eq!(refused(|g| g.space.shift = 31), "shapes.space");
     assert_eq!(refused(|g| g.k = 0), "shapes.k");
     assert_eq!(refused(|g| g.reject = 0), "shapes.reject");
-    assert_eq!(refused(|g| g.sureness.right[3][3] = 32769), "shapes.sureness");
+    assert_eq!(refused(|g| g.confidence.right[3][3] = 32769), "shapes.sureness");
     // Any gallery gives a result without a panic.
     let mut odd = gallery();
     odd.k = 255;

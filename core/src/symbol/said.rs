@@ -8,7 +8,7 @@ use crate::shape::Class;
 
 /// Current words of a contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Said {
+pub(super) struct ReportedWords {
     /// Id of the contact.
     pub contact: u32,
     /// The words reported last.
@@ -31,11 +31,15 @@ const MOST: u16 = 400;
 /// Time for which a contact counts as moving after it slid, ms.
 const STILL: u8 = 250;
 
-impl Said {
+impl ReportedWords {
     /// Words of a new contact.
-    pub fn new(config: &SymbolConfig, placed: &Placed, area_mm2: u32) -> Said {
-        let mut said =
-            Said { contact: placed.contact.id, words: Words::default(), evidence: FIRST, still_ms: u8::MAX };
+    pub fn new(config: &SymbolConfig, placed: &Placed, area_mm2: u32) -> ReportedWords {
+        let mut said = ReportedWords {
+            contact: placed.contact.id,
+            words: Words::default(),
+            evidence: FIRST,
+            still_ms: u8::MAX,
+        };
         said.words.class = placed.shape.class;
         said.measure(config, placed, area_mm2, None);
         said.slide(placed.contact.slip, 0);
@@ -108,7 +112,11 @@ impl Said {
 
 /// Finds the words of contact `id`. Contacts and words have the same order, so it is mostly at `at`, which
 /// then advances.
-pub(super) fn said_of<'a>(said: &'a mut [Said], at: &mut usize, id: u32) -> Option<&'a mut Said> {
+pub(super) fn said_of<'a>(
+    said: &'a mut [ReportedWords],
+    at: &mut usize,
+    id: u32,
+) -> Option<&'a mut ReportedWords> {
     if said.get(*at).is_none_or(|said| said.contact != id) {
         *at = said.iter().position(|said| said.contact == id)?;
     }
@@ -155,8 +163,8 @@ mod tests {
     }
 
     /// A contact of which only the id is set.
-    fn of(contact: u32) -> Said {
-        Said { contact, words: Words::default(), evidence: FIRST, still_ms: u8::MAX }
+    fn of(contact: u32) -> ReportedWords {
+        ReportedWords { contact, words: Words::default(), evidence: FIRST, still_ms: u8::MAX }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The stage: words and events of a frame.
 
 use super::config::SymbolConfig;
-use super::said::{Said, said_of};
+use super::said::{ReportedWords, said_of};
 use super::words::Words;
 use crate::body::Placed;
 use crate::contact::Phase;
@@ -48,7 +48,7 @@ pub struct RegionState {
 #[derive(Debug, Clone)]
 pub struct SymbolState<const CONTACTS: usize> {
     /// Words of the present contacts.
-    said: Vec<Said, CONTACTS>,
+    said: Vec<ReportedWords, CONTACTS>,
     /// Last words of the contacts released in the last frame, in their order.
     last_words: Vec<Words, CONTACTS>,
     /// Contacts of the last frame whose onset is an event, one bit each, in their order.
@@ -101,7 +101,7 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
     /// Resets the classes of all contacts, because another base of shapes is in force that does not have
     /// their names.
     pub(crate) fn forget_classes(&mut self) {
-        self.said.iter_mut().for_each(Said::forget_class);
+        self.said.iter_mut().for_each(ReportedWords::forget_class);
     }
 
     /// State of the first `count` regions.
@@ -164,7 +164,7 @@ impl Symbols {
                 }
                 None => {
                     // Always room: as many places as contacts.
-                    let _ = state.said.push(Said::new(&self.config, placed, area));
+                    let _ = state.said.push(ReportedWords::new(&self.config, placed, area));
                     state.onsets |= bit;
                 }
             }
@@ -187,7 +187,7 @@ impl Symbols {
         for placed in released {
             let last = state.said.iter().find(|said| said.contact == placed.contact.id);
             let words = last.map_or_else(
-                || Said::new(&self.config, placed, area_mm2(layout, placed)).words,
+                || ReportedWords::new(&self.config, placed, area_mm2(layout, placed)).words,
                 |said| said.words,
             );
             // Always room: as many places as contacts.

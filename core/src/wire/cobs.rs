@@ -38,7 +38,7 @@ pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>
 fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let start = bytes.as_ptr().addr();
     let Some((first, data)) = bytes.split_first_mut() else { return Ok(()) };
-    let mut group = Group { head: first, code: 1 };
+    let mut group = CobsGroup { head: first, code: 1 };
     let (blocks, last) = data.as_chunks_mut::<BLOCK>();
     let linked = blocks.iter_mut().try_for_each(|block| group.end_in(block));
     linked.and_then(|()| group.end_in(last)).map_err(|Long| ptr::from_ref(group.head).addr() - start)
@@ -49,7 +49,7 @@ fn link(bytes: &mut [u8]) -> Result<(), usize> {
 const BLOCK: usize = 16;
 
 /// A group whose end is not found yet.
-struct Group<'a> {
+struct CobsGroup<'a> {
     head: &'a mut u8,
     /// Value of its code byte if the block at hand began with a zero. In the block in which the group begins,
     /// it is smaller by the position of the group, modulo 2^32.
@@ -59,7 +59,7 @@ struct Group<'a> {
 /// Error: the group is too long.
 struct Long;
 
-impl<'a> Group<'a> {
+impl<'a> CobsGroup<'a> {
     /// Ends the group at each zero of the bytes that follow, and begins the next one there.
     #[inline(always)]
     fn end_in(&mut self, bytes: &'a mut [u8]) -> Result<(), Long> {

@@ -301,12 +301,12 @@ pub struct HealthMap {
     /// Taxel after the last of the range: the garment ends there, or another message continues.
     pub end: u16,
     /// Faulty taxels, ascending.
-    pub taxels: Vec<Ill, 64>,
+    pub taxels: Vec<FaultyTaxels, 64>,
 }
 
 /// Consecutive taxels with the same fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Ill {
+pub struct FaultyTaxels {
     /// Number of the first.
     pub first: u16,
     /// Number of taxels, at least 1.

@@ -44,19 +44,19 @@
 mod cobs;
 mod codec;
 mod crc32;
-mod encoder;
-mod image;
+mod error;
+mod image_decode;
+mod image_encode;
 mod message;
 mod receiver;
-mod reference;
-mod stretch;
 mod writer;
 
-pub use codec::{WireError, decode, encode, frame_bound, open};
 pub(crate) use codec::{close, frame, lead};
-pub use encoder::encode_image;
-pub use image::{ImageError, ImageFault, decode_image, image_bound, image_sum};
+pub use codec::{decode, encode, frame_bound, open};
+pub use error::WireError;
+pub use image_decode::{ImageError, ImageFault, decode_image, image_bound, image_sum};
+pub(crate) use image_encode::ImageReference;
+pub use image_encode::encode_image;
 pub use message::*;
 pub use receiver::Receiver;
-pub(crate) use reference::Reference;
 pub(crate) use writer::write;

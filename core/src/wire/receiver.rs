@@ -1,6 +1,7 @@
 //! Receiver: turns bytes, in any split, into messages. Whatever came before, it starts anew after each 0x00.
 
-use super::codec::{WireError, open};
+use super::codec::open;
+use super::error::WireError;
 
 /// Collects the bytes of a link until a 0x00 and opens the frame before it.
 ///

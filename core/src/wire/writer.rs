@@ -3,7 +3,7 @@
 //!
 //! The remaining slice is passed by value from number to number, so that it stays in registers.
 
-use super::codec::WireError;
+use super::error::WireError;
 use core::fmt;
 use core::mem::take;
 use serde::{Serialize, ser};
@@ -13,30 +13,30 @@ pub(crate) fn write<T: Serialize + ?Sized>(value: &T, out: &mut [u8]) -> Result<
     let room = out.len();
     match value.serialize(Writer { out }) {
         Ok(rest) => Ok(room - rest.out.len()),
-        Err(Fault::NoRoom) => Err(WireError::NoRoom),
-        Err(Fault::Unknown) => Err(WireError::Message),
+        Err(WriteFault::NoRoom) => Err(WireError::NoRoom),
+        Err(WriteFault::Unknown) => Err(WireError::Message),
     }
 }
 
 /// Why a value was not written.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Fault {
+pub(crate) enum WriteFault {
     NoRoom,
     /// Messages have no values of this kind.
     Unknown,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for WriteFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("not written")
     }
 }
 
-impl ser::StdError for Fault {}
+impl ser::StdError for WriteFault {}
 
-impl ser::Error for Fault {
+impl ser::Error for WriteFault {
     fn custom<T: fmt::Display>(_: T) -> Self {
-        Fault::Unknown
+        WriteFault::Unknown
     }
 }
 
@@ -46,18 +46,18 @@ struct Writer<'a> {
     out: &'a mut [u8],
 }
 
-type Done<'a> = Result<Writer<'a>, Fault>;
+type Done<'a> = Result<Writer<'a>, WriteFault>;
 
 impl<'a> Writer<'a> {
     #[inline(always)]
     fn byte(self, byte: u8) -> Done<'a> {
-        self.bytes([byte]).ok_or(Fault::NoRoom)
+        self.bytes([byte]).ok_or(WriteFault::NoRoom)
     }
 
     /// Writes a varint: 7 bits a byte, the lowest first.
     #[inline(always)]
     fn number(self, number: u32) -> Done<'a> {
-        if number < 128 { self.byte(number as u8) } else { self.long(number).ok_or(Fault::NoRoom) }
+        if number < 128 { self.byte(number as u8) } else { self.long(number).ok_or(WriteFault::NoRoom) }
     }
 
     /// Writes a varint of two bytes or more. Returns an option, which unlike [`Done`] fits in registers.
@@ -87,7 +87,7 @@ impl<'a> Writer<'a> {
     #[inline(always)]
     fn wide(self, number: u64) -> Done<'a> {
         let (low, high) = (number as u32, (number >> 32) as u32);
-        if high == 0 { self.number(low) } else { self.wider(low, high).ok_or(Fault::NoRoom) }
+        if high == 0 { self.number(low) } else { self.wider(low, high).ok_or(WriteFault::NoRoom) }
     }
 
     #[inline(never)]
@@ -101,7 +101,7 @@ impl<'a> Writer<'a> {
 
     fn all(self, bytes: &[u8]) -> Done<'a> {
         let Writer { out } = self.number(bytes.len() as u32)?;
-        let (to, out) = out.split_at_mut_checked(bytes.len()).ok_or(Fault::NoRoom)?;
+        let (to, out) = out.split_at_mut_checked(bytes.len()).ok_or(WriteFault::NoRoom)?;
         to.iter_mut().zip(bytes).for_each(|(to, byte)| *to = *byte);
         Ok(Writer { out })
     }
@@ -109,12 +109,12 @@ impl<'a> Writer<'a> {
 
 impl<'a> ser::Serializer for Writer<'a> {
     type Ok = Self;
-    type Error = Fault;
+    type Error = WriteFault;
     type SerializeSeq = Self;
     type SerializeTuple = Self;
     type SerializeTupleStruct = Self;
     type SerializeTupleVariant = Self;
-    type SerializeMap = ser::Impossible<Self, Fault>;
+    type SerializeMap = ser::Impossible<Self, WriteFault>;
     type SerializeStruct = Self;
     type SerializeStructVariant = Self;
 
@@ -152,13 +152,13 @@ impl<'a> ser::Serializer for Writer<'a> {
         self.wide(v)
     }
     fn serialize_f32(self, _: f32) -> Done<'a> {
-        Err(Fault::Unknown)
+        Err(WriteFault::Unknown)
     }
     fn serialize_f64(self, _: f64) -> Done<'a> {
-        Err(Fault::Unknown)
+        Err(WriteFault::Unknown)
     }
     fn serialize_char(self, _: char) -> Done<'a> {
-        Err(Fault::Unknown)
+        Err(WriteFault::Unknown)
     }
     fn serialize_str(self, v: &str) -> Done<'a> {
         self.all(v.as_bytes())
@@ -194,7 +194,7 @@ impl<'a> ser::Serializer for Writer<'a> {
         value.serialize(self.number(index)?)
     }
     fn serialize_seq(self, length: Option<usize>) -> Done<'a> {
-        self.number(length.ok_or(Fault::Unknown)? as u32)
+        self.number(length.ok_or(WriteFault::Unknown)? as u32)
     }
     fn serialize_tuple(self, _: usize) -> Done<'a> {
         Ok(self)
@@ -205,8 +205,8 @@ impl<'a> ser::Serializer for Writer<'a> {
     fn serialize_tuple_variant(self, _: &'static str, index: u32, _: &'static str, _: usize) -> Done<'a> {
         self.number(index)
     }
-    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Fault> {
-        Err(Fault::Unknown)
+    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, WriteFault> {
+        Err(WriteFault::Unknown)
     }
     fn serialize_struct(self, _: &'static str, _: usize) -> Done<'a> {
         Ok(self)
@@ -215,7 +215,7 @@ impl<'a> ser::Serializer for Writer<'a> {
         self.number(index)
     }
     fn collect_str<T: fmt::Display + ?Sized>(self, _: &T) -> Done<'a> {
-        Err(Fault::Unknown)
+        Err(WriteFault::Unknown)
     }
     fn is_human_readable(&self) -> bool {
         false
@@ -227,10 +227,10 @@ macro_rules! one_by_one {
     ($($of:ident :: $element:ident ($($name:ident)?)),*) => {$(
         impl<'a> ser::$of for Writer<'a> {
             type Ok = Self;
-            type Error = Fault;
+            type Error = WriteFault;
 
             #[inline(always)]
-            fn $element<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? value: &T) -> Result<(), Fault> {
+            fn $element<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? value: &T) -> Result<(), WriteFault> {
                 $(let _ = $name;)?
                 *self = value.serialize(take(self))?;
                 Ok(())

@@ -1,7 +1,7 @@
 //! What a garment is refused for, in the words of its author; and how coordinates cross a seam.
 
 use taxel_core::garment::{
-    Absent, Block, Circuit, Coding, Edge, Garment, Layout, Line, Orientation, Pins, Place, Seam, Side,
+    Absent, Block, Circuit, Coding, Garment, Layout, Line, Orientation, Pins, Place, Seam, SeamEdge, Side,
 };
 
 /// Why the garment is refused after `edit`.
@@ -171,7 +171,7 @@ fn a_seam_maps_neighbours_onto_each_other() {
         for reversed in [false, true] {
             let mut garment = Garment::reference();
             garment.seams.clear();
-            let edge = |panel, side| Edge { panel, side, start: 2 };
+            let edge = |panel, side| SeamEdge { panel, side, start: 2 };
             let seam = Seam { a: edge(0, a), b: edge(1, b), length: 9, reversed };
             garment.seams.push(seam).expect("there is room");
             let layout = Layout::build(&garment, 2048, 4095).expect("it is checked");

@@ -161,8 +161,8 @@ fn reports() -> [(&'static str, Report<'static>); 22] {
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
     let confidence = ConfidenceReport { frame, time, touch: 3, confidence: Q15(24_576) };
-    let ill = Ill { first: 700, count: 2, health: TaxelHealth::Stuck };
-    let map = HealthMap { time, first: 0, end: 2048, taxels: one(ill) };
+    let faulty = FaultyTaxels { first: 700, count: 2, health: TaxelHealth::Stuck };
+    let map = HealthMap { time, first: 0, end: 2048, taxels: one(faulty) };
     [
         ("Hello", Report::Hello(hello())),
         ("Frame", Report::Frame(Frame { frame, time, base: Some(299), sum: 0xdead_beef, data: &[5, 1, 20] })),

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use taxel_core::acquire::{Lent, PLACES, Plan, Ring, SWEEP_INPUTS, Stretch, Sweep, Unfit};
+use taxel_core::acquire::{Lent, PLACES, Plan, Ring, SWEEP_INPUTS, Sweep, SweepStretch, Unfit};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Orientation, Pins};
 
@@ -65,8 +65,8 @@ fn check(garment: &Garment, plan: &Plan) -> Full {
 fn the_reference_garment_is_one_stretch_in_two_halves() {
     let sweep = check(&Garment::reference(), &Plan::default());
     assert_eq!((sweep.inputs(), sweep.levels().len()), (&[26, 27, 28, 29][..], 512));
-    let first = Stretch { first: 0, taxels: [Some(0), Some(512), Some(1024), Some(1536)] };
-    let second = Stretch { first: 256, taxels: first.taxels.map(|t| t.map(|taxel| taxel + 256)) };
+    let first = SweepStretch { first: 0, taxels: [Some(0), Some(512), Some(1024), Some(1536)] };
+    let second = SweepStretch { first: 256, taxels: first.taxels.map(|t| t.map(|taxel| taxel + 256)) };
     assert_eq!(sweep.stretches(), [first, second]);
     // Select 7, row 3, column 15: all nine lines high.
     assert_eq!(sweep.levels().last(), Some(&0b1_1111_1100_1100));

@@ -2,7 +2,7 @@
 
 use crate::board::{Bench, FINGER};
 use taxel_core::scene::Scene;
-use taxel_core::shape::{Class, Exemplar, GalleryHead, Space, Sureness};
+use taxel_core::shape::{Class, ConfidenceTable, Exemplar, GalleryHead, Space};
 use taxel_core::wire::{Report, Request};
 
 /// Classes of the contacts in lists that come after the base was told, and the last frame of them.
@@ -29,11 +29,19 @@ fn a_class_of_one_base_is_never_told_as_one_of_another() {
 
     let names = ["cube", "ball"].into_iter().map(taxel_core::format::name).collect();
     let space = Space { origin: [0; 24], weights: core::iter::once([0; 24]).collect(), shift: 0 };
-    let head = GalleryHead { names, space, k: 1, reject: 100, sureness: Sureness::default(), prototypes: 1 };
+    let head = GalleryHead {
+        names,
+        space,
+        k: 1,
+        reject: 100,
+        confidence: ConfidenceTable::default(),
+        prototypes: 1,
+    };
     let head = postcard::to_allocvec(&head).unwrap();
     let prototypes = postcard::to_allocvec(&vec![Exemplar { class: 1, at: [0; 12] }]).unwrap();
 
-    // The list that tells the onset is still to be sent when the base arrives: it was made with the one before.
+    // The list that tells the onset is still to be sent when the base arrives: it was made with the one
+    // before.
     bench.press(&FINGER, 900);
     bench.scan();
     bench.ask(&Request::SetShapes(&head));

@@ -56,9 +56,9 @@ static TAXEL_MAILBOX: Mailbox = Mailbox {
 static CODES: ConstStaticCell<[Code; TAXELS]> = ConstStaticCell::new([Code(0); TAXELS]);
 
 /// Tells the harness when a stage begins.
-struct Marks;
+struct StageMarks;
 
-impl Probe for Marks {
+impl Probe for StageMarks {
     fn begin(&mut self, stage: Stage) {
         mark::mark(stage as u32);
     }
@@ -76,10 +76,10 @@ fn main() -> ! {
     loop {
         let said = match mailbox.command.load(Relaxed) {
             RECEIVE => receive(chain, mailbox),
-            SCAN => chain.scanned(taken(codes, mailbox), &mut Marks, |_| ()),
+            SCAN => chain.scanned(taken(codes, mailbox), &mut StageMarks, |_| ()),
             command => match command.checked_sub(KERNELS).and_then(|n| Kernel::all().nth(n as usize)) {
                 Some(kernel) => {
-                    let digest = kernel.run(bench, taken(codes, mailbox), &mut Marks);
+                    let digest = kernel.run(bench, taken(codes, mailbox), &mut StageMarks);
                     Said { digest, bytes: 0 }
                 }
                 None => continue,

@@ -9,14 +9,15 @@
 //! | GP13 | heartbeat LED; grounded at power-up: the board starts with the shipped settings |
 //! | GP26 - GP29 | converter inputs |
 
-use super::Parts;
+use super::parts::BoardParts;
 use crate::{
     adc::Converter,
     led::Led,
     levels,
+    limits::INFO,
     link::{Uart, Usb, Wire, uart},
-    pins::Line,
-    scan::{Begun, Chain},
+    pins::LinePin,
+    scan::{Begun, DmaChain},
     store::Flash,
 };
 use embassy_rp::{
@@ -27,22 +28,12 @@ use embassy_rp::{
     watchdog::Watchdog,
 };
 use static_cell::ConstStaticCell;
-use taxel_core::board::BoardInfo;
-
-/// Limits for garments and scenes, equal on the board and on a host.
-pub const INFO: BoardInfo = BoardInfo::feather(concat!("taxel ", env!("CARGO_PKG_VERSION")));
-
-/// Number of converter inputs, from GP26 on.
-pub const INPUTS: usize = INFO.pins.inputs.count_ones() as usize;
-
-/// Number of pins for select lines and reactions.
-pub const LINES: usize = INFO.pins.outputs.count_ones() as usize;
 
 /// Takes pins as lines. Fails to compile unless they are the pins of [`INFO`].
 macro_rules! lines {
     ($p:ident: $($pin:ident = $gpio:literal),* $(,)?) => {{
         const { assert!(INFO.pins.outputs == 0 $(| 1 << $gpio)*) };
-        [$(Line::new($p.$pin.into())),*]
+        [$(LinePin::new($p.$pin.into())),*]
     }};
 }
 
@@ -53,11 +44,11 @@ bind_interrupts!(struct Interrupts {
 });
 
 /// Starts the clocks (125 MHz) and returns the board's parts. Must be called once.
-pub fn take() -> Parts {
+pub fn take() -> BoardParts {
     let p = embassy_rp::init(Default::default());
     // `init` has reset the pads.
     levels::drive();
-    Parts {
+    BoardParts {
         lines: lines!(p:
             PIN_2 = 2,
             PIN_3 = 3,
@@ -83,7 +74,7 @@ pub fn take() -> Parts {
                 adc::Channel::new_pin(p.PIN_29, Pull::None),
             ],
         ),
-        chain: Chain::new(
+        chain: DmaChain::new(
             (
                 p.PIO0,
                 (

@@ -1,26 +1,7 @@
 //! Boards: one file each with its pin assignment. No other part of the firmware names a pin.
 
 mod feather;
+mod parts;
 
-pub use feather::{INFO, INPUTS, LINES, take};
-
-use crate::{adc::Converter, led::Led, link::Wire, pins::Line, scan::Chain, store::Flash};
-use embassy_rp::watchdog::Watchdog;
-
-/// Parts of a board for the firmware.
-pub struct Parts {
-    /// Pins for select lines of garments and reactions of scenes, with their GPIO numbers.
-    pub lines: [(u8, Line); LINES],
-    /// The converter inputs from GPIO 26 on.
-    pub converter: Converter<INPUTS>,
-    /// DMA and PIO for the scan.
-    pub chain: Chain,
-    /// The link to the host.
-    pub wire: Wire,
-    /// The heartbeat.
-    pub led: Led,
-    /// The watchdog, not yet started.
-    pub watchdog: Watchdog,
-    /// The flash, whose last sectors hold the settings.
-    pub flash: Flash,
-}
+pub use feather::take;
+pub use parts::BoardParts;

@@ -1,7 +1,7 @@
 //! The board as a USB device: a serial port (CDC-ACM). Its tasks run in an interrupt of the lowest priority,
 //! so that they interrupt only perception.
 
-use super::usb::{OPENED, PACKETS, RECEIVED, SENT};
+use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
 use core::sync::atomic::Ordering;
 use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
 use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
@@ -27,13 +27,13 @@ type Bus = Driver<'static, USB>;
 static EXECUTOR: InterruptExecutor = InterruptExecutor::new();
 
 bind_interrupts!(struct Interrupts {
-    SWI_IRQ_1 => Turn;
+    SWI_IRQ_1 => TaskInterrupt;
 });
 
 /// The interrupt in which the tasks run; nothing else raises it.
-struct Turn;
+struct TaskInterrupt;
 
-impl Handler<SWI_IRQ_1> for Turn {
+impl Handler<SWI_IRQ_1> for TaskInterrupt {
     #[allow(unsafe_code)] // SAFETY: only the executor's own interrupt calls it
     unsafe fn on_interrupt() {
         unsafe { EXECUTOR.on_interrupt() }

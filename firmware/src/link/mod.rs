@@ -4,10 +4,12 @@
 //! | file | what |
 //! |---|---|
 //! | `uart.rs` | UART with two rings |
-//! | `usb.rs` | rings of the USB port |
+//! | `usb.rs` | the USB port |
+//! | `rings.rs` | its rings |
 //! | `device.rs` | USB device, and the tasks that move bytes between its endpoints and the rings |
 
 mod device;
+mod rings;
 pub mod uart;
 mod usb;
 

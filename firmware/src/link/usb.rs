@@ -1,56 +1,17 @@
-//! The rings of the USB port. Tasks of a higher priority fill and empty them, so that perception does not
-//! delay the bus.
+//! The USB port as a link.
 
 use super::device;
-use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
+use core::sync::atomic::Ordering;
 use embassy_rp::{peripherals::USB, usb};
-use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, pipe::Pipe};
 use embassy_time::Instant;
 use taxel_core::run::Link;
 
-/// Number of bytes queued for the host: 2 ms of the bus, and a frame of 40 contacts.
-const TO_HOST: usize = 2560;
-/// Number of bytes queued from the host, four packets. While they are full, the host must wait.
-const FROM_HOST: usize = 256;
 /// Number of bytes copied at a time, with interrupts off: for less than 10 us.
 const PIECE: usize = 256;
 
-/// A ring.
-pub(super) type Ring<const N: usize> = Pipe<CriticalSectionRawMutex, N>;
-
-pub(super) static SENT: Ring<TO_HOST> = Ring::new();
-pub(super) static RECEIVED: Ring<FROM_HOST> = Ring::new();
-
-/// State of the port: open if a program has opened it, and the cable was not pulled nor the host suspended
-/// since.
-pub(super) struct Opened {
-    ready: AtomicBool,
-    asleep: AtomicBool,
-}
-
-pub(super) static OPENED: Opened = Opened { ready: AtomicBool::new(false), asleep: AtomicBool::new(false) };
-
-impl Opened {
-    /// Sets whether the terminal is ready, by its line DTR.
-    pub fn set_ready(&self, ready: bool) {
-        self.ready.store(ready, Ordering::Relaxed);
-    }
-
-    /// Sets whether the bus is idle: the host is suspended or gone.
-    pub fn set_asleep(&self, asleep: bool) {
-        self.asleep.store(asleep, Ordering::Relaxed);
-    }
-
-    fn get(&self) -> bool {
-        self.ready.load(Ordering::Relaxed) && !self.asleep.load(Ordering::Relaxed)
-    }
-}
-
 /// Time without a packet taken after which the host counts as not reading.
 const PATIENCE_MS: u64 = 2_000;
-
-/// Number of packets that the host has taken or refused.
-pub(super) static PACKETS: AtomicU32 = AtomicU32::new(0);
 
 /// The port.
 pub struct Usb {

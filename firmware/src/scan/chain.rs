@@ -30,7 +30,7 @@ use taxel_core::acquire::{Depth, Fields, Plan, Rounds, SWEEP_INPUTS, Sweep, Unfi
 use taxel_core::garment::Circuit;
 
 /// The chain's own channels, and the PIO block for the select lines.
-pub type Parts = (
+pub type ChainParts = (
     Peri<'static, PIO0>,
     (
         Peri<'static, DMA_CH0>,
@@ -60,8 +60,8 @@ const SETTLES: u32 = 125;
 const CHANNELS: u16 = (1 << (DROP + 1)) - 1;
 
 /// The chain of DMA channels.
-pub struct Chain {
-    _parts: Parts,
+pub struct DmaChain {
+    _parts: ChainParts,
     /// Converter inputs that are read in turn, bit `n` for GPIO `n`.
     inputs: u32,
     select: Option<Select>,
@@ -98,10 +98,10 @@ impl Step {
     }
 }
 
-impl Chain {
+impl DmaChain {
     /// A chain at rest.
-    pub fn new(parts: Parts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> Chain {
-        Chain { _parts: parts, inputs: 0, select: None }
+    pub fn new(parts: ChainParts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> DmaChain {
+        DmaChain { _parts: parts, inputs: 0, select: None }
     }
 
     /// Starts to read a plan in a loop. Error if the chain cannot read it.

@@ -20,7 +20,7 @@ use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 
 /// Codes of one frame, by taxel number.
-type Frame = [Code; TAXELS];
+type CodeFrame = [Code; TAXELS];
 
 /// State of the interrupt: ring, and whether the DMA left its sequence.
 struct Beat {
@@ -55,7 +55,7 @@ impl Beat {
         if begun != tables::flag_of(next) {
             return false;
         }
-        let places = FRAMES_AT.load(Ordering::Relaxed).cast::<Frame>();
+        let places = FRAMES_AT.load(Ordering::Relaxed).cast::<CodeFrame>();
         #[allow(unsafe_code)]
         // SAFETY: two places of a static, which was taken before the chain began. The chain stores only in
         // the last one, and returns to this sub-field after all others. The ring does not lend the place that
@@ -76,7 +76,7 @@ impl Beat {
 static BEAT: Mutex<CriticalSectionRawMutex, RefCell<Beat>> =
     Mutex::new(RefCell::new(Beat::new(Micros(0), 0)));
 /// Memory of all frames, for the interrupt.
-static FRAMES_AT: AtomicPtr<[Frame; PLACES]> = AtomicPtr::new(core::ptr::null_mut());
+static FRAMES_AT: AtomicPtr<[CodeFrame; PLACES]> = AtomicPtr::new(core::ptr::null_mut());
 static COMPLETE: AtomicWaker = AtomicWaker::new();
 
 /// Handler of the interrupt at the beginning of each frame, or of each sub-field.
@@ -100,12 +100,13 @@ impl Handler<PIO0_IRQ_0> for Begun {
 }
 
 /// Memory of all frames, which the chain fills and [`Frames::next`] lends.
-pub struct Frames(*mut [Frame; PLACES]);
+pub struct Frames(*mut [CodeFrame; PLACES]);
 
 impl Frames {
     /// Takes the static memory. Must be called once.
     pub fn take() -> Frames {
-        static FRAMES: ConstStaticCell<[Frame; PLACES]> = ConstStaticCell::new([[Code(0); TAXELS]; PLACES]);
+        static FRAMES: ConstStaticCell<[CodeFrame; PLACES]> =
+            ConstStaticCell::new([[Code(0); TAXELS]; PLACES]);
         let frames = FRAMES.take();
         FRAMES_AT.store(frames, Ordering::Relaxed);
         Frames(frames)
@@ -113,7 +114,7 @@ impl Frames {
 
     /// Address of a taxel's code in a place.
     pub fn address(&self, place: usize, taxel: u16) -> u32 {
-        let offset = place * size_of::<Frame>() + usize::from(taxel) * size_of::<Code>();
+        let offset = place * size_of::<CodeFrame>() + usize::from(taxel) * size_of::<Code>();
         self.0 as u32 + offset as u32
     }
 
@@ -152,7 +153,7 @@ impl Frames {
 
     /// Waits for a frame that was not lent yet; for more than one of `scans`, the sum of that many. The frame
     /// does not change until the next call.
-    pub async fn next(&mut self, scans: u16) -> Result<(&mut Frame, Lent), ScanError> {
+    pub async fn next(&mut self, scans: u16) -> Result<(&mut CodeFrame, Lent), ScanError> {
         let mut lent = complete(Ring::lend).await?;
         for _ in 1..scans {
             let shown = complete(Ring::show).await?;
@@ -181,8 +182,8 @@ impl Frames {
     }
 
     /// Memory of a place, within the static that was taken once.
-    fn frame(&self, lent: Lent) -> *mut Frame {
-        self.0.cast::<Frame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
+    fn frame(&self, lent: Lent) -> *mut CodeFrame {
+        self.0.cast::<CodeFrame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
     }
 }
 

@@ -8,7 +8,7 @@
 //! | `select.rs` | PIO program that drives the select lines |
 //! | `frames.rs` | frames in memory, and who may access them |
 //! | `reflex.rs` | check of a sub-field, and the pins that it asserts |
-//! | `lent.rs` | tells the emulator which frame is read |
+//! | `lent.rs` | reports to the emulator which frame is read |
 //!
 //! Per address, a channel for each input takes one sample and stores it in the place of its taxel. Then the
 //! next levels go out, and while the select lines settle the converter measures its own temperature. The
@@ -29,10 +29,11 @@ mod reflex;
 mod select;
 mod tables;
 
-pub use chain::Chain;
+pub use chain::DmaChain;
 pub use frames::Begun;
 
-use crate::{adc, board, pins, platform};
+use crate::limits::{INPUTS, LINES};
+use crate::{adc, pins, platform};
 use core::pin::pin;
 use embassy_futures::select::{Either, select};
 use embassy_time::Timer;
@@ -46,11 +47,11 @@ use taxel_core::selftest::{Examine, Findings};
 /// The scanner that works by the processor.
 pub type Processor = MuxScan<
     'static,
-    pins::Line,
+    pins::LinePin,
     platform::Settle,
-    adc::Converter<{ board::INPUTS }>,
+    adc::Converter<INPUTS>,
     platform::Timer,
-    { board::LINES },
+    LINES,
     TAXELS,
 >;
 
@@ -67,7 +68,7 @@ enum By {
 /// Reads the garment, by the chain or by the processor.
 pub struct Scanner {
     processor: Processor,
-    chain: Chain,
+    chain: DmaChain,
     frames: Frames,
     by: By,
     /// Circuit that is being scanned.
@@ -82,7 +83,7 @@ pub struct Scanner {
 
 impl Scanner {
     /// Builds on the processor's scan, whose pins and converter the chain uses.
-    pub fn new(processor: Processor, chain: Chain) -> Scanner {
+    pub fn new(processor: Processor, chain: DmaChain) -> Scanner {
         Scanner {
             processor,
             chain,

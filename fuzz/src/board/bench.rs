@@ -103,7 +103,7 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
             Some(Job::Drive(..)) | None => {}
         }
         let taxel = (self.now.0 % T as u64) as u16;
-        let (_, _, _) = (self.board.reflexes(), self.board.reacting(), self.board.quiet_code(taxel));
+        let (_, _, _) = (self.board.reflexes(), self.board.reacting(), self.board.inactive_code(taxel));
         self.ask();
         self.drain(usize::MAX);
     }

@@ -13,7 +13,7 @@
 use super::steps::steps;
 use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
-use taxel_core::intent::{Input, Source};
+use taxel_core::intent::{MapInput, Source};
 
 /// An input of a map file: exactly one of the four forms.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,11 +49,11 @@ type Ramp = ([i32; 2], [i16; 2]);
 
 impl InputFile {
     /// One or two ramps for the concept with number `concept`, activations in steps of 10^-`decimals`.
-    pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<Input>> {
+    pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<MapInput>> {
         let Some(source) = self.source else { bail!("input {}: source is missing", self.concept) };
         let ramps = self.ramps(decimals)?;
         let input =
-            |([low, high], [at_low, at_high]): Ramp| Input { concept, source, low, high, at_low, at_high };
+            |([low, high], [at_low, at_high]): Ramp| MapInput { concept, source, low, high, at_low, at_high };
         Ok(ramps.into_iter().map(input).collect())
     }
 
@@ -86,7 +86,7 @@ impl InputFile {
 
     /// Form of the ramps of one concept, in steps of 10^-`decimals`; two ramps that form a hill become one
     /// input.
-    pub fn of(concept: &str, inputs: &[&Input], decimals: u8) -> Vec<InputFile> {
+    pub fn of(concept: &str, inputs: &[&MapInput], decimals: u8) -> Vec<InputFile> {
         let step = 10f64.powi(decimals.into());
         let decimal = |steps: i16| f64::from(steps) / step;
         let at = |out, full| Some([decimal(out), decimal(full)]).filter(|at| *at != [0.0, 1.0]);

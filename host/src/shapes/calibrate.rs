@@ -3,7 +3,7 @@
 use super::data::Example;
 use super::train::Known;
 use taxel_core::format::Q15;
-use taxel_core::shape::{Recognised, STEPS, Sureness};
+use taxel_core::shape::{ConfidenceTable, Recognised, STEPS};
 
 /// Multiple of the distance of nearly all left-out examples beyond which a touch is "none".
 const BEYOND: f64 = 1.5;
@@ -18,7 +18,7 @@ pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised
     distances.sort();
     let at = |part: f64| distances.get((part * (distances.len() - 1) as f64) as usize).copied().unwrap_or(0);
     gallery.reject = (f64::from(at(NEARLY_ALL)) * BEYOND).clamp(1.0, 65_535.0) as u16;
-    gallery.sureness = Sureness {
+    gallery.confidence = ConfidenceTable {
         // One of several voters, most of them, all of them.
         shares: [16_384, 24_576, 32_767],
         distances: [at(0.25), at(0.5), at(0.75)],
@@ -28,19 +28,19 @@ pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised
         |(found, example): (&Recognised, &&Example)| found.class.map(usize::from) == Some(example.class);
     let hits: Vec<bool> = found.iter().zip(examples).map(right).collect();
     let mean = hits.iter().filter(|hit| **hit).count() as f64 / hits.len().max(1) as f64;
-    count(&mut gallery.sureness, found, &hits, mean);
+    count(&mut gallery.confidence, found, &hits, mean);
 }
 
 /// Fills the table from right answers; `mean` is the prior where there are few.
-pub fn count(sureness: &mut Sureness, found: &[Recognised], hits: &[bool], mean: f64) {
+pub fn count(confidence: &mut ConfidenceTable, found: &[Recognised], hits: &[bool], mean: f64) {
     let mut cells = [[(DOUBT * mean, DOUBT); STEPS]; STEPS];
     for (found, hit) in found.iter().zip(hits) {
-        let (row, column) = sureness.cell(found.share, found.distance.into());
+        let (row, column) = confidence.cell(found.share, found.distance.into());
         if let Some((right, all)) = cells.get_mut(row).and_then(|row| row.get_mut(column)) {
             *right += f64::from(u8::from(*hit));
             *all += 1.0;
         }
     }
-    sureness.right =
+    confidence.right =
         cells.map(|row| row.map(|(right, all)| (right / all * f64::from(Q15::ONE.0)).round() as u16));
 }

@@ -71,6 +71,6 @@ fn judge(base: &mut Base) {
     // A few right answers do not guarantee the next.
     let right = hits.iter().filter(|hit| **hit).count() as f64;
     let mean = (right + 1.0) / (hits.len() as f64 + 2.0);
-    count(&mut base.gallery.sureness, &found, &hits, mean);
+    count(&mut base.gallery.confidence, &found, &hits, mean);
     (base.card.accuracy, base.card.confusion) = (confusion.accuracy(), confusion.counts);
 }

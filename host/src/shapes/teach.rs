@@ -14,7 +14,7 @@ pub fn teach(client: &mut Client, base: &Base) -> Result<()> {
         space: known.space.clone(),
         k: known.k,
         reject: known.reject,
-        sureness: known.sureness.clone(),
+        confidence: known.confidence.clone(),
         prototypes: known.prototypes.len() as u16,
     };
     client.request(&Request::SetShapes(&postcard::to_allocvec(&head)?))?;

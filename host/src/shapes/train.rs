@@ -5,7 +5,7 @@ use super::data::Example;
 use super::discriminant::Discriminant;
 use taxel_core::format::name;
 use taxel_core::shape::{
-    DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space, Sureness,
+    ConfidenceTable, DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space,
 };
 
 /// A gallery of the size that a board holds.
@@ -59,7 +59,7 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
         space,
         k: recipe.k,
         reject: u16::MAX,
-        sureness: Sureness::default(),
+        confidence: ConfidenceTable::default(),
         prototypes,
     }
 }

@@ -6,7 +6,7 @@ use embedded_hal::digital::{ErrorType, OutputPin};
 use std::cell::{Cell, RefCell};
 use std::convert::Infallible;
 use std::rc::Rc;
-use taxel_core::acquire::{Clock, Pad, Pull};
+use taxel_core::acquire::{Clock, ProbePin, Pull};
 use taxel_core::format::Micros;
 use taxel_core::selftest::PinFault;
 
@@ -108,7 +108,7 @@ impl OutputPin for SimPin {
     }
 }
 
-impl Pad for SimPin {
+impl ProbePin for SimPin {
     fn release(&mut self, pull: Pull) -> Result<(), Infallible> {
         self.bus.act(|drive| {
             drive.on &= !self.mask;

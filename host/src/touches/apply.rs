@@ -4,7 +4,7 @@ use super::data::{Data, Touch};
 use crate::progress::{Progress, Unit};
 use anyhow::{Result, bail};
 use taxel_core::format::Q15;
-use taxel_core::gesture::{Decision, Model, TouchState, Touches};
+use taxel_core::gesture::{Decision, Model, TouchClassifier, TouchState};
 
 /// A decision about a touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ pub fn apply(model: &Model<'_>, data: &Data, touches: &[&Touch], times: &[usize]
     let Some(places) = names.iter().map(place).collect::<Option<Vec<usize>>>() else {
         bail!("the model knows {}, the labels {}", names.join(", "), data.classes.join(", "));
     };
-    let recogniser = Touches::new(*model, data.rows, data.columns);
+    let recogniser = TouchClassifier::new(*model, data.rows, data.columns);
     let mut progress = Progress::of("applying the model", Unit::Steps("touches"), Some(touches.len() as u64));
     let each = (0..).zip(touches).map(|(done, touch)| {
         progress.at(done);
@@ -52,7 +52,7 @@ pub fn apply(model: &Model<'_>, data: &Data, touches: &[&Touch], times: &[usize]
 }
 
 fn follow<'a>(
-    recogniser: &Touches<'_>,
+    recogniser: &TouchClassifier<'_>,
     frames: impl Iterator<Item = &'a [u16]>,
     times: &[usize],
     places: &[usize],

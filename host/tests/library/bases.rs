@@ -101,9 +101,9 @@ fn a_bad_base_is_refused_by_the_board_in_one_sentence() {
     };
     let gallery = shipped().remove(0).gallery;
     let head = |prototypes: u16, k: u8, reject: u16| {
-        let (names, space, sureness) =
-            (gallery.names.clone(), gallery.space.clone(), gallery.sureness.clone());
-        postcard::to_allocvec(&GalleryHead { names, space, k, reject, sureness, prototypes }).unwrap()
+        let (names, space, confidence) =
+            (gallery.names.clone(), gallery.space.clone(), gallery.confidence.clone());
+        postcard::to_allocvec(&GalleryHead { names, space, k, reject, confidence, prototypes }).unwrap()
     };
     let examples = |count: usize, class: u8| {
         let one = Exemplar { class, ..gallery.prototypes[0] };

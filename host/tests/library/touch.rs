@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use taxel::touches::{Head, Provenance, Ridge, Trained, export};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{
-    FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchState, Touches, checksum,
+    FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchClassifier, TouchState,
+    checksum,
 };
 
 /// Touches of a sheet that differ in the speed of their back-and-forth movement.
@@ -38,7 +39,7 @@ fn trained() -> (Ridge, Vec<u8>) {
 #[test]
 fn a_trained_model_tells_touches_apart_that_it_has_not_seen() {
     let (_, bytes) = trained();
-    let touches = Touches::new(Model::read(&bytes).unwrap(), 8, 8);
+    let touches = TouchClassifier::new(Model::read(&bytes).unwrap(), 8, 8);
     for seed in 100..140 {
         let mut state = TouchState::default();
         rubbing(if seed % 2 == 0 { 8 } else { 40 }, seed)
@@ -98,7 +99,7 @@ fn of_experts(experts: &[(usize, usize)], concludes: bool) -> Vec<u8> {
 fn the_expert_of_its_age_decides_and_the_last_concludes_where_touches_are_whole() {
     for (concludes, short) in [(false, 0), (true, 1)] {
         let bytes = of_experts(&[(0, 0), (5, 1)], concludes);
-        let touches = Touches::new(Model::read(&bytes).unwrap(), 8, 8);
+        let touches = TouchClassifier::new(Model::read(&bytes).unwrap(), 8, 8);
         let mut state = TouchState::default();
         for (number, frame) in (1..10).zip(rubbing(8, 1)) {
             touches.process(&mut state, &frame);
@@ -140,7 +141,7 @@ fn a_model_of_version_2_is_read_and_knows_no_confidence() {
     two.drain(notes + 6..notes + 8);
     let sum = checksum(&two);
     two.extend(sum.to_le_bytes());
-    let [two, three] = [&two, &three].map(|bytes| Touches::new(Model::read(bytes).unwrap(), 8, 8));
+    let [two, three] = [&two, &three].map(|bytes| TouchClassifier::new(Model::read(bytes).unwrap(), 8, 8));
     let mut state = TouchState::default();
     rubbing(9, 4).for_each(|frame| two.process(&mut state, &frame));
     let [old, new] = [two, three].map(|touches| touches.decide(&state));
@@ -194,7 +195,7 @@ proptest! {
         let sum = checksum(&bytes);
         bytes.extend(sum.to_le_bytes());
         if let Ok(model) = Model::read(&bytes) {
-            let touches = Touches::new(model, rows, columns);
+            let touches = TouchClassifier::new(model, rows, columns);
             let mut state = TouchState::default();
             frames.iter().for_each(|frame| touches.process(&mut state, frame));
             prop_assert!(touches.decide(&state).class < model.classes());

@@ -1,8 +1,8 @@
 //! Encodes the most urgent message.
 
-use super::super::under_way::UnderWay;
+use super::super::tx_frame::TxFrame;
 use super::super::{BoardInfo, Setup};
-use super::{About, Gestures, Outbox, Waiting};
+use super::{About, GestureQueue, Outbox, Waiting};
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
@@ -20,57 +20,57 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
         let About { info, boot, setup, monitor, examined, certificate, unsure, taught } = about;
-        let under_way = &mut self.under_way;
+        let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
-            under_way.put(Report::SYNC, &SyncReport { token, received, sent: now })
+            tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
             self.greeted = true;
-            put_hello(under_way, now, info, setup, certificate)
+            put_hello(tx_frame, now, info, setup, certificate)
         } else if let Some(boot) = boot.filter(|_| core::mem::take(&mut self.greeted)) {
-            under_way.put(Report::BOOT, &boot)
+            tx_frame.put(Report::BOOT, &boot)
         } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
-            under_way.put(Report::SELF_TEST, report)
+            tx_frame.put(Report::SELF_TEST, report)
         } else if let Some((request, refusal)) = self.answers.pop_front() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
-            under_way.put(Report::ANSWER, &Answer { request, refusal })
+            tx_frame.put(Report::ANSWER, &Answer { request, refusal })
         } else if let Some(report) = self.reflexes.pop_front() {
-            under_way.put(Report::REFLEX, &report)
+            tx_frame.put(Report::REFLEX, &report)
         } else if let Some(report) = self.reactions.pop_front() {
-            under_way.put(Report::REACTION, &report)
+            tx_frame.put(Report::REACTION, &report)
         } else if core::mem::take(&mut self.shapes) {
             // Before the contacts, whose classes are indices of these names.
-            put_shapes(under_way, taught)
+            put_shapes(tx_frame, taught)
         } else if core::mem::take(&mut self.ages_wait) {
-            put_forms(under_way, &self.contacts, &self.ages)
+            put_forms(tx_frame, &self.contacts, &self.ages)
         } else if self.contacts_wait {
             self.contacts_wait = false;
-            under_way.put(Report::CONTACTS, &self.contacts)
+            tx_frame.put(Report::CONTACTS, &self.contacts)
         } else if core::mem::take(&mut self.unsure) {
-            put_unsure(under_way, self.contacts.frame, self.contacts.time, unsure)
+            put_unsure(tx_frame, self.contacts.frame, self.contacts.time, unsure)
         } else if self.symbols_wait {
             self.symbols_wait = false;
-            under_way.put(Report::SYMBOLS, &self.symbols)
+            tx_frame.put(Report::SYMBOLS, &self.symbols)
         } else if let Some(report) = self.changes.front().or(self.intent.as_ref()) {
             // Encoded in place: it may have 64 concepts.
-            let fits = under_way.put(Report::INTENT, report);
+            let fits = tx_frame.put(Report::INTENT, report);
             if self.changes.pop_front().is_none() {
                 self.intent = None;
             }
             fits
         } else if !self.gestures.is_empty() {
-            put_gesture(under_way, &mut self.gestures)
+            put_gesture(tx_frame, &mut self.gestures)
         } else if let Some((level, text)) = self.logs.pop_front() {
-            under_way.put(Report::LOG, &Log { time: now, level, text: &text })
+            tx_frame.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {
             self.put_map(now, first, setup.layout.taxels(), monitor)
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
-            under_way.put(Report::HEALTH, &Health { time: now, ..*health })
+            tx_frame.put(Report::HEALTH, &Health { time: now, ..*health })
         } else if let Some(budget) = self.budget.take() {
-            under_way.put(Report::BUDGET, &budget)
+            tx_frame.put(Report::BUDGET, &budget)
         } else if let Some(temperature) = self.temperature.take() {
-            under_way.put(Report::TEMPERATURE, &temperature)
+            tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
             self.put_image(frame, time, &setup.layout, image, health)
         } else if let Some((frame, time)) = self.raw.take() {
@@ -85,19 +85,25 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     #[inline(never)]
     fn put_map(&mut self, time: Micros, first: u16, taxels: usize, monitor: &Monitor) -> bool {
         let mut map = HealthMap { time, first, end: taxels as u16, taxels: Vec::new() };
-        for ill in monitor.ill().iter().filter(|ill| ill.taxel >= first) {
+        for faulty in monitor.faulty().iter().filter(|faulty| faulty.taxel >= first) {
             match map.taxels.last_mut() {
-                Some(run) if run.health == ill.health && run.first + run.count == ill.taxel => run.count += 1,
+                Some(run) if run.health == faulty.health && run.first + run.count == faulty.taxel => {
+                    run.count += 1
+                }
                 _ => {
-                    if map.taxels.push(Ill { first: ill.taxel, count: 1, health: ill.health }).is_err() {
-                        map.end = ill.taxel;
+                    if map
+                        .taxels
+                        .push(FaultyTaxels { first: faulty.taxel, count: 1, health: faulty.health })
+                        .is_err()
+                    {
+                        map.end = faulty.taxel;
                         break;
                     }
                 }
             }
         }
         self.map = (usize::from(map.end) < taxels).then_some(map.end);
-        self.under_way.put(Report::HEALTH_MAP, &map)
+        self.tx_frame.put(Report::HEALTH_MAP, &map)
     }
 
     /// Returns `false` if the message does not fit. An image without room for its code is thinned.
@@ -109,16 +115,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         image: &Image<'_>,
         health: &mut Health,
     ) -> bool {
-        let Outbox { under_way, image: Waiting { base, key, last, .. }, rates, .. } = self;
+        let Outbox { tx_frame, image: Waiting { base, key, last, .. }, rates, .. } = self;
         let against = base.filter(|_| time.since(*key) < rates.key_us);
-        let Some(length) = last.advance(layout, image, against.is_none(), under_way.scratch()) else {
+        let Some(length) = last.advance(layout, image, against.is_none(), tx_frame.scratch()) else {
             last.clear();
             *base = None;
             health.thinned_frames += 1;
             return true;
         };
         let head = Frame { frame, time, base: against, sum: last.sum(), data: &[] };
-        let fits = under_way.put_data(Report::FRAME, &head, length);
+        let fits = tx_frame.put_data(Report::FRAME, &head, length);
         *base = fits.then_some(frame);
         if fits && against.is_none() {
             *key = time;
@@ -132,53 +138,53 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             *value = code.0;
         }
         let plain = plain.get(..self.codes.len()).unwrap_or(&[]);
-        let length = encode_image(plain, None, self.under_way.scratch());
+        let length = encode_image(plain, None, self.tx_frame.scratch());
         let head = Raw { frame, time, data: &[] };
-        length.is_some_and(|length| self.under_way.put_data(Report::RAW, &head, length))
+        length.is_some_and(|length| self.tx_frame.put_data(Report::RAW, &head, length))
     }
 }
 
 /// Encodes the confidence of the first waiting gesture, then that gesture, so that a reader has the
 /// confidence first.
-fn put_gesture(under_way: &mut UnderWay, waiting: &mut Gestures) -> bool {
+fn put_gesture(tx_frame: &mut TxFrame, waiting: &mut GestureQueue) -> bool {
     let Some((report, confidence)) = waiting.front_mut() else { return true };
     let GestureReport { frame, time, touch, .. } = *report;
     if let Some(confidence) = confidence.take() {
-        return under_way.put(Report::CONFIDENCE, &ConfidenceReport { frame, time, touch, confidence });
+        return tx_frame.put(Report::CONFIDENCE, &ConfidenceReport { frame, time, touch, confidence });
     }
-    let fits = under_way.put(Report::GESTURE, report);
+    let fits = tx_frame.put(Report::GESTURE, report);
     waiting.pop_front();
     fits
 }
 
-fn put_forms(under_way: &mut UnderWay, list: &ContactList, ages: &[u8]) -> bool {
+fn put_forms(tx_frame: &mut TxFrame, list: &ContactList, ages: &[u8]) -> bool {
     let mut report = FormsReport { frame: list.frame, time: list.time, ages: Vec::new() };
     for (placed, age) in list.contacts.iter().zip(ages).filter(|(_, age)| **age > 0) {
         // There are as many places as in the list.
         let _ = report.ages.push((placed.contact.id, *age));
     }
-    under_way.put(Report::FORMS, &report)
+    tx_frame.put(Report::FORMS, &report)
 }
 
-fn put_unsure(under_way: &mut UnderWay, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {
+fn put_unsure(tx_frame: &mut TxFrame, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {
     let mut contacts = Vec::new();
     for id in unsure.ids() {
         // There are as many places as contacts.
         let _ = contacts.push(id);
     }
-    under_way.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
+    tx_frame.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
 }
 
 /// Encodes a [`ShapesReport`].
-fn put_shapes(under_way: &mut UnderWay, taught: &Taught<CONTACTS>) -> bool {
+fn put_shapes(tx_frame: &mut TxFrame, taught: &Taught<CONTACTS>) -> bool {
     match taught.gallery() {
-        Some(gallery) => under_way.put(Report::SHAPES, &(gallery.prototypes.len() as u16, &gallery.names)),
-        None => under_way.put(Report::SHAPES, &(0u16, Vec::<Name, 0>::new())),
+        Some(gallery) => tx_frame.put(Report::SHAPES, &(gallery.prototypes.len() as u16, &gallery.names)),
+        None => tx_frame.put(Report::SHAPES, &(0u16, Vec::<Name, 0>::new())),
     }
 }
 
 fn put_hello(
-    under_way: &mut UnderWay,
+    tx_frame: &mut TxFrame,
     now: Micros,
     info: &BoardInfo,
     setup: &Setup,
@@ -197,7 +203,7 @@ fn put_hello(
         scene: written(&setup.scene, &mut scene),
         calibration: calibration.as_bytes(),
     };
-    under_way.put(Report::HELLO, &hello)
+    tx_frame.put(Report::HELLO, &hello)
 }
 
 /// Writes a value as postcard; returns no bytes if it does not fit.

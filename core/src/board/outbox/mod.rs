@@ -1,13 +1,13 @@
 //! Queues of messages by urgency; a message is encoded only when the link has room.
 
 mod encoding;
-mod noting;
+mod enqueue;
 
 use super::pace::{Pace, Rates};
 use super::refusal::Refusal;
-use super::under_way::UnderWay;
+use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
-use super::{Codes, Sentence};
+use super::{CodeVec, Sentence};
 use crate::boot::Boot;
 use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros, Q15};
@@ -40,11 +40,11 @@ pub(super) struct About<'a> {
 }
 
 /// Gestures to send, each with its confidence until that has been sent.
-type Gestures = Deque<(GestureReport, Option<Q15>), 4>;
+type GestureQueue = Deque<(GestureReport, Option<Q15>), 4>;
 
 /// Messages to send.
 pub(super) struct Outbox<const TAXELS: usize> {
-    under_way: UnderWay,
+    tx_frame: TxFrame,
     streaming: bool,
     hello: Option<Micros>,
     /// True after a `Hello`: how the board started is sent next.
@@ -55,7 +55,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     reactions: Deque<ReactionReport, 16>,
     reflexes: Deque<ReflexReport, REACTIONS>,
     changes: Deque<IntentReport, 4>,
-    gestures: Gestures,
+    gestures: GestureQueue,
     intent: Option<IntentReport>,
     symbols: SymbolList,
     symbols_wait: bool,
@@ -80,7 +80,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     examined: bool,
     image: Waiting<TAXELS>,
     raw: Option<(u32, Micros)>,
-    codes: Codes<TAXELS>,
+    codes: CodeVec<TAXELS>,
     /// Frames of raw codes per second that were requested beside the scene.
     raw_hz: u16,
     rates: Rates,
@@ -91,7 +91,7 @@ struct Waiting<const TAXELS: usize> {
     due: Option<(u32, Micros)>,
     base: Option<u32>,
     key: Micros,
-    last: Reference<TAXELS>,
+    last: ImageReference<TAXELS>,
 }
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
@@ -99,7 +99,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     #[inline(never)]
     pub fn new(stream: &StreamConfig) -> Self {
         Outbox {
-            under_way: UnderWay::new(),
+            tx_frame: TxFrame::new(),
             streaming: false,
             hello: Some(Micros(0)),
             greeted: false,
@@ -126,9 +126,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             shapes: false,
             map: None,
             examined: false,
-            image: Waiting { due: None, base: None, key: Micros(0), last: Reference::new() },
+            image: Waiting { due: None, base: None, key: Micros(0), last: ImageReference::new() },
             raw: None,
-            codes: Codes::new(),
+            codes: CodeVec::new(),
             raw_hz: 0,
             rates: Rates::of(stream, 0),
         }
@@ -256,7 +256,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     /// Takes a time report, unless one is waiting.
-    pub fn spend(&mut self, budget: impl FnOnce() -> Option<Budget>) {
+    pub fn charge(&mut self, budget: impl FnOnce() -> Option<Budget>) {
         if self.streaming && self.budget.is_none() {
             self.budget = budget();
         }
@@ -296,7 +296,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     /// Bytes of the message in transmission that the link has not taken.
     pub fn rest(&self) -> &[u8] {
-        self.under_way.rest()
+        self.tx_frame.rest()
     }
 
     /// True if a message is in transmission.
@@ -305,6 +305,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     }
 
     pub fn sent(&mut self, count: usize) {
-        self.under_way.sent(count);
+        self.tx_frame.sent(count);
     }
 }

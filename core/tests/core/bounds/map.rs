@@ -6,7 +6,7 @@ use crate::bounds::table::bound;
 use num_bigint::BigInt;
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::{
-    CONCEPTS, Edge, Inference, Input, Map, MapConfig, Outcome, Rule, Source, Touch, Transfer, tactile,
+    CONCEPTS, Edge, Inference, Map, MapConfig, MapInput, Outcome, Rule, Source, Touch, Transfer, tactile,
 };
 
 /// A map of `n` concepts, of which as many as there may be edges for are driven by all, with weights in steps
@@ -165,7 +165,7 @@ fn measures_outside_their_ramp_are_held_at_its_ends() {
     let source = Source::Host(3);
     config
         .inputs
-        .push(Input { concept: 0, source, low: -32768, high: 32768, at_low: -10, at_high: 10 })
+        .push(MapInput { concept: 0, source, low: -32768, high: 32768, at_low: -10, at_high: 10 })
         .unwrap();
     let map = Map::<10>::build(&config).unwrap();
     let fed = |value| map.encode(None, &[Q15(0), Q15(0), Q15(0), Q15(value)])[0];

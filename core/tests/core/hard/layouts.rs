@@ -2,7 +2,7 @@
 
 use crate::plain::Plain;
 use taxel_core::contact::Moments;
-use taxel_core::garment::{Edge, Garment, GarmentError, Layout, Seam, Side};
+use taxel_core::garment::{Garment, GarmentError, Layout, Seam, SeamEdge, Side};
 
 fn build(rows: u16, columns: u16, full_scale: u16) -> Result<Layout, GarmentError> {
     Layout::build(&Garment::recorded(rows, columns), usize::from(u16::MAX), full_scale)
@@ -66,7 +66,7 @@ fn sewn_panels_are_refused_together() {
             let mut next = garment.panels[0].clone();
             next.name = taxel_core::format::name(&index.to_string());
             garment.panels.push(next).unwrap();
-            let edge = |panel: usize, side| Edge { panel: panel as u8, side, start: 0 };
+            let edge = |panel: usize, side| SeamEdge { panel: panel as u8, side, start: 0 };
             let seam = Seam {
                 a: edge(index - 1, Side::Right),
                 b: edge(index, Side::Left),

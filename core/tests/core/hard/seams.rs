@@ -1,7 +1,7 @@
 //! Contacts across seams and at every border.
 
 use crate::hard::rig::{Rig, taxels};
-use taxel_core::garment::{Edge, Garment, Seam, Side};
+use taxel_core::garment::{Garment, Seam, SeamEdge, Side};
 
 #[test]
 fn across_the_seam_it_is_one() {
@@ -69,7 +69,7 @@ fn a_hug_and_a_belt() {
 #[test]
 fn a_sleeve_closes_on_itself() {
     let mut garment = Garment::recorded(20, 12);
-    let edge = |side| Edge { panel: 0, side, start: 0 };
+    let edge = |side| SeamEdge { panel: 0, side, start: 0 };
     let seam = Seam { a: edge(Side::Right), b: edge(Side::Left), length: 20, reversed: false };
     garment.seams.push(seam).unwrap();
     let mut rig = Rig::new(&garment);

@@ -4,7 +4,7 @@ use crate::hard::rig::Rig;
 use crate::plain::Plain;
 use proptest::prelude::*;
 use taxel_core::format::name;
-use taxel_core::garment::{Edge, Garment, Seam, Side};
+use taxel_core::garment::{Garment, Seam, SeamEdge, Side};
 
 /// Both panels are squares of this side, sewn along the whole of it.
 const N: i64 = 9;
@@ -29,7 +29,7 @@ fn sewn_in_part([a, b]: [Side; 2], starts: [u16; 2], length: u16, reversed: bool
     let mut garment = Garment::recorded(N as u16, N as u16);
     let other = taxel_core::garment::Panel { name: name("other"), ..garment.panels[0].clone() };
     garment.panels.push(other).unwrap();
-    let edge = |panel, side, start| Edge { panel, side, start };
+    let edge = |panel, side, start| SeamEdge { panel, side, start };
     let seam = Seam { a: edge(0, a, starts[0]), b: edge(1, b, starts[1]), length, reversed };
     garment.seams.push(seam).unwrap();
     garment

@@ -15,7 +15,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 use taxel_suite::chain::{FULL_SCALE, TAXELS};
 use taxel_suite::kernel::Kernel;
-use taxel_suite::pattern::Pattern;
+use taxel_suite::pattern::TouchPattern;
 
 /// Frames of the tare.
 const TARE: u16 = 16;
@@ -46,7 +46,7 @@ pub struct Case {
     /// Variant of the chain.
     pub variant: Variant,
     /// Simulated pattern; none for a recording.
-    pub pattern: Option<Pattern>,
+    pub pattern: Option<TouchPattern>,
     garment: Garment,
     scene: Scene,
     frames: Vec<Vec<Code>>,
@@ -113,23 +113,23 @@ impl Variant {
 impl Case {
     /// All simulated cases.
     pub fn simulated() -> Vec<Case> {
-        let shipped = Pattern::ALL.into_iter().filter(|pattern| *pattern != Pattern::Grid);
+        let shipped = TouchPattern::ALL.into_iter().filter(|pattern| *pattern != TouchPattern::Grid);
         let cases = shipped.map(|pattern| (pattern, Variant::Shipped)).chain([
-            (Pattern::Grid, Variant::Off),
-            (Pattern::Five, Variant::Off),
-            (Pattern::Five, Variant::Median),
-            (Pattern::Five, Variant::EightBit),
-            (Pattern::Five, Variant::Gestures),
-            (Pattern::Five, Variant::Taught),
-            (Pattern::Texture, Variant::Off),
-            (Pattern::Texture, Variant::Median),
+            (TouchPattern::Grid, Variant::Off),
+            (TouchPattern::Five, Variant::Off),
+            (TouchPattern::Five, Variant::Median),
+            (TouchPattern::Five, Variant::EightBit),
+            (TouchPattern::Five, Variant::Gestures),
+            (TouchPattern::Five, Variant::Taught),
+            (TouchPattern::Texture, Variant::Off),
+            (TouchPattern::Texture, Variant::Median),
         ]);
         cases.map(|(pattern, variant)| Case::of(pattern, variant)).collect()
     }
 
-    fn of(pattern: Pattern, variant: Variant) -> Case {
+    fn of(pattern: TouchPattern, variant: Variant) -> Case {
         let scene = variant.scene();
-        let rest = (0..u32::from(TARE)).map(|n| (Pattern::Empty, n));
+        let rest = (0..u32::from(TARE)).map(|n| (TouchPattern::Empty, n));
         let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + MEASURED);
         let frames = rest.chain(touch).map(|(pattern, number)| {
             let mut codes = [Code(0); TAXELS];

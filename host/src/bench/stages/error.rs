@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use taxel_core::body::Placed;
-use taxel_suite::pattern::{Disc, Pattern};
+use taxel_suite::pattern::{Disc, TouchPattern};
 
 /// Error of one quantity.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
@@ -72,7 +72,7 @@ pub struct Truth {
 impl Truth {
     /// Compares the contacts of a frame with its discs; a disc without a contact on its panel counts as an
     /// error of one taxel.
-    pub fn compare(&mut self, pattern: Pattern, frame: u32, contacts: &[Placed]) {
+    pub fn compare(&mut self, pattern: TouchPattern, frame: u32, contacts: &[Placed]) {
         for disc in pattern.discs(frame) {
             let exact = Exact::of(disc);
             let off = |placed: &Placed| {

@@ -12,7 +12,7 @@ use taxel_suite::chain::TAXELS;
 use taxel_suite::copies::PAIRS;
 use taxel_suite::kernel::Kernel;
 use taxel_suite::measure::Measure;
-use taxel_suite::pattern::Pattern;
+use taxel_suite::pattern::TouchPattern;
 use taxel_suite::windows::{self, AREA, SIDE, WINDOWS};
 
 /// Measured rounds of windows or states.
@@ -30,22 +30,22 @@ pub struct Form {
     /// Scene or format.
     pub form: &'static str,
     kernel: Kernel,
-    pattern: Option<Pattern>,
+    pattern: Option<TouchPattern>,
 }
 
 impl Form {
     /// All kernels.
     pub fn all() -> Vec<Form> {
-        let of = |what, pattern: Pattern, kernel| Form {
+        let of = |what, pattern: TouchPattern, kernel| Form {
             what,
             form: pattern.name(),
             kernel,
             pattern: Some(pattern),
         };
-        let scenes = [Pattern::Empty, Pattern::Five, Pattern::Texture];
+        let scenes = [TouchPattern::Empty, TouchPattern::Five, TouchPattern::Texture];
         let mut all = vec![
-            of("read each code", Pattern::Five, Kernel::Read),
-            of("read and compare", Pattern::Five, Kernel::Compare),
+            of("read each code", TouchPattern::Five, Kernel::Read),
+            of("read and compare", TouchPattern::Five, Kernel::Compare),
         ];
         all.extend(scenes.map(|pattern| of("dense chain", pattern, Kernel::Dense)));
         all.extend(Measure::ALL.map(|measure| Form {
@@ -60,8 +60,8 @@ impl Form {
             kernel: Kernel::Activate(activation),
             pattern: None,
         }));
-        all.push(of("gestures, a frame", Pattern::Five, Kernel::Touch));
-        all.push(of("gestures, a decision", Pattern::Five, Kernel::Decide));
+        all.push(of("gestures, a frame", TouchPattern::Five, Kernel::Touch));
+        all.push(of("gestures, a decision", TouchPattern::Five, Kernel::Decide));
         let others = [
             ("shape, description", "16 x 16", Kernel::Describe),
             ("shape, nearest", "of 200", Kernel::Nearest),

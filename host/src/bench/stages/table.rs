@@ -6,7 +6,7 @@ use crate::bench::chart::{Axis, Better, Chart, Series};
 use serde_json::{Value, json};
 use std::fmt;
 use taxel_core::pipeline::Stage;
-use taxel_suite::pattern::Pattern;
+use taxel_suite::pattern::TouchPattern;
 
 /// All measurements of one place.
 #[derive(Debug, Clone)]
@@ -51,7 +51,7 @@ impl Table {
                 Series { name, points: self.forms.iter().filter_map(of).collect() }
             })
             .collect();
-        let variants = self.rows.iter().filter(|row| row.name == Pattern::Five.name());
+        let variants = self.rows.iter().filter(|row| row.name == TouchPattern::Five.name());
         let of = |row: &Row| {
             let [place, _] = row.error.as_ref()?;
             let named =

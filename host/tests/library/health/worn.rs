@@ -54,7 +54,7 @@ impl Worn {
         part: f64,
     ) -> BTreeMap<usize, (u32, TaxelHealth)> {
         let SimBoard { mut lines, delay, adc, clock } =
-            SimShipped::new(&self.garment, script, script.seed).unwrap();
+            SimBoard::new(&self.garment, script, script.seed).unwrap();
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
         self.tare();
         let mut found = BTreeMap::new();

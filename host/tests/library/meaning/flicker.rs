@@ -23,7 +23,7 @@ fn count(mut act: Act) -> Count {
     let mut count = Count { seconds: (act.span.1 - act.span.0) as f64 / 1e6, ..Count::default() };
     let mut said = std::collections::BTreeMap::new();
     play(&mut act, |_, percept| {
-        for symbol in percept.symbols.events() {
+        for symbol in percept.events() {
             count.events += 1;
             count.ids += usize::from(symbol.phase == Phase::Onset);
             if let Some((class, moving)) =

@@ -53,8 +53,8 @@ impl Heard {
                 heard.area_cm2 = heard.area_cm2.max(f64::from(contact.area) * x * y);
             }
             let most = |symbol: &Symbol| heard.symbol.is_none_or(|most| symbol.peak_total > most.peak_total);
-            let over = |symbol: &&Symbol| symbol.phase == Phase::Released && most(symbol);
-            heard.symbol = percept.symbols.events().iter().rev().find(over).copied().or(heard.symbol);
+            let over = |symbol: &Symbol| symbol.phase == Phase::Released && most(symbol);
+            heard.symbol = percept.events().filter(over).last().or(heard.symbol);
             let led = percept.meaning.filter(|meaning| meaning.changed).map(|it| it.leading.as_str());
             heard.led.extend(led.filter(|word| *word != "none"));
         });

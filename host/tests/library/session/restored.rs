@@ -11,7 +11,7 @@ use taxel_core::condition::Certificate;
 use taxel_core::format::{Q15, name};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{GestureConfig, Shipped};
-use taxel_core::intent::{Feed, Input, Source as From};
+use taxel_core::intent::{Feed, MapInput, Source as From};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
@@ -31,7 +31,8 @@ pub fn scene() -> Scene {
     let map = &mut scene.intent.as_mut().unwrap().map;
     map.concepts.push(name("warmth")).unwrap();
     let concept = map.concepts.len() as u8 - 1;
-    let fed = Input { concept, source: From::Host(0), low: -32768, high: 32768, at_low: -100, at_high: 100 };
+    let fed =
+        MapInput { concept, source: From::Host(0), low: -32768, high: 32768, at_low: -100, at_high: 100 };
     map.inputs.push(fed).unwrap();
     scene
 }

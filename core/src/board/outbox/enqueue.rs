@@ -1,0 +1,173 @@
+//! Selects what of a frame is sent.
+
+use super::Outbox;
+use crate::contact::Phase;
+use crate::format::Micros;
+use crate::garment::PANELS;
+use crate::gesture::Gesture;
+use crate::pipeline::Percept;
+use crate::react::Reaction;
+use crate::wire::*;
+use heapless::Vec;
+
+impl<const TAXELS: usize> Outbox<TAXELS> {
+    /// Queues what was perceived in a frame. If the frame is `late`, its image, which is costly, is left out,
+    /// unless one is already waiting for the link.
+    pub fn enqueue(
+        &mut self,
+        frame: u32,
+        time: Micros,
+        percept: &Percept<'_>,
+        late: bool,
+        health: &mut Health,
+    ) {
+        if !self.streaming {
+            return;
+        }
+        for reaction in percept.reactions.changes() {
+            self.reaction(ReactionReport { frame, time, reaction: reaction.clone() }, health);
+        }
+        if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.rates.intent) {
+            let report = IntentReport {
+                frame,
+                time,
+                leading: meaning.leading,
+                outcome: meaning.outcome,
+                steps: meaning.steps,
+                concepts: meaning.activations.clone(),
+            };
+            if meaning.changed {
+                health.lost += u32::from(self.changes.push_back(report).is_err());
+                self.intent = None;
+            } else {
+                self.intent = Some(report);
+            }
+        }
+        self.enqueue_gesture(frame, time, percept, health);
+        self.enqueue_contacts(frame, time, percept, health);
+        self.unsure |= percept.unsure.has_changed();
+        self.enqueue_symbols(frame, time, percept, health);
+        // A waiting image is encoded from the newest image and codes, so it gets their number.
+        let due = self.rates.frames.due(time);
+        let waits = self.image.due.is_some();
+        health.thinned_frames += u32::from(due && (waits || late));
+        if waits || (due && !late) {
+            self.image.due = Some((frame, time));
+        }
+        if self.rates.raw.due(time) || self.raw.is_some() {
+            self.raw = Some((frame, time));
+        }
+    }
+
+    /// Queues a reaction that began or ended without a frame that shows its cause.
+    pub fn reaction(&mut self, report: ReactionReport, health: &mut Health) {
+        if !self.streaming {
+            return;
+        }
+        if self.reactions.is_full() {
+            health.lost += u32::from(self.forget_reaction(&report.reaction));
+        }
+        health.lost += u32::from(self.reactions.push_back(report).is_err());
+    }
+
+    /// Drops the oldest report of a reaction for which a later one, or `next`, is queued, so that the present
+    /// state of each is always sent. Returns true if there was one.
+    #[cold]
+    fn forget_reaction(&mut self, next: &Reaction) -> bool {
+        let name =
+            |at: usize| self.reactions.iter().nth(at).map_or(&next.name, |report| &report.reaction.name);
+        let count = self.reactions.len();
+        let Some(old) = (0..count).find(|old| (old + 1..=count).any(|at| name(at) == name(*old))) else {
+            return false;
+        };
+        for at in 0..count {
+            let report = self.reactions.pop_front().filter(|_| at != old);
+            report.into_iter().for_each(|report| _ = self.reactions.push_back(report));
+        }
+        true
+    }
+
+    /// Queues a reflex, and the reaction it began, unless a frame has shown its cause meanwhile.
+    pub fn reflex(&mut self, report: ReflexReport, reaction: Option<Reaction>, health: &mut Health) {
+        if !self.streaming {
+            return;
+        }
+        let ReflexReport { frame, time, .. } = report;
+        health.lost += u32::from(self.reflexes.push_back(report).is_err());
+        if let Some(reaction) = reaction {
+            self.reaction(ReactionReport { frame, time, reaction }, health);
+        }
+    }
+
+    fn enqueue_gesture(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let Some((gesture, name)) = &percept.gesture else { return };
+        let Gesture { touch, panel, class, score, lead, confidence, observed_ms, ended } = *gesture;
+        let name = name.clone();
+        let report =
+            GestureReport { frame, time, touch, panel, class, name, score, lead, observed_ms, ended };
+        health.lost += u32::from(self.gestures.push_back((report, confidence)).is_err());
+    }
+
+    /// Queues the newest state of each contact; onsets and releases stay until they are sent.
+    fn enqueue_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        let list = &mut self.contacts.contacts;
+        let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
+        let due = self.rates.contacts.due(time) && !percept.present.is_empty();
+        if self.contacts_wait {
+            health.thinned_contacts += u32::from(due);
+        } else {
+            list.clear();
+        }
+        let mut untold = Vec::<u32, LISTED>::new();
+        for told_later in list.iter().filter(|p| p.contact.phase == Phase::Onset) {
+            let _ = untold.push(told_later.contact.id);
+        }
+        list.retain(|old| {
+            let present = percept.present.iter().any(|p| p.contact.id == old.contact.id);
+            old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)
+        });
+        let gone = list.len();
+        for placed in percept.present {
+            let fits = list.push(placed.clone()).is_ok();
+            health.lost += u32::from(!fits);
+            if let Some(told) = list.last_mut().filter(|_| fits && untold.contains(&placed.contact.id)) {
+                told.contact.phase = Phase::Onset;
+            }
+        }
+        for placed in percept.released {
+            health.lost += u32::from(list.push(placed.clone()).is_err());
+        }
+        self.contacts_wait |= due || news || !percept.released.is_empty();
+        (self.contacts.frame, self.contacts.time) = (frame, time);
+        self.ages_wait = self.tell_ages && self.contacts_wait && percept.form_ages.iter().any(|age| *age > 0);
+        if self.ages_wait {
+            self.ages.clear();
+            let _ = self.ages.resize(gone, 0);
+            for age in percept.form_ages {
+                // Contacts without a place here have none in the list.
+                let _ = self.ages.push(*age);
+            }
+        }
+        self.contacts.dropped = percept.dropped;
+    }
+
+    fn enqueue_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
+        if !self.rates.symbols || !(percept.symbols.has_events() || self.symbols_wait) {
+            return;
+        }
+        let list = &mut self.symbols;
+        if !self.symbols_wait {
+            list.events.clear();
+        }
+        for event in percept.events() {
+            health.lost += u32::from(list.events.push(event).is_err());
+        }
+        list.regions.clear();
+        for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {
+            // There are as many places as regions.
+            let _ = list.regions.push(*region);
+        }
+        (list.frame, list.time) = (frame, time);
+        self.symbols_wait = true;
+    }
+}

@@ -1,0 +1,114 @@
+//! Baseline, gain and limit of each taxel: an inactive taxel is only compared with its limit.
+
+use super::scale::scale;
+use super::terms::LimitTerms;
+use crate::format::Code;
+use crate::garment::Layout;
+use crate::image::slices::row_mut;
+
+/// A gain of 1.0 in Q4.12.
+pub const UNITY: u16 = 4096;
+
+/// Baseline, gain and limit of every taxel.
+///
+/// Aligned to words, the arrays first: the limits are compared two at a time.
+#[derive(Debug, Clone)]
+#[repr(C, align(4))]
+pub(crate) struct TaxelCalibration<const TAXELS: usize> {
+    /// Baseline codes. During a tare: the low halves of the sums.
+    pub baseline: [u16; TAXELS],
+    /// Q4.12; 0 for absent taxels.
+    pub gain: [u16; TAXELS],
+    /// Last inactive code of each taxel.
+    pub limit: [u16; TAXELS],
+    /// Terms of the limits; none if the limits are not valid.
+    pub limits_for: Option<LimitTerms>,
+    /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
+    unity: bool,
+}
+
+impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
+    /// No garment: every gain is 0.
+    pub const fn new() -> Self {
+        TaxelCalibration {
+            baseline: [0; TAXELS],
+            gain: [0; TAXELS],
+            limit: [0; TAXELS],
+            limits_for: None,
+            unity: false,
+        }
+    }
+
+    /// Every baseline becomes `rest`, every gain 1.0, or 0 for absent taxels.
+    pub fn reset(&mut self, layout: &Layout, rest: Code) {
+        self.baseline.fill(rest.0);
+        self.gain.fill(0);
+        for (panel, area) in layout.areas().iter().enumerate() {
+            for row in 0..area.rows {
+                for (column, gain) in (0..area.columns).zip(row_mut(&mut self.gain, area, row)) {
+                    *gain = if layout.is_absent(panel as u8, row, column) { 0 } else { UNITY };
+                }
+            }
+        }
+        self.limits_for = None;
+    }
+
+    /// Largest inactive difference of a code from its baseline, if every gain is 1.
+    pub fn margin_of_unity(&self) -> Option<u16> {
+        self.limits_for.filter(|_| self.unity).map(|terms| terms.margin_of_unity())
+    }
+
+    /// Recomputes the limits if they are for other terms, or for another calibration.
+    pub fn set_limits(&mut self, terms: LimitTerms) {
+        if self.limits_for == Some(terms) {
+            return;
+        }
+        self.limits_for = Some(terms);
+        self.unity = self.gain.iter().all(is_unity);
+        // Neighbours often have the same gain.
+        let (mut last, mut margin) = (0, u16::MAX);
+        for ((limit, rest), gain) in self.limit.iter_mut().zip(&self.baseline).zip(&self.gain) {
+            if *gain != last {
+                (last, margin) = (*gain, terms.margin(*gain));
+            }
+            *limit = terms.limit(*rest, margin);
+        }
+    }
+
+    /// Recomputes the limit of one taxel, whose calibration has changed.
+    pub fn set_limit(&mut self, taxel: usize) {
+        let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
+        if let (Some(terms), Some((rest, gain)), Some(limit)) =
+            (self.limits_for, calibration, self.limit.get_mut(taxel))
+        {
+            *limit = terms.limit(*rest, terms.margin(*gain));
+            self.unity &= is_unity(gain);
+        }
+    }
+
+    /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
+    /// taxel.
+    pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
+        let terms = LimitTerms { floor: level, falling };
+        let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
+        calibration.map_or(terms.silent(), |(rest, gain)| {
+            let margin = if *gain == UNITY { terms.margin_of_unity() } else { terms.margin(*gain) };
+            terms.limit(*rest, margin)
+        })
+    }
+
+    /// Pressure of a taxel at a code, counts.
+    pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
+        let mut value = [0];
+        if let Some((rest, gain)) = self.baseline.get(taxel).zip(self.gain.get(taxel)) {
+            let scale = if falling { scale::<1, true> } else { scale::<1, false> };
+            scale(&[code], &[*rest], &[*rest], &[*gain], &mut value);
+        }
+        let [value] = value;
+        value
+    }
+}
+
+fn is_unity(gain: &u16) -> bool {
+    matches!(*gain, 0 | UNITY)
+}

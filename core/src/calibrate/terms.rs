@@ -1,0 +1,32 @@
+//! Distance that a code may have from the baseline before its taxel is active.
+
+/// Terms of the limits: the floor, and whether pressure lowers the code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct LimitTerms {
+    pub floor: u16,
+    pub falling: bool,
+}
+
+impl LimitTerms {
+    /// Largest difference with less pressure than the floor: `(d gain + 2048) >> 12 < floor`.
+    pub fn margin(&self, gain: u16) -> u16 {
+        let below = (u32::from(self.floor) << 12).saturating_sub(2049);
+        below.checked_div(gain.into()).map_or(u16::MAX, |margin| margin.min(0xffff) as u16)
+    }
+
+    /// [`LimitTerms::margin`] of unity gain, without a division.
+    pub fn margin_of_unity(&self) -> u16 {
+        self.floor.saturating_sub(1)
+    }
+
+    /// Last inactive code. No code lies beyond 65535 or 0: a taxel whose margin reaches so far is never
+    /// active.
+    pub fn limit(&self, rest: u16, margin: u16) -> u16 {
+        if self.falling { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
+    }
+
+    /// Limit that no code passes.
+    pub fn silent(&self) -> u16 {
+        if self.falling { 0 } else { u16::MAX }
+    }
+}

@@ -1,0 +1,443 @@
+//! The choice of contacts among the components, and their moments.
+
+use super::carried::CarriedLabels;
+use super::moments::{FEW, Moments, is_small};
+use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
+use crate::format::{Fixed16, Inverse};
+use crate::garment::{Area, Layout, Place, Rect};
+use crate::image::view::Image;
+use crate::segment::config::ContactConfig;
+use crate::segment::labeller::Labeller;
+use crate::segment::run::Run;
+use crate::segment::seams::{Joins, weigh};
+use crate::segment::strip::{Strip, strips, values_of};
+use crate::segment::sums::{NARROW, squares};
+use crate::segment::union_find::{Label, NONE};
+use core::slice::from_ref;
+use heapless::Vec;
+
+/// A connected touch of one frame, not yet tracked.
+#[derive(Debug, Clone)]
+pub struct Component {
+    /// Root of its labels.
+    pub(crate) label: u16,
+    joined: bool,
+    /// Sum of the pressure, counts.
+    pub total: u32,
+    /// Greatest pressure of a taxel, counts.
+    pub peak: u16,
+    /// First taxel with the greatest value.
+    pub peak_at: Option<Place>,
+    /// Number of taxels.
+    pub area: u16,
+    /// Bounding box of its taxels in the home panel.
+    pub bounds: Rect,
+    /// Moments in the frame of the home panel.
+    pub moments: Moments,
+    /// Inverse of the total.
+    pub(crate) inverse: Inverse,
+    /// Centroid in the frame of the home panel, column; rounded once: half a step off at most.
+    pub x: Fixed16,
+    /// Centroid, row; rounded like `x`.
+    pub y: Fixed16,
+}
+
+const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX, right: 0 };
+
+/// Sums of a component before its moments are measured.
+struct Candidate {
+    label: u16,
+    joined: bool,
+    total: u32,
+    peak: u16,
+    area: u16,
+    panel: u8,
+}
+
+/// The components of a frame.
+#[derive(Debug, Clone)]
+pub(crate) struct Components<const CONTACTS: usize> {
+    pub list: Vec<Component, CONTACTS>,
+    /// Index of a component, and bounding box of its taxels on a panel other than its home.
+    pub beyond: Vec<(u16, Rect), CARRIED>,
+    /// Number of contacts of this frame that did not fit.
+    pub dropped: u16,
+    /// Panels with a component that is nearly a contact, one bit each.
+    pub faint: u8,
+}
+
+impl<const CONTACTS: usize> Components<CONTACTS> {
+    pub const fn new() -> Self {
+        const { assert!(CONTACTS < NONE as usize, "a contact is numbered with 16 bits") };
+        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0 }
+    }
+
+    /// Picks the components that are contacts; if they do not fit, those with the greatest totals.
+    pub fn select<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        config: &ContactConfig,
+        labeller: &Labeller<RUNS, LABELS>,
+    ) {
+        self.list.clear();
+        self.beyond.clear();
+        (self.dropped, self.faint) = (0, 0);
+        let mut least = None;
+        for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
+            let (total, peak, area, held) = if label.joined {
+                weigh(labeller, index)
+            } else {
+                (label.mass, label.peak as u16, label.area, label.held)
+            };
+            if area < config.min_area || (peak < config.high && !held) {
+                if peak >= config.high - config.high / 4 {
+                    self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);
+                }
+                continue;
+            }
+            let found =
+                Candidate { label: index, joined: label.joined, total, peak, area, panel: label.panel };
+            if self.list.is_full() {
+                self.dropped = self.dropped.saturating_add(1);
+                self.replace_least(&mut least, &found);
+            } else if self.list.push(Component::BLANK).is_ok()
+                && let Some(component) = self.list.last_mut()
+            {
+                component.begin(&found);
+            }
+        }
+    }
+
+    /// Replaces the component with the smallest total if `found` has more. `least` caches that component.
+    fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Candidate) {
+        // Among equal totals the last one found is replaced.
+        let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
+        let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
+            return;
+        };
+        *least = Some((index, smallest));
+        if smallest < found.total
+            && let Some(kept) = self.list.get_mut(index)
+        {
+            kept.begin(found);
+            *least = None;
+        }
+    }
+
+    /// Gives each label the index of its contact.
+    pub fn number<const RUNS: usize, const LABELS: usize>(&self, labeller: &mut Labeller<RUNS, LABELS>) {
+        for (index, component) in (0u16..).zip(&self.list) {
+            if let Some(label) = labeller.labels.get_mut(usize::from(component.label)) {
+                label.contact = index;
+            }
+        }
+        // The root of a label has a smaller index, so it has its number already.
+        for index in 0..labeller.labels.len() {
+            let Some(label) = labeller.labels.get(index) else { return };
+            let first = if usize::from(label.parent) == index { label.group } else { label.parent };
+            if usize::from(first) == index {
+                continue;
+            }
+            let contact = labeller.labels.get(usize::from(first)).map_or(NONE, |label| label.contact);
+            if let Some(label) = labeller.labels.get_mut(index) {
+                label.contact = contact;
+            }
+        }
+    }
+
+    /// Measures the moments, bounds and centroids of all components.
+    pub fn measure<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        labeller: &Labeller<RUNS, LABELS>,
+        (joins, carried): (&Joins, &mut CarriedLabels),
+        layout: &Layout,
+        image: &Image,
+    ) {
+        carried.clear();
+        for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
+            component.bounds.panel = carried.settle(labeller, joins, layout, index);
+        }
+        if usize::BITS >= 64 {
+            self.take_runs(labeller, carried, layout, image);
+        } else {
+            self.take_strips(labeller, carried, layout, image);
+        }
+        for (contact, moments) in carried.moments() {
+            if let Some(component) = self.list.get_mut(usize::from(contact)) {
+                component.moments.add(&moments);
+            }
+        }
+        for component in &mut self.list {
+            component.locate();
+        }
+    }
+
+    /// Adds the runs to their components, strip by strip, so that the sums of a strip stay in registers.
+    #[inline(never)] // M0+: out of line
+    fn take_strips<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        labeller: &Labeller<RUNS, LABELS>,
+        carried: &mut CarriedLabels,
+        layout: &Layout,
+        image: &Image,
+    ) {
+        for runs in strips(&labeller.runs) {
+            let Some(label) = runs.first().and_then(|run| labeller.labels.get(usize::from(run.label))) else {
+                continue;
+            };
+            let Some(component) = self.list.get_mut(usize::from(label.contact)) else { continue };
+            let Some(area) = layout.areas().get(usize::from(label.panel)) else { continue };
+            let strip = Strip { runs, label, area, values: image.values };
+            if component.take(&strip, carried) {
+                self.widen_beyond(&strip);
+            }
+        }
+    }
+
+    /// Adds the runs to their components one by one. For a machine with many registers: most strips of wide
+    /// rows are of one run.
+    fn take_runs<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        labeller: &Labeller<RUNS, LABELS>,
+        carried: &mut CarriedLabels,
+        layout: &Layout,
+        image: &Image,
+    ) {
+        let areas = layout.areas();
+        for run in &labeller.runs {
+            let Some(label) = labeller.labels.get(usize::from(run.label)) else { continue };
+            let Some(component) = self.list.get_mut(usize::from(label.contact)) else { continue };
+            let Some(area) = areas.get(usize::from(label.panel)) else { continue };
+            if component.joined {
+                let strip = Strip { runs: from_ref(run), label, area, values: image.values };
+                if component.take(&strip, carried) {
+                    self.widen_beyond(&strip);
+                }
+            } else {
+                component.add_run(run, area, image.values);
+            }
+        }
+    }
+
+    #[inline(never)] // only across seams
+    fn widen_beyond(&mut self, strip: &Strip) {
+        let Label { contact, panel, .. } = *strip.label;
+        match self.beyond.iter_mut().find(|(i, rect)| *i == contact && rect.panel == panel) {
+            Some((_, rect)) => strip.widen(rect),
+            None => {
+                let mut rect = Rect { panel, ..NOWHERE };
+                strip.widen(&mut rect);
+                // Always room: at most one entry per join, and the list has as many places as joins.
+                let _ = self.beyond.push((contact, rect));
+            }
+        }
+    }
+
+    /// Fills in the contacts' rectangles and peaks that the next frame's conditioning needs.
+    pub fn feed_back(&self, feedback: &mut Feedback<CONTACTS>) {
+        feedback.home.clear();
+        feedback.beyond.clear();
+        // Each list has the capacity of its source. (`extend` would panic on a full one.)
+        for component in &self.list {
+            let _ = feedback.home.push(Pressed { rect: component.bounds, peak: component.peak });
+        }
+        for (contact, rect) in &self.beyond {
+            let peak = self.list.get(usize::from(*contact)).map_or(0, |component| component.peak);
+            let _ = feedback.beyond.push(Pressed { rect: *rect, peak });
+        }
+    }
+}
+
+impl Component {
+    /// A component without taxels.
+    const BLANK: Component = Component {
+        label: NONE,
+        joined: false,
+        total: 0,
+        peak: 0,
+        peak_at: None,
+        area: 0,
+        bounds: NOWHERE,
+        moments: Moments::NONE,
+        inverse: Inverse::of(0),
+        x: Fixed16(0),
+        y: Fixed16(0),
+    };
+
+    /// Starts over with what was found; neither component has been measured yet.
+    fn begin(&mut self, found: &Candidate) {
+        let Candidate { label, joined, total, peak, area, panel } = *found;
+        (self.label, self.joined) = (label, joined);
+        (self.total, self.peak, self.area) = (total, peak, area);
+        self.bounds.panel = panel;
+    }
+
+    /// Runs in the rows of its box, with their indices; all runs if it lies on several panels.
+    pub(crate) fn runs<'l, const RUNS: usize, const LABELS: usize>(
+        &self,
+        labeller: &'l Labeller<RUNS, LABELS>,
+        layout: &Layout,
+    ) -> impl Iterator<Item = (usize, &'l Run)> {
+        let area = layout.areas().get(usize::from(self.bounds.panel)).filter(|_| !self.joined);
+        let rows = area.map_or((0, u16::MAX), |area| {
+            (area.first_row + self.bounds.top, area.first_row + self.bounds.bottom)
+        });
+        labeller.in_rows(rows.0, rows.1)
+    }
+
+    /// Adds another component of the same home panel.
+    pub(crate) fn absorb(&mut self, other: &Component) {
+        let place = |component: &Component| component.peak_at.map(|at| (at.panel, at.row, at.column));
+        if (other.peak, place(self)) > (self.peak, place(other)) {
+            (self.peak, self.peak_at) = (other.peak, other.peak_at);
+        }
+        self.joined |= other.joined;
+        self.total = self.total.saturating_add(other.total);
+        self.area = self.area.saturating_add(other.area);
+        self.moments.add(&other.moments);
+        let (bounds, more) = (&mut self.bounds, &other.bounds);
+        (bounds.top, bounds.bottom) = (bounds.top.min(more.top), bounds.bottom.max(more.bottom));
+        (bounds.left, bounds.right) = (bounds.left.min(more.left), bounds.right.max(more.right));
+        self.locate();
+    }
+
+    /// Computes the centroid, rounded once to the nearest 2^-16 taxel.
+    fn locate(&mut self) {
+        self.inverse = Inverse::of(self.total);
+        let mean = |sum: i64| {
+            let fits = sum.unsigned_abs() >> 47 == 0;
+            Fixed16(self.inverse.nearest(if fits { sum << 16 } else { sum.signum() * i64::MAX }))
+        };
+        (self.x, self.y) = (mean(self.moments.sx), mean(self.moments.sy));
+    }
+
+    /// Adds a strip; returns true if it lies on a panel other than the home.
+    #[inline(always)]
+    fn take(&mut self, strip: &Strip, carried: &mut CarriedLabels) -> bool {
+        self.add(strip, carried);
+        let beyond = strip.label.panel != self.bounds.panel;
+        if !beyond {
+            strip.widen(&mut self.bounds);
+        }
+        beyond
+    }
+
+    /// Adds a run of a component that lies on one panel.
+    #[inline(always)]
+    fn add_run(&mut self, run: &Run, area: &Area, values: &[u16]) {
+        let row = run.row - area.first_row;
+        let squares = match run.peak {
+            0..=NARROW => run.sums.squares.into(),
+            _ => squares(values_of(run, area, values), run.rebased()),
+        };
+        self.moments.add(&Moments::of_sums(run.left.into(), row.into(), &run.sums, squares));
+        let Rect { top, bottom, left, right, .. } = &mut self.bounds;
+        (*top, *bottom) = (row.min(*top), row);
+        (*left, *right) = (run.left.min(*left), run.right.max(*right));
+        if run.peak == self.peak && self.peak_at.is_none_or(|at| at.row == row) {
+            self.look_for_peak(run, self.bounds.panel, area, values);
+        }
+    }
+
+    /// Adds the runs of a strip to the moments.
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))] // M0+: out of line
+    fn add(&mut self, strip: &Strip, carried: &mut CarriedLabels) {
+        // Moments of a carried label stay in its own coordinates until all its runs are added.
+        let carried = if self.joined { carried.moments_of(strip.label.parent) } else { None };
+        let moments = carried.unwrap_or(&mut self.moments);
+        let &Strip { runs, area, .. } = strip;
+        if runs.len() > 2 && is_small(area.columns, area.rows, self.peak) {
+            // One run per row, so that a chunk has at most FEW rows.
+            runs.chunks(FEW).for_each(|runs| moments.add_few(runs, area.first_row));
+        } else {
+            for run in runs {
+                let row = run.row - area.first_row;
+                let squares = || squares(values_of(run, area, strip.values), run.rebased());
+                moments.add_run(run.left.into(), row.into(), &run.sums, run.peak, squares);
+            }
+        }
+        let peak = self.peak;
+        if let Some(run) = strip.runs.iter().find(|run| run.peak == peak) {
+            self.look_for_peak(run, strip.label.panel, area, strip.values);
+        }
+    }
+
+    /// Updates `peak_at` from a run that has the peak, to the first such taxel of the row. The runs of a
+    /// row may come in any order.
+    #[inline(never)] // rarely called
+    fn look_for_peak(&mut self, run: &Run, panel: u8, area: &Area, values: &[u16]) {
+        let row = run.row - area.first_row;
+        let mut columns = (run.left..).zip(values_of(run, area, values));
+        let mine = |column| run.holds(column);
+        let Some((column, _)) = columns.find(|(column, value)| **value == self.peak && mine(*column)) else {
+            return;
+        };
+        let first = |at: Place| at.panel == panel && at.row == row && column < at.column;
+        if self.peak_at.is_none_or(first) {
+            self.peak_at = Some(Place { panel, row, column });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::garment::{Garment, Seam, SeamEdge, Side};
+    use crate::image::rows::Rows;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Panels of one or several words a row, with and without a seam.
+    #[test]
+    fn strips_add_up_to_what_their_runs_do() {
+        let mut noise = 1u32;
+        let mut next = |end: u32| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            (noise >> 16) % end
+        };
+        for (round, columns) in (0..60).flat_map(|round| [16, 31, 40, 64].map(|columns| (round, columns))) {
+            let mut garment = Garment::recorded(12, columns);
+            let mut second = garment.panels[0].clone();
+            second.name = crate::format::Name::try_from("second").unwrap();
+            garment.panels.push(second).unwrap();
+            if round % 2 == 0 {
+                let [a, b] = [(0, Side::Bottom), (1, Side::Top)].map(|(panel, side)| SeamEdge {
+                    panel,
+                    side,
+                    start: 0,
+                });
+                garment.seams.push(Seam { a, b, length: columns, reversed: false }).unwrap();
+            }
+            let layout = Layout::build(&garment, 3072, 4095).unwrap();
+            let (share, peak) = (next(80), [4095, u16::MAX][round / 2 % 2]);
+            let mut values = vec![0; layout.taxels()];
+            values.fill_with(|| if next(100) < share { 1 + next(peak.into()) as u16 } else { 0 });
+            let rows = Rows::of(&layout, &values);
+            let image = Image { values: &values, rows: &rows };
+            let (mut labeller, mut joins) = (Labeller::<2048, 2048>::new(), Joins::new());
+            labeller.scan(&layout, &image, 1);
+            joins.find(&mut labeller, &layout);
+            let mut components = Components::<40>::new();
+            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labeller);
+            components.number(&mut labeller);
+            let mut found = [false, true].map(|strips| {
+                let mut carried = CarriedLabels::new();
+                let mut components = components.clone();
+                for (index, component) in (0u16..).zip(&mut components.list).filter(|(_, c)| c.joined) {
+                    component.bounds.panel = carried.settle(&labeller, &joins, &layout, index);
+                }
+                if strips {
+                    components.take_strips(&labeller, &mut carried, &layout, &image);
+                } else {
+                    components.take_runs(&labeller, &mut carried, &layout, &image);
+                }
+                let each = components.list.iter().map(|c| (c.moments, c.bounds, c.peak_at));
+                let carried: Vec<_> = carried.moments().collect();
+                (each.collect::<Vec<_>>(), components.beyond, carried)
+            });
+            found[0].1.sort_unstable_by_key(|(index, _)| *index);
+            found[1].1.sort_unstable_by_key(|(index, _)| *index);
+            assert_eq!(found[0], found[1], "{columns} columns, {share} %");
+        }
+    }
+}

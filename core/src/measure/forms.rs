@@ -1,0 +1,27 @@
+//! Number of forms measured in a frame.
+
+/// How many held contacts have their form measured in a frame, in turn; new contacts always have. The default
+/// is one: a form costs as much as all the rest of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Forms(u8);
+
+impl Forms {
+    /// All contacts in each frame.
+    pub const ALL: Forms = Forms(0);
+
+    /// That many contacts in a frame; 0 stands for all.
+    pub const fn of(in_frame: u8) -> Forms {
+        Forms(in_frame)
+    }
+
+    /// Greatest number of held contacts that have their turn in a frame.
+    pub(crate) const fn in_frame(self) -> usize {
+        if self.0 == 0 { u16::MAX as usize } else { self.0 as usize }
+    }
+}
+
+impl Default for Forms {
+    fn default() -> Self {
+        Forms(1)
+    }
+}

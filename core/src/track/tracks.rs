@@ -1,0 +1,282 @@
+//! Track management: update, merge, split, release.
+
+use super::motion::{FrameTimes, Scenery, Trail};
+use crate::format::{Fixed16, Micros, Q15};
+use crate::garment::{Layout, Place, Rect};
+use crate::image::view::Image;
+use crate::measure::component::Component;
+use crate::measure::contact::{Contact, Phase};
+use crate::measure::form::Sight;
+use crate::measure::forms::Forms;
+use crate::measure::moments::Moments;
+use crate::segment::config::ContactConfig;
+use crate::segment::labeller::Labeller;
+use crate::segment::union_find::NONE;
+use heapless::Vec;
+
+/// All contacts, in the order of their onset.
+#[derive(Debug, Clone)]
+pub(crate) struct Tracks<const CONTACTS: usize> {
+    pub contacts: Vec<Contact, CONTACTS>,
+    pub trails: Vec<Trail, CONTACTS>,
+    moments: Vec<Moments, CONTACTS>,
+    released: Vec<Contact, CONTACTS>,
+    /// Age of the form of each contact, frames; saturates at 255.
+    ages: Vec<u8, CONTACTS>,
+    /// Index of the first contact whose form is measured in this frame.
+    turn: usize,
+    id: u32,
+    pub clock: FrameTimes,
+}
+
+impl<const CONTACTS: usize> Tracks<CONTACTS> {
+    pub const fn new() -> Self {
+        Tracks {
+            contacts: Vec::new(),
+            trails: Vec::new(),
+            moments: Vec::new(),
+            released: Vec::new(),
+            ages: Vec::new(),
+            turn: 0,
+            id: 0,
+            clock: FrameTimes::new(),
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.contacts.clear();
+        self.trails.clear();
+        self.moments.clear();
+        self.released.clear();
+        self.ages.clear();
+    }
+
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    pub fn moments(&self) -> &[Moments] {
+        &self.moments
+    }
+
+    pub fn released(&self) -> &[Contact] {
+        &self.released
+    }
+
+    pub fn ages(&self) -> &[u8] {
+        &self.ages
+    }
+
+    /// Index of the contact that continues as `component`.
+    pub fn index_of(&self, component: u16) -> Option<usize> {
+        self.trails.iter().position(|trail| trail.component == component)
+    }
+
+    /// Handles contacts that found no component. If the last peak of such a contact lies in a component or
+    /// beside it, the contact takes that component. If another contact has it already, the one with the
+    /// greater total keeps it, and if the totals are equal, the one that was matched by distance.
+    pub fn merge<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        labeller: &Labeller<RUNS, LABELS>,
+        layout: &Layout,
+    ) {
+        for index in 0..self.contacts.len() {
+            let lost = self.trails.get(index).is_some_and(|trail| trail.component == NONE);
+            let Some(contact) = self.contacts.get(index).filter(|_| lost) else { continue };
+            let Some(component) = beside(labeller, layout, contact.peak_at) else { continue };
+            let owner = self.index_of(component);
+            let rival = owner.and_then(|owner| self.contacts.get(owner));
+            let stays = rival.is_some_and(|rival| rival.total >= contact.total);
+            match owner {
+                Some(owner) if stays => self.leap(owner),
+                Some(owner) => self.set_component(owner, NONE),
+                None => {}
+            }
+            if !stays {
+                self.set_component(index, component);
+                self.leap(index);
+            }
+        }
+    }
+
+    fn set_component(&mut self, index: usize, component: u16) {
+        if let Some(trail) = self.trails.get_mut(index) {
+            trail.component = component;
+        }
+    }
+
+    fn leap(&mut self, index: usize) {
+        if let Some(trail) = self.trails.get_mut(index) {
+            trail.leaps = true;
+        }
+    }
+
+    /// Updates all contacts: follows, releases and begins them.
+    pub fn update<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        config: &ContactConfig,
+        components: &[Component],
+        labeller: &Labeller<RUNS, LABELS>,
+        layout: &Layout,
+        image: &Image,
+        (now, forms): (Micros, Forms),
+    ) {
+        let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
+        let known = self.known();
+        self.part(config, components, &known);
+        self.released.clear();
+        for (contact, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
+            match components.get(usize::from(trail.component)) {
+                Some(component) => {
+                    trail.follow(contact, component, &scenery);
+                    describe(contact, component);
+                    contact.phase = Phase::Held;
+                    contact.duration_ms = now.millis_since(contact.onset);
+                }
+                None => {
+                    let duration_ms = now.millis_since(contact.onset);
+                    let gone = Contact { phase: Phase::Released, total: 0, duration_ms, ..contact.clone() };
+                    // Always room: as many places as contacts.
+                    let _ = self.released.push(gone);
+                }
+            }
+        }
+        let trails = &self.trails;
+        let mut index = 0;
+        self.contacts.retain(|_| {
+            index += 1;
+            trails.get(index - 1).is_some_and(|trail| trail.component != NONE)
+        });
+        self.trails.retain(|trail| trail.component != NONE);
+        let held = self.contacts.len();
+        for (index, component) in (0u16..).zip(components) {
+            if is_new(config, &known, index, component) {
+                self.begin(index, component, now);
+            }
+        }
+        self.look(held, forms, components, &Sight { labeller, layout, image });
+        self.moments.clear();
+        for trail in &self.trails {
+            if let Some(component) = components.get(usize::from(trail.component)) {
+                let _ = self.moments.push(component.moments);
+            }
+        }
+    }
+
+    /// Measures the form of new contacts, and of as many of the `held` older ones as have their turn.
+    fn look<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        held: usize,
+        forms: Forms,
+        components: &[Component],
+        sight: &Sight<'_, RUNS, LABELS>,
+    ) {
+        let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
+        self.turn = if next < held { next } else { 0 };
+        self.ages.clear();
+        for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
+            let due = index.wrapping_sub(self.turn) < count || index >= held;
+            trail.age = if due { 0 } else { trail.age.saturating_add(1) };
+            // Always room: as many places as contacts.
+            let _ = self.ages.push(trail.age);
+            let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
+                continue;
+            };
+            sight.look(contact, trail.component, component);
+            if contact.total >= trail.looked {
+                (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
+            }
+        }
+    }
+
+    /// Flags the components that are assigned to a contact.
+    pub fn known(&self) -> [bool; CONTACTS] {
+        let mut known = [false; CONTACTS];
+        for trail in &self.trails {
+            if let Some(known) = known.get_mut(usize::from(trail.component)) {
+                *known = true;
+            }
+        }
+        known
+    }
+
+    /// Marks the contacts that split: a new component peaks within their box.
+    fn part(&mut self, config: &ContactConfig, components: &[Component], known: &[bool]) {
+        for (index, component) in (0u16..).zip(components) {
+            let Some(at) = component.peak_at.filter(|_| is_new(config, known, index, component)) else {
+                continue;
+            };
+            for (contact, trail) in self.contacts.iter().zip(&mut self.trails) {
+                trail.leaps |= contact.bounds.holds(at.panel, at.row, at.column, 0);
+            }
+        }
+    }
+
+    fn begin(&mut self, index: u16, component: &Component, now: Micros) {
+        self.id = self.id.checked_add(1).unwrap_or(1);
+        let mut contact = Contact {
+            id: self.id,
+            phase: Phase::Onset,
+            panel: 0,
+            total: 0,
+            peak: 0,
+            peak_at: Place { panel: 0, row: 0, column: 0 },
+            area: 0,
+            perimeter: 0,
+            edge: 0,
+            bounds: Rect { panel: 0, top: 0, bottom: 0, left: 0, right: 0 },
+            x: Fixed16(0),
+            y: Fixed16(0),
+            azimuth: None,
+            anisotropy: Q15(0),
+            breadth: 0,
+            peak_breadth: 0,
+            dx: Fixed16(0),
+            dy: Fixed16(0),
+            vx: Fixed16(0),
+            vy: Fixed16(0),
+            slip: false,
+            onset: now,
+            duration_ms: 0,
+            peak_total: 0,
+        };
+        describe(&mut contact, component);
+        // There are no more contacts than components, and both lists have the same capacity.
+        if self.contacts.push(contact).is_ok() {
+            let _ = self.trails.push(Trail::new(index));
+        }
+    }
+}
+
+/// True if a new contact begins with a component. A faint component only continues a contact: it is a
+/// splinter of one that lifts.
+fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Component) -> bool {
+    component.peak >= config.high && known.get(usize::from(index)) == Some(&false)
+}
+
+/// Returns the contact of a taxel or, if it has none, of one of its eight neighbours in the panel.
+fn beside<const RUNS: usize, const LABELS: usize>(
+    labeller: &Labeller<RUNS, LABELS>,
+    layout: &Layout,
+    place: Place,
+) -> Option<u16> {
+    let area = layout.areas().get(usize::from(place.panel))?;
+    let around = |at: u16| [at, at.wrapping_sub(1), at.saturating_add(1)];
+    let places =
+        around(place.row).into_iter().flat_map(|row| around(place.column).map(|column| (row, column)));
+    places
+        .filter(|(row, column)| *row < area.rows && *column < area.columns)
+        .find_map(|(row, column)| labeller.contact_at(area, row, column))
+}
+
+/// Copies the measures that need no history, without the form.
+fn describe(contact: &mut Contact, component: &Component) {
+    contact.panel = component.bounds.panel;
+    contact.total = component.total;
+    contact.peak = component.peak;
+    contact.peak_at = component.peak_at.unwrap_or(contact.peak_at);
+    contact.area = component.area;
+    contact.bounds = component.bounds;
+    (contact.x, contact.y) = (component.x, component.y);
+    contact.peak_total = contact.peak_total.max(component.total);
+}

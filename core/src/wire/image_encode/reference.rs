@@ -1,0 +1,179 @@
+//! The reference: the image that was sent last.
+
+use super::encoder::Encoder;
+use crate::garment::Layout;
+use crate::image::row_set::RowSet;
+use crate::image::view::Image;
+use bytemuck::{try_cast_slice, try_cast_slice_mut};
+use core::ops::Range;
+
+/// The image that was sent last, to which the next one is encoded as a difference. Only rows in which either
+/// of them may hold something are read.
+pub(crate) struct ImageReference<const TAXELS: usize> {
+    values: [u16; TAXELS],
+    /// Rows of `values` that may not be 0.
+    rows: RowSet,
+    /// [`image_sum`](crate::wire::image_sum) of `values`.
+    sum: u32,
+}
+
+impl<const TAXELS: usize> ImageReference<TAXELS> {
+    /// An image without pressure.
+    pub const fn new() -> Self {
+        ImageReference { values: [0; TAXELS], rows: RowSet::NONE, sum: 0 }
+    }
+
+    /// Resets it to an image without pressure: before another layout, and when an image was stored only in
+    /// part.
+    pub fn clear(&mut self) {
+        self.values.fill(0);
+        (self.rows, self.sum) = (RowSet::NONE, 0);
+    }
+
+    /// The checksum of the image.
+    pub fn sum(&self) -> u32 {
+        self.sum
+    }
+
+    /// Encodes `image` into `out`, `alone` or as a difference, and makes it the reference; returns the length
+    /// of the code. `None` if there is no room; the reference then mixes two images.
+    pub fn advance(
+        &mut self,
+        layout: &Layout,
+        image: &Image<'_>,
+        alone: bool,
+        out: &mut [u8],
+    ) -> Option<usize> {
+        let room = out.len();
+        let rows = image.rows.held().with(&self.rows);
+        // A single taxel that keeps the reference does not end a run: in a panel of one column, a part must
+        // not see what follows it.
+        let narrow = layout.areas().iter().any(|area| area.columns == 1);
+        let taxels = image.values.len().min(TAXELS);
+        let mut step = BaseStep {
+            encoder: Encoder::new(out),
+            now: image.values.get(..taxels)?,
+            kept: self.values.get_mut(..taxels)?,
+            sum: 0,
+            alone,
+            narrow,
+        };
+        let mut part = 0..0;
+        for area in layout.areas() {
+            let (columns, end) = (usize::from(area.columns), area.first_row.saturating_add(area.rows));
+            let of = |row: u16| usize::from(area.base) + usize::from(row - area.first_row) * columns;
+            let mut next = area.first_row;
+            while let Some(run) = rows.run(next..end) {
+                next = run.end;
+                if of(run.start) != part.end {
+                    step.tell(part)?;
+                    part = of(run.start)..0;
+                }
+                part.end = of(run.end);
+            }
+        }
+        step.tell(part)?;
+        (self.rows, self.sum) = (*image.rows.held(), step.sum);
+        Some(room - step.encoder.room())
+    }
+}
+
+/// Work space of [`ImageReference::advance`].
+struct BaseStep<'a> {
+    encoder: Encoder<'a>,
+    now: &'a [u16],
+    kept: &'a mut [u16],
+    /// Checksum of the part that is stored so far.
+    sum: u32,
+    alone: bool,
+    /// True if no part may see what follows it.
+    narrow: bool,
+}
+
+impl BaseStep<'_> {
+    /// Encodes and stores consecutive rows as one part: a run does not end where a row does.
+    #[inline(never)] // M0+: out of line
+    fn tell(&mut self, part: Range<usize>) -> Option<()> {
+        if part.is_empty() {
+            return Some(());
+        }
+        let end = if self.narrow { part.end } else { self.now.len() };
+        let base = if self.alone { None } else { self.kept.get(..end) };
+        self.encoder.part(part.clone(), self.now.get(..end)?, base)?;
+        let now = self.now.get(part.clone())?;
+        keep(self.kept.get_mut(part.clone())?, now);
+        self.sum = self.sum.wrapping_add(sum_of(part.start, now));
+        Some(())
+    }
+}
+
+/// Copies taxels, in blocks if both slices are aligned to words.
+fn keep(kept: &mut [u16], values: &[u16]) {
+    let mut done = 0;
+    if let (Ok(words), Ok(kept)) = (try_cast_slice(values), try_cast_slice_mut(kept)) {
+        let (large, words) = words.as_chunks::<{ 2 * BLOCK }>();
+        let (kept_large, kept) = kept.as_chunks_mut();
+        large.iter().zip(kept_large).for_each(|(block, kept)| keep_block(kept, block));
+        let (small, kept) = (words.first_chunk::<BLOCK>(), kept.first_chunk_mut());
+        done = 4 * BLOCK * large.len();
+        if let (Some(small), Some(kept)) = (small, kept) {
+            keep_block(kept, small);
+            done += 2 * BLOCK;
+        }
+    }
+    if done < values.len()
+        && let (Some(kept), Some(values)) = (kept.get_mut(done..values.len()), values.get(done..))
+    {
+        kept.copy_from_slice(values);
+    }
+}
+
+/// Number of words of a small block: a row of sixteen taxels.
+const BLOCK: usize = 8;
+
+/// Copies a block by a few instructions that move many words each. Inlined into the loop, it would become a
+/// call of `memcpy`, which takes twice as long.
+#[inline(never)]
+fn keep_block<const WORDS: usize>(kept: &mut [u32; WORDS], block: &[u32; WORDS]) {
+    *kept = *block;
+}
+
+/// Returns the contribution of the taxels from number `start` on to [`image_sum`](crate::wire::image_sum).
+///
+/// The sum of the sums of all values up to each of `count` taxels is `sum (count - i) value`, and needs no
+/// multiplication.
+#[inline(never)]
+fn sum_of(start: usize, values: &[u16]) -> u32 {
+    let (mut plain, mut placed) = (0u32, 0u32);
+    let mut add = |value: &u16| {
+        plain = plain.wrapping_add((*value).into());
+        placed = placed.wrapping_add(plain);
+    };
+    let (blocks, rest) = values.as_chunks::<8>();
+    blocks.iter().for_each(|block| block.iter().for_each(&mut add));
+    rest.iter().for_each(add);
+    plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wire::image_sum;
+
+    #[test]
+    fn taxels_are_kept_and_summed_up_wherever_they_stand() {
+        let values: [u16; 140] = core::array::from_fn(|i| (i * i * 77) as u16 | 1);
+        for start in 0..5 {
+            for end in start..values.len() {
+                let part = &values[start..end];
+                let (mut image, mut kept) = ([0; 141], [0; 141]);
+                image[start..end].copy_from_slice(part);
+                for at in [start, start + 1] {
+                    keep(&mut kept[at..at + part.len()], part);
+                    assert_eq!(&kept[at..at + part.len()], part);
+                }
+                assert_eq!(sum_of(start, part), image_sum(&image), "{start} {end}");
+            }
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! Settings in flash: what was stored is loaded again, even if the power fails at any step of a save.
+
+#[path = "../../../host/src/sim/flash.rs"]
+mod flash;
+
+use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
+use flash::{Cut, SimFlash};
+use taxel_core::acquire::ScanError;
+use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved, Settings};
+use taxel_core::condition::Certificate;
+use taxel_core::format::{Micros, name};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::react::Levels;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Request, encode};
+use taxel_store::{Found, Store, StoreError, in_force, keep_levels};
+
+/// Pseudo-random numbers with a fixed seed.
+struct Random(u32);
+
+impl Random {
+    fn below(&mut self, end: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((u64::from(self.0 >> 8) * u64::from(end)) >> 24) as u32
+    }
+}
+
+/// Settings that a host may make.
+#[derive(Debug, Clone, PartialEq)]
+struct Kept {
+    garment: Garment,
+    scene: Scene,
+    gain: Vec<u16>,
+    baseline: Option<Vec<u16>>,
+    calibration: Option<Certificate>,
+}
+
+/// Number of saves left, in every save of these tests.
+const SAVES: u8 = 7;
+
+impl Kept {
+    fn new(garment: Garment, taxels: usize) -> Kept {
+        Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None, calibration: None }
+    }
+
+    fn settings(&self) -> Settings<'_> {
+        Settings {
+            garment: &self.garment,
+            scene: &self.scene,
+            gain: &self.gain,
+            faulty: &[],
+            baseline: self.baseline.as_deref(),
+            calibration: self.calibration.as_ref(),
+            saves: SAVES,
+        }
+    }
+
+    /// Changes one to four of the parts.
+    fn change(&mut self, random: &mut Random) {
+        let parts = 1 + random.below(15);
+        if parts & 1 != 0 {
+            self.garment.wiring.settle_ns = 1_000 + random.below(100_000);
+            self.garment.name = name(&"longer and longer"[..1 + random.below(15) as usize]);
+        }
+        if parts & 2 != 0 {
+            self.scene.contact.high = 20 + random.below(1_000) as u16;
+            self.scene.joints.truncate(random.below(3) as usize);
+        }
+        if parts & 4 != 0 {
+            self.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
+            let (id, taxels) = (random.below(1 << 24), self.gain.len() as u16);
+            self.calibration = Some(Certificate { id, taxels, year: 2026, month: 11, day: 21, error: 99 })
+                .filter(|_| random.below(4) > 0);
+        }
+        if parts & 8 != 0 {
+            let codes = self.gain.iter().map(|_| random.below(4_096) as u16).collect();
+            self.baseline = Some(codes).filter(|_| random.below(8) > 0);
+        }
+    }
+}
+
+/// A flash of twice the size that the block needs: every sector is erased again and again.
+const FOUR_SECTORS: u32 = 16 * 1024;
+
+/// Sectors reserved for that many taxels.
+fn range(taxels: usize) -> std::ops::Range<u32> {
+    0..if taxels == 64 { FOUR_SECTORS } else { SimFlash::BYTES }
+}
+
+fn save(flash: &mut SimFlash, kept: &Kept) -> Result<Saved, StoreError> {
+    Store::new(flash, range(kept.gain.len())).unwrap().save(&kept.settings())
+}
+
+/// Settings of a board after start-up; none if the flash holds nothing.
+fn load<const TAXELS: usize>(flash: &mut SimFlash) -> Result<Option<Kept>, StoreError> {
+    load_from::<TAXELS>(flash, range(TAXELS))
+}
+
+fn load_from<const TAXELS: usize>(
+    flash: &mut SimFlash,
+    range: std::ops::Range<u32>,
+) -> Result<Option<Kept>, StoreError> {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
+    let found = Store::new(flash, range).unwrap().load(&mut board)?;
+    let Settings { garment, scene, gain, baseline, calibration, .. } = board.settings();
+    Ok((found == Found::Settings).then(|| Kept {
+        garment: garment.clone(),
+        scene: scene.clone(),
+        gain: gain.to_vec(),
+        baseline: baseline.map(<[u16]>::to_vec),
+        calibration: calibration.copied(),
+    }))
+}
+
+#[test]
+fn power_may_fail_at_any_step_of_200_changes() {
+    let mut random = Random(1);
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::block(), 64);
+    let mut old = None;
+    let mut cuts = 0;
+    for change in 0..200 {
+        kept.change(&mut random);
+        let before = flash.clone();
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "change {change}");
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                assert_eq!(save(&mut torn, &kept), Err(StoreError::Flash));
+                torn.restore_power();
+                let found = load::<64>(&mut torn).unwrap();
+                assert!(
+                    found == old || found.as_ref() == Some(&kept),
+                    "change {change}, step {step}, {cut:?}"
+                );
+                save(&mut torn, &kept).unwrap();
+                assert_eq!(load::<64>(&mut torn).unwrap().as_ref(), Some(&kept));
+                cuts += 1;
+            }
+        }
+        old = load::<64>(&mut flash).unwrap();
+        assert_eq!(old.as_ref(), Some(&kept));
+    }
+    println!("{cuts} cuts in {} writes and erasures, {} of these", flash.steps(), flash.erased());
+    assert!(flash.erased() >= 16, "every sector was erased several times");
+}
+
+#[test]
+fn the_greatest_garment_fits_however_often_it_is_saved() {
+    let mut random = Random(2);
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::reference(), 2048);
+    for _ in 0..60 {
+        kept.garment.wiring.settle_ns = 1_000 + random.below(1_000);
+        kept.scene.contact.high = 20 + random.below(1_000) as u16;
+        kept.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
+        kept.baseline = Some(kept.gain.iter().map(|_| random.below(4_096) as u16).collect());
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+        assert_eq!(load::<2048>(&mut flash).unwrap().as_ref(), Some(&kept));
+    }
+    println!("{:.1} sectors erased a save", flash.erased() as f64 / 60.0);
+    assert!(flash.erased() <= 60 * 6);
+}
+
+#[test]
+fn what_has_not_changed_is_not_written() {
+    let mut flash = SimFlash::default();
+    let mut kept = Kept::new(Garment::block(), 64);
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+    let steps = flash.steps();
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Unchanged));
+    assert_eq!(flash.steps(), steps);
+    kept.gain[5] = 0;
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+    assert!(flash.steps() - steps <= 12, "only the gains and the index: {}", flash.steps() - steps);
+}
+
+#[test]
+fn an_empty_or_alien_flash_is_said_to_be_so() {
+    use embedded_storage::nor_flash::NorFlash;
+    let mut flash = SimFlash::default();
+    assert_eq!(load::<64>(&mut flash), Ok(None));
+    let mut random = Random(3);
+    let noise: Vec<u8> = (0..SimFlash::BYTES).map(|_| random.below(256) as u8).collect();
+    flash.write(0, &noise).unwrap();
+    assert!(matches!(load::<64>(&mut flash), Ok(None) | Err(StoreError::Damaged)));
+    let kept = Kept::new(Garment::block(), 64);
+    save(&mut flash, &kept).unwrap();
+    assert_eq!(load::<64>(&mut flash).unwrap(), Some(kept));
+    let short = Store::new(&mut flash, 0..4096).err();
+    assert_eq!(short, Some(StoreError::Range));
+}
+
+#[test]
+fn a_part_that_does_not_fit_leaves_the_others() {
+    let mut flash = SimFlash::default();
+    // A board of 64 taxels loads settings stored by one of 2,048.
+    let calibration = Some(Certificate { id: 7, taxels: 2048, year: 2026, month: 11, day: 21, error: 99 });
+    let kept = Kept { gain: vec![1; 2048], calibration, ..Kept::new(Garment::reference(), 2048) };
+    save(&mut flash, &kept).unwrap();
+    let found = load_from::<64>(&mut flash, range(2048)).unwrap().unwrap();
+    assert_eq!((found.garment, found.gain, found.calibration), (Garment::block(), vec![4096; 64], None));
+    let mut buffer = [0; 4000];
+    assert!(kept.settings().write(Part::Gain, &mut buffer).is_err());
+}
+
+/// Result of loading, garment of the board after it, and number of saves left.
+fn start(flash: &mut SimFlash) -> (Found, Garment, usize) {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
+    let found = Store::new(flash, range(64)).unwrap().load(&mut board).unwrap();
+    let garment = board.settings().garment.clone();
+    let mut wire = [0; 64];
+    let save = encode(&Request::Save, &mut wire).unwrap();
+    // All within seconds: no further save is granted.
+    let (mut saves, mut now) = (0, Micros(1_000));
+    while saves < 99 {
+        board.step(now, Input::Received(save), &mut ());
+        let asked = (0..9).any(|_| {
+            now.0 += 50_000;
+            let job = board.step(now, Input::Tick, &mut ());
+            if let Some(Job::Scan(_)) = job {
+                board.step(now, Input::Scanned(Err(ScanError::Conversion)), &mut ());
+            }
+            job == Some(Job::Save)
+        });
+        if !asked {
+            break;
+        }
+        board.step(now, Input::Saved(Ok(Saved::Written)), &mut ());
+        saves += 1;
+    }
+    (found, garment, saves)
+}
+
+#[test]
+fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
+    let mut flash = SimFlash::default();
+    let aside = |flash: &mut SimFlash, aside| Store::new(flash, range(64)).unwrap().put_aside(aside);
+    assert_eq!(aside(&mut flash, true), Ok(Saved::Unchanged), "there is nothing to be put aside");
+    let garment = Garment { name: name("worn"), ..Garment::block() };
+    let kept = Kept::new(garment.clone(), 64);
+    save(&mut flash, &kept).unwrap();
+    assert_eq!(start(&mut flash), (Found::Settings, garment.clone(), SAVES.into()));
+    assert_eq!([true, true].map(|it| aside(&mut flash, it)), [Ok(Saved::Written), Ok(Saved::Unchanged)]);
+    assert_eq!(start(&mut flash), (Found::Aside, Garment::block(), SAVES.into()), "the quota stays");
+    assert_eq!(aside(&mut flash, false), Ok(Saved::Written));
+    assert_eq!(start(&mut flash).1, garment);
+    aside(&mut flash, true).unwrap();
+    assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "the same again, but in force");
+    assert_eq!(start(&mut flash).1, garment);
+}
+
+#[test]
+fn power_may_fail_while_settings_are_put_aside() {
+    let mut flash = SimFlash::default();
+    let garment = Garment { name: name("worn"), ..Garment::block() };
+    save(&mut flash, &Kept::new(garment.clone(), 64)).unwrap();
+    for round in 0..40 {
+        let (before, old) = (flash.clone(), start(&mut flash));
+        Store::new(&mut flash, range(64)).unwrap().put_aside(round % 2 == 0).unwrap();
+        let new = start(&mut flash);
+        assert_ne!(old, new);
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                let end = Store::new(&mut torn, range(64)).unwrap().put_aside(round % 2 == 0);
+                assert_eq!(end, Err(StoreError::Flash));
+                torn.restore_power();
+                let found = start(&mut torn);
+                assert!(found == old || found == new, "round {round}, step {step}, {cut:?}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flash_that_cannot_be_read_is_said_to_be_so() {
+    let mut flash = SimFlash::default();
+    let kept = Kept::new(Garment::block(), 64);
+    save(&mut flash, &kept).unwrap();
+    flash.cut_at(flash.steps(), Cut::Before);
+    assert!(flash.write(0, &[0]).is_err(), "the power is off from here on");
+    for aside in [true, false] {
+        assert_eq!(Store::new(&mut flash, range(64)).unwrap().put_aside(aside), Err(StoreError::Flash));
+    }
+    assert_eq!(save(&mut flash, &kept), Err(StoreError::Flash));
+    assert_eq!(load::<64>(&mut flash), Err(StoreError::Flash));
+}
+
+/// The sectors with the levels of outputs.
+const LEVELS: [u32; 2] = [0, 4096];
+
+/// Levels with which a board would start.
+fn levels(flash: &mut SimFlash) -> Levels {
+    let records = LEVELS.map(|start| {
+        let mut bytes = [0; 16];
+        flash.read(start, &mut bytes).unwrap();
+        let (words, _) = bytes.as_chunks();
+        std::array::from_fn(|at| u32::from_le_bytes(words[at]))
+    });
+    in_force(records).unwrap_or_default()
+}
+
+#[test]
+fn power_may_fail_while_levels_are_kept() {
+    let (mut flash, mut random) = (SimFlash::default(), Random(5));
+    assert_eq!(keep_levels(&mut flash, LEVELS, Levels::default()), Ok(Saved::Unchanged), "none are needed");
+    assert_eq!(flash.steps(), 0);
+    for round in 0..60 {
+        let pins = 1 + random.below(1 << 20);
+        let wanted = Levels { pins, high: pins & random.below(1 << 20) };
+        let (before, old) = (flash.clone(), levels(&mut flash));
+        keep_levels(&mut flash, LEVELS, wanted).unwrap();
+        assert_eq!(levels(&mut flash), wanted);
+        for step in before.steps()..flash.steps() {
+            for cut in [Cut::Before, Cut::Within, Cut::After] {
+                let mut torn = before.clone();
+                torn.cut_at(step, cut);
+                assert_eq!(keep_levels(&mut torn, LEVELS, wanted), Err(StoreError::Flash));
+                torn.restore_power();
+                let found = levels(&mut torn);
+                assert!(found == old || found == wanted, "round {round}, step {step}, {cut:?}: {found:?}");
+                // The next attempt is certain to store it.
+                keep_levels(&mut torn, LEVELS, wanted).unwrap();
+                assert_eq!(levels(&mut torn), wanted);
+            }
+        }
+        let steps = flash.steps();
+        assert_eq!(keep_levels(&mut flash, LEVELS, wanted), Ok(Saved::Unchanged));
+        assert_eq!(flash.steps(), steps);
+    }
+}
+
+/// Contents left by boot loaders, other firmware and half an erasure: a flash need not be blank at first use.
+#[test]
+fn a_flash_that_something_else_has_written_takes_settings() {
+    let mut random = Random(19);
+    for round in 0..200 {
+        let mut flash = SimFlash::default();
+        for _ in 0..1 + random.below(9) {
+            let place = random.below(FOUR_SECTORS - 600);
+            let bytes: Vec<u8> = (0..random.below(600)).map(|_| random.below(256) as u8).collect();
+            // Bits that would have to rise stay 0.
+            let _ = flash.write(place, &bytes);
+        }
+        let mut kept = Kept::new(Garment::block(), 64);
+        (0..3).for_each(|_| kept.change(&mut random));
+        assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "round {round}");
+        assert_eq!(load::<64>(&mut flash), Ok(Some(kept)), "round {round}");
+    }
+}
