@@ -147,7 +147,7 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
 /// so that bit counts, too. Values and differences from 0x8000 may therefore report a false positive.
 #[inline(never)] // M0+: out of line
 fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
-    let doubtful = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
+    let doubtful = |codes: &[Pair; CHUNK / 2], limit: &[Pair; CHUNK / 2]| {
         let [codes, limit] = [codes, limit].map(|pairs| pairs.as_chunks::<PAIRS>().0);
         codes.iter().zip(limit).any(|(codes, limit)| {
             let over = codes.iter().zip(limit).fold(0, |all, (code, limit)| {
@@ -157,7 +157,14 @@ fn quiet_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair;
             over & 0x8000_8000 != 0
         })
     };
-    codes.iter().zip(limit).position(doubtful).unwrap_or(codes.len())
+    let there = codes.len().min(limit.len());
+    let (Some(mut codes), Some(mut limit)) = (codes.get(..there), limit.get(..there)) else { return 0 };
+    while let ([code, codes_after @ ..], [most, limit_after @ ..]) = (codes, limit)
+        && !doubtful(code, most)
+    {
+        (codes, limit) = (codes_after, limit_after);
+    }
+    there - codes.len()
 }
 
 /// Skips inactive chunks, one taxel after the other.
