@@ -309,10 +309,9 @@ fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
     for (part, ((codes, limit), out)) in codes.iter().zip(limit).zip(parts).enumerate() {
         let (codes, limit, out): (&[Code; PART], &[u16; PART], &mut [u16; PART]) = (codes, limit, out);
         for (at, ((code, limit), out)) in codes.iter().zip(limit).zip(out).enumerate() {
-            let (code, limit) = (i32::from(code.0), i32::from(*limit));
-            let beyond = if FALLING { limit - code } else { code - limit };
-            if beyond > 0 {
-                *out = (beyond + i32::from(margin)) as u16;
+            let (more, less) = if FALLING { (*limit, code.0) } else { (code.0, *limit) };
+            if more > less {
+                *out = (more - less).wrapping_add(margin);
                 bits |= 1 << (part * PART + at);
             }
         }
