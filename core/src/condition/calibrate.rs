@@ -245,6 +245,9 @@ fn replace<const N: usize, const PART: usize>(out: &mut [u16; N], found: &mut u1
 /// Clears the values of taxels that were active in the last image, and are no more.
 #[inline(always)]
 fn silence<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
+    if gone == 0 {
+        return;
+    }
     if gone & gone.wrapping_sub(1) == 0 {
         if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
             *out = 0;
