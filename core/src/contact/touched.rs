@@ -47,7 +47,7 @@ pub(super) fn sixteens(values: &[u16], columns: u16, low: u16) -> &[Sixteen] {
 }
 
 /// Returns the bits of the values of a row that are not below a threshold of 15 bits.
-#[inline(never)] // M0+: out of line
+#[inline(always)]
 pub(super) fn touched_of_sixteen([a, b, c, d, e, f, g, h]: &Sixteen, low: u16) -> u32 {
     // Unrolled by hand: the compiler would keep a loop.
     let low = u32::from(low) << 16 | u32::from(low);
