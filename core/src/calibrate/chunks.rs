@@ -108,7 +108,7 @@ fn pairs<T: Pod, const N: usize>(chunks: &[[T; N]]) -> Option<&[[Pair; CHUNK / 2
 /// so that bit counts, too. Values and differences from 0x8000 may therefore report a false positive.
 #[inline(never)] // M0+: out of line
 fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pair; CHUNK / 2]]) -> usize {
-    let maybe_active = |(codes, limit): (&[Pair; CHUNK / 2], &[Pair; CHUNK / 2])| {
+    let maybe_active = |codes: &[Pair; CHUNK / 2], limit: &[Pair; CHUNK / 2]| {
         let [codes, limit] = [codes, limit].map(|pairs| pairs.as_chunks::<PAIRS>().0);
         codes.iter().zip(limit).any(|(codes, limit)| {
             let over = codes.iter().zip(limit).fold(0, |all, (code, limit)| {
@@ -118,7 +118,14 @@ fn inactive_pairs<const FALLING: bool>(codes: &[[Pair; CHUNK / 2]], limit: &[[Pa
             over & 0x8000_8000 != 0
         })
     };
-    codes.iter().zip(limit).position(maybe_active).unwrap_or(codes.len())
+    let there = codes.len().min(limit.len());
+    let (Some(mut codes), Some(mut limit)) = (codes.get(..there), limit.get(..there)) else { return 0 };
+    while let ([code, codes_after @ ..], [most, limit_after @ ..]) = (codes, limit)
+        && !maybe_active(code, most)
+    {
+        (codes, limit) = (codes_after, limit_after);
+    }
+    there - codes.len()
 }
 
 /// Skips inactive chunks, one taxel after the other.
@@ -199,6 +206,9 @@ fn replace<const N: usize, const PART: usize>(out: &mut [u16; N], found: &mut u1
 /// Clears the values of taxels that were active in the last image, and are no more.
 #[inline(always)]
 fn silence<const N: usize, const PART: usize>(out: &mut [u16; N], gone: u32) {
+    if gone == 0 {
+        return;
+    }
     if gone & gone.wrapping_sub(1) == 0 {
         if let Some(out) = out.get_mut(gone.trailing_zeros() as usize) {
             *out = 0;
@@ -236,10 +246,9 @@ fn exceed<const N: usize, const PART: usize, const FALLING: bool>(
     for (part, ((codes, limit), out)) in codes.iter().zip(limit).zip(parts).enumerate() {
         let (codes, limit, out): (&[Code; PART], &[u16; PART], &mut [u16; PART]) = (codes, limit, out);
         for (at, ((code, limit), out)) in codes.iter().zip(limit).zip(out).enumerate() {
-            let (code, limit) = (i32::from(code.0), i32::from(*limit));
-            let beyond = if FALLING { limit - code } else { code - limit };
-            if beyond > 0 {
-                *out = (beyond + i32::from(margin)) as u16;
+            let (more, less) = if FALLING { (*limit, code.0) } else { (code.0, *limit) };
+            if more > less {
+                *out = (more - less).wrapping_add(margin);
                 bits |= 1 << (part * PART + at);
             }
         }

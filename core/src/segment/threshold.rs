@@ -47,17 +47,18 @@ pub(crate) fn paired_rows16(values: &[u16], columns: u16, low: u16) -> &[PairedR
 }
 
 /// Returns the bits of the values of a row that are not below a threshold of 15 bits.
-#[inline(never)] // M0+: out of line
+#[inline(always)]
 pub(crate) fn touched_of_row16([a, b, c, d, e, f, g, h]: &PairedRow16, low: u16) -> u32 {
     // Unrolled by hand: the compiler would keep a loop.
     let low = u32::from(low) << 16 | u32::from(low);
     let four = two(two(two(two(0, *a, low), *b, low), *c, low), *d, low);
-    two(two(two(two(four, *e, low), *f, low), *g, low), *h, low) >> 16
+    let all = two(two(two(two(four, *e, low), *f, low), *g, low), *h, low);
+    all >> 16 | (all & 0xffff) >> 1
 }
 
-/// Shifts the bits of earlier pairs down by two, and sets the two highest bits where the values of `pair` are
-/// not below `low`. After eight pairs, the upper half holds the bits of the row; the lower half is to be
-/// dropped.
+/// Shifts the bits of earlier pairs down by two, and sets the highest bit of each half where that value of
+/// `pair` is not below `low`. After eight pairs, the upper half holds every second bit of the row, and the
+/// lower half those between them, shifted up by one.
 #[inline(always)]
 fn two(taxels: u32, pair: u32, low: u32) -> u32 {
     const HIGHEST: u32 = 1 << 31 | 1 << 15;
@@ -65,7 +66,7 @@ fn two(taxels: u32, pair: u32, low: u32) -> u32 {
     // SWAR compare: bit 15 of a half stays set if its other 15 bits are not below `low`. A value that has bit
     // 15 itself is above any threshold of 15 bits.
     let high = ((pair | HIGHEST).wrapping_sub(low) | pair) & HIGHEST;
-    taxels >> 2 | high | high << 15
+    taxels >> 2 | high
 }
 
 #[cfg(test)]

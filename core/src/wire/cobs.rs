@@ -38,22 +38,20 @@ pub(super) fn stuff(place: &mut [u8], data: Range<usize>) -> Option<Range<usize>
 fn link(bytes: &mut [u8]) -> Result<(), usize> {
     let start = bytes.as_ptr().addr();
     let Some((first, data)) = bytes.split_first_mut() else { return Ok(()) };
-    let mut group = CobsGroup { head: first, code: 1 };
+    let mut group = CobsGroup { head: first };
     let (blocks, last) = data.as_chunks_mut::<BLOCK>();
     let linked = blocks.iter_mut().try_for_each(|block| group.end_in(block));
     linked.and_then(|()| group.end_in(last)).map_err(|Long| ptr::from_ref(group.head).addr() - start)
 }
 
-/// Bytes of an unrolled step: 5 cycles of an M0+ for each byte, and 10 more for a zero. Word by word, four
-/// bytes without a zero would take 15, but those with one 50.
-const BLOCK: usize = 16;
+/// Bytes of an unrolled step: 5 cycles of an M0+ for each byte, and 10 more for a zero. In a longer step the
+/// code for zeros is beyond the reach of a branch. Word by word, four bytes without a zero would take 15, but
+/// those with one 50.
+const BLOCK: usize = 8;
 
 /// A group whose end is not found yet.
 struct CobsGroup<'a> {
     head: &'a mut u8,
-    /// Value of its code byte if the block at hand began with a zero. In the block in which the group begins,
-    /// it is smaller by the position of the group, modulo 2^32.
-    code: u32,
 }
 
 /// Error: the group is too long.
@@ -63,18 +61,15 @@ impl<'a> CobsGroup<'a> {
     /// Ends the group at each zero of the bytes that follow, and begins the next one there.
     #[inline(always)]
     fn end_in(&mut self, bytes: &'a mut [u8]) -> Result<(), Long> {
-        let count = bytes.len() as u32;
-        for (byte, passed) in bytes.iter_mut().zip(0..) {
+        for byte in bytes {
             if *byte == 0 {
-                let code = self.code.wrapping_add(passed);
-                if code > GROUP as u32 {
+                let code = ptr::from_ref(byte).addr() - ptr::from_ref(self.head).addr();
+                if code > GROUP {
                     return Err(Long);
                 }
                 *replace(&mut self.head, byte) = code as u8;
-                self.code = 0u32.wrapping_sub(passed);
             }
         }
-        self.code = self.code.wrapping_add(count);
         Ok(())
     }
 }

@@ -1,5 +1,5 @@
-//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Loads four bytes at a time: 7 cycles of an
-//! M0+ for each byte.
+//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Loads four bytes at a time, 16 in a step: 7
+//! cycles of an M0+ for each byte.
 
 use bytemuck::pod_align_to;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
@@ -18,12 +18,20 @@ static TABLE: [u32; 256] = {
 pub(super) fn of(bytes: &[u8]) -> u32 {
     let (first, words, last) = pod_align_to(bytes);
     let crc = first.iter().fold(u32::MAX, byte);
-    let crc = words.iter().fold(crc, |crc, word| (0..4).fold(crc ^ u32::from_le(*word), |crc, _| shift(crc)));
+    let (blocks, words) = words.as_chunks::<4>();
+    let crc = blocks.iter().fold(crc, |crc, block| block.iter().fold(crc, word));
+    let crc = words.iter().fold(crc, word);
     !last.iter().fold(crc, byte)
 }
 
 fn byte(crc: u32, byte: &u8) -> u32 {
     shift(crc ^ u32::from(*byte))
+}
+
+/// Processes the four bytes of a word.
+#[inline(always)]
+fn word(crc: u32, word: &u32) -> u32 {
+    (0..4).fold(crc ^ u32::from_le(*word), |crc, _| shift(crc))
 }
 
 /// Processes the lowest byte.

@@ -62,17 +62,15 @@ impl<'a> Writer<'a> {
 
     /// Writes a varint of two bytes or more. Returns an option, which unlike [`Done`] fits in registers.
     #[inline(never)]
-    fn long(self, number: u32) -> Option<Self> {
-        let more = |from: u32| (number >> from) as u8 | 128;
-        let last = |from: u32| (number >> from) as u8;
-        if number < 1 << 14 {
-            self.bytes([more(0), last(7)])
-        } else if number < 1 << 21 {
-            self.bytes([more(0), more(7), last(14)])
-        } else if number < 1 << 28 {
-            self.bytes([more(0), more(7), more(14), last(21)])
+    fn long(mut self, mut number: u32) -> Option<Self> {
+        while number >= 1 << 14 {
+            self = self.bytes([number as u8 | 128, (number >> 7) as u8 | 128])?;
+            number >>= 14;
+        }
+        if number < 128 {
+            self.bytes([number as u8])
         } else {
-            self.bytes([more(0), more(7), more(14), more(21), last(28)])
+            self.bytes([number as u8 | 128, (number >> 7) as u8])
         }
     }
 

@@ -149,7 +149,7 @@ fn sum_of(start: usize, values: &[u16]) -> u32 {
         plain = plain.wrapping_add((*value).into());
         placed = placed.wrapping_add(plain);
     };
-    let (blocks, rest) = values.as_chunks::<8>();
+    let (blocks, rest) = values.as_chunks::<16>();
     blocks.iter().for_each(|block| block.iter().for_each(&mut add));
     rest.iter().for_each(add);
     plain.wrapping_mul((start + values.len() + 1) as u32).wrapping_sub(placed)
