@@ -19,7 +19,7 @@ use heapless::Vec;
 pub struct Component {
     /// Root of its parts.
     pub(super) part: u16,
-    joined: bool,
+    pub(super) joined: bool,
     /// Sum of the pressure, counts.
     pub total: u32,
     /// Greatest pressure of a taxel, counts.

@@ -3,6 +3,7 @@
 use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::contour::Contour;
+use super::kurtosis::Kurtosis;
 use super::label::Labels;
 use super::record::Contact;
 use crate::condition::Image;
@@ -16,9 +17,10 @@ pub(super) struct Sight<'a, const RUNS: usize, const PARTS: usize> {
 }
 
 impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
-    /// Measures the contour, axis and breadth of a contact from its component, number `index`.
+    /// Measures the contour, axis and breadth of a contact from its component, number `index`. Returns its
+    /// kurtosis, which is not part of the record.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
+    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) -> Kurtosis {
         let Contour { length, slope } = Contour::of(index, component, self.labels, self.layout, self.image);
         contact.perimeter = length as u16;
         contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
@@ -28,5 +30,6 @@ impl<const RUNS: usize, const PARTS: usize> Sight<'_, RUNS, PARTS> {
             axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
         (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
         contact.breadth = breadth;
+        Kurtosis::of(axis.azimuth, index, component, self)
     }
 }

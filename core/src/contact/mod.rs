@@ -37,7 +37,7 @@
 //! others); joins across seams (`side`, `join`); the choice of contacts (`near`); and the moments of the
 //! chosen ones only (`strip`, `component`). [`Contacts::segment`] ends here. Then the components are matched
 //! to the contacts of the last frame (`track`), and the form of one contact is measured (`form`, `contour`,
-//! `axis`): it costs as much as the rest of a contact together, and changes slowly.
+//! `axis`, `kurtosis`): it costs as much as the rest of a contact together, and changes slowly.
 
 mod axis;
 mod bits;
@@ -49,6 +49,7 @@ mod form;
 mod forms;
 pub mod hardness;
 mod join;
+mod kurtosis;
 mod label;
 mod matching;
 mod moments;
@@ -79,6 +80,7 @@ pub use component::Component;
 pub use config::{ContactConfig, NO_SLIP};
 pub use forms::Forms;
 pub use hardness::{Growth, Hardness};
+pub use kurtosis::Kurtosis;
 pub use moments::{Central, Moments};
 pub use record::{Contact, Phase};
 pub use stage::{ContactState, Contacts, Touches};

@@ -4,6 +4,7 @@ use super::component::{Component, Components};
 use super::config::ContactConfig;
 use super::forms::Forms;
 use super::join::Joins;
+use super::kurtosis::Kurtosis;
 use super::label::Labels;
 use super::matching::Matching;
 use super::moments::Moments;
@@ -43,6 +44,8 @@ pub struct Touches<'a> {
     pub moments: &'a [Moments],
     /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
+    /// Kurtosis of those whose form is of this frame, in the same order; 0 for the others.
+    pub kurtosis: &'a [Kurtosis],
     /// Contacts that ended with this frame.
     pub released: &'a [Contact],
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
@@ -175,6 +178,7 @@ impl Contacts {
             present: tracks.contacts(),
             moments: tracks.moments(),
             ages: tracks.ages(),
+            kurtosis: tracks.kurtosis(),
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,
