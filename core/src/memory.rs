@@ -11,7 +11,7 @@ use crate::intent::{Evidence, Fed, IntentState};
 use crate::pipeline::CONTACTS;
 use crate::react::ReactState;
 use crate::reflex::Reflex;
-use crate::shape::{BUILT_IN, Shapes};
+use crate::shape::Shapes;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 
@@ -33,8 +33,8 @@ macro_rules! states {
 }
 
 states! {
-    ConditionState<TAXELS>, "condition/mod.rs", 21584, 21584;
-    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76400, 76456;
+    ConditionState<TAXELS>, "condition/mod.rs", 21592, 21592;
+    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76600, 76656;
     HardnessCue, "measure/hardness.rs", 20, 20;
     FoldState, "fold.rs", 96, 96;
     TouchState, "gesture/mod.rs", 3712, 3720;
@@ -44,7 +44,7 @@ states! {
     IntentState, "intent/stage.rs", 1144, 1152;
     ReactState, "react/mod.rs", 624, 664;
     Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
-    Shapes<BUILT_IN>, "shape/mod.rs", 652, 696;
+    Shapes, "shape/mod.rs", 20, 40;
     SymbolState<CONTACTS>, "symbol/mod.rs", 760, 768;
     UnsureState<CONTACTS>, "unsure.rs", 648, 656;
 }

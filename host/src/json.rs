@@ -9,13 +9,13 @@ use taxel_core::contact::{Contact, Phase};
 use taxel_core::format::{Name, Q15};
 use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
-use taxel_core::shape::{BUILT_IN, Base};
+use taxel_core::shape::Base;
 
 /// Encodes a contact with its shape and place. `unsure`: it may be drift.
 pub fn contact(placed: &Placed, layout: &Layout, unsure: bool) -> Value {
     let Placed { contact, shape, region } = placed;
     let area = layout.areas().get(usize::from(contact.panel));
-    let base = Base::<BUILT_IN>::built_in();
+    let base = Base::BUILT_IN;
     let mut object = json!({
         "id": contact.id,
         "phase": phase(contact.phase),

@@ -146,6 +146,8 @@ impl Toolchain {
             .env("CARGO", self.bin.join("cargo"))
             .env("RUSTC", self.bin.join("rustc"))
             .env("CARGO_TARGET_DIR", self.folder())
+            // An incremental build is cut into other units: its sizes and cycles are not those of the image.
+            .env("CARGO_INCREMENTAL", "0")
             .env("CARGO_TARGET_THUMBV6M_NONE_EABI_LINKER", &self.linker)
             .env("CARGO_TARGET_THUMBV6M_NONE_EABI_RUSTFLAGS", FLAGS)
             .env_remove("RUSTUP_TOOLCHAIN");

@@ -6,7 +6,7 @@
 //! | output | [`Image`]: `u16` counts above the baseline by taxel number, and the rows that may be non-zero |
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none; a point that presses a single taxel passes one frame later |
-//! | RAM | [`ConditionState`] of 2,048 taxels: 21,584 bytes |
+//! | RAM | [`ConditionState`] of 2,048 taxels: 21,592 bytes |
 //! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 138 k (persistent), about 34 k more where gains are not 1 |
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12. If pressure lowers

@@ -8,6 +8,7 @@ use crate::measure::carried::CarriedLabels;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
 use crate::measure::forms::Forms;
+use crate::measure::kurtosis::Kurtosis;
 use crate::measure::moments::Moments;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
@@ -46,6 +47,8 @@ pub struct Touches<'a> {
     pub moments: &'a [Moments],
     /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
+    /// Kurtosis of those whose form is of this frame, in the same order; 0 for the others.
+    pub kurtosis: &'a [Kurtosis],
     /// Contacts that ended with this frame.
     pub released: &'a [Contact],
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
@@ -179,6 +182,7 @@ impl Contacts {
             present: tracks.contacts(),
             moments: tracks.moments(),
             ages: tracks.ages(),
+            kurtosis: tracks.kurtosis(),
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,

@@ -2,7 +2,7 @@
 //!
 //! [`component`] picks the connected touches that are contacts and sums their exact [`moments`], those beyond
 //! a seam by [`carried`]. [`form`] measures what is costly and changes slowly: the [`contour`], whose slope is
-//! a [`sobel`], and the [`axis`]; [`forms`] says how many contacts have their turn in a frame. [`contact`] is
+//! a [`sobel`], the [`axis`] and the [`kurtosis`]; [`forms`] says how many contacts have their turn in a frame. [`contact`] is
 //! the record of a contact, [`hardness`] estimates that of the object from its growth.
 
 pub(crate) mod axis;
@@ -13,5 +13,6 @@ pub(crate) mod contour;
 pub(crate) mod form;
 pub(crate) mod forms;
 pub mod hardness;
+pub(crate) mod kurtosis;
 pub(crate) mod moments;
 pub(crate) mod sobel;

@@ -9,7 +9,7 @@ use crate::gesture::{Certainty, Gestures};
 use crate::intent::Intent;
 use crate::react::Reactions;
 use crate::scene::Scene;
-use crate::shape::{BUILT_IN, Base, Shapes};
+use crate::shape::{Base, Shapes};
 use crate::symbol::Symbols;
 
 /// All stages of a scene. The default belongs to no scene.
@@ -18,7 +18,7 @@ pub struct Pipeline {
     pub(super) panels: u8,
     pub(super) condition: Condition,
     pub(super) contact: Contacts,
-    pub(super) shape: Option<Shapes<BUILT_IN>>,
+    pub(super) shape: Option<Shapes>,
     pub(super) symbol: Symbols,
     /// Touch over time; none: not recognised. Not part of a scene: it stays when the scene or the garment
     /// changes.
@@ -64,7 +64,7 @@ impl Pipeline {
 
     #[inline(never)]
     fn build_shapes(&mut self, scene: &Scene) -> Result<(), SceneError> {
-        self.shape = scene.shape.map(|shape| shape.build(Base::built_in())).transpose()?;
+        self.shape = scene.shape.map(|shape| shape.build(Base::BUILT_IN)).transpose()?;
         Ok(())
     }
 

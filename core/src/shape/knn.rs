@@ -1,12 +1,8 @@
 //! Nearest neighbours among the prototypes of a base.
 
 use super::features::ShapeFeatures;
-use crate::format::{Name, Q15};
-use heapless::Vec;
+use crate::format::Q15;
 use serde::{Deserialize, Serialize};
-
-/// Greatest number of classes of a base.
-pub const CLASSES: usize = 8;
 
 /// A class of a base of shapes: 0 is unknown, `i` is the base's name `i - 1`.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,8 +21,7 @@ impl Class {
 }
 
 /// An example of a class.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Prototype {
     /// Class that it is an example of.
     pub class: Class,
@@ -34,21 +29,20 @@ pub struct Prototype {
     pub features: ShapeFeatures,
 }
 
-/// A base of shapes.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Base<const PROTOTYPES: usize> {
+/// A base of shapes, which stays in flash. What a board is taught later is a [`Gallery`](super::Gallery).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Base {
     /// Names of the classes, from 1.
-    pub names: Vec<Name, CLASSES>,
+    pub names: &'static [&'static str],
     /// Examples; ties go to the earlier one.
-    pub prototypes: Vec<Prototype, PROTOTYPES>,
+    pub prototypes: &'static [Prototype],
 }
 
-impl<const PROTOTYPES: usize> Base<PROTOTYPES> {
+impl Base {
     /// Name of a class; "unknown" if the base does not have it.
-    pub fn name(&self, class: Class) -> &str {
+    pub fn name(&self, class: Class) -> &'static str {
         let index = usize::from(class.0).checked_sub(1);
-        index.and_then(|index| self.names.get(index)).map_or("unknown", Name::as_str)
+        index.and_then(|index| self.names.get(index)).copied().unwrap_or("unknown")
     }
 }
 
@@ -134,13 +128,16 @@ fn closest(prototypes: &[Prototype], features: &ShapeFeatures, limit: u32) -> (u
 /// Returns the squared distance if it is below `limit`. Size and anisotropy come first: they exclude most
 /// prototypes.
 fn distance_below(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
-    let [nmi, form, anisotropy, size] = *features;
-    let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
+    let [nmi, anisotropy, size, along, across, mixed] = *features;
+    let [other_nmi, other_anisotropy, other_size, other_along, other_across, other_mixed] =
+        prototype.features;
     // Subtracts from the limit instead of adding up, so that nothing overflows.
     let left = below(limit, square(size, other_size))?;
     let left = below(left, square(anisotropy, other_anisotropy))?;
-    let left = below(left, square(nmi, other_nmi))?;
-    Some(limit - below(left, square(form, other_form))?)
+    let left = below(left, square(mixed, other_mixed))?;
+    let left = below(left, square(along, other_along))?;
+    let left = below(left, square(across, other_across))?;
+    Some(limit - below(left, square(nmi, other_nmi))?)
 }
 
 /// Returns `limit - part` if `part` is below `limit`.

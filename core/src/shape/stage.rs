@@ -4,7 +4,7 @@ use super::config::ShapeConfig;
 use super::features::features;
 use super::knn::{Base, Class, VOTERS, vote};
 use super::nmi::nmi;
-use crate::contact::{Contact, Moments};
+use crate::contact::{Contact, Kurtosis, Moments};
 use crate::format::{Fixed24, Invalid, Q15};
 use serde::{Deserialize, Serialize};
 
@@ -33,17 +33,14 @@ impl Shape {
 
 /// Recognises shapes; see the [module](super).
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Shapes<const PROTOTYPES: usize> {
+pub struct Shapes {
     config: ShapeConfig,
-    base: Base<PROTOTYPES>,
+    base: Base,
 }
 
 impl ShapeConfig {
     /// Checks the settings and a base. Error if a parameter is out of range.
-    pub fn build<const PROTOTYPES: usize>(
-        &self,
-        base: Base<PROTOTYPES>,
-    ) -> Result<Shapes<PROTOTYPES>, Invalid> {
+    pub fn build(&self, base: Base) -> Result<Shapes, Invalid> {
         let refuse = |parameter, must| Err(Invalid { parameter, must });
         if base.prototypes.is_empty() {
             return refuse("shape.base", "must have at least one prototype");
@@ -62,18 +59,18 @@ impl ShapeConfig {
     }
 }
 
-impl<const PROTOTYPES: usize> Shapes<PROTOTYPES> {
+impl Shapes {
     /// The base of shapes.
-    pub const fn base(&self) -> &Base<PROTOTYPES> {
+    pub const fn base(&self) -> &Base {
         &self.base
     }
 
-    /// Recognises one contact from its moments.
-    pub fn process(&self, moments: &Moments, contact: &Contact) -> Shape {
+    /// Recognises one contact from its moments and its kurtosis.
+    pub fn process(&self, moments: &Moments, kurtosis: &Kurtosis, contact: &Contact) -> Shape {
         let nmi = nmi(moments, contact.peak);
-        let features = features(&nmi, contact);
+        let features = features(&nmi, kurtosis, contact);
         let (class, confidence) =
-            vote(&self.base.prototypes, &features, self.config.k.into(), self.config.reject.into());
+            vote(self.base.prototypes, &features, self.config.k.into(), self.config.reject.into());
         Shape { nmi: nmi.published, nmi_peak: nmi.peak, nmi_s2: nmi.s2, class, confidence }
     }
 }

@@ -17,6 +17,7 @@ mod moments;
 mod outputs;
 mod plain;
 mod reflex;
+mod shape;
 mod sweep;
 mod taught;
 mod told;

@@ -7,7 +7,7 @@ use taxel_core::boot::Boot;
 use taxel_core::format::{Celsius, Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
-use taxel_core::shape::{BUILT_IN, Base, Class};
+use taxel_core::shape::{Base, Class};
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport};
 
@@ -125,7 +125,7 @@ impl Client {
     /// Name of a class of the board's base of shapes.
     pub fn shape_name(&self, class: Class) -> String {
         if self.shapes.is_empty() {
-            return Base::<BUILT_IN>::built_in().name(class).into();
+            return Base::BUILT_IN.name(class).into();
         }
         let index = usize::from(class.0).checked_sub(1);
         index.and_then(|index| self.shapes.get(index)).map_or("unknown", String::as_str).into()

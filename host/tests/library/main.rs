@@ -3,6 +3,7 @@
 mod bases;
 mod calibrate;
 mod clock;
+#[path = "../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod drift;
 mod faults;
@@ -21,6 +22,7 @@ mod scan;
 mod session;
 mod settle;
 mod setup;
+#[path = "../../../core/tests/core/shape/rig.rs"]
 mod shape_of;
 mod shapes;
 mod sink;

@@ -3,7 +3,7 @@
 mod builds;
 mod cli;
 mod commands;
-#[path = "../library/drawn.rs"]
+#[path = "../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod exports;
 #[cfg(feature = "foxglove")]

@@ -8,7 +8,7 @@ mod features;
 mod frames;
 #[path = "../program/reference.rs"]
 mod reference;
-#[path = "../library/shape_of.rs"]
+#[path = "../../../core/tests/core/shape/rig.rs"]
 mod shape_of;
 mod shapes;
 #[path = "../program/start.rs"]

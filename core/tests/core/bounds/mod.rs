@@ -5,6 +5,7 @@ mod axes;
 mod condition;
 mod exact;
 mod images;
+mod kurtosis;
 mod map;
 mod nmi;
 mod numbers;

@@ -2,10 +2,10 @@
 
 use crate::hard::rig::Rig;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
-use taxel_core::contact::{Contact, ContactConfig, Moments};
-use taxel_core::format::{Code, Micros, Q15, name};
+use taxel_core::contact::{Contact, ContactConfig, Kurtosis, Moments};
+use taxel_core::format::{Code, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::shape::{BUILT_IN, Base, Class, Prototype, Shape, ShapeConfig, features, nmi};
+use taxel_core::shape::{Base, Class, FEATURES, Prototype, Shape, ShapeConfig, features, nmi};
 
 fn rig(config: ContactConfig) -> Rig {
     Rig { stage: config.build().unwrap(), ..Rig::mat() }
@@ -89,15 +89,18 @@ fn gate() {
 }
 
 /// The shape of a contact by a base of one prototype that lies `apart` from it.
-fn shape(contact: &Contact, moments: &Moments, apart: [i16; 4], reject: u16) -> Shape {
-    let mut base = Base::<BUILT_IN>::built_in();
-    base.names.clear();
-    base.names.push(name("it")).unwrap();
-    base.prototypes.clear();
-    let mut features = features(&nmi(moments, contact.peak), contact);
+fn shape(
+    contact: &Contact,
+    moments: &Moments,
+    kurtosis: &Kurtosis,
+    apart: [i16; FEATURES],
+    reject: u16,
+) -> Shape {
+    let mut features = features(&nmi(moments, contact.peak), kurtosis, contact);
     features.iter_mut().zip(apart).for_each(|(feature, apart)| *feature += apart);
-    base.prototypes.push(Prototype { class: Class(1), features }).unwrap();
-    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, contact)
+    let prototypes = Box::leak(Box::new([Prototype { class: Class(1), features }]));
+    let base = Base { names: &["it"], prototypes };
+    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, kurtosis, contact)
 }
 
 #[test]
@@ -105,13 +108,14 @@ fn reject() {
     let mut rig = Rig::mat();
     let frame = rig.fill([20, 24], [7, 13], 1000).frame();
     let at = |apart, reject| {
-        let Shape { class, confidence, .. } = shape(&frame.present[0], &frame.moments[0], apart, reject);
+        let Shape { class, confidence, .. } =
+            shape(&frame.present[0], &frame.moments[0], &frame.kurtosis[0], apart, reject);
         (class, confidence)
     };
     // 3-4-5 and its multiples: 50 away, exactly.
-    assert_eq!(at([30, -40, 0, 0], 50), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0], 51), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
-    assert_eq!(at([30, -40, 1, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
-    assert_eq!(at([0; 4], 1), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 50), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 51), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
+    assert_eq!(at([30, -40, 1, 0, 0, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
+    assert_eq!(at([0; FEATURES], 1), (Class(1), Q15::ONE));
 }
