@@ -15,10 +15,10 @@ use taxel_core::garment::{Garment, Place, Rect};
 use taxel_core::gesture::{GestureConfig, Shipped};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
-use taxel_core::react::Reaction;
+use taxel_core::react::{Cause, Reaction};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
-use taxel_core::shape::{Class, Shape};
+use taxel_core::shape::{Class, ConfidenceTable, GalleryHead, MEASURES, Shape, Space};
 use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
 use taxel_core::wire::*;
 
@@ -268,4 +268,21 @@ fn every_message_has_its_golden_bytes() {
         assert_eq!(new, old);
     }
     assert_eq!(table.lines().count(), golden.lines().count());
+}
+
+/// Words and keys of files that differ from the names in the code.
+#[test]
+fn files_keep_their_words() {
+    assert_eq!(serde_json::to_string(&Cause::Faulty).unwrap(), r#""ill""#);
+    assert_eq!(serde_json::from_str::<Cause>(r#""ill""#).unwrap(), Cause::Faulty);
+    let head = GalleryHead {
+        names: Vec::new(),
+        space: Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 },
+        k: 1,
+        reject: 0,
+        confidence: ConfidenceTable::default(),
+        prototypes: 1,
+    };
+    let head = serde_json::to_value(&head).unwrap();
+    assert!(head.get("sureness").is_some_and(|table| table.is_object()), "{head}");
 }
