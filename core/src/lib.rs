@@ -10,7 +10,7 @@
 //! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
 //! [`capacity`] the sizes of the board that ships.
 //!
-//! Two stages are folders of their own, which the stage composes: `image`, `calibrate`, `baseline` and
+//! Two stages compose folders, private to the crate: `image`, `calibrate`, `baseline` and
 //! `filter` make up [`condition`]; `segment`, `measure` and `track` make up [`contact`].
 //!
 //! `// M0+: out of line` explains an `#[inline(never)]`: on the Cortex-M0+ only eight registers are cheap to

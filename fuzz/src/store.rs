@@ -1,5 +1,5 @@
-//! A flash of any content, written by any firmware before or by nothing: a board starts, and what is then saved
-//! is loaded.
+//! A flash of any content, written by any firmware before or by nothing: a board starts, and what is then
+//! saved is loaded.
 
 use crate::bytes::Bytes;
 use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};

@@ -169,7 +169,8 @@ fn from_voltage_to_message_and_pin() {
         let (from, to) = (rise(touch), rise(touch + 1));
         let of_touch: Vec<_> = onsets.iter().filter(|(end, _)| (from..to).contains(&ends[end])).collect();
         assert_eq!(of_touch.len(), contacts(touch), "touch {touch}");
-        // A scan that begins after the rise sees the whole touch: it is the first such one, or the one before.
+        // A scan that begins after the rise sees the whole touch: it is the first such one, or the one
+        // before.
         assert!(of_touch.iter().all(|(_, start)| *start <= from + SCAN_US), "touch {touch}");
         let late = of_touch.iter().map(|(end, _)| ends[end] - from);
         of_number[contacts(touch) - 1].extend(late.clone());
@@ -191,7 +192,8 @@ fn from_voltage_to_message_and_pin() {
     assert!(alone.percentile(99) <= REFLEX_US);
 }
 
-/// Percentiles that are allowed of a reflex within a frame, us: by one taxel's word, and where two must agree.
+/// Percentiles that are allowed of a reflex within a frame, us: by one taxel's word, and where two must
+/// agree.
 const ONE_US: f64 = 1_500.0;
 const TWO_US: f64 = 2_200.0;
 

@@ -1,9 +1,9 @@
 //! The baseline: its tare, and its drift.
 //!
 //! [`tare`] takes the mean of some frames as the baseline and counts its [`progress`]. [`drift`] then moves
-//! the rows in [`turn`], at the [`rates`] that hold for any garment, by what the [`consensus`] of each panel's
-//! witnesses says. [`feedback`] names the contacts under which a baseline stands still. [`tracking`] is the
-//! state of all this.
+//! the rows in [`turn`], at the [`rates`] that hold for any garment, by what the [`consensus`] of each
+//! panel's witnesses says. [`feedback`] names the contacts under which a baseline stands still. [`tracking`]
+//! is the state of all this.
 
 pub(crate) mod consensus;
 pub(crate) mod drift;

@@ -14,8 +14,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.outbox.log(format_args!("scan: {error}"));
     }
 
-    /// Called when the first scan after failures or an interruption began at `start`: counts the frames missed
-    /// beside the failed ones, to the nearest scan.
+    /// Called when the first scan after failures or an interruption began at `start`: counts the frames
+    /// missed beside the failed ones, to the nearest scan.
     #[cold]
     pub(super) fn go_on(&mut self, start: Micros) {
         let failed = u64::from(core::mem::take(&mut self.stumbles)) * u64::from(self.health.scan_us);

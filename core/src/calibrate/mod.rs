@@ -1,7 +1,7 @@
 //! From codes to pressure.
 //!
-//! [`calibration`] holds baseline, gain and limit of each taxel; the [`terms`] say how far a limit is from its
-//! baseline. [`dispatch`] calibrates the taxels of a [`panel`] beyond their limits, in [`chunks`] on any
+//! [`calibration`] holds baseline, gain and limit of each taxel; the [`terms`] say how far a limit is from
+//! its baseline. [`dispatch`] calibrates the taxels of a [`panel`] beyond their limits, in [`chunks`] on any
 //! machine and in whole rows by SIMD, and [`marks`] where they are. [`scale`] is the formula. [`sampled`] is
 //! the input of a frame, [`certificate`] names the source of the gains.
 

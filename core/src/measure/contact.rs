@@ -22,8 +22,8 @@ pub enum Phase {
 ///
 /// Pressure, area, place and motion are those of the frame. The form (`perimeter`, `edge`, `azimuth`,
 /// `anisotropy`, `breadth`) is measured in the first frame, and from then on when it is the contact's turn:
-/// [`Forms`](crate::contact::Forms) contacts have their turn in a frame. With one turn a frame, the form of a single
-/// contact is always that of the frame, and the forms of five contacts are at most four frames old.
+/// [`Forms`](crate::contact::Forms) contacts have their turn in a frame. With one turn a frame, the form of a
+/// single contact is always that of the frame, and the forms of five contacts are at most four frames old.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contact {
     /// Number of its onset, from 1 upwards; constant from onset to release.
@@ -51,12 +51,13 @@ pub struct Contact {
     pub x: Fixed16,
     /// Centroid, row; rounded like `x`.
     pub y: Fixed16,
-    /// Direction of the major axis, see [`Axis`](crate::contact::Axis); none if the contact has no clear direction.
+    /// Direction of the major axis, see [`Axis`](crate::contact::Axis); none if the contact has no clear
+    /// direction.
     pub azimuth: Option<Turn>,
     /// Elongation: 0 for a disc or square, 1 for a line.
     pub anisotropy: Q15,
-    /// Width across the major axis in 0.1 mm, see [`breadth`](crate::contact::breadth); 10 mm pitch is assumed if the
-    /// panel gives none.
+    /// Width across the major axis in 0.1 mm, see [`breadth`](crate::contact::breadth); 10 mm pitch is
+    /// assumed if the panel gives none.
     pub breadth: u32,
     /// Displacement since onset along x, of the centroid or of the pattern inside, taxels. It follows the
     /// contact across seams. The jumps of merging and splitting do not count.

@@ -228,7 +228,11 @@ macro_rules! one_by_one {
             type Error = WriteFault;
 
             #[inline(always)]
-            fn $element<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? value: &T) -> Result<(), WriteFault> {
+            fn $element<T: Serialize + ?Sized>(
+                &mut self,
+                $($name: &'static str,)?
+                value: &T,
+            ) -> Result<(), WriteFault> {
                 $(let _ = $name;)?
                 *self = value.serialize(take(self))?;
                 Ok(())
