@@ -5,16 +5,7 @@ use super::component::Component;
 use super::contact::Contact;
 use super::contour::Contour;
 use super::kurtosis::Kurtosis;
-use crate::garment::Layout;
-use crate::image::view::Image;
-use crate::segment::labeller::Labeller;
-
-/// The frame in which forms are measured.
-pub(crate) struct Sight<'a, const RUNS: usize, const LABELS: usize> {
-    pub labeller: &'a Labeller<RUNS, LABELS>,
-    pub layout: &'a Layout,
-    pub image: &'a Image<'a>,
-}
+use super::sight::Sight;
 
 impl<const RUNS: usize, const LABELS: usize> Sight<'_, RUNS, LABELS> {
     /// Measures the contour, axis and breadth of a contact from its component, number `index`. Returns its

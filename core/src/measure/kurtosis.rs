@@ -5,7 +5,7 @@
 //! while an ellipse has no pressure in its corners.
 
 use super::component::Component;
-use super::form::Sight;
+use super::sight::Sight;
 use crate::format::{Fixed16, Turn};
 use crate::garment::{Area, Rect};
 use crate::segment::run::Run;

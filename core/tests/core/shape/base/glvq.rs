@@ -142,14 +142,16 @@ pub fn learn(examples: &[Example]) -> Learned {
 }
 
 impl Moving {
+    /// A step of Adam along a pull.
     fn step(&mut self, pull: &Point, rate: f64, step: usize) {
         let past = |keep: f64| 1.0 - keep.powi(step as i32 + 1);
-        for i in 0..FEATURES {
-            self.pull[i] = 0.9 * self.pull[i] + 0.1 * pull[i];
-            self.square[i] = 0.999 * self.square[i] + 0.001 * pull[i] * pull[i];
-            let size = (self.square[i] / past(0.999)).sqrt();
+        let means = self.pull.iter_mut().zip(&mut self.square);
+        for ((at, (mean, square)), pull) in self.at.iter_mut().zip(means).zip(pull) {
+            *mean = 0.9 * *mean + 0.1 * pull;
+            *square = 0.999 * *square + 0.001 * pull * pull;
+            let size = (*square / past(0.999)).sqrt();
             if size > 0.0 {
-                self.at[i] += rate * self.pull[i] / past(0.9) / size;
+                *at += rate * *mean / past(0.9) / size;
             }
         }
     }
