@@ -19,7 +19,7 @@ use taxel_core::boot::{Boots, Remains, Reset, panicked};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
-use taxel_core::gesture::{Model, TouchState, TouchClassifier};
+use taxel_core::gesture::{Model, TouchClassifier, TouchState};
 use taxel_core::reflex::{Early, Reflex};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;

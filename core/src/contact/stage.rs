@@ -8,7 +8,6 @@ use crate::measure::carried::CarriedLabels;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
 use crate::measure::forms::Forms;
-use crate::measure::kurtosis::Kurtosis;
 use crate::measure::moments::Moments;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
@@ -47,8 +46,6 @@ pub struct Touches<'a> {
     pub moments: &'a [Moments],
     /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
-    /// Kurtosis of those whose form is of this frame, in the same order; 0 for the others.
-    pub kurtosis: &'a [Kurtosis],
     /// Contacts that ended with this frame.
     pub released: &'a [Contact],
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
@@ -182,7 +179,6 @@ impl Contacts {
             present: tracks.contacts(),
             moments: tracks.moments(),
             ages: tracks.ages(),
-            kurtosis: tracks.kurtosis(),
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,

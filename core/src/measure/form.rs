@@ -4,14 +4,21 @@ use super::axis::axis_and_breadth;
 use super::component::Component;
 use super::contact::Contact;
 use super::contour::Contour;
-use super::kurtosis::Kurtosis;
-use super::sight::Sight;
+use crate::garment::Layout;
+use crate::image::view::Image;
+use crate::segment::labeller::Labeller;
+
+/// The frame in which forms are measured.
+pub(crate) struct Sight<'a, const RUNS: usize, const LABELS: usize> {
+    pub labeller: &'a Labeller<RUNS, LABELS>,
+    pub layout: &'a Layout,
+    pub image: &'a Image<'a>,
+}
 
 impl<const RUNS: usize, const LABELS: usize> Sight<'_, RUNS, LABELS> {
-    /// Measures the contour, axis and breadth of a contact from its component, number `index`. Returns its
-    /// kurtosis, which is not part of the record.
+    /// Measures the contour, axis and breadth of a contact from its component, number `index`.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) -> Kurtosis {
+    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) {
         let Contour { length, slope } = Contour::of(index, component, self.labeller, self.layout, self.image);
         contact.perimeter = length as u16;
         contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
@@ -21,6 +28,5 @@ impl<const RUNS: usize, const LABELS: usize> Sight<'_, RUNS, LABELS> {
             axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
         (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
         contact.breadth = breadth;
-        Kurtosis::of(axis.azimuth, index, component, self)
     }
 }

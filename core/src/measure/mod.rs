@@ -1,10 +1,9 @@
 //! Measures of a frame's contacts.
 //!
 //! [`component`] picks the connected touches that are contacts and sums their exact [`moments`], those beyond
-//! a seam by [`carried`]. [`form`] measures what is costly and changes slowly, on the frame that [`sight`]
-//! holds: the [`contour`], whose slope is a [`sobel`], the [`axis`] and the [`kurtosis`]; [`forms`] sets how
-//! many contacts have their turn in a frame. [`contact`] is the record of a contact, [`hardness`] estimates
-//! that of the object from its growth.
+//! a seam by [`carried`]. [`form`] measures what is costly and changes slowly: the [`contour`], whose slope
+//! is a [`sobel`], and the [`axis`]; [`forms`] says how many contacts have their turn in a frame. [`contact`]
+//! is the record of a contact, [`hardness`] estimates that of the object from its growth.
 
 pub(crate) mod axis;
 pub(crate) mod carried;
@@ -14,7 +13,5 @@ pub(crate) mod contour;
 pub(crate) mod form;
 pub(crate) mod forms;
 pub mod hardness;
-pub(crate) mod kurtosis;
 pub(crate) mod moments;
-pub(crate) mod sight;
 pub(crate) mod sobel;

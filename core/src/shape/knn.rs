@@ -128,16 +128,13 @@ fn closest(prototypes: &[Prototype], features: &ShapeFeatures, limit: u32) -> (u
 /// Returns the squared distance if it is below `limit`. Size and anisotropy come first: they exclude most
 /// prototypes.
 fn distance_below(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
-    let [nmi, anisotropy, size, along, across, mixed] = *features;
-    let [other_nmi, other_anisotropy, other_size, other_along, other_across, other_mixed] =
-        prototype.features;
+    let [nmi, form, anisotropy, size] = *features;
+    let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
     // Subtracts from the limit instead of adding up, so that nothing overflows.
     let left = below(limit, square(size, other_size))?;
     let left = below(left, square(anisotropy, other_anisotropy))?;
-    let left = below(left, square(mixed, other_mixed))?;
-    let left = below(left, square(along, other_along))?;
-    let left = below(left, square(across, other_across))?;
-    Some(limit - below(left, square(nmi, other_nmi))?)
+    let left = below(left, square(nmi, other_nmi))?;
+    Some(limit - below(left, square(form, other_form))?)
 }
 
 /// Returns `limit - part` if `part` is below `limit`.

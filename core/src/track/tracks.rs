@@ -6,10 +6,9 @@ use crate::garment::{Layout, Place, Rect};
 use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
+use crate::measure::form::Sight;
 use crate::measure::forms::Forms;
-use crate::measure::kurtosis::Kurtosis;
 use crate::measure::moments::Moments;
-use crate::measure::sight::Sight;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::union_find::NONE;
@@ -24,8 +23,6 @@ pub(crate) struct Tracks<const CONTACTS: usize> {
     released: Vec<Contact, CONTACTS>,
     /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
-    /// Kurtosis of each contact whose form is of this frame; 0 for the others.
-    kurtosis: Vec<Kurtosis, CONTACTS>,
     /// Index of the first contact whose form is measured in this frame.
     turn: usize,
     id: u32,
@@ -40,7 +37,6 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             moments: Vec::new(),
             released: Vec::new(),
             ages: Vec::new(),
-            kurtosis: Vec::new(),
             turn: 0,
             id: 0,
             clock: FrameTimes::new(),
@@ -53,7 +49,6 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.moments.clear();
         self.released.clear();
         self.ages.clear();
-        self.kurtosis.clear();
     }
 
     pub fn contacts(&self) -> &[Contact] {
@@ -70,10 +65,6 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     pub fn ages(&self) -> &[u8] {
         &self.ages
-    }
-
-    pub fn kurtosis(&self) -> &[Kurtosis] {
-        &self.kurtosis
     }
 
     /// Index of the contact that continues as `component`.
@@ -183,17 +174,15 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
         self.turn = if next < held { next } else { 0 };
         self.ages.clear();
-        self.kurtosis.clear();
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
             let due = index.wrapping_sub(self.turn) < count || index >= held;
             trail.age = if due { 0 } else { trail.age.saturating_add(1) };
             // Always room: as many places as contacts.
             let _ = self.ages.push(trail.age);
             let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
-                let _ = self.kurtosis.push(Kurtosis::default());
                 continue;
             };
-            let _ = self.kurtosis.push(sight.look(contact, trail.component, component));
+            sight.look(contact, trail.component, component);
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }

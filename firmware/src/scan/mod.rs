@@ -45,15 +45,8 @@ use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
 /// The scanner that works by the processor.
-pub type Processor = MuxScan<
-    'static,
-    pins::LinePin,
-    platform::Settle,
-    adc::Converter<INPUTS>,
-    platform::Timer,
-    LINES,
-    TAXELS,
->;
+pub type Processor =
+    MuxScan<'static, pins::LinePin, platform::Settle, adc::Converter<INPUTS>, platform::Timer, LINES, TAXELS>;
 
 /// Margin on the longest duration of a frame, us.
 const SPARE_US: u64 = 5_000;

@@ -111,6 +111,6 @@ mod tests {
             table(&garment, Some(&findings(&[]))),
             "reference: no faults on 9 select lines and 4 inputs.\n"
         );
-        assert!(table(&garment, None).contains("has not examined"));
+        assert!(table(&garment, None).contains("has not tested"));
     }
 }

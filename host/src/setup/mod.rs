@@ -6,7 +6,7 @@
 //! builds the garment from them:
 //!
 //! - a stroke down each column of blocks, off its middle, gives the lines of the rows and of the blocks, the
-//! order and direction of the blocks, their input, and the side of column 0;
+//!   order and direction of the blocks, their input, and the side of column 0;
 //! - one stroke across one panel gives the lines of the columns;
 //! - a press on the first corner of each panel confirms the result.
 //!

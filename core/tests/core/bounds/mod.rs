@@ -5,7 +5,6 @@ mod axes;
 mod condition;
 mod exact;
 mod images;
-mod kurtosis;
 mod map;
 mod nmi;
 mod numbers;

@@ -2,7 +2,7 @@
 
 use crate::hard::rig::Rig;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
-use taxel_core::contact::{Contact, ContactConfig, Kurtosis, Moments};
+use taxel_core::contact::{Contact, ContactConfig, Moments};
 use taxel_core::format::{Code, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Base, Class, FEATURES, Prototype, Shape, ShapeConfig, features, nmi};
@@ -89,18 +89,12 @@ fn gate() {
 }
 
 /// The shape of a contact by a base of one prototype that lies `apart` from it.
-fn shape(
-    contact: &Contact,
-    moments: &Moments,
-    kurtosis: &Kurtosis,
-    apart: [i16; FEATURES],
-    reject: u16,
-) -> Shape {
-    let mut features = features(&nmi(moments, contact.peak), kurtosis, contact);
+fn shape(contact: &Contact, moments: &Moments, apart: [i16; FEATURES], reject: u16) -> Shape {
+    let mut features = features(&nmi(moments, contact.peak), contact);
     features.iter_mut().zip(apart).for_each(|(feature, apart)| *feature += apart);
     let prototypes = Box::leak(Box::new([Prototype { class: Class(1), features }]));
     let base = Base { names: &["it"], prototypes };
-    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, kurtosis, contact)
+    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, contact)
 }
 
 #[test]
@@ -108,14 +102,13 @@ fn reject() {
     let mut rig = Rig::mat();
     let frame = rig.fill([20, 24], [7, 13], 1000).frame();
     let at = |apart, reject| {
-        let Shape { class, confidence, .. } =
-            shape(&frame.present[0], &frame.moments[0], &frame.kurtosis[0], apart, reject);
+        let Shape { class, confidence, .. } = shape(&frame.present[0], &frame.moments[0], apart, reject);
         (class, confidence)
     };
     // 3-4-5 and its multiples: 50 away, exactly.
-    assert_eq!(at([30, -40, 0, 0, 0, 0], 50), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0, 0, 0], 51), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
-    assert_eq!(at([30, -40, 1, 0, 0, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
+    assert_eq!(at([30, -40, 0, 0], 50), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0], 51), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
+    assert_eq!(at([30, -40, 1, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
     assert_eq!(at([0; FEATURES], 1), (Class(1), Q15::ONE));
 }

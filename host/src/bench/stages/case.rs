@@ -160,7 +160,7 @@ impl Case {
         Ok(Case { name: "recorded", variant, pattern: None, garment, scene, frames })
     }
 
-    /// Number of a measured frame, as counted by [`Pattern::pressure`].
+    /// Number of a measured frame, as counted by [`TouchPattern::pressure`].
     pub const fn number(measured: usize) -> u32 {
         TARE as u32 + (WARM + measured) as u32
     }

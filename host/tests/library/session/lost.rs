@@ -115,7 +115,7 @@ fn a_board_that_does_not_read_holds_nothing_up() {
     };
     assert!(frames > 100, "{frames} frames came meanwhile");
     let text = format!("{error:#}");
-    assert!(text.starts_with("rig is gone: the board has read nothing for 5 s, and "), "{text}");
+    assert!(text.starts_with("rig is gone: the board has read nothing for 5 s; "), "{text}");
     assert_eq!(status(&error), 3);
 }
 
