@@ -31,7 +31,7 @@ const FAR: u32 = u32::MAX;
 impl<const CONTACTS: usize> Matching<CONTACTS> {
     pub const fn new() -> Self {
         Matching {
-            least: [(FAR, 0); CONTACTS],
+            least: [(0, 0); CONTACTS],
             points: Vec::new(),
             expected: PointImages::new(),
             taken: [false; CONTACTS],
