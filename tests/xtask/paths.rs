@@ -47,3 +47,37 @@ pub fn log(name: &str) -> Result<PathBuf, String> {
     let _ = std::fs::remove_file(&log);
     Ok(log)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Folders at the root whose files the docs name.
+    const NAMED: [&str; 6] = ["core", "firmware", "host", "tests", "fuzz", "docs"];
+
+    /// Words of a page between backticks that begin with a folder of the root. Placeholders are in capitals.
+    fn named(page: &str) -> impl Iterator<Item = &str> {
+        page.split('`').skip(1).step_by(2).filter(|word| {
+            let folder = word.split('/').next().unwrap_or_default();
+            let plain = word.chars().all(|sign| sign.is_alphanumeric() || "/._-".contains(sign));
+            word.contains('/') && plain && NAMED.contains(&folder) && !word.contains(char::is_uppercase)
+        })
+    }
+
+    #[test]
+    fn the_files_that_the_docs_name_exist() {
+        let docs = fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+        let pages = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
+        let pages: Vec<_> =
+            pages.chain(["README.md", "CONTRIBUTING.md"].map(|page| root().join(page))).collect();
+        let mut count = 0;
+        for page in &pages {
+            for word in named(&fs::read_to_string(page).unwrap()) {
+                assert!(root().join(word).exists(), "{}: there is no {word}", page.display());
+                count += 1;
+            }
+        }
+        assert!(pages.len() > 10 && count > 100, "{count} names on {} pages", pages.len());
+    }
+}
