@@ -1,5 +1,5 @@
-//! Links only if no panic is reachable from the board that ships: the panic handler calls an undefined function. Never
-//! run.
+//! Links only if no panic is reachable from the board that ships: the panic handler calls an undefined
+//! function. Never run.
 //!
 //! All arguments of the calls come from outside, so the compiler knows nothing about them: any state, any
 //! bytes, any codes. With `--cfg control` one panic is reachable, and it must not link.
