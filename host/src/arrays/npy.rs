@@ -12,6 +12,8 @@ pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Size limit of a header; those of plain arrays have 118 bytes or a little more.
 const LONGEST_HEADER: usize = 1 << 16;
+/// Deepest nesting of brackets in a header: the dictionary, a list of fields, a field, the shape of a field.
+const DEEPEST: i32 = 4;
 /// Bytes read at once.
 const PIECE: usize = 1 << 16;
 /// Size limit of an array of texts; names of classes are shorter.
@@ -144,10 +146,20 @@ fn parse(head: &[u8]) -> Result<NpyHeader> {
     NpyHeader::from_reader(head).context("has a header that is not one of a NumPy array")
 }
 
-/// npyz multiplies dimensions without a check and nests brackets without a limit; headers that would exploit
-/// that are refused.
+/// npyz multiplies dimensions without a check, nests brackets without a limit, and tries each bracket that is
+/// not closed in several ways, which takes twice as long for each one inside another. Headers that would
+/// exploit that are refused.
 fn is_tame(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
+    let mut depth = 0;
+    let is_flat = text.chars().all(|sign| {
+        match sign {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
+            _ => {}
+        }
+        depth <= DEEPEST
+    });
     let brackets = text.matches(['(', '[', '{']).count();
     let product = || {
         let (_, after) = text.split_once("shape")?;
@@ -158,7 +170,7 @@ fn is_tame(head: &[u8]) -> bool {
         let product = sizes.try_fold(1u64, |product, size| product.checked_mul(size?.max(1)));
         product.filter(|_| !rest.contains("shape"))
     };
-    brackets <= 64 && product().is_some()
+    is_flat && brackets <= 64 && product().is_some()
 }
 
 /// Type of a number in a file.
